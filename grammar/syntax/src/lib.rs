@@ -1,0 +1,12 @@
+//! The front end of Motet: source text in, a spanned AST and diagnostics out.
+//!
+//! Two surfaces, text ([`text`]) and JSON ([`json`]), give one AST ([`ast`]); [`print`] writes either back. This crate
+//! knows no declaration: what a name means is decided by the compiler's resolve stage, which is fed from here.
+
+pub mod ast;
+pub mod diagnostic;
+pub mod source;
+pub mod unit;
+
+pub use diagnostic::{Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
+pub use source::{FileId, Form, Source, Sources, Span};

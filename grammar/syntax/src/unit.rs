@@ -1,0 +1,182 @@
+//! Dimensions and units. Inside, everything is SI and radians; a unit exists only where a document is read or written.
+
+/// What a quantity measures, as exponents of the base units metre, second, kilogram and radian.
+///
+/// `Ratio` and plain numbers have all exponents zero.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, PartialOrd, Ord)]
+pub struct Dimension {
+    /// Exponent of the metre.
+    pub metre: i8,
+    /// Exponent of the second.
+    pub second: i8,
+    /// Exponent of the kilogram.
+    pub kilogram: i8,
+    /// Exponent of the radian.
+    pub radian: i8,
+}
+
+impl Dimension {
+    /// No dimension: `Number` and `Ratio`.
+    pub const NONE: Self = Self { metre: 0, second: 0, kilogram: 0, radian: 0 };
+    /// `Length`, metres.
+    pub const LENGTH: Self = Self { metre: 1, ..Self::NONE };
+    /// `Angle`, radians.
+    pub const ANGLE: Self = Self { radian: 1, ..Self::NONE };
+    /// `Duration`, seconds.
+    pub const DURATION: Self = Self { second: 1, ..Self::NONE };
+    /// `Mass`, kilograms.
+    pub const MASS: Self = Self { kilogram: 1, ..Self::NONE };
+    /// `Force`, newtons.
+    pub const FORCE: Self = Self { metre: 1, second: -2, kilogram: 1, radian: 0 };
+    /// `Speed`, metres a second.
+    pub const SPEED: Self = Self { metre: 1, second: -1, ..Self::NONE };
+
+    /// The dimension of a product.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        Self {
+            metre: self.metre.saturating_add(other.metre),
+            second: self.second.saturating_add(other.second),
+            kilogram: self.kilogram.saturating_add(other.kilogram),
+            radian: self.radian.saturating_add(other.radian),
+        }
+    }
+
+    /// The dimension of a quotient.
+    #[must_use]
+    pub fn over(self, other: Self) -> Self {
+        Self {
+            metre: self.metre.saturating_sub(other.metre),
+            second: self.second.saturating_sub(other.second),
+            kilogram: self.kilogram.saturating_sub(other.kilogram),
+            radian: self.radian.saturating_sub(other.radian),
+        }
+    }
+
+    /// The name of the type with this dimension, where the language has one.
+    #[must_use]
+    pub fn type_name(self) -> Option<&'static str> {
+        DIMENSIONS.iter().find(|(_, dimension)| *dimension == self).map(|(name, _)| *name)
+    }
+
+    /// The dimension of a quantity type by its name.
+    #[must_use]
+    pub fn of_type(name: &str) -> Option<Self> {
+        DIMENSIONS.iter().find(|(known, _)| *known == name).map(|(_, dimension)| *dimension)
+    }
+
+    /// The symbol of its SI unit; empty for [`Dimension::NONE`] and for dimensions without a unit of their own.
+    #[must_use]
+    pub fn si_symbol(self) -> &'static str {
+        Unit::si(self).map_or("", Unit::symbol)
+    }
+}
+
+const DIMENSIONS: &[(&str, Dimension)] = &[
+    ("Length", Dimension::LENGTH),
+    ("Angle", Dimension::ANGLE),
+    ("Duration", Dimension::DURATION),
+    ("Mass", Dimension::MASS),
+    ("Force", Dimension::FORCE),
+    ("Speed", Dimension::SPEED),
+    ("Ratio", Dimension::NONE),
+];
+
+/// A unit as written in a document.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
+pub enum Unit {
+    /// `m`
+    Metre,
+    /// `cm`
+    Centimetre,
+    /// `mm`
+    Millimetre,
+    /// `km`
+    Kilometre,
+    /// `rad`
+    Radian,
+    /// `deg`
+    Degree,
+    /// `s`
+    Second,
+    /// `ms`
+    Millisecond,
+    /// `min`
+    Minute,
+    /// `h`
+    Hour,
+    /// `kg`
+    Kilogram,
+    /// `g`
+    Gram,
+    /// `N`
+    Newton,
+    /// `m/s`
+    MetrePerSecond,
+    /// `km/h`
+    KilometrePerHour,
+    /// `%`
+    Percent,
+}
+
+/// Unit, symbol, dimension, and the factor to SI as a fraction, so that `7 cm` is exactly `7.0 / 100.0`.
+const UNITS: &[(Unit, &str, Dimension, f64, f64)] = &[
+    (Unit::Metre, "m", Dimension::LENGTH, 1.0, 1.0),
+    (Unit::Centimetre, "cm", Dimension::LENGTH, 1.0, 100.0),
+    (Unit::Millimetre, "mm", Dimension::LENGTH, 1.0, 1000.0),
+    (Unit::Kilometre, "km", Dimension::LENGTH, 1000.0, 1.0),
+    (Unit::Radian, "rad", Dimension::ANGLE, 1.0, 1.0),
+    (Unit::Degree, "deg", Dimension::ANGLE, std::f64::consts::PI, 180.0),
+    (Unit::Second, "s", Dimension::DURATION, 1.0, 1.0),
+    (Unit::Millisecond, "ms", Dimension::DURATION, 1.0, 1000.0),
+    (Unit::Minute, "min", Dimension::DURATION, 60.0, 1.0),
+    (Unit::Hour, "h", Dimension::DURATION, 3600.0, 1.0),
+    (Unit::Kilogram, "kg", Dimension::MASS, 1.0, 1.0),
+    (Unit::Gram, "g", Dimension::MASS, 1.0, 1000.0),
+    (Unit::Newton, "N", Dimension::FORCE, 1.0, 1.0),
+    (Unit::MetrePerSecond, "m/s", Dimension::SPEED, 1.0, 1.0),
+    (Unit::KilometrePerHour, "km/h", Dimension::SPEED, 1.0, 3.6),
+    (Unit::Percent, "%", Dimension::NONE, 1.0, 100.0),
+];
+
+impl Unit {
+    /// The unit with this symbol; case matters.
+    #[must_use]
+    pub fn parse(symbol: &str) -> Option<Self> {
+        UNITS.iter().find(|row| row.1 == symbol).map(|row| row.0)
+    }
+
+    fn row(self) -> (&'static str, Dimension, f64, f64) {
+        UNITS.iter().find(|row| row.0 == self).map_or(("", Dimension::NONE, 1.0, 1.0), |row| (row.1, row.2, row.3, row.4))
+    }
+
+    /// Its symbol.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        self.row().0
+    }
+
+    /// What it measures.
+    #[must_use]
+    pub fn dimension(self) -> Dimension {
+        self.row().1
+    }
+
+    /// A number of this unit, in SI units (a percentage as a ratio).
+    #[must_use]
+    pub fn to_si(self, value: f64) -> f64 {
+        let (_, _, numerator, denominator) = self.row();
+        value * numerator / denominator
+    }
+
+    /// The SI unit of a dimension, where the language has one.
+    #[must_use]
+    pub fn si(dimension: Dimension) -> Option<Self> {
+        UNITS.iter().find(|row| row.2 == dimension && row.3 == 1.0 && row.4 == 1.0).map(|row| row.0)
+    }
+
+    /// Every unit's symbol for a dimension, SI first.
+    pub fn symbols_of(dimension: Dimension) -> impl Iterator<Item = &'static str> {
+        UNITS.iter().filter(move |row| row.2 == dimension).map(|row| row.1)
+    }
+}

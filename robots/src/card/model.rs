@@ -1,0 +1,89 @@
+//! A robot card after reading: every number is finite and in range, every name it mentions exists in the card.
+
+use indexmap::IndexMap;
+use smol_str::SmolStr;
+
+/// A robot.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Robot {
+    /// Its id, `hsr`.
+    pub name: SmolStr,
+    /// What people call it, "Toyota HSR".
+    pub title: String,
+    /// How it drives.
+    pub base: Base,
+    /// Its hands, by resource name; the first is the one meant where only one is.
+    pub hands: IndexMap<SmolStr, Hand>,
+    /// Its cameras, by resource name.
+    pub cameras: IndexMap<SmolStr, Camera>,
+    /// Exclusive resources and what each contains, directly (`arm` contains `camera` on a robot with a wrist camera).
+    /// Hands and cameras are resources too and always listed here.
+    pub resources: IndexMap<SmolStr, Vec<SmolStr>>,
+    /// Fluents and measures that it can observe, by name.
+    pub observes: Vec<SmolStr>,
+    /// Seconds that one observation takes at most.
+    pub observe_within_secs: f64,
+    /// Primitives that it provides, by name, with bounds on their numeric parameters.
+    pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
+    /// Other numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …).
+    pub numbers: IndexMap<SmolStr, (f64, SmolStr)>,
+    /// Facts that hold at the start unless a state says otherwise, as text conditions: `free(hand)`, `not standing(robot)`.
+    pub initially: Vec<String>,
+    /// Text of the card's `primitives.motet`: signatures that differ from the standard ones; empty where there is none.
+    pub declarations: String,
+}
+
+/// How a robot drives.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Base {
+    /// Whether it drives at all, and how.
+    pub drive: Drive,
+    /// Nominal speed in m/s.
+    pub speed_m_per_s: f64,
+    /// Nominal turning speed in rad/s.
+    pub turn_rad_per_s: f64,
+    /// Radius of the disc that encloses the footprint, in m.
+    pub radius_m: f64,
+}
+
+/// The kind of a base.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Drive {
+    /// Bolted down.
+    Fixed,
+    /// Any direction at any time.
+    Omnidirectional,
+    /// Forward and turning.
+    Differential,
+    /// On legs; treated as omnidirectional while standing.
+    Legged,
+}
+
+/// A hand.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Hand {
+    /// The heaviest object in kg.
+    pub payload_kg: f64,
+    /// The widest object in m.
+    pub opening_m: f64,
+    /// The greatest distance in m, in the plane, at which it serves a thing from where the base stands.
+    pub reach_m: f64,
+}
+
+/// A camera.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Camera {
+    /// How far it sees, in m.
+    pub range_m: f64,
+    /// Full horizontal angle of view in rad.
+    pub view_rad: f64,
+}
+
+/// A closed interval in SI units; `least <= greatest`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Range {
+    /// Least.
+    pub least: f64,
+    /// Greatest.
+    pub greatest: f64,
+}

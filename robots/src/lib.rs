@@ -1,0 +1,6 @@
+//! Robots and the rooms they stand in: robot cards and scenes, read from text, checked, and given as plain data.
+//!
+//! This crate reads no file: the host hands over the text of a card's folder or of a scene.
+
+pub mod card;
+pub mod scene;
