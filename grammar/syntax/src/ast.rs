@@ -1,5 +1,4 @@
-//! The abstract syntax of both surfaces. Every node carries its span; equality ignores spans ([`Spanless`] is not
-//! needed: [`Name`] and the nodes compare by content only through [`crate::print`]).
+//! The abstract syntax of both surfaces. Every node carries its span.
 //!
 //! Nothing here is resolved: a name is text, a call may not exist. Invariant: a tree made by a front end is at most
 //! [`MAX_NESTING`] blocks and expressions deep, so recursion over it is safe.
@@ -211,12 +210,12 @@ pub struct PrimitiveDecl {
 /// One clause of a contract.
 #[derive(Clone, Debug)]
 pub enum Clause {
-    /// `needs free(hand), object.mass <= robot.payload`
-    Needs(Vec<Expr>),
-    /// `makes holding(object), not on(object, any)`
-    Makes(Vec<Effect>),
+    /// `needs free(hand), open(c) for each c: Container when in(object, c)`
+    Needs(Vec<Quantified>),
+    /// `makes holding(object), not on(object, any), clear(s) for each s: Object when on(object, s)`
+    Makes(Vec<Quantified>),
     /// `unsettles visible(any)`
-    Unsettles(Vec<Expr>),
+    Unsettles(Vec<Quantified>),
     /// `motion reach(object)`
     Motion(Call),
     /// `uses base, arm`
@@ -234,14 +233,14 @@ pub enum Clause {
     Lasts(Vec<Name>),
 }
 
-/// One effect: `not at(x, c) for each x: Object when in(x, c)`.
+/// One entry of `needs`, `makes` or `unsettles`: `at(x, to) for each x: Object when in(x, c)`. Both tails may be absent.
 #[derive(Clone, Debug)]
-pub struct Effect {
-    /// A fluent, perhaps under one `not`.
-    pub fact: Expr,
-    /// The quantified variable, `x: Object`.
+pub struct Quantified {
+    /// In `needs` a condition; in `makes` a fluent, perhaps under one `not`; in `unsettles` a fluent.
+    pub expr: Expr,
+    /// The quantified variable, `x: Object`: the entry is meant for every entity of that kind.
     pub each: Option<(Name, TypeExpr)>,
-    /// The condition under which it happens, evaluated before the effects.
+    /// The condition under which it is meant; of an effect, evaluated before the effects.
     pub when: Option<Expr>,
 }
 

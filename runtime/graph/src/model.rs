@@ -350,7 +350,18 @@ pub struct CallNode {
     /// What is true after success, applied in order after all conditions were evaluated.
     pub effects: Vec<Effect>,
     /// Facts that are unknown as soon as it starts; after a failure also those that `effects` name.
-    pub unsettles: Vec<Fact>,
+    pub unsettles: Vec<Unsettled>,
+}
+
+/// Facts that a step leaves unknown.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Unsettled {
+    /// Which.
+    pub fact: Fact,
+    /// The condition, in the state before the step; [`Term::Each`] may occur in it.
+    pub when: Option<Condition>,
+    /// The kind over which [`Term::Each`] ranges.
+    pub each: Option<KindId>,
 }
 
 /// What the prover found.
@@ -365,8 +376,12 @@ pub enum Verdict {
 /// A precondition.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Need {
-    /// What must hold when the step starts.
+    /// What must hold when the step starts. With `each`, for every entity of that kind that the engine has heard of.
     pub condition: Condition,
+    /// Asked only where this is true; unknown counts as false. [`Term::Each`] may occur in it.
+    pub when: Option<Condition>,
+    /// The kind over which [`Term::Each`] ranges in `condition` and `when`.
+    pub each: Option<KindId>,
     /// Whether that is known.
     pub verdict: Verdict,
     /// The failure in which the step ends where the guard is refuted.
@@ -507,7 +522,7 @@ pub enum Term {
     Literal(Value),
     /// A binding.
     Binding(BindingId),
-    /// The variable of a quantified effect; only in [`Effect`].
+    /// The variable of a quantified entry; only in [`Effect`], [`Unsettled`] and [`Need`].
     Each,
     /// A field of an entity, observed like a measure.
     Field(Box<Term>, SmolStr),
