@@ -1,11 +1,14 @@
 //! The front end of Motet: source text in, a spanned AST and diagnostics out.
 //!
-//! Two surfaces, text ([`text`]) and JSON ([`json`]), give one AST ([`ast`]); [`print`] writes either back. This crate
-//! knows no declaration: what a name means is decided by the compiler's resolve stage, which is fed from here.
+//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a name means is
+//! decided by the compiler's resolve stage, which is fed from here.
 
 pub mod ast;
 pub mod diagnostic;
+pub mod errors;
+pub mod json;
 pub mod source;
+pub mod suggest;
 pub mod unit;
 
 pub use diagnostic::{Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};

@@ -73,7 +73,8 @@ impl Source {
     pub fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
         let text: Arc<str> = text.into();
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let lines = std::iter::once(0).chain(breaks.map(|(at, _)| Span::new(FileId(0), 0, at + 1).end)).collect();
+        let lines =
+            std::iter::once(0).chain(breaks.map(|(at, _)| Span::new(FileId(0), 0, at + 1).end)).collect();
         Self { name: name.into(), text, lines }
     }
 

@@ -147,7 +147,10 @@ impl Unit {
     }
 
     fn row(self) -> (&'static str, Dimension, f64, f64) {
-        UNITS.iter().find(|row| row.0 == self).map_or(("", Dimension::NONE, 1.0, 1.0), |row| (row.1, row.2, row.3, row.4))
+        UNITS
+            .iter()
+            .find(|row| row.0 == self)
+            .map_or(("", Dimension::NONE, 1.0, 1.0), |row| (row.1, row.2, row.3, row.4))
     }
 
     /// Its symbol.

@@ -1,0 +1,79 @@
+//! "Did you mean": the known name that a misspelt one is closest to.
+
+/// The candidate closest to `name`, where one is close enough to be worth naming.
+///
+/// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in `pick_up`), or the
+/// other way round, is close. Ties go to the earlier candidate. O(candidates × length²).
+#[must_use]
+pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    let folded = fold(name);
+    let mut best: Option<(usize, &'c str)> = None;
+    for candidate in candidates {
+        let Some(distance) = distance(name, &folded, candidate) else { continue };
+        if best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// How far a candidate is, in hundredths of a misspelling; `None` where it is too far.
+fn distance(name: &str, folded: &str, candidate: &str) -> Option<usize> {
+    let known = fold(candidate);
+    if known == folded {
+        return Some(0);
+    }
+    let longer = folded.chars().count().max(known.chars().count());
+    let edits = strsim::osa_distance(folded, &known);
+    // One edit in short words, a third of the letters in long ones.
+    if longer >= 2 && edits <= (longer / 3).max(1) && edits < longer {
+        return Some(edits * 100);
+    }
+    let is_part =
+        |part: &str, whole: &str| whole.split(['_', '-', ' ']).any(|word| word.eq_ignore_ascii_case(part));
+    let shares =
+        candidate.len() >= 3 && is_part(candidate, name) || name.len() >= 3 && is_part(name, candidate);
+    shares.then(|| 250 + longer)
+}
+
+fn fold(name: &str) -> String {
+    name.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).flat_map(char::to_lowercase).collect()
+}
+
+/// Names in back-quotes with commas and a final "or": "`a`, `b` or `c`".
+#[must_use]
+pub fn one_of<'c>(names: impl IntoIterator<Item = &'c str>) -> String {
+    let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::closest;
+
+    fn check(name: &str, candidates: &[&str], expected: Option<&str>) {
+        assert_eq!(closest(name, candidates.iter().copied()), expected, "{name}");
+    }
+
+    #[test]
+    fn names_that_are_close_are_found() {
+        check("pick_up", &["place", "pick", "push"], Some("pick"));
+        check("Pick", &["place", "pick"], Some("pick"));
+        check("hand_over", &["hold", "handover"], Some("handover"));
+        check("detcet", &["detect", "detect_all"], Some("detect"));
+        check("detectall", &["detect", "detect_all"], Some("detect_all"));
+        check("mug", &["red_mug", "table"], Some("red_mug"));
+    }
+
+    #[test]
+    fn names_that_are_far_are_not() {
+        check("fly", &["place", "pick", "go"], None);
+        check("x", &["y"], None);
+        check("", &["a", "go"], None);
+        check("to", &["go", "object"], Some("go"));
+    }
+}
