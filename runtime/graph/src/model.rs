@@ -528,6 +528,8 @@ pub enum Term {
     Field(Box<Term>, SmolStr),
     /// A measure.
     Measure(MeasureId, Vec<Term>),
+    /// A list whose elements are not all literals.
+    List(Vec<Term>),
     /// Arithmetic on numbers.
     Arith(Arithmetic, Box<Term>, Box<Term>),
 }
