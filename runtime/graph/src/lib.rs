@@ -3,6 +3,7 @@
 //! [`model`] is the graph in memory. It knows neither text nor compiler, and it trusts nothing: a graph that comes from
 //! elsewhere is decoded and validated before an engine takes it.
 
+mod display;
 pub mod model;
 
 pub use model::*;

@@ -1,0 +1,172 @@
+//! What the engine wants done: its only way to act on the world.
+
+use crate::event::GoalId;
+use crate::query::Query;
+use crate::record::Record;
+use crate::time::Time;
+use motet_graph::{NodeId, Value};
+use smol_str::SmolStr;
+use std::fmt;
+use std::sync::Arc;
+
+/// One thing that the engine wants done. The effects of one event go out together, in order. The order of commands to a
+/// driver is the order in which they take effect.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Effect {
+    /// Start a primitive.
+    Start {
+        /// The new goal.
+        goal: GoalId,
+        /// The step that it is for.
+        node: NodeId,
+        /// What to do.
+        command: Arc<Command>,
+        /// When the engine will cancel it.
+        deadline: Time,
+    },
+    /// End a goal early. Sent at most once a goal, never before it was acknowledged.
+    Cancel {
+        /// Which.
+        goal: GoalId,
+    },
+    /// Keep still without ending, until [`Effect::Proceed`]. Not acknowledged; a driver that cannot says
+    /// [`crate::DriverEvent::NotHeld`].
+    Hold {
+        /// Which.
+        goal: GoalId,
+    },
+    /// Go on after [`Effect::Hold`].
+    Proceed {
+        /// Which.
+        goal: GoalId,
+    },
+    /// A cancel was not answered in time: bring everything that the goal uses to a safe stop by whatever means, and
+    /// say [`crate::DriverEvent::Stopped`].
+    SafeStop {
+        /// Which.
+        goal: GoalId,
+    },
+    /// Answer once, at once if possible.
+    Observe {
+        /// What.
+        query: Arc<Query>,
+    },
+    /// Answer now, and again whenever the answer changes.
+    Watch {
+        /// What.
+        query: Arc<Query>,
+    },
+    /// No longer watch.
+    Unwatch {
+        /// What.
+        query: Arc<Query>,
+    },
+    /// What happened in the run, for people, traces and journals.
+    Report(Record),
+    /// The run is over; the last effect of a run.
+    Finished(Box<RunEnd>),
+}
+
+/// A primitive with its arguments.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Command {
+    /// The primitive's name.
+    pub primitive: SmolStr,
+    /// All its parameters, in the order of its signature, with their values.
+    pub args: Vec<(SmolStr, Value)>,
+    /// Names of the resources that it may use until it has ended.
+    pub uses: Vec<SmolStr>,
+    /// Seconds after which the engine cancels it.
+    pub deadline_secs: f64,
+}
+
+impl Command {
+    /// The value of a parameter.
+    #[must_use]
+    pub fn arg(&self, name: &str) -> Option<&Value> {
+        self.args.iter().find(|(param, _)| param == name).map(|(_, value)| value)
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, PartialEq, Debug)]
+pub enum RunEnd {
+    /// The policy reached `done`, or its end.
+    Done {
+        /// What `done` said.
+        why: Option<String>,
+    },
+    /// The policy failed: by `fail`, or by a failure that nothing caught.
+    Failed {
+        /// The failure kind; `failed` for `fail`.
+        kind: SmolStr,
+        /// What `fail` said.
+        why: Option<String>,
+        /// The step in which it arose.
+        node: NodeId,
+    },
+    /// The policy asks for a new policy.
+    Replan {
+        /// What for.
+        why: Option<String>,
+    },
+    /// A person stopped it.
+    Interrupted,
+    /// The engine could not go on.
+    Fault(Fault),
+}
+
+/// Why the engine could not go on. Every live goal was told to stop safely before.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Fault {
+    /// More transitions at one instant than the budget allows.
+    StepBudget {
+        /// The budget.
+        steps: u32,
+    },
+    /// The driver answered neither a cancel nor a safe stop.
+    NotStopped {
+        /// The step whose goal is still live.
+        node: NodeId,
+    },
+    /// The run is not over, and neither the engine nor its driver has anything left to wait for.
+    Stalled,
+}
+
+impl fmt::Display for Command {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}(", self.primitive)?;
+        for (index, (name, value)) in self.args.iter().enumerate() {
+            let comma = if index > 0 { ", " } else { "" };
+            write!(f, "{comma}{name}: {value}")?;
+        }
+        f.write_str(")")
+    }
+}
+
+impl fmt::Display for RunEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (what, why) = match self {
+            Self::Done { why } => ("done", why),
+            Self::Failed { kind, why, .. } => {
+                write!(f, "failed with `{kind}`")?;
+                ("", why)
+            }
+            Self::Replan { why } => ("asks for a new plan", why),
+            Self::Interrupted => ("interrupted", &None),
+            Self::Fault(fault) => return write!(f, "fault: {fault}"),
+        };
+        f.write_str(what)?;
+        why.as_ref().map_or(Ok(()), |why| write!(f, ": {why}"))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StepBudget { steps } => write!(f, "more than {steps} transitions at one instant"),
+            Self::NotStopped { .. } => f.write_str("the driver answered neither a cancel nor a safe stop"),
+            Self::Stalled => f.write_str("nothing is left to wait for, but the policy has not ended"),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What happens: everything that the engine learns, it learns from one of these.
+
+use crate::query::{Answer, Query};
+use motet_graph::Value;
+use smol_str::SmolStr;
+use std::fmt;
+
+/// One start of a primitive. The engine chooses it; it is never used twice in a run, also not by a retry.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct GoalId(pub(crate) u64);
+
+impl GoalId {
+    /// As a number, for a wire or a log.
+    #[must_use]
+    pub const fn number(self) -> u64 {
+        self.0
+    }
+
+    /// From its number. One that names no live goal is harmless: events about it are ignored.
+    #[must_use]
+    pub const fn from_number(number: u64) -> Self {
+        Self(number)
+    }
+}
+
+impl fmt::Display for GoalId {
+    /// The running number of the start, from 1.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{}", self.0 >> crate::goals::SLOT_BITS)
+    }
+}
+
+/// What the engine takes in.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Event {
+    /// The run begins. Events before it are ignored, and so is a second one.
+    Begin,
+    /// Nothing but time has passed.
+    Tick,
+    /// The driver reports.
+    Driver(DriverEvent),
+    /// A person stops the run: everything is interrupted, and the run ends as [`crate::RunEnd::Interrupted`].
+    Stop,
+}
+
+/// What a driver reports. Events about a goal that is not live are ignored.
+#[derive(Clone, PartialEq, Debug)]
+pub enum DriverEvent {
+    /// The goal was accepted and runs.
+    Acknowledged {
+        /// Which.
+        goal: GoalId,
+    },
+    /// The goal was not accepted; nothing has moved. It ends in this failure.
+    Refused {
+        /// Which.
+        goal: GoalId,
+        /// The failure kind.
+        failure: SmolStr,
+    },
+    /// The goal has ended and holds none of its resources any longer. Without an acknowledgement before it, it counts
+    /// as one too.
+    Ended {
+        /// Which.
+        goal: GoalId,
+        /// How. A cancelled goal may still end in success or failure, and that is respected.
+        outcome: Outcome,
+    },
+    /// The driver cannot hold this goal: the engine cancels it and starts it again later.
+    NotHeld {
+        /// Which.
+        goal: GoalId,
+    },
+    /// Everything that the goal used stands still and is safe: the answer to a safe stop. The goal has ended.
+    Stopped {
+        /// Which.
+        goal: GoalId,
+    },
+    /// An answer to an observation or a watch, or something noticed in passing. It is true at the event's time.
+    Observed {
+        /// The question.
+        query: Query,
+        /// The answer.
+        answer: Answer,
+    },
+}
+
+/// How a goal ended.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Outcome {
+    /// It did what it was for; with its result where its primitive has one.
+    Success(Option<Value>),
+    /// It failed in this way. One of the kinds that its primitive lists, or `timeout`.
+    Failure(SmolStr),
+    /// It was cancelled, or somebody at the robot stopped it.
+    Interrupted,
+}
+
+impl fmt::Display for DriverEvent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Acknowledged { goal } => write!(f, "acknowledged {goal}"),
+            Self::Refused { goal, failure } => write!(f, "refused {goal}: {failure}"),
+            Self::Ended { goal, outcome } => write!(f, "ended {goal}: {outcome}"),
+            Self::NotHeld { goal } => write!(f, "not held {goal}"),
+            Self::Stopped { goal } => write!(f, "stopped {goal}"),
+            Self::Observed { query, answer } => write!(f, "observed {query} = {answer}"),
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Success(None) => f.write_str("success"),
+            Self::Success(Some(value)) => write!(f, "success {value}"),
+            Self::Failure(kind) => write!(f, "failure {kind}"),
+            Self::Interrupted => f.write_str("interrupted"),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Which goals are live, and for which step.
+
+use crate::event::GoalId;
+use motet_graph::NodeId;
+
+/// Bits of a [`GoalId`] that hold its slot; above them stands the running number of the start.
+pub(crate) const SLOT_BITS: u32 = 24;
+
+/// The live goals. A goal's id names its slot, so finding its step costs one look.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Goals {
+    slots: Vec<Option<(GoalId, NodeId)>>,
+    free: Vec<u32>,
+    starts: u64,
+}
+
+impl Goals {
+    /// A new goal for a step.
+    pub(crate) fn open(&mut self, node: NodeId) -> GoalId {
+        self.starts += 1;
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.slots.push(None);
+            (self.slots.len() - 1) as u32
+        });
+        let goal = GoalId(self.starts << SLOT_BITS | u64::from(slot));
+        if let Some(place) = self.slots.get_mut(slot as usize) {
+            *place = Some((goal, node));
+        }
+        goal
+    }
+
+    /// The step of a live goal.
+    pub(crate) fn node(&self, goal: GoalId) -> Option<NodeId> {
+        match self.slots.get(Self::slot(goal)) {
+            Some(Some((live, node))) if *live == goal => Some(*node),
+            Some(Some(_) | None) | None => None,
+        }
+    }
+
+    /// The goal is no longer live.
+    pub(crate) fn close(&mut self, goal: GoalId) {
+        let index = Self::slot(goal);
+        if let Some(place) = self.slots.get_mut(index)
+            && place.is_some_and(|(live, _)| live == goal)
+        {
+            *place = None;
+            self.free.push(index as u32);
+        }
+    }
+
+    /// All live goals, by slot.
+    pub(crate) fn live(&self) -> impl Iterator<Item = (GoalId, NodeId)> + '_ {
+        self.slots.iter().flatten().copied()
+    }
+
+    fn slot(goal: GoalId) -> usize {
+        (goal.0 & ((1 << SLOT_BITS) - 1)) as usize
+    }
+}

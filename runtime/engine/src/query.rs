@@ -1,0 +1,92 @@
+//! What can be observed: ground questions about the world, and their answers.
+
+use motet_graph::Value;
+use smol_str::SmolStr;
+use std::fmt;
+
+/// A question about the world with all names resolved. Two equal queries are the same question.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Query {
+    /// Whether a fluent holds. The answer is an [`Answer::Truth`].
+    Fact {
+        /// The fluent.
+        fluent: SmolStr,
+        /// Its arguments; with [`Pattern::Any`]: whether it holds of some entity.
+        args: Vec<Pattern>,
+    },
+    /// What a measure reads. The answer is an [`Answer::Value`].
+    Measure {
+        /// The measure.
+        measure: SmolStr,
+        /// Its arguments.
+        args: Vec<Value>,
+    },
+    /// What an entity's field reads. The answer is an [`Answer::Value`].
+    Field {
+        /// The entity's id.
+        entity: SmolStr,
+        /// The field.
+        field: SmolStr,
+    },
+}
+
+/// An argument of a fluent in a query.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Pattern {
+    /// This value.
+    Is(Value),
+    /// Some entity.
+    Any,
+}
+
+/// The answer to a query.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Answer {
+    /// It cannot be told now: nothing in view, no reading.
+    Unknown,
+    /// To a fact: whether it holds.
+    Truth(bool),
+    /// To a measure or a field: its value, numbers in SI units. A number that is not finite counts as unknown.
+    Value(Value),
+}
+
+impl fmt::Display for Query {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fact { fluent, args } => {
+                write!(f, "{fluent}(")?;
+                for (index, arg) in args.iter().enumerate() {
+                    if index > 0 {
+                        f.write_str(", ")?;
+                    }
+                    match arg {
+                        Pattern::Is(value) => write!(f, "{value}")?,
+                        Pattern::Any => f.write_str("any")?,
+                    }
+                }
+                f.write_str(")")
+            }
+            Self::Measure { measure, args } => {
+                write!(f, "{measure}(")?;
+                for (index, arg) in args.iter().enumerate() {
+                    if index > 0 {
+                        f.write_str(", ")?;
+                    }
+                    write!(f, "{arg}")?;
+                }
+                f.write_str(")")
+            }
+            Self::Field { entity, field } => write!(f, "{entity}.{field}"),
+        }
+    }
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown => f.write_str("unknown"),
+            Self::Truth(truth) => write!(f, "{truth}"),
+            Self::Value(value) => write!(f, "{value}"),
+        }
+    }
+}
