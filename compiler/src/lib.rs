@@ -1,1 +1,25 @@
-//! The compiler.
+//! The compiler of Motet: from a spanned AST to a checked execution graph.
+//!
+//! Stages, each a pure function of the one before: `resolve` (names and types), `check` (robot, resources, bounds),
+//! `prove` (state), `place` (geometry), `lower` (the graph). A stage returns what it could make and its diagnostics; no
+//! stage reads a file, a clock or the environment, and none panics on any input.
+
+mod check;
+pub mod codes;
+mod ir;
+mod library;
+mod lower;
+mod mistake;
+mod place;
+mod prove;
+mod resolve;
+mod session;
+mod settle;
+mod world;
+
+pub use library::{Library, LibraryBuilder};
+pub use prove::MAX_FIXPOINTS;
+pub use resolve::{MAX_COUNT, MAX_NODES, MAX_SECONDS};
+pub use session::{Compiled, Options, Session};
+pub use settle::settle;
+pub use world::{MAX_ENTITIES, State, World};

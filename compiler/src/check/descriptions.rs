@@ -1,0 +1,38 @@
+//! Bindings that nothing uses, and descriptions that fit several entities of the scene, or none.
+
+use motet_syntax::Diagnostic;
+use smol_str::SmolStr;
+
+use super::errors::{Ambiguous, Missing, Unused};
+use crate::ir::{Program, StepKind};
+use crate::library::Library;
+use crate::resolve::near::{list, near};
+use crate::world::World;
+
+pub(super) fn check(program: &Program, library: &Library, world: &World, diagnostics: &mut Vec<Diagnostic>) {
+    for binding in &program.bindings {
+        if binding.uses == 0 && binding.name != "_" && !binding.name.starts_with('_') {
+            diagnostics.push(Unused { span: binding.span, name: binding.name.clone() }.into());
+        }
+    }
+    if !world.has_scene() {
+        return;
+    }
+    for step in &program.steps {
+        let StepKind::Call(call) = &step.kind else { continue };
+        let Some(binding) = call.binds.and_then(|id| program.bindings.get(id.index())) else { continue };
+        let (Some(text), Some(kind)) = (&binding.description, binding.ty.kind()) else { continue };
+        match world.described(library, text, kind).as_slice() {
+            [_] => {}
+            [] => {
+                let fitting = world.entities().iter().filter(|(.., other)| library.is_kind(*other, kind));
+                let near = near(text, fitting.map(|(_, name, _)| name.as_str()));
+                diagnostics.push(Missing { span: step.span, text: text.clone(), near }.into());
+            }
+            several => {
+                let found = list(several.iter().take(5).map(|entity| world.name(*entity)).map(SmolStr::from));
+                diagnostics.push(Ambiguous { span: step.span, text: text.clone(), found }.into());
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The declarations in force, resolved once: kinds, fluents, primitives with their contracts. Fed by the text front end,
+//! read by every stage.
+
+mod build;
+mod contract;
+mod layer;
+pub(crate) mod model;
+mod robot;
+
+pub use model::{Library, ResourceSet};
+
+pub(crate) use contract::resolve_type;
+pub(crate) use model::{EffectDef, NeedDef, PrimitiveDef};

@@ -1,0 +1,278 @@
+//! Stage 5: from a proved program to an execution graph. What is proven is noted, what is deferred becomes a guard.
+
+mod path;
+mod table;
+mod term;
+
+use motet_graph as graph;
+use motet_graph::{NodeId, RegionId};
+use motet_syntax::ast::EndKind;
+
+use self::table::Tables;
+use crate::check::bounds_of;
+use crate::ir::{Block, Call, Program, Reaction, StepId, StepKind};
+use crate::library::{EffectDef, Library, NeedDef};
+use crate::prove::{Proof, Verdict};
+use crate::world::World;
+
+/// Lowers a program that has no errors.
+pub(crate) fn lower(program: &Program, proof: &Proof, library: &Library, world: &World) -> graph::Graph {
+    let mut lowering = Lowering {
+        program,
+        proof,
+        library,
+        tables: Tables::new(program, library, world),
+        nodes: Vec::with_capacity(program.steps.len()),
+        regions: Vec::new(),
+        ids: vec![None; program.steps.len()],
+    };
+    lowering.region(&program.body, None);
+    let initial = world.given.iter().filter_map(|(fact, value)| {
+        Some((lowering.tables.fact(fact, &[], None)?, *value)).filter(|(fact, _)| !has_any(fact))
+    });
+    let initial = initial.collect();
+    let Lowering { nodes, regions, tables, .. } = lowering;
+    let (least_secs, greatest_secs) = bounds_of(&program.body, program);
+    graph::Graph {
+        policy: program.name.clone(),
+        robot: program.robot.clone(),
+        kinds: tables.kinds(),
+        fluents: tables.fluents,
+        measures: tables.measures,
+        primitives: tables.primitives,
+        failures: tables.failures,
+        resources: tables.resources,
+        bindings: tables.bindings,
+        nodes,
+        regions,
+        initial,
+        observe_within_secs: library.observe_within_secs,
+        duration: graph::Bounds { least_secs, greatest_secs },
+    }
+}
+
+fn has_any(fact: &graph::Fact) -> bool {
+    fact.args.contains(&graph::FactArg::Any)
+}
+
+struct Lowering<'a> {
+    program: &'a Program,
+    proof: &'a Proof,
+    library: &'a Library,
+    tables: Tables<'a>,
+    nodes: Vec<graph::Node>,
+    regions: Vec<graph::Region>,
+    /// The node of each step; a step that is never reached has none.
+    ids: Vec<Option<NodeId>>,
+}
+
+impl Lowering<'_> {
+    /// A block as a region: its reached steps, chained.
+    fn region(&mut self, block: &Block, owner: Option<NodeId>) -> RegionId {
+        let id = RegionId(u32::try_from(self.regions.len()).unwrap_or(u32::MAX));
+        self.regions.push(graph::Region { owner, entry: None });
+        let mut previous: Option<NodeId> = None;
+        for step in block {
+            if !self.proof.reached.get(step.index()).copied().unwrap_or(false) {
+                continue;
+            }
+            let Some(node) = self.node(*step, id) else { continue };
+            match previous.and_then(|previous| self.nodes.get_mut(previous.index())) {
+                Some(before) => before.next = Some(node),
+                None => {
+                    if let Some(region) = self.regions.get_mut(id.index()) {
+                        region.entry = Some(node);
+                    }
+                }
+            }
+            previous = Some(node);
+        }
+        id
+    }
+
+    fn node(&mut self, step: StepId, region: RegionId) -> Option<NodeId> {
+        let program = self.program;
+        let source = program.steps.get(step.index())?;
+        let id = NodeId(u32::try_from(self.nodes.len()).ok()?);
+        *self.ids.get_mut(step.index())? = Some(id);
+        let (least_secs, greatest_secs) = source.bounds;
+        // The place in the arena is taken first, so that a parent comes before its children.
+        self.nodes.push(graph::Node {
+            path: path::pointer(program, step),
+            region,
+            next: None,
+            duration: graph::Bounds { least_secs, greatest_secs },
+            kind: graph::NodeKind::End { how: graph::Ending::Done, of: None, why: None },
+        });
+        let kind = self.kind(&source.kind, step, id);
+        self.nodes.get_mut(id.index())?.kind = kind;
+        Some(id)
+    }
+
+    fn kind(&mut self, kind: &StepKind, step: StepId, id: NodeId) -> graph::NodeKind {
+        let owner = Some(id);
+        match kind {
+            StepKind::Call(call) => graph::NodeKind::Call(self.call(call, step)),
+            StepKind::Sequence { name, body } => {
+                graph::NodeKind::Sequence { name: name.clone(), body: self.region(body, owner) }
+            }
+            StepKind::Inline { policy, body } => {
+                graph::NodeKind::Inline { policy: policy.clone(), body: self.region(body, owner) }
+            }
+            StepKind::If { condition, then, otherwise, .. } => graph::NodeKind::If {
+                condition: self.tables.condition(condition, &[], None),
+                then: self.region(then, owner),
+                otherwise: otherwise.as_ref().map(|block| self.region(block, owner)),
+            },
+            StepKind::Wait { condition, within_secs } => graph::NodeKind::Wait {
+                condition: self.tables.condition(condition, &[], None),
+                within_secs: *within_secs,
+            },
+            StepKind::Monitor { whens, body } => {
+                let mut watches = Vec::with_capacity(whens.len());
+                for when in whens {
+                    watches.push(graph::Watch {
+                        condition: self.tables.condition(&when.condition, &[], None),
+                        hold_secs: when.hold_secs,
+                        reaction: self.reaction(&when.reaction, owner),
+                    });
+                }
+                graph::NodeKind::Monitor { watches, body: self.region(body, owner) }
+            }
+            StepKind::Try { body, catches } => {
+                let body = self.region(body, owner);
+                let mut handlers = Vec::with_capacity(catches.len());
+                for catch in catches {
+                    let on = catch.on.as_ref();
+                    let on = on.map(|kinds| kinds.iter().map(|(kind, _)| self.tables.failure(*kind)).collect());
+                    handlers.push(graph::Handler { on, body: self.region(&catch.body, owner) });
+                }
+                graph::NodeKind::Try { body, handlers }
+            }
+            StepKind::Repeat { times, body, until } => graph::NodeKind::Repeat {
+                times: *times,
+                body: self.region(body, owner),
+                until: until.as_ref().map(|(condition, _)| self.tables.condition(condition, &[], None)),
+            },
+            StepKind::Each { item, list, at_most, body } => graph::NodeKind::Each {
+                item: graph::BindingId(item.0),
+                list: self.tables.term(list, &[], None),
+                at_most: *at_most,
+                body: self.region(body, owner),
+            },
+            StepKind::Parallel { branches } => graph::NodeKind::Parallel {
+                branches: branches.iter().map(|branch| self.region(branch, owner)).collect(),
+            },
+            StepKind::End { kind, of, why } => {
+                let (how, of, why) = self.ending(*kind, *of, why.as_ref());
+                graph::NodeKind::End { how, of, why }
+            }
+        }
+    }
+
+    fn ending(
+        &mut self,
+        kind: EndKind,
+        of: Option<StepId>,
+        why: Option<&crate::ir::Term>,
+    ) -> (graph::Ending, Option<NodeId>, Option<graph::Term>) {
+        let how = match kind {
+            EndKind::Done => graph::Ending::Done,
+            EndKind::Fail => graph::Ending::Fail,
+            EndKind::Replan => graph::Ending::Replan,
+        };
+        // `replan` ends the whole policy, wherever it stands.
+        let of = of.filter(|_| kind != EndKind::Replan).and_then(|step| self.ids.get(step.index()).copied().flatten());
+        (how, of, why.map(|why| self.tables.term(why, &[], None)))
+    }
+
+    fn reaction(&mut self, reaction: &Reaction, owner: Option<NodeId>) -> graph::Reaction {
+        match reaction {
+            Reaction::Pause { within_secs } => graph::Reaction::Pause { within_secs: *within_secs },
+            Reaction::Restart { at_most } => graph::Reaction::Restart { at_most: *at_most },
+            Reaction::Resume { at_most, body } => {
+                graph::Reaction::Resume { at_most: *at_most, body: self.region(body, owner) }
+            }
+            Reaction::End { kind, of, why } => {
+                let (how, of, why) = self.ending(*kind, *of, why.as_ref());
+                graph::Reaction::End { how, of, why }
+            }
+        }
+    }
+
+    fn call(&mut self, call: &Call, step: StepId) -> graph::CallNode {
+        let library = self.library;
+        let primitive = self.tables.primitive(call.primitive);
+        let args = call.args.iter().map(|arg| self.tables.term(arg, &[], None)).collect();
+        let binds = call.binds.map(|binding| graph::BindingId(binding.0));
+        let Some(def) = library.primitive(call.primitive) else {
+            return graph::CallNode {
+                primitive,
+                args,
+                binds,
+                deadline_secs: 0.0,
+                retries: 0,
+                needs: Vec::new(),
+                motion: None,
+                effects: Vec::new(),
+                unsettles: Vec::new(),
+            };
+        };
+        let verdicts = self.proof.needs.get(step.index()).map(Vec::as_slice).unwrap_or_default();
+        let mut needs = Vec::with_capacity(def.needs.len());
+        for (need, verdict) in def.needs.iter().zip(verdicts) {
+            needs.push(self.need(need, *verdict, call, &def.fails));
+        }
+        graph::CallNode {
+            primitive,
+            args,
+            binds,
+            deadline_secs: call.within_secs.unwrap_or(def.takes.1),
+            retries: call.retries,
+            needs,
+            motion: def.motion.as_ref().map(|(query, args)| graph::Motion {
+                query: query.clone(),
+                args: args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect(),
+                verdict: crate::place::verdict(),
+            }),
+            effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
+            unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
+        }
+    }
+
+    fn need(
+        &mut self,
+        need: &NeedDef,
+        verdict: Verdict,
+        call: &Call,
+        fails: &[crate::ir::Failure],
+    ) -> graph::Need {
+        let binds = call.binds.map(|binding| graph::BindingId(binding.0));
+        graph::Need {
+            condition: self.tables.condition(&need.condition, &call.args, binds),
+            when: need.when.as_ref().map(|when| self.tables.condition(when, &call.args, binds)),
+            each: need.each.map(|kind| graph::KindId(u32::from(kind.0))),
+            verdict: match verdict {
+                Verdict::Proven => graph::Verdict::Proven,
+                // A graph is made of policies without errors only, so nothing here was refuted.
+                Verdict::Deferred | Verdict::Refuted => graph::Verdict::Deferred,
+            },
+            failure: self.tables.guard_failure(&need.condition, fails),
+        }
+    }
+
+    fn effect(&mut self, effect: &EffectDef, call: &Call) -> Option<graph::Effect> {
+        let binds = call.binds.map(|binding| graph::BindingId(binding.0));
+        Some(graph::Effect {
+            fact: self.tables.fact(&effect.fact, &call.args, binds)?,
+            value: effect.value,
+            when: effect.when.as_ref().map(|when| self.tables.condition(when, &call.args, binds)),
+            each: effect.each.map(|kind| graph::KindId(u32::from(kind.0))),
+        })
+    }
+
+    fn unsettled(&mut self, effect: &EffectDef, call: &Call) -> Option<graph::Unsettled> {
+        let graph::Effect { fact, when, each, .. } = self.effect(effect, call)?;
+        Some(graph::Unsettled { fact, when, each })
+    }
+}

@@ -1,0 +1,34 @@
+//! The JSON Pointer of a step, from its place in the program.
+
+use std::fmt::Write as _;
+
+use smol_str::SmolStr;
+
+use crate::ir::{Program, Slot, StepId};
+
+/// `/steps/2/try/0`; in an inlined policy the call's path, `:`, and the path in that policy.
+pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
+    let mut places = Vec::new();
+    let mut at = Some(step);
+    while let Some(place) = at.and_then(|id| program.steps.get(id.index())).map(|step| step.place) {
+        places.push(place);
+        at = place.parent;
+    }
+    let mut path = String::with_capacity(places.len() * 10);
+    for place in places.iter().rev() {
+        let index = place.index;
+        // Writing to a string cannot fail.
+        let _ = match place.slot {
+            Slot::Steps => write!(path, "/steps/{index}"),
+            Slot::Then => write!(path, "/then/{index}"),
+            Slot::Else => write!(path, "/else/{index}"),
+            Slot::Try => write!(path, "/try/{index}"),
+            Slot::Catch(handler) => write!(path, "/catch/{handler}/steps/{index}"),
+            Slot::During => write!(path, "/during/{index}"),
+            Slot::Reaction(watch) => write!(path, "/monitor/{watch}/then/steps/{index}"),
+            Slot::Branch(branch) => write!(path, "/parallel/{branch}/{index}"),
+            Slot::Inlined => write!(path, ":/steps/{index}"),
+        };
+    }
+    path.into()
+}

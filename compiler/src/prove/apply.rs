@@ -1,0 +1,251 @@
+//! What a step does to the facts: effects, what it unsettles, and what it makes stale.
+
+use motet_syntax::ast::{CompareOp, PrimitiveForm};
+
+use super::Prover;
+use super::eval::Frame;
+use super::facts::Key;
+use super::value::{Cause, Value};
+use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term};
+use crate::library::{EffectDef, PrimitiveDef, ResourceSet};
+
+/// A change that a step will make, worked out in the state before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Change {
+    fluent: Fluent,
+    key: Key,
+    truth: bool,
+    sure: Sure,
+}
+
+/// Whether the condition of an effect holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Sure {
+    /// On every path.
+    Always,
+    /// On some paths.
+    Sometimes,
+    /// Only observation can tell.
+    Unknown,
+}
+
+/// Until when a perception stays true.
+#[derive(Clone, Debug)]
+pub(crate) struct Lasting {
+    pub(crate) resources: ResourceSet,
+    pub(crate) entities: Vec<Entity>,
+}
+
+impl Prover<'_> {
+    /// The changes of a list of effects, worked out in the state as it is.
+    pub(crate) fn changes(&self, effects: &[EffectDef], frame: Frame<'_>) -> Vec<Change> {
+        let mut changes = Vec::with_capacity(effects.len() + 2);
+        for effect in effects {
+            match effect.each {
+                None => self.change(effect, frame, &mut changes),
+                Some(kind) => self.change_each(effect, kind, frame, &mut changes),
+            }
+        }
+        // A fact that is both made and unmade is made.
+        changes.sort_by_key(|change| change.truth);
+        changes
+    }
+
+    fn change(&self, effect: &EffectDef, frame: Frame<'_>, changes: &mut Vec<Change>) {
+        let sure = effect.when.as_ref().map_or(Some(Sure::Always), |when| sure(self.evaluate(when, frame)));
+        let Some(sure) = sure else { return };
+        if let Some(key) = self.key(&effect.fact, frame) {
+            changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+        }
+    }
+
+    fn change_each(&self, effect: &EffectDef, kind: Kind, frame: Frame<'_>, changes: &mut Vec<Change>) {
+        let (candidates, rest) = self.candidates(effect.when.as_ref(), kind, frame);
+        for candidate in candidates {
+            self.change(effect, Frame { each: Some(candidate), ..frame }, changes);
+        }
+        // Those of which nothing is known by name: one pattern for all of them.
+        if let Some(sure) = rest {
+            if let Some(key) = self.key(&effect.fact, Frame { each: None, ..frame }) {
+                changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+            }
+        }
+    }
+
+    /// The entities of a kind for which `when` may hold: by name, and whether it may hold for others too.
+    fn candidates(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Vec<Entity>, Option<Sure>) {
+        match when {
+            None => (Vec::new(), Some(Sure::Always)),
+            Some(Condition::Compare(CompareOp::Equal, Term::Each, other) | Condition::Compare(CompareOp::Equal, other, Term::Each)) => {
+                let only = self.argument(other, frame).map(Entity);
+                let fits = |entity: &Entity| {
+                    self.symbols.kind(self.world, *entity).is_some_and(|other| self.library.is_kind(other, kind))
+                };
+                (only.filter(fits).into_iter().collect(), None)
+            }
+            Some(Condition::Fact(fact)) => {
+                let Some(pattern) = self.key(fact, Frame { each: None, ..frame }) else { return (Vec::new(), None) };
+                let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
+                let Some(place) = place else { return (self.of_kind(kind, usize::MAX), None) };
+                let mut known: Vec<_> = self
+                    .facts
+                    .entries(fact.fluent, pattern)
+                    .filter(|(_, value)| !value.is_false())
+                    .map(|(key, _)| Entity(key.arg(place)))
+                    .filter(|entity| {
+                        self.symbols.kind(self.world, *entity).is_some_and(|other| self.library.is_kind(other, kind))
+                    })
+                    .collect();
+                known.sort_unstable();
+                known.dedup();
+                let rest = self.facts.get(fact.fluent, pattern);
+                (known, if rest.is_false() { None } else { sure(rest) })
+            }
+            Some(_) => (self.of_kind(kind, usize::MAX), None),
+        }
+    }
+
+    /// For which entities a quantified need is asked, and whether there may be others.
+    pub(crate) fn asked(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Vec<Entity>, bool) {
+        match when {
+            None => (self.of_kind(kind, usize::MAX), false),
+            Some(_) => {
+                let (known, rest) = self.candidates(when, kind, frame);
+                (known, rest.is_some())
+            }
+        }
+    }
+
+    /// Makes changes: negative first, so that what is made wins.
+    pub(crate) fn make(&mut self, changes: &[Change], cause: Cause) {
+        for change in changes {
+            let new = Value::of(change.truth, cause);
+            let value = match change.sure {
+                Sure::Always => new,
+                Sure::Sometimes => self.facts.get(change.fluent, change.key).join(new),
+                Sure::Unknown => self.facts.get(change.fluent, change.key).maybe(new, cause),
+            };
+            self.write(change.fluent, change.key, value, change.sure == Sure::Always, cause);
+        }
+    }
+
+    /// Leaves the facts of changes unobserved.
+    pub(crate) fn unsettle(&mut self, changes: &[Change], cause: Cause) {
+        for change in changes {
+            let open = Value::open(cause);
+            let before = self.facts.get(change.fluent, change.key);
+            let value = if change.sure == Sure::Sometimes { before.join(open) } else { open };
+            self.write(change.fluent, change.key, value, change.sure == Sure::Always, cause);
+        }
+    }
+
+    /// Writes a fact, and lets those that may be the same feel it.
+    fn write(&mut self, fluent: Fluent, key: Key, value: Value, sure: bool, cause: Cause) {
+        if key.is_pattern() && !sure {
+            // The pattern may or may not hold: so may each fact that it covers.
+            let covered: Vec<_> = self.facts.entries(fluent, key).collect();
+            self.facts.set(fluent, key, value);
+            for (single, old) in covered {
+                self.facts.set(fluent, single, old.maybe(value, cause));
+            }
+            return;
+        }
+        self.facts.set(fluent, key, value);
+        if !self.symbols.is_empty() {
+            self.echo(fluent, key, value, cause);
+        }
+    }
+
+    /// An effect on one entity is a possible effect on all that it may be.
+    fn echo(&mut self, fluent: Fluent, key: Key, value: Value, cause: Cause) {
+        let Some(def) = self.library.fluent(fluent) else { return };
+        let entities: Vec<_> = def.params.iter().map(|(_, ty)| ty.kind().is_some()).collect();
+        let mut targets: Vec<(Key, Value)> = Vec::new();
+        let all = entities.iter().enumerate().fold(key, |key, (index, is_entity)| {
+            if *is_entity { key.with(index, super::facts::ANY) } else { key }
+        });
+        for (other, known) in self.facts.entries(fluent, all) {
+            if other != key && !key.covers(other) && self.may_be_same(&entities, key, other) {
+                targets.push((other, known));
+            }
+        }
+        // Entities behind a symbol that have no entry yet.
+        for (index, is_entity) in entities.iter().enumerate() {
+            let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| *is_entity);
+            let Some(symbol) = symbol else { continue };
+            let candidates = symbol.may_be.clone().unwrap_or_else(|| self.of_kind(symbol.kind, usize::MAX));
+            for candidate in candidates {
+                let other = key.with(index, candidate.0);
+                if !other.is_pattern() && self.facts.entry(fluent, other).is_none() {
+                    targets.push((other, self.facts.get(fluent, other)));
+                }
+            }
+        }
+        for (other, known) in targets {
+            let felt = known.maybe(value, cause);
+            if felt != known {
+                self.facts.set(fluent, other, felt);
+            }
+        }
+    }
+
+    fn may_be_same(&self, entities: &[bool], a: Key, b: Key) -> bool {
+        entities.iter().enumerate().all(|(index, is_entity)| {
+            let (one, two) = (a.arg(index), b.arg(index));
+            one == two
+                || one == super::facts::ANY
+                || two == super::facts::ANY
+                || (*is_entity && self.symbols.may_equal(self.library, self.world, Entity(one), Entity(two)))
+        })
+    }
+
+    /// What a perception found is stale once a step uses its resource or moves its object.
+    pub(crate) fn make_stale(&mut self, step: StepId, def: &PrimitiveDef, frame: Frame<'_>) {
+        if self.lasting.is_empty() {
+            return;
+        }
+        let moved = self.moved(def, frame);
+        let mut stale = Vec::new();
+        for (fluent, key, value) in self.facts.all_entries() {
+            let Some(source) = value.yes.as_step().filter(|source| *source != step) else { continue };
+            let Some(lasting) = self.lasting.get(&source) else { continue };
+            let used = lasting.resources & def.uses != 0;
+            if used || lasting.entities.iter().any(|entity| moved.contains(entity)) {
+                stale.push((fluent, key, value));
+            }
+        }
+        // The order of a table is not that of the document.
+        stale.sort_unstable_by_key(|(fluent, key, _)| (*fluent, *key));
+        let cause = Cause::step(step);
+        for (fluent, key, value) in stale {
+            let rest = Value { yes: Cause::NONE, ..value };
+            let gone = if fluent == self.fresh { Value::no(cause) } else { Value::open(cause) };
+            self.facts.set(fluent, key, rest.join(gone));
+        }
+    }
+
+    /// Entities whose place a step changes: those that an action's effects name first.
+    fn moved(&self, def: &PrimitiveDef, frame: Frame<'_>) -> Vec<Entity> {
+        if def.form == PrimitiveForm::Perception {
+            return Vec::new();
+        }
+        let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);
+        let effects = def.makes.iter().chain(&def.unsettles).filter(named);
+        let mut moved: Vec<_> = effects
+            .filter_map(|effect| self.argument(effect.fact.args.first()?.as_ref()?, frame))
+            .map(Entity)
+            .collect();
+        moved.dedup();
+        moved
+    }
+}
+
+fn sure(value: Value) -> Option<Sure> {
+    if value.open.is_some() {
+        Some(Sure::Unknown)
+    } else if value.no.is_some() && value.yes.is_some() {
+        Some(Sure::Sometimes)
+    } else {
+        value.yes.is_some().then_some(Sure::Always)
+    }
+}

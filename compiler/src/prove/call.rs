@@ -1,0 +1,198 @@
+//! One call of a primitive: its needs, then what it does, and what is known where it fails.
+
+use motet_syntax::Span;
+
+use super::apply::{Change, Lasting};
+use super::errors::{Refuted, Stale};
+use super::eval::Frame;
+use super::facts::Key;
+use super::value::{Cause, Value};
+use super::{Prover, Verdict};
+use crate::ir::{Base, Call, Entity, StepId, Term, Ty};
+use crate::library::{NeedDef, PrimitiveDef};
+
+impl Prover<'_> {
+    pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
+        let library = self.library;
+        let Some(def) = library.primitive(call.primitive) else { return };
+        let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
+        let frame = Frame { args: &call.args, result, each: None };
+        let cause = Cause::step(id);
+
+        self.check_fresh(call, def);
+        let mut verdicts = self.needs(id, def, frame, span);
+        let makes = self.changes(&def.makes, frame);
+        let unsettles = self.changes(&def.unsettles, frame);
+        if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
+            // A guard that refuses changes nothing.
+            self.throw_all(def);
+        }
+        self.make_stale(id, def, frame);
+        self.unsettle(&unsettles, cause);
+        self.fail(def, &makes, cause, call.retries > 0, frame, &mut verdicts);
+        self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
+        self.make(&makes, cause);
+        self.bind(id, call, def, frame);
+        self.see_states();
+        if let Some(slot) = self.proof.needs.get_mut(id.index()) {
+            *slot = verdicts;
+        }
+    }
+
+    /// What is known where the step fails, and whether its needs still hold when it is tried again.
+    fn fail(
+        &mut self,
+        def: &PrimitiveDef,
+        makes: &[Change],
+        cause: Cause,
+        retried: bool,
+        frame: Frame<'_>,
+        verdicts: &mut [Verdict],
+    ) {
+        if self.enclosing.is_empty() && !retried {
+            return;
+        }
+        let mark = self.facts.mark();
+        self.unsettle(makes, cause);
+        self.see_states();
+        self.throw_all(def);
+        if retried {
+            for (need, verdict) in def.needs.iter().zip(verdicts) {
+                if *verdict == Verdict::Proven && !self.need(need, frame).0.is_true() {
+                    *verdict = Verdict::Deferred;
+                }
+            }
+        }
+        self.back_to(mark);
+    }
+
+    /// A pose that was perceived before something moved is stale, and using it an error.
+    fn check_fresh(&mut self, call: &Call, def: &PrimitiveDef) {
+        for ((arg, span), param) in call.args.iter().zip(&call.spans).zip(&def.params) {
+            let Term::Binding(binding) = arg else { continue };
+            let Some(bound) = self.program.bindings.get(binding.index()) else { continue };
+            if bound.ty != Ty::plain(Base::Pose) {
+                continue;
+            }
+            let fresh = self.facts.get(self.fresh, binding_key(binding.0));
+            if fresh.no.is_some() {
+                let mistake = Stale {
+                    span: *span,
+                    name: bound.name.clone(),
+                    callee: def.name.clone(),
+                    param: param.name.clone(),
+                    found: bound.span,
+                    moved: self.cause_span(fresh.no),
+                    mover: self.cause_name(fresh.no),
+                };
+                self.diagnostics.push(mistake.into());
+            }
+        }
+    }
+
+    fn needs(&mut self, id: StepId, def: &PrimitiveDef, frame: Frame<'_>, span: Span) -> Vec<Verdict> {
+        let mut verdicts = Vec::with_capacity(def.needs.len());
+        for need in &def.needs {
+            let (value, culprit) = self.need(need, frame);
+            let verdict = if value.no.is_some() {
+                let frame = Frame { each: culprit, ..frame };
+                self.refuted(def, need, frame, span);
+                Verdict::Refuted
+            } else if value.open.is_some() {
+                Verdict::Deferred
+            } else {
+                Verdict::Proven
+            };
+            verdicts.push(verdict);
+            if verdict != Verdict::Proven {
+                self.grant(id, need, frame);
+            }
+        }
+        verdicts
+    }
+
+    fn refuted(&mut self, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
+        let blame = self.blame(&need.condition, true, frame);
+        let mistake = Refuted {
+            span,
+            callee: def.name.clone(),
+            needs: blame.wanted.clone(),
+            story: blame.story(),
+            culprit: self.cause_span(blame.cause),
+            declared: need.span,
+            remedy: self.remedy(&blame),
+        };
+        self.diagnostics.push(mistake.into());
+    }
+
+    /// The values that a need can have, and the entity for which it can be false.
+    fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
+        let Some(kind) = need.each else {
+            let asked = self.evaluate(&need.condition, frame);
+            let value = match &need.when {
+                None => asked,
+                Some(when) => self.evaluate(when, frame).not().or(asked),
+            };
+            return (value, None);
+        };
+        let (candidates, others) = self.asked(need.when.as_ref(), kind, frame);
+        let mut all = Value::yes(Cause::NOTHING);
+        let mut culprit = None;
+        for candidate in candidates {
+            let frame = Frame { each: Some(candidate), ..frame };
+            let when = need.when.as_ref().map_or(Value::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
+            let value = when.not().or(self.evaluate(&need.condition, frame));
+            if value.no.is_some() && culprit.is_none() {
+                culprit = Some(candidate);
+            }
+            all = all.and(value);
+        }
+        if others {
+            all = all.and(Value::NOTHING_KNOWN.or(Value::NOTHING_KNOWN));
+        }
+        (all, culprit)
+    }
+
+    /// Takes a need as given: the guard has seen it hold, or it was reported and is not to be reported again.
+    fn grant(&mut self, id: StepId, need: &NeedDef, frame: Frame<'_>) {
+        let cause = Cause::step(id);
+        if need.each.is_none() && need.when.is_none() {
+            self.assume(&need.condition, true, cause, frame);
+        }
+    }
+
+    /// A new result: its pose is fresh, its facts last as the contract says.
+    fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: Frame<'_>) {
+        let Some(lasts) = &def.lasts else { return };
+        let entities = lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
+        self.lasting.insert(id, Lasting { resources: lasts.resources, entities });
+        if let Some(binding) = call.binds.filter(|_| def.result == Some(Ty::plain(Base::Pose))) {
+            self.facts.set(self.fresh, binding_key(binding.0), Value::yes(Cause::step(id)));
+        }
+    }
+
+    /// Forgets what was known of a symbol: its name is bound anew.
+    pub(crate) fn forget(&mut self, symbol: Option<Entity>) {
+        let Some(symbol) = symbol else { return };
+        let mut stale: Vec<_> = self
+            .facts
+            .all_entries()
+            .filter(|(fluent, key, _)| {
+                let params = self.library.fluent(*fluent).map(|def| def.params.as_slice()).unwrap_or_default();
+                params.iter().enumerate().any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0)
+            })
+            .map(|(fluent, key, _)| (fluent, key))
+            .collect();
+        stale.sort_unstable();
+        for (fluent, key) in stale {
+            self.facts.forget(fluent, key);
+        }
+    }
+}
+
+/// The key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
+fn binding_key(binding: u32) -> Key {
+    // Kept below the pattern value in every part.
+    let (low, high) = (binding & 0x7fff, (binding >> 15) & 0x7fff);
+    Key(u64::from(low) | (u64::from(high) << 16))
+}

@@ -1,0 +1,98 @@
+//! States that leave the straight way: what a handler, a monitor's reaction or the end of an inlined policy starts from.
+//! Each is the join of the states at all points from which control can come.
+
+use rustc_hash::FxHashMap;
+
+use super::facts::{Atom, Delta, Facts};
+use super::value::Value;
+use crate::ir::{Failure, StepId};
+
+/// The join of the states seen so far, as changes since a mark.
+#[derive(Clone, Debug)]
+pub(crate) struct Collector {
+    pub(crate) mark: usize,
+    pending: FxHashMap<Atom, Value>,
+    /// Whether any state was seen.
+    pub(crate) hit: bool,
+    /// How far the trail has been taken in; only what comes after it can differ, unless the trail was cut back.
+    last: usize,
+    cut: bool,
+}
+
+/// What encloses the step that is being proved, and catches what leaves it.
+#[derive(Clone, Debug)]
+pub(crate) enum Enclosing {
+    /// A `try`: a collector for each handler, with the failures that reach it.
+    Try {
+        catches: Vec<(Option<Vec<Failure>>, Collector, Vec<Failure>)>,
+    },
+    /// An inlined policy: where it is done.
+    Inline {
+        step: StepId,
+        exits: Collector,
+    },
+    /// A monitor: all states of its body.
+    Monitor {
+        states: Collector,
+    },
+}
+
+impl Collector {
+    pub(crate) fn new(mark: usize) -> Self {
+        Self { mark, pending: FxHashMap::default(), hit: false, last: mark, cut: false }
+    }
+
+    /// Takes in the state as it is.
+    pub(crate) fn see(&mut self, facts: &Facts) {
+        let from = if self.hit && !self.cut { self.last } else { self.mark };
+        let mut touched = facts.touched(from);
+        // Single facts first: one that is new here had, until now, the values of the patterns that cover it.
+        touched.sort_by_key(|((_, key), _)| key.is_pattern());
+        for ((fluent, key), before) in touched {
+            let now = facts.get(fluent, key);
+            if let Some(value) = self.pending.get_mut(&(fluent, key)) {
+                *value = value.join(now);
+                continue;
+            }
+            let mut value = now;
+            if self.hit {
+                value = value.join(before);
+                let covering = self.pending.iter().filter(|((other, pattern), _)| {
+                    *other == fluent && pattern.is_pattern() && pattern.covers(key)
+                });
+                value = covering.fold(value, |value, (_, earlier)| value.join(*earlier));
+            }
+            self.pending.insert((fluent, key), value);
+        }
+        if self.cut {
+            for ((fluent, key), value) in &mut self.pending {
+                *value = value.join(facts.get(*fluent, *key));
+            }
+        }
+        self.hit = true;
+        self.cut = false;
+        self.last = facts.mark();
+    }
+
+    /// The trail was cut back to `mark`.
+    pub(crate) fn cut_to(&mut self, mark: usize) {
+        if self.last > mark {
+            self.cut = true;
+        }
+    }
+
+    /// The joined state, as a way from the mark.
+    pub(crate) fn delta(&self) -> Delta {
+        Delta::new(self.pending.clone())
+    }
+}
+
+impl Enclosing {
+    pub(crate) fn cut_to(&mut self, mark: usize) {
+        match self {
+            Self::Try { catches } => catches.iter_mut().for_each(|(_, collector, _)| collector.cut_to(mark)),
+            Self::Inline { exits, .. } => exits.cut_to(mark),
+            Self::Monitor { states } => states.cut_to(mark),
+        }
+    }
+}

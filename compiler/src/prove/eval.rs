@@ -1,0 +1,218 @@
+//! What a condition can be, from what is known of the facts.
+
+use motet_syntax::ast::{ArithOp, CompareOp};
+
+use super::Prover;
+use super::facts::{ANY, Key};
+use super::value::{Cause, Value};
+use crate::ir::{Condition, Entity, Fact, Fluent, Kind, Term};
+
+/// What the words of a contract mean at one call.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Frame<'c> {
+    pub(crate) args: &'c [Term],
+    pub(crate) result: Option<Entity>,
+    pub(crate) each: Option<Entity>,
+}
+
+/// The most entities behind a symbol that are looked at one by one.
+const MAX_ALIASES: usize = 64;
+
+impl Prover<'_> {
+    /// The argument of a fact as a number; none where it is not known what it is.
+    pub(crate) fn argument(&self, term: &Term, frame: Frame<'_>) -> Option<u16> {
+        match term {
+            Term::Entity(entity) => Some(entity.0),
+            Term::Case(_, case) => Some(*case),
+            Term::Binding(id) => self.symbols.of_binding(id.index()).map(|entity| entity.0),
+            Term::Param(index) => match frame.args.get(usize::from(*index))? {
+                // An argument is never itself a parameter, so this ends.
+                Term::Param(_) => None,
+                term => self.argument(term, frame),
+            },
+            Term::Result => frame.result.map(|entity| entity.0),
+            Term::Each => frame.each.map(|entity| entity.0),
+            Term::Bool(_)
+            | Term::Int(_)
+            | Term::Number(_)
+            | Term::Text(_)
+            | Term::List(_)
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => None,
+        }
+    }
+
+    /// The key of a fact; none where an argument is not known. `each` unbound becomes `any`.
+    pub(crate) fn key(&self, fact: &Fact, frame: Frame<'_>) -> Option<Key> {
+        let mut key = Key(0);
+        for (index, term) in fact.args.iter().enumerate() {
+            let arg = match term {
+                None => ANY,
+                Some(Term::Each) if frame.each.is_none() => ANY,
+                Some(term) => self.argument(term, frame)?,
+            };
+            key = key.with(index, arg);
+        }
+        Some(key)
+    }
+
+    /// What is known of a single fact, symbols seen through.
+    pub(crate) fn read(&self, fluent: Fluent, key: Key) -> Value {
+        let value = self.read_plain(fluent, key);
+        let volatile = self.volatile.iter().filter(|row| row.0 == fluent && row.1.covers(key));
+        volatile.fold(value, |value, row| value.join(row.2))
+    }
+
+    fn read_plain(&self, fluent: Fluent, key: Key) -> Value {
+        if self.symbols.is_empty() || self.facts.entry(fluent, key).is_some() {
+            return self.facts.get(fluent, key);
+        }
+        let Some(def) = self.library.fluent(fluent) else { return self.facts.get(fluent, key) };
+        for (index, (_, ty)) in def.params.iter().enumerate() {
+            let entity = Entity(key.arg(index));
+            if ty.kind().is_none() {
+                continue;
+            }
+            let Some(symbol) = self.symbols.get(entity) else { continue };
+            // The fact of a symbol is what all that it may be agree on, and unobserved where they do not.
+            let all;
+            let candidates: &[Entity] = match &symbol.may_be {
+                Some(list) => list,
+                None => {
+                    all = self.of_kind(symbol.kind, MAX_ALIASES + 1);
+                    &all
+                }
+            };
+            if candidates.len() > MAX_ALIASES {
+                return Value::open(Cause::NOTHING);
+            }
+            let generic = symbol.may_be.is_none().then(|| self.facts.get(fluent, key));
+            let known = candidates.iter().map(|candidate| self.read_plain(fluent, key.with(index, candidate.0)));
+            let mut values = known.chain(generic);
+            let Some(first) = values.next() else { return self.facts.get(fluent, key) };
+            return if values.all(|value| value.same_set(first)) { first } else { Value::open(Cause::NOTHING) };
+        }
+        self.facts.get(fluent, key)
+    }
+
+    /// Entities of the world of a kind, at most so many.
+    pub(crate) fn of_kind(&self, kind: Kind, most: usize) -> Vec<Entity> {
+        let entities = self.world.entities().iter();
+        let fitting = entities.filter(|(.., other)| self.library.is_kind(*other, kind));
+        fitting.map(|(id, ..)| id).take(most).collect()
+    }
+
+    /// The values that a condition can have.
+    pub(crate) fn evaluate(&self, condition: &Condition, frame: Frame<'_>) -> Value {
+        match condition {
+            Condition::Literal(value) => Value::of(*value, Cause::NOTHING),
+            Condition::Unknown => Value::yes(Cause::NOTHING),
+            Condition::Fact(fact) => self.evaluate_fact(fact, frame),
+            Condition::Compare(op, left, right) => self.compare(*op, left, right, frame),
+            Condition::MonitoredMeasure(id) => {
+                let watched = self.watched.iter().any(|watched| watched.measures.contains(id));
+                Value::of(watched, Cause::NOTHING)
+            }
+            Condition::MonitoredFluent(id) => {
+                let watched = self.watched.iter().any(|watched| watched.fluents.contains(id));
+                Value::of(watched, Cause::NOTHING)
+            }
+            Condition::Not(inner) => self.evaluate(inner, frame).not(),
+            Condition::All(parts) => {
+                let parts = parts.iter().map(|part| self.evaluate(part, frame));
+                parts.fold(Value::yes(Cause::NOTHING), Value::and)
+            }
+            Condition::AnyOf(parts) => {
+                let parts = parts.iter().map(|part| self.evaluate(part, frame));
+                parts.fold(Value::no(Cause::NOTHING), Value::or)
+            }
+        }
+    }
+
+    fn evaluate_fact(&self, fact: &Fact, frame: Frame<'_>) -> Value {
+        let Some(key) = self.key(fact, frame) else { return Value::NOTHING_KNOWN };
+        if self.library.fluent(fact.fluent).is_some_and(|def| def.derived) {
+            return Value::NOTHING_KNOWN;
+        }
+        if !key.is_pattern() {
+            return self.read(fact.fluent, key);
+        }
+        // Some entity: those that are known one by one, then all the rest.
+        let known = self.facts.entries(fact.fluent, key).map(|(key, _)| self.read(fact.fluent, key));
+        known.fold(self.read(fact.fluent, key), |some, value| value.or(some))
+    }
+
+    fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: Frame<'_>) -> Value {
+        if let (Some(a), Some(b)) = (self.number(left, frame), self.number(right, frame)) {
+            let holds = match op {
+                CompareOp::Equal => a == b,
+                CompareOp::Unequal => a != b,
+                CompareOp::Less => a < b,
+                CompareOp::AtMost => a <= b,
+                CompareOp::More => a > b,
+                CompareOp::AtLeast => a >= b,
+            };
+            return Value::of(holds, Cause::START);
+        }
+        let equal = match op {
+            CompareOp::Equal => true,
+            CompareOp::Unequal => false,
+            CompareOp::Less | CompareOp::AtMost | CompareOp::More | CompareOp::AtLeast => return Value::NOTHING_KNOWN,
+        };
+        let same = match (self.argument(left, frame), self.argument(right, frame)) {
+            (Some(a), Some(b)) if a == b => Some(true),
+            (Some(a), Some(b)) => {
+                let may = self.symbols.may_equal(self.library, self.world, Entity(a), Entity(b));
+                (!may).then_some(false)
+            }
+            _ => match (self.literal(left, frame), self.literal(right, frame)) {
+                (Some(Term::Text(a)), Some(Term::Text(b))) => Some(a == b),
+                (Some(Term::Bool(a)), Some(Term::Bool(b))) => Some(a == b),
+                _ => None,
+            },
+        };
+        same.map_or(Value::NOTHING_KNOWN, |same| Value::of(same == equal, Cause::START))
+    }
+
+    fn literal<'t>(&self, term: &'t Term, frame: Frame<'t>) -> Option<&'t Term> {
+        match term {
+            Term::Param(index) => frame.args.get(usize::from(*index)),
+            term => Some(term),
+        }
+    }
+
+    /// A number that is known beforehand.
+    pub(crate) fn number(&self, term: &Term, frame: Frame<'_>) -> Option<f64> {
+        match term {
+            Term::Int(value) => Some(*value as f64),
+            Term::Number(value) => Some(*value),
+            Term::Param(index) => match frame.args.get(usize::from(*index))? {
+                Term::Param(_) => None,
+                term => self.number(term, frame),
+            },
+            Term::Field(of, name) => self.world.number(Entity(self.argument(of, frame)?), name),
+            Term::Arith(op, left, right) => {
+                let (a, b) = (self.number(left, frame)?, self.number(right, frame)?);
+                let value = match op {
+                    ArithOp::Add => a + b,
+                    ArithOp::Subtract => a - b,
+                    ArithOp::Multiply => a * b,
+                    ArithOp::Divide => a / b,
+                };
+                value.is_finite().then_some(value)
+            }
+            Term::Bool(_)
+            | Term::Text(_)
+            | Term::Case(..)
+            | Term::Entity(_)
+            | Term::List(_)
+            | Term::Binding(_)
+            | Term::Result
+            | Term::Each
+            | Term::Measure(..)
+            | Term::Unknown => None,
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Stage 3: the prover. It runs a policy abstractly over sets of {true, false, unobserved}, joins where ways meet, runs
+//! loops to a fixed point, and says of each need whether it is proven, refuted or left to observation.
+//!
+//! It costs what the policy changes, not what the world holds: facts are written on a trail and taken back at forks.
+
+mod apply;
+mod assume;
+mod call;
+mod collect;
+pub(crate) mod errors;
+mod eval;
+pub(crate) mod facts;
+mod flow;
+mod monitor;
+mod parallel;
+mod story;
+mod symbols;
+pub(crate) mod value;
+mod walk;
+
+use motet_syntax::Diagnostic;
+use rustc_hash::FxHashMap;
+
+use self::apply::Lasting;
+use self::collect::Enclosing;
+use self::facts::{Facts, Key};
+use self::symbols::Symbols;
+use self::value::Value;
+use crate::ir::{Fluent, Measure, Program, StepId};
+use crate::library::Library;
+use crate::world::World;
+
+/// How deep loops and parallel branches may nest: each level is proved at least twice.
+pub const MAX_FIXPOINTS: usize = 8;
+
+/// What the prover found of one need of a step.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Verdict {
+    /// Holds on every path.
+    Proven,
+    /// Only observation can tell.
+    Deferred,
+    /// Fails on some path.
+    Refuted,
+}
+
+/// What the prover found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Proof {
+    /// By step: a verdict for each need of its primitive; empty for other steps and for steps that are never reached.
+    pub(crate) needs: Vec<Vec<Verdict>>,
+    /// By step: whether it can be reached.
+    pub(crate) reached: Vec<bool>,
+}
+
+/// The state of a proof.
+pub(crate) struct Prover<'a> {
+    pub(crate) library: &'a Library,
+    pub(crate) world: &'a World,
+    pub(crate) program: &'a Program,
+    pub(crate) symbols: Symbols,
+    pub(crate) facts: Facts,
+    /// The table of bindings whose value is still right, by binding.
+    pub(crate) fresh: Fluent,
+    pub(crate) lasting: FxHashMap<StepId, Lasting>,
+    pub(crate) watched: Vec<Watched>,
+    /// Facts that something beside the step being proved may change at any moment, and to what.
+    pub(crate) volatile: Vec<(Fluent, Key, Value)>,
+    pub(crate) enclosing: Vec<Enclosing>,
+    /// Whether control gets here at all.
+    pub(crate) live: bool,
+    pub(crate) fixpoints: usize,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) proof: Proof,
+}
+
+/// What an enclosing monitor watches.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Watched {
+    pub(crate) measures: Vec<Measure>,
+    pub(crate) fluents: Vec<Fluent>,
+}
+
+/// Proves a program from the facts that the world gives at the start.
+pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Proof, Vec<Diagnostic>) {
+    let mut facts = world.facts.clone();
+    let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
+    let steps = program.steps.len();
+    let mut prover = Prover {
+        library,
+        world,
+        program,
+        symbols: Symbols::new(program, library, world),
+        facts,
+        fresh,
+        lasting: FxHashMap::default(),
+        watched: Vec::new(),
+        volatile: Vec::new(),
+        enclosing: Vec::new(),
+        live: true,
+        fixpoints: 0,
+        diagnostics: Vec::new(),
+        proof: Proof { needs: vec![Vec::new(); steps], reached: vec![false; steps] },
+    };
+    prover.block(&program.body);
+    if prover.live {
+        prover.check_goal();
+    }
+    prover.report_unreached();
+    (prover.proof, prover.diagnostics)
+}

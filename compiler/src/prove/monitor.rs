@@ -1,0 +1,182 @@
+//! Monitors: the body under watch, and what their reactions start from.
+
+use super::collect::{Collector, Enclosing};
+use super::errors::NeverFires;
+use super::eval::Frame;
+use super::facts::Delta;
+use super::value::Cause;
+use super::{Prover, Watched};
+use crate::ir::{Condition, Reaction, StepId, TIMEOUT, Term, When};
+
+impl Prover<'_> {
+    pub(crate) fn monitor(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
+        if !self.enter_fixpoint(id) {
+            return;
+        }
+        let mark = self.facts.mark();
+        let said = self.diagnostics.len();
+        let volatile = self.volatile.len();
+        self.disturb(id, whens, mark);
+        self.watched.push(watched(whens));
+        let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
+        let restarts: Vec<_> = restarts.collect();
+        let mut head = Delta::default();
+        // The body may begin again from any of its states, where a restart asks for it.
+        let (end, states) = loop {
+            self.diagnostics.truncate(said);
+            self.live = true;
+            self.facts.replay(&head);
+            self.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
+            self.see_states();
+            for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
+                self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+            }
+            if self.live {
+                self.block(body);
+            } else {
+                // It fires at once: the body never runs.
+                self.live = false;
+            }
+            let end = self.live.then(|| self.facts.delta(mark));
+            let states = match self.enclosing.pop() {
+                Some(Enclosing::Monitor { states }) => states.delta(),
+                _ => Delta::default(),
+            };
+            self.back_to(mark);
+            let mut next = head.clone();
+            for when in &restarts {
+                self.facts.replay(&states);
+                if self.assume(&when.condition, true, Cause::step(id), Frame::default()) {
+                    let way = self.facts.delta(mark);
+                    self.back_to(mark);
+                    next = next.or(&way, &self.facts);
+                } else {
+                    self.back_to(mark);
+                }
+            }
+            if next.same_sets(&head, &self.facts) {
+                break (end, states);
+            }
+            head = next;
+        };
+        self.watched.pop();
+        self.volatile.truncate(volatile);
+        for when in whens {
+            self.react(id, when, &states, mark);
+        }
+        self.fixpoints -= 1;
+        self.meet(mark, end.as_slice());
+    }
+
+    /// What the blocks of `resume` reactions change may change at any moment of the body.
+    fn disturb(&mut self, id: StepId, whens: &[When], mark: usize) {
+        for when in whens {
+            let Reaction::Resume { body, .. } = &when.reaction else { continue };
+            let said = self.diagnostics.len();
+            self.assume(&when.condition, true, Cause::step(id), Frame::default());
+            let seen = self.facts.mark();
+            self.block(body);
+            for ((fluent, key), _) in self.facts.touched(seen) {
+                let value = self.facts.get(fluent, key);
+                self.volatile.push((fluent, key, value));
+            }
+            self.back_to(mark);
+            self.diagnostics.truncate(said);
+            self.live = true;
+        }
+    }
+
+    /// Proves a reaction from the states in which it can start.
+    fn react(&mut self, id: StepId, when: &When, states: &Delta, mark: usize) {
+        self.facts.replay(states);
+        self.live = self.assume(&when.condition, true, Cause::step(id), Frame::default());
+        if !self.live && constant(&when.condition) {
+            self.diagnostics.push(NeverFires { span: when.span }.into());
+        }
+        if self.live {
+            let depth = self.enclosing.len();
+            let exhausted = self.library.names.failures.get("exhausted").copied();
+            match &when.reaction {
+                Reaction::Pause { .. } => self.throw(TIMEOUT, depth),
+                Reaction::Restart { .. } => {
+                    if let Some(kind) = exhausted {
+                        self.throw(kind, depth);
+                    }
+                }
+                Reaction::Resume { body, .. } => {
+                    if let Some(kind) = exhausted {
+                        self.throw(kind, depth);
+                    }
+                    self.block(body);
+                }
+                Reaction::End { kind, of, .. } => self.end(*kind, *of),
+            }
+        } else if let Reaction::Resume { body, .. } = &when.reaction {
+            // A condition that only the world can bring about still needs its block proved.
+            self.live = true;
+            self.block(body);
+        }
+        self.back_to(mark);
+        self.live = true;
+    }
+}
+
+/// Whether a condition is the same whatever happens.
+fn constant(condition: &Condition) -> bool {
+    match condition {
+        Condition::Literal(_) => true,
+        Condition::Compare(_, left, right) => fixed(left) && fixed(right),
+        Condition::Not(inner) => constant(inner),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().all(constant),
+        Condition::Fact(_)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => false,
+    }
+}
+
+fn fixed(term: &Term) -> bool {
+    match term {
+        Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::Case(..) | Term::Entity(_) => true,
+        Term::Field(of, _) => fixed(of),
+        Term::Arith(_, left, right) => fixed(left) && fixed(right),
+        Term::List(items) => items.iter().all(fixed),
+        Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown => false,
+    }
+}
+
+/// What the conditions of a monitor speak of.
+fn watched(whens: &[When]) -> Watched {
+    let mut watched = Watched::default();
+    for when in whens {
+        visit(&when.condition, &mut watched);
+    }
+    watched
+}
+
+fn visit(condition: &Condition, watched: &mut Watched) {
+    match condition {
+        Condition::Fact(fact) => watched.fluents.push(fact.fluent),
+        Condition::Compare(_, left, right) => {
+            visit_term(left, watched);
+            visit_term(right, watched);
+        }
+        Condition::Not(inner) => visit(inner, watched),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().for_each(|part| visit(part, watched)),
+        Condition::Literal(_)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => {}
+    }
+}
+
+fn visit_term(term: &Term, watched: &mut Watched) {
+    match term {
+        Term::Measure(id, _) => watched.measures.push(*id),
+        Term::Arith(_, left, right) => {
+            visit_term(left, watched);
+            visit_term(right, watched);
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,79 @@
+//! Branches that run at once: each is proved with what the others may change unknown, and their effects must agree.
+
+use rustc_hash::FxHashMap;
+
+use super::Prover;
+use super::errors::Conflict;
+use super::facts::{Atom, Delta, show};
+use super::value::{Cause, Value};
+use crate::ir::StepId;
+
+impl Prover<'_> {
+    pub(crate) fn parallel(&mut self, id: StepId, branches: &[Vec<StepId>]) {
+        if !self.enter_fixpoint(id) {
+            return;
+        }
+        let mark = self.facts.mark();
+        let said = self.diagnostics.len();
+        // What each branch may change, found by proving it alone.
+        let mut changed = Vec::with_capacity(branches.len());
+        for branch in branches {
+            self.block(branch);
+            changed.push(self.facts.touched(mark));
+            self.back_to(mark);
+            self.live = true;
+        }
+        self.diagnostics.truncate(said);
+        let mut deltas = Vec::with_capacity(branches.len());
+        let mut live = true;
+        for (index, branch) in branches.iter().enumerate() {
+            let others = changed.iter().enumerate().filter(|(other, _)| *other != index);
+            for ((fluent, key), _) in others.flat_map(|(_, touched)| touched) {
+                self.facts.set(*fluent, *key, Value::open(Cause::step(id)));
+            }
+            self.block(branch);
+            live &= self.live;
+            deltas.push(self.facts.delta(mark));
+            self.back_to(mark);
+            self.live = true;
+        }
+        let joined = self.compose(id, &changed, &deltas);
+        self.fixpoints -= 1;
+        self.facts.replay(&joined);
+        self.live = live;
+    }
+
+    /// The effects of all branches together. Two branches that leave one fact with different values are an error.
+    fn compose(&mut self, id: StepId, changed: &[Vec<(Atom, Value)>], deltas: &[Delta]) -> Delta {
+        let mut written: FxHashMap<Atom, Value> = FxHashMap::default();
+        for (touched, delta) in changed.iter().zip(deltas) {
+            let mut atoms: Vec<_> = touched.iter().map(|(atom, _)| *atom).collect();
+            atoms.sort_unstable();
+            for atom in atoms {
+                let value = delta.get(&self.facts, atom);
+                match written.get(&atom).copied() {
+                    None => {
+                        written.insert(atom, value);
+                    }
+                    Some(first) if first.same_set(value) => {}
+                    Some(first) => {
+                        if (first.is_true() && value.is_false()) || (first.is_false() && value.is_true()) {
+                            self.conflict(id, atom, first, value);
+                        }
+                        written.insert(atom, Value::open(Cause::step(id)));
+                    }
+                }
+            }
+        }
+        Delta::new(written)
+    }
+
+    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {
+        let Some(def) = self.library.fluent(fluent) else { return };
+        let fact = show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
+        let cause = |value: Value| if value.yes.is_some() { value.yes } else { value.no };
+        let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
+        let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));
+        self.diagnostics.push(Conflict { span, fact, first, second }.into());
+    }
+}

@@ -1,0 +1,97 @@
+//! What a binding may be. One that a description finds exactly once in the scene is that entity; any other is a symbol:
+//! an entity of its own that may be one of those it fits, or any of its kind.
+
+use crate::ir::{Base, Entity, Kind, Program, Ty};
+use crate::library::Library;
+use crate::world::World;
+
+/// What stands behind a binding.
+#[derive(Clone, Debug)]
+pub(crate) struct Symbols {
+    /// By binding: the entity that stands for it in facts; none where it is no entity.
+    bindings: Vec<Option<Entity>>,
+    symbols: Vec<Symbol>,
+    first: u16,
+}
+
+/// An entity of which it is not known which it is.
+#[derive(Clone, Debug)]
+pub(crate) struct Symbol {
+    pub(crate) kind: Kind,
+    /// Those it may be; none where it may be any of its kind.
+    pub(crate) may_be: Option<Vec<Entity>>,
+}
+
+impl Symbols {
+    pub(crate) fn new(program: &Program, library: &Library, world: &World) -> Self {
+        let first = u16::try_from(world.entities().len()).unwrap_or(u16::MAX);
+        let mut table = Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
+        for binding in &program.bindings {
+            let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
+                table.bindings.push(None);
+                continue;
+            };
+            let found = binding.description.as_ref().map(|text| world.described(library, text, kind));
+            let entity = match found.as_deref() {
+                Some([only]) => Some(*only),
+                Some([]) | None => table.add(kind, None),
+                Some(several) => table.add(kind, Some(several.to_vec())),
+            };
+            table.bindings.push(entity);
+        }
+        table
+    }
+
+    fn add(&mut self, kind: Kind, may_be: Option<Vec<Entity>>) -> Option<Entity> {
+        // The last number stands for `any`.
+        let index = u16::try_from(self.symbols.len()).ok()?.checked_add(self.first).filter(|id| *id < u16::MAX)?;
+        self.symbols.push(Symbol { kind, may_be });
+        Some(Entity(index))
+    }
+
+    pub(crate) fn of_binding(&self, index: usize) -> Option<Entity> {
+        self.bindings.get(index).copied().flatten()
+    }
+
+    pub(crate) fn get(&self, entity: Entity) -> Option<&Symbol> {
+        self.symbols.get(usize::from(entity.0.checked_sub(self.first)?))
+    }
+
+    /// The binding that a symbol stands for.
+    pub(crate) fn binding_of(&self, entity: Entity) -> Option<usize> {
+        self.get(entity)?;
+        self.bindings.iter().position(|bound| *bound == Some(entity))
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.symbols.is_empty()
+    }
+
+    pub(crate) fn kind(&self, world: &World, entity: Entity) -> Option<Kind> {
+        world.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
+    }
+
+    /// Whether two entities may be the same.
+    pub(crate) fn may_equal(&self, library: &Library, world: &World, a: Entity, b: Entity) -> bool {
+        if a == b {
+            return true;
+        }
+        match (self.get(a), self.get(b)) {
+            (None, None) => false,
+            (Some(symbol), None) => Self::may_be(library, world, symbol, b),
+            (None, Some(symbol)) => Self::may_be(library, world, symbol, a),
+            (Some(one), Some(two)) => match (&one.may_be, &two.may_be) {
+                (Some(list), _) => list.iter().any(|entity| Self::may_be(library, world, two, *entity)),
+                (None, Some(list)) => list.iter().any(|entity| Self::may_be(library, world, one, *entity)),
+                (None, None) => library.is_kind(one.kind, two.kind) || library.is_kind(two.kind, one.kind),
+            },
+        }
+    }
+
+    fn may_be(library: &Library, world: &World, symbol: &Symbol, entity: Entity) -> bool {
+        match &symbol.may_be {
+            Some(list) => list.contains(&entity),
+            None => world.entities().kind(entity).is_some_and(|kind| library.is_kind(kind, symbol.kind)),
+        }
+    }
+}

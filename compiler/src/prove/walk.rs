@@ -1,0 +1,303 @@
+//! The walk over blocks and steps.
+
+use motet_syntax::ast::EndKind;
+
+use super::Prover;
+use super::collect::{Collector, Enclosing};
+use super::errors::{NeverCaught, TooDeep, Unreached};
+use super::eval::Frame;
+use super::facts::Delta;
+use super::value::{Cause, Value};
+use super::MAX_FIXPOINTS;
+use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
+
+impl Prover<'_> {
+    pub(crate) fn block(&mut self, block: &[StepId]) {
+        for id in block {
+            if !self.live {
+                return;
+            }
+            self.step(*id);
+        }
+    }
+
+    fn step(&mut self, id: StepId) {
+        let program = self.program;
+        let Some(step) = program.steps.get(id.index()) else { return };
+        if let Some(reached) = self.proof.reached.get_mut(id.index()) {
+            *reached = true;
+        }
+        match &step.kind {
+            StepKind::Call(call) => self.call(id, call, step.span),
+            StepKind::Sequence { body, .. } => self.block(body),
+            StepKind::Inline { body, .. } => self.inline(id, body),
+            StepKind::If { condition, then, otherwise, .. } => {
+                self.branch(id, condition, then, otherwise.as_deref().unwrap_or_default());
+            }
+            StepKind::Wait { condition, .. } => {
+                self.throw(TIMEOUT, self.enclosing.len());
+                self.await_condition(condition, Cause::step(id));
+            }
+            StepKind::Monitor { whens, body } => self.monitor(id, whens, body),
+            StepKind::Try { body, catches } => self.attempt(body, catches),
+            StepKind::Repeat { times, body, until } => {
+                let until = until.as_ref().map(|(condition, _)| condition);
+                self.looped(id, body, |prover, back| prover.repeat_exits(id, *times, until, back));
+            }
+            StepKind::Each { item, body, .. } => {
+                let exhausted = self.library.names.failures.get("exhausted").copied();
+                if let Some(kind) = exhausted {
+                    self.throw(kind, self.enclosing.len());
+                }
+                let before = Delta::default();
+                let symbol = self.symbols.of_binding(item.index());
+                self.looped_with(id, body, vec![before], |prover| prover.forget(symbol), |prover, back| {
+                    let way = prover.facts.delta(back.mark);
+                    back.ways.push(way.clone());
+                    back.back = Some(way);
+                });
+            }
+            StepKind::Parallel { branches } => self.parallel(id, branches),
+            StepKind::End { kind, of, .. } => self.end(*kind, *of),
+        }
+    }
+
+    /// Takes the facts back, and tells those who collect states.
+    pub(crate) fn back_to(&mut self, mark: usize) {
+        self.facts.back_to(mark);
+        for enclosing in &mut self.enclosing {
+            enclosing.cut_to(mark);
+        }
+    }
+
+    /// Goes on where any of the ways leads, all from `mark`; nowhere if there is none.
+    pub(crate) fn meet(&mut self, mark: usize, ways: &[Delta]) {
+        self.back_to(mark);
+        self.live = !ways.is_empty();
+        if self.live {
+            self.facts.join(ways);
+        }
+    }
+
+    fn branch(&mut self, id: StepId, condition: &Condition, then: &[StepId], otherwise: &[StepId]) {
+        let mark = self.facts.mark();
+        let mut ways = Vec::with_capacity(2);
+        for (truth, block) in [(true, then), (false, otherwise)] {
+            self.live = self.assume(condition, truth, Cause::step(id), Frame::default());
+            if self.live {
+                self.block(block);
+            }
+            if self.live {
+                ways.push(self.facts.delta(mark));
+            }
+            self.back_to(mark);
+        }
+        self.meet(mark, &ways);
+    }
+
+    /// After a wait its condition holds, whatever was known before: something else may have brought it about.
+    fn await_condition(&mut self, condition: &Condition, cause: Cause) {
+        match condition {
+            Condition::Fact(fact) => {
+                let known = self.evaluate(condition, Frame::default());
+                let key = self.key(fact, Frame::default()).filter(|key| !key.is_pattern());
+                if let (Some(key), false) = (key, known.is_true()) {
+                    self.facts.set(fact.fluent, key, known.narrow(true, cause).unwrap_or(Value::yes(cause)));
+                }
+            }
+            Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
+            Condition::Not(inner) => {
+                if let Condition::Fact(fact) = &**inner {
+                    if let Some(key) = self.key(fact, Frame::default()) {
+                        self.facts.set(fact.fluent, key, Value::no(cause));
+                    }
+                }
+            }
+            Condition::Literal(_)
+            | Condition::Compare(..)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::AnyOf(_)
+            | Condition::Unknown => {}
+        }
+    }
+
+    fn inline(&mut self, id: StepId, body: &[StepId]) {
+        let mark = self.facts.mark();
+        self.enclosing.push(Enclosing::Inline { step: id, exits: Collector::new(mark) });
+        self.block(body);
+        let Some(Enclosing::Inline { exits, .. }) = self.enclosing.pop() else { return };
+        if exits.hit {
+            let mut ways = vec![exits.delta()];
+            if self.live {
+                ways.push(self.facts.delta(mark));
+            }
+            self.meet(mark, &ways);
+        }
+    }
+
+    fn attempt(&mut self, body: &[StepId], catches: &[Catch]) {
+        let mark = self.facts.mark();
+        let collectors = catches.iter().map(|catch| {
+            let on = catch.on.as_ref().map(|kinds| kinds.iter().map(|(kind, _)| *kind).collect());
+            (on, Collector::new(mark), Vec::new())
+        });
+        self.enclosing.push(Enclosing::Try { catches: collectors.collect() });
+        self.block(body);
+        let Some(Enclosing::Try { catches: caught }) = self.enclosing.pop() else { return };
+        let mut ways = Vec::with_capacity(1 + catches.len());
+        if self.live {
+            ways.push(self.facts.delta(mark));
+        }
+        for (catch, (_, states, kinds)) in catches.iter().zip(&caught) {
+            for (kind, span) in catch.on.iter().flatten() {
+                if !kinds.contains(kind) {
+                    let name = self.library.failure_name(*kind).into();
+                    self.diagnostics.push(NeverCaught { span: *span, name }.into());
+                }
+            }
+            self.back_to(mark);
+            if states.hit {
+                self.live = true;
+                self.facts.replay(&states.delta());
+                self.block(&catch.body);
+                if self.live {
+                    ways.push(self.facts.delta(mark));
+                }
+            } else {
+                // That nothing is caught was said; its steps need no word of their own.
+                self.silence(&catch.body);
+            }
+        }
+        self.meet(mark, &ways);
+    }
+
+    fn silence(&mut self, block: &[StepId]) {
+        for id in block {
+            if let Some(reached) = self.proof.reached.get_mut(id.index()) {
+                *reached = true;
+            }
+        }
+    }
+
+    fn repeat_exits(&mut self, id: StepId, times: u32, until: Option<&Condition>, back: &mut Back) {
+        let here = self.facts.mark();
+        let Some(until) = until else {
+            let way = self.facts.delta(back.mark);
+            back.back = (times > 1).then(|| way.clone());
+            back.ways.push(way);
+            return;
+        };
+        let cause = Cause::step(id);
+        if self.assume(until, true, cause, Frame::default()) {
+            back.ways.push(self.facts.delta(back.mark));
+        }
+        self.back_to(here);
+        if self.assume(until, false, cause, Frame::default()) {
+            if let Some(kind) = self.library.names.failures.get("exhausted").copied() {
+                self.throw(kind, self.enclosing.len());
+            }
+            back.back = (times > 1).then(|| self.facts.delta(back.mark));
+        }
+    }
+
+    fn looped(&mut self, id: StepId, body: &[StepId], exits: impl Fn(&mut Self, &mut Back)) {
+        self.looped_with(id, body, Vec::new(), |_| {}, exits);
+    }
+
+    /// A loop to its fixed point: the state at its head is the join of the entry and of every back edge.
+    fn looped_with(
+        &mut self,
+        id: StepId,
+        body: &[StepId],
+        before: Vec<Delta>,
+        begin: impl Fn(&mut Self),
+        exits: impl Fn(&mut Self, &mut Back),
+    ) {
+        if !self.enter_fixpoint(id) {
+            return;
+        }
+        let mark = self.facts.mark();
+        let said = self.diagnostics.len();
+        let mut head = Delta::default();
+        loop {
+            self.diagnostics.truncate(said);
+            self.facts.replay(&head);
+            begin(self);
+            self.block(body);
+            let mut back = Back { mark, ways: before.clone(), back: None };
+            if self.live {
+                exits(self, &mut back);
+            }
+            self.back_to(mark);
+            let next = back.back.as_ref().map(|way| head.or(way, &self.facts));
+            let settled = next.as_ref().is_none_or(|next| next.same_sets(&head, &self.facts));
+            if settled {
+                self.fixpoints -= 1;
+                return self.meet(mark, &back.ways);
+            }
+            self.live = true;
+            head = next.unwrap_or_default();
+        }
+    }
+
+    /// Each level of loops and branches is proved at least twice: beyond a limit that would take for ever.
+    pub(crate) fn enter_fixpoint(&mut self, id: StepId) -> bool {
+        if self.fixpoints >= MAX_FIXPOINTS {
+            let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
+            self.diagnostics.push(TooDeep { span, limit: MAX_FIXPOINTS }.into());
+            return false;
+        }
+        self.fixpoints += 1;
+        true
+    }
+
+    /// Ends the policy, or the inlined policy `of`.
+    pub(crate) fn end(&mut self, kind: EndKind, of: Option<StepId>) {
+        let depth = self.enclosing.iter().rposition(|enclosing| {
+            matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of)
+        });
+        match (kind, of, depth) {
+            (EndKind::Done, None, _) => self.check_goal(),
+            (EndKind::Done, Some(_), Some(depth)) => {
+                if let Some(Enclosing::Inline { exits, .. }) = self.enclosing.get_mut(depth) {
+                    exits.see(&self.facts);
+                }
+            }
+            (EndKind::Fail, Some(_), Some(depth)) => {
+                if let Some(kind) = self.library.names.failures.get("failed").copied() {
+                    self.throw(kind, depth);
+                }
+            }
+            (EndKind::Fail | EndKind::Replan, _, _) | (EndKind::Done, Some(_), None) => {}
+        }
+        self.live = false;
+    }
+
+    /// The first step of every run of steps that no way leads to.
+    pub(crate) fn report_unreached(&mut self) {
+        let program = self.program;
+        let reached = |id: &StepId| self.proof.reached.get(id.index()).copied().unwrap_or(true);
+        let mut found = Vec::new();
+        for (index, step) in program.steps.iter().enumerate() {
+            let parent_reached = step.place.parent.as_ref().is_none_or(reached);
+            let here = self.proof.reached.get(index).copied().unwrap_or(true);
+            let earlier = found.last().is_some_and(|place: &crate::ir::Place| {
+                place.parent == step.place.parent && place.slot == step.place.slot
+            });
+            if parent_reached && !here && !earlier {
+                found.push(step.place);
+                self.diagnostics.push(Unreached { span: step.span }.into());
+            }
+        }
+    }
+}
+
+/// Where the body of a loop leads.
+pub(crate) struct Back {
+    pub(crate) mark: usize,
+    /// Out of the loop.
+    pub(crate) ways: Vec<Delta>,
+    /// To its head.
+    pub(crate) back: Option<Delta>,
+}

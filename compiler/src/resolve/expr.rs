@@ -1,0 +1,406 @@
+//! Terms: what a value means and which type it has. Names and types are found together, because what a plain string of
+//! the JSON form means depends on the type that is asked for.
+
+use motet_syntax::ast::{ArithOp, Expr, ExprKind, Name};
+use motet_syntax::unit::{Dimension, Unit};
+use motet_syntax::{Diagnostic, Form, Span};
+use smol_str::{SmolStr, format_smolstr};
+
+use super::errors::{
+    MisplacedAny, MissingUnit, NotACondition, UnknownBinding, UnknownCase, UnknownField, UnknownFluent, UnknownName,
+    WrongDimension, WrongType,
+};
+use super::near::{list, near};
+use super::scope::Scope;
+use crate::ir::{Base, Binding, EnumId, ROBOT, Term, Ty};
+use crate::library::Library;
+use crate::world::Entities;
+
+/// Resolves expressions in one scope.
+pub(crate) struct Resolver<'a> {
+    pub(crate) library: &'a Library,
+    pub(crate) entities: &'a Entities,
+    /// Whether a scene is given: without one an unknown name may be an entity of it.
+    pub(crate) has_scene: bool,
+    /// In text a quantity needs its unit.
+    pub(crate) form: Form,
+    pub(crate) scope: Scope,
+    pub(crate) bindings: Vec<Binding>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// What a value is asked for: its type and, for messages, the place.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    pub(crate) ty: Ty,
+    /// The parameter and the callee: "`object` of `pick`".
+    pub(crate) place: Place<'a>,
+}
+
+/// Where a value stands.
+#[derive(Clone, Copy)]
+pub(crate) enum Place<'a> {
+    /// A parameter of something called.
+    Param(&'a str, &'a str),
+    /// Something with a name of its own: "a deadline".
+    Named(&'static str),
+}
+
+impl std::fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Param(param, callee) => write!(f, "`{param}` of `{callee}`"),
+            Self::Named(name) => f.write_str(name),
+        }
+    }
+}
+
+impl<'a> Resolver<'a> {
+    pub(crate) fn say(&mut self, mistake: impl Into<Diagnostic>) {
+        self.diagnostics.push(mistake.into());
+    }
+
+    /// A value that must have a given type.
+    pub(crate) fn term_of(&mut self, expr: &Expr, wanted: Wanted<'_>) -> Term {
+        let (term, ty) = self.term(expr, Some(wanted));
+        if self.library.fits(wanted.ty, ty) {
+            // A whole number where a number is asked for.
+            return match (term, wanted.ty.base) {
+                (Term::Int(value), Base::Number) => Term::Number(value as f64),
+                (term, _) => term,
+            };
+        }
+        let actual = self.describe(&term, ty);
+        let expected = self.library.type_name(wanted.ty);
+        self.say(WrongType { span: expr.span, expected, actual, place: wanted.place.to_string() });
+        Term::Unknown
+    }
+
+    /// A value of any type; `wanted` says how to read what is ambiguous by itself.
+    pub(crate) fn term(&mut self, expr: &Expr, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
+        match &expr.kind {
+            ExprKind::Bool(value) => (Term::Bool(*value), Ty::BOOL),
+            ExprKind::Number(value) => self.number(*value, expr.span, wanted),
+            ExprKind::Quantity(value, unit) => {
+                (Term::Number(unit.to_si(*value)), Ty::plain(Base::Quantity(unit.dimension())))
+            }
+            ExprKind::Text(text) => (Term::Text(text.clone()), Ty::TEXT),
+            ExprKind::Name(name) => self.name(name, expr.span, wanted),
+            ExprKind::Binding(name) => self.binding(name, expr.span),
+            ExprKind::Plain(text) => self.plain(text, expr.span, wanted),
+            ExprKind::Any => {
+                self.say(MisplacedAny { span: expr.span });
+                (Term::Unknown, Ty::UNKNOWN)
+            }
+            ExprKind::List(items) => self.list(items, wanted),
+            ExprKind::Call(call) => self.measure(call),
+            ExprKind::Field(of, name) => self.field(of, name),
+            ExprKind::Arith(op, left, right) => self.arith(*op, left, right, expr.span),
+            ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
+                self.say(NotACondition { span: expr.span, found: "a condition", wanted: "a value" });
+                (Term::Unknown, Ty::UNKNOWN)
+            }
+        }
+    }
+
+    fn number(&mut self, value: f64, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
+        if let Some(Wanted { ty: Ty { base: Base::Quantity(dimension), lists: 0 }, .. }) = wanted {
+            if self.form == Form::Text {
+                let unit = if dimension == Dimension::NONE { "%" } else { dimension.si_symbol() };
+                if !unit.is_empty() {
+                    let value = if dimension == Dimension::NONE { value * 100.0 } else { value };
+                    let others = list(Unit::symbols_of(dimension).map(SmolStr::new));
+                    let ty = dimension.type_name().unwrap_or("quantity").to_owned();
+                    self.say(MissingUnit { span, value: value.to_string(), unit, ty, others });
+                }
+            }
+            return (Term::Number(value), Ty::plain(Base::Quantity(dimension)));
+        }
+        // A whole number, unless a number is asked for; beyond 2^53 a double is no longer exact.
+        if value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0 {
+            return (Term::Int(value as i64), Ty::INT);
+        }
+        (Term::Number(value), Ty::plain(Base::Number))
+    }
+
+    fn name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
+        if let Some(found) = self.in_scope(name) {
+            return found;
+        }
+        if let Some(Wanted { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted {
+            if let Some(case) = self.case_of(id, name) {
+                return case;
+            }
+        }
+        if let Some((entity, kind)) = self.entities.find(name) {
+            return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
+        }
+        if let Some((id, case)) = self.library.names.cases.get(name) {
+            return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
+        }
+        self.unknown_name(name, span, wanted);
+        (Term::Unknown, Ty::UNKNOWN)
+    }
+
+    /// A plain string of the JSON form.
+    fn plain(&mut self, text: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
+        let Some(ty) = wanted.map(|wanted| wanted.ty) else {
+            if let Some((entity, kind)) = self.entities.find(text) {
+                return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
+            }
+            if let Some((id, case)) = self.library.names.cases.get(text) {
+                return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
+            }
+            return match parse_quantity(text) {
+                Some((value, unit)) => {
+                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
+                }
+                None => (Term::Text(text.clone()), Ty::TEXT),
+            };
+        };
+        match ty {
+            Ty { base: Base::Text | Base::Unknown, lists: 0 } => (Term::Text(text.clone()), Ty::TEXT),
+            Ty { base: Base::Entity(_), .. } => match self.entities.find(text) {
+                Some((entity, kind)) => (Term::Entity(entity), Ty::plain(Base::Entity(kind))),
+                None => {
+                    self.unknown_name(text, span, wanted);
+                    (Term::Unknown, Ty::UNKNOWN)
+                }
+            },
+            Ty { base: Base::Enum(id), .. } => match self.case_of(id, text) {
+                Some(case) => case,
+                None => {
+                    self.unknown_name(text, span, wanted);
+                    (Term::Unknown, Ty::UNKNOWN)
+                }
+            },
+            Ty { base: Base::Quantity(_), lists: 0 } => match parse_quantity(text) {
+                Some((value, unit)) => {
+                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
+                }
+                None => (Term::Text(text.clone()), Ty::TEXT),
+            },
+            Ty { base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown, .. }
+            | Ty { base: Base::Quantity(_), .. } => (Term::Text(text.clone()), Ty::TEXT),
+        }
+    }
+
+    fn in_scope(&mut self, name: &str) -> Option<(Term, Ty)> {
+        let entry = self.scope.find(name)?;
+        let found = (entry.term.clone(), entry.ty);
+        if let Term::Binding(id) = found.0 {
+            if let Some(binding) = self.bindings.get_mut(id.index()) {
+                binding.uses += 1;
+            }
+        }
+        Some(found)
+    }
+
+    fn binding(&mut self, name: &SmolStr, span: Span) -> (Term, Ty) {
+        if let Some(found) = self.in_scope(name) {
+            return found;
+        }
+        let near = near(name, self.scope.names().map(SmolStr::as_str));
+        self.say(UnknownBinding { span, name: name.clone(), near });
+        (Term::Unknown, Ty::UNKNOWN)
+    }
+
+    fn case_of(&self, id: EnumId, name: &str) -> Option<(Term, Ty)> {
+        let def = self.library.enums.get(id.index())?;
+        let case = def.cases.iter().position(|case| case == name)?;
+        Some((Term::Case(id, u16::try_from(case).ok()?), Ty::plain(Base::Enum(id))))
+    }
+
+    fn unknown_name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) {
+        let name = name.clone();
+        let library = self.library;
+        match wanted.map(|wanted| wanted.ty.base) {
+            Some(Base::Enum(id)) => {
+                let cases = library.enums.get(id.index()).map(|def| def.cases.as_slice()).unwrap_or_default();
+                let mistake = UnknownCase {
+                    span,
+                    of: format!("`{}`", library.type_name(Ty::plain(Base::Enum(id)))),
+                    near: near(&name, cases.iter().map(SmolStr::as_str)),
+                    known: list(cases.iter().cloned()),
+                    name,
+                };
+                self.say(mistake);
+            }
+            Some(Base::Entity(kind)) => {
+                let fitting: Vec<_> =
+                    self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
+                let names = self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
+                let near = near(&name, names);
+                let known = if fitting.len() <= 12 { list(fitting.iter().map(|row| row.1.clone())) } else { String::new() };
+                let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
+                let scene = self.has_scene;
+                self.say(UnknownName { span, name, near, wanted, known, scene });
+            }
+            Some(_) | None => {
+                let names = self.scope.names().map(SmolStr::as_str);
+                let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())));
+                let scene = self.has_scene;
+                self.say(UnknownName { span, name, near, wanted: String::new(), known: String::new(), scene });
+            }
+        }
+    }
+
+    fn list(&mut self, items: &[Expr], wanted: Option<Wanted<'_>>) -> (Term, Ty) {
+        let element = wanted.and_then(|wanted| Some(Wanted { ty: wanted.ty.element()?, place: wanted.place }));
+        let mut ty = element.map_or(Ty::UNKNOWN, |element| element.ty);
+        let mut terms = Vec::with_capacity(items.len());
+        for (index, item) in items.iter().enumerate() {
+            match element {
+                Some(element) => terms.push(self.term_of(item, element)),
+                None => {
+                    let first = Wanted { ty, place: Place::Named("an element of this list") };
+                    let (term, actual) = self.term(item, (index > 0).then_some(first));
+                    if index == 0 {
+                        ty = actual;
+                    }
+                    terms.push(term);
+                }
+            }
+        }
+        (Term::List(terms), ty.list())
+    }
+
+    fn measure(&mut self, call: &motet_syntax::ast::Call) -> (Term, Ty) {
+        let library = self.library;
+        let Some(id) = library.names.measures.get(&call.name.text).copied() else {
+            if library.names.fluents.contains_key(&call.name.text) {
+                self.say(NotACondition { span: call.span, found: "a condition", wanted: "a value" });
+            } else {
+                let near = near(&call.name.text, library.measures.iter().map(|def| def.name.as_str()));
+                let name = call.name.text.clone();
+                self.say(UnknownFluent { span: call.name.span, name, near, wanted: "measure" });
+            }
+            return (Term::Unknown, Ty::UNKNOWN);
+        };
+        let Some(def) = library.measure(id) else { return (Term::Unknown, Ty::UNKNOWN) };
+        let args = self.arguments(call, &def.params);
+        (Term::Measure(id, args.into_iter().map(|arg| arg.unwrap_or(Term::Unknown)).collect()), def.result)
+    }
+
+    fn field(&mut self, of: &Expr, name: &Name) -> (Term, Ty) {
+        let (term, ty) = self.term(of, None);
+        let library = self.library;
+        if term == Term::Entity(ROBOT) {
+            if let Some((value, ty)) = library.numbers.get(&name.text) {
+                return (Term::Number(*value), *ty);
+            }
+            if library.robot.is_empty() {
+                return (Term::Field(Box::new(term), name.text.clone()), Ty::UNKNOWN);
+            }
+        }
+        let Some(kind) = ty.kind() else {
+            if ty.base != Base::Unknown {
+                let of = library.type_name(ty);
+                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near: None });
+            }
+            return (Term::Unknown, Ty::UNKNOWN);
+        };
+        match library.field(kind, &name.text) {
+            Some(ty) => (Term::Field(Box::new(term), name.text.clone()), ty),
+            None => {
+                let robot = (term == Term::Entity(ROBOT)).then(|| library.numbers.keys());
+                let fields = library.kinds.iter().flat_map(|def| def.fields.keys()).chain(robot.into_iter().flatten());
+                let near = near(&name.text, fields.map(SmolStr::as_str));
+                let of = format_smolstr!("`{}`", library.type_name(ty)).to_string();
+                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near });
+                (Term::Unknown, Ty::UNKNOWN)
+            }
+        }
+    }
+
+    fn arith(&mut self, op: ArithOp, left: &Expr, right: &Expr, span: Span) -> (Term, Ty) {
+        let (left, left_ty) = self.term(left, None);
+        let (right, right_ty) = self.term(right, None);
+        let (Some(a), Some(b)) = (dimension(left_ty), dimension(right_ty)) else {
+            if left_ty.base != Base::Unknown && right_ty.base != Base::Unknown {
+                self.mismatch(symbol(op), left_ty, right_ty, span);
+            }
+            return (Term::Unknown, Ty::UNKNOWN);
+        };
+        let result = match op {
+            ArithOp::Add | ArithOp::Subtract if a == b => a,
+            ArithOp::Add | ArithOp::Subtract => {
+                self.mismatch(symbol(op), left_ty, right_ty, span);
+                return (Term::Unknown, Ty::UNKNOWN);
+            }
+            ArithOp::Multiply => a.times(b),
+            ArithOp::Divide => a.over(b),
+        };
+        let plain = result == Dimension::NONE;
+        let whole = plain && left_ty == Ty::INT && right_ty == Ty::INT && op != ArithOp::Divide;
+        let base = if whole {
+            Base::Int
+        } else if plain {
+            Base::Number
+        } else {
+            Base::Quantity(result)
+        };
+        (Term::Arith(op, Box::new(left), Box::new(right)), Ty::plain(base))
+    }
+
+    pub(crate) fn mismatch(&mut self, operator: &'static str, left: Ty, right: Ty, span: Span) {
+        let left = self.library.type_name(left);
+        let right = self.library.type_name(right);
+        self.say(WrongDimension { span, left, right, operator });
+    }
+
+    /// A value in words, for a message about its type.
+    fn describe(&self, term: &Term, ty: Ty) -> String {
+        let name = self.library.type_name(ty);
+        match term {
+            Term::Entity(id) => match self.entities.name(*id) {
+                Some(id) => format!("`{id}`, which is a {name}"),
+                None => name,
+            },
+            Term::Case(id, case) => format!("the case `{}` of {name}", self.library.case_name(*id, *case)),
+            Term::Text(text) => format!("the text \"{}\"", text.chars().take(40).collect::<String>()),
+            Term::Binding(id) => match self.bindings.get(id.index()) {
+                Some(binding) => format!("`{}`, which is a {name}", binding.name),
+                None => name,
+            },
+            Term::Bool(_)
+            | Term::Int(_)
+            | Term::Number(_)
+            | Term::List(_)
+            | Term::Param(_)
+            | Term::Result
+            | Term::Each
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => name,
+        }
+    }
+}
+
+/// The dimension of a number or quantity.
+pub(crate) fn dimension(ty: Ty) -> Option<Dimension> {
+    match ty {
+        Ty { base: Base::Int | Base::Number, lists: 0 } => Some(Dimension::NONE),
+        Ty { base: Base::Quantity(dimension), lists: 0 } => Some(dimension),
+        _ => None,
+    }
+}
+
+fn symbol(op: ArithOp) -> &'static str {
+    match op {
+        ArithOp::Add => "+",
+        ArithOp::Subtract => "-",
+        ArithOp::Multiply => "*",
+        ArithOp::Divide => "/",
+    }
+}
+
+/// A quantity in a JSON string: "20 cm", "80%".
+pub(crate) fn parse_quantity(text: &str) -> Option<(f64, Unit)> {
+    let text = text.trim();
+    let split = text.find(|c: char| !matches!(c, '0'..='9' | '.' | '-' | '+' | 'e' | 'E'))?;
+    let (number, unit) = text.split_at_checked(split)?;
+    let value: f64 = number.parse().ok()?;
+    Some((value, Unit::parse(unit.trim())?)).filter(|_| value.is_finite())
+}

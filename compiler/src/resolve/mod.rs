@@ -1,0 +1,90 @@
+//! Stage 1: names and types. An AST becomes a [`Program`]: every name an index, every argument in its place, every
+//! sub-policy inlined. Names and types are one stage, because a plain string of the JSON form is an entity, a case, a
+//! quantity or a text as the type where it stands says.
+
+mod call;
+mod condition;
+pub(crate) mod errors;
+pub(crate) mod expr;
+pub(crate) mod near;
+pub(crate) mod scope;
+mod step;
+
+use motet_syntax::ast::{Expr, Policy};
+use motet_syntax::{Diagnostic, Form};
+
+use self::expr::{Place, Resolver, Wanted};
+use self::step::Steps;
+use crate::ir::{Program, Term, Ty};
+use crate::library::Library;
+use crate::world::World;
+
+/// The most steps of a policy with its sub-policies inlined.
+pub const MAX_NODES: usize = 100_000;
+/// The largest count of a loop, a retry or a reaction.
+pub const MAX_COUNT: u32 = 1_000_000;
+/// The longest deadline, in seconds: a week.
+pub const MAX_SECONDS: f64 = 604_800.0;
+
+/// Resolves one policy.
+pub(crate) fn resolve(
+    policy: &Policy,
+    form: Form,
+    library: &Library,
+    world: &World,
+) -> (Program, Vec<Diagnostic>) {
+    let resolver = Resolver {
+        library,
+        entities: world.entities(),
+        has_scene: world.has_scene(),
+        form,
+        scope: scope::Scope::default(),
+        bindings: Vec::new(),
+        diagnostics: Vec::new(),
+    };
+    let mut steps = Steps::new(resolver);
+    let program = steps.policy(policy);
+    (program, steps.finish())
+}
+
+impl Resolver<'_> {
+    /// A duration that is known beforehand, in seconds.
+    pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
+        let wanted = Wanted { ty: Ty::DURATION, place: Place::Named(place) };
+        match self.term_of(expr, wanted) {
+            Term::Number(value) if value.is_finite() && (0.0..=MAX_SECONDS).contains(&value) => Some(value),
+            Term::Number(value) => {
+                let (least, greatest) = ("0 s".to_owned(), format!("{MAX_SECONDS} s"));
+                let actual = format!("{value} s");
+                self.say(errors::OutOfRange { span: expr.span, place: place.to_owned(), least, greatest, actual });
+                None
+            }
+            Term::Unknown => None,
+            _ => {
+                self.say(errors::NotConstant { span: expr.span, place });
+                None
+            }
+        }
+    }
+
+    /// A count that is known beforehand.
+    pub(crate) fn count(&mut self, expr: &Expr, place: &'static str, least: u32) -> Option<u32> {
+        let wanted = Wanted { ty: Ty::INT, place: Place::Named(place) };
+        match self.term_of(expr, wanted) {
+            Term::Int(value) => {
+                let count = u32::try_from(value).ok().filter(|count| (least..=MAX_COUNT).contains(count));
+                if count.is_none() {
+                    let (least, greatest) = (least.to_string(), MAX_COUNT.to_string());
+                    let (place, actual) = (place.to_owned(), value.to_string());
+                    self.say(errors::OutOfRange { span: expr.span, place, least, greatest, actual });
+                }
+                count
+            }
+            Term::Unknown => None,
+            _ => {
+                self.say(errors::NotConstant { span: expr.span, place });
+                None
+            }
+        }
+    }
+}

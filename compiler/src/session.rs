@@ -1,0 +1,215 @@
+//! What a host holds on to: a library and a world, made once, against which any number of documents is checked.
+
+use motet_graph::Graph;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_syntax::ast::{File, Item, Policy};
+use motet_syntax::{Diagnostic, Parsed, Related, Severity, Sources, Span};
+
+use crate::check::errors::{NoPolicy, OtherRobot};
+use crate::ir::{Program, StepKind};
+use crate::library::{Library, LibraryBuilder};
+use crate::prove::Proof;
+use crate::world::{State, World};
+
+/// Settings of a check.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Options {
+    /// The longest that a policy may take, in seconds.
+    pub max_duration_secs: Option<f64>,
+}
+
+/// A library and a world.
+#[derive(Clone, Debug)]
+pub struct Session {
+    builder: LibraryBuilder,
+    library: Library,
+    world: World,
+    scene: Option<Scene>,
+    state: Option<State>,
+    options: Options,
+}
+
+/// What compiling a document gave.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The graph; none where there is an error.
+    pub graph: Option<Graph>,
+    /// What there is to say, in the order of the document.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Session {
+    /// Prepares a robot's library with the domains on top, and the world of a scene and a state. The diagnostics are
+    /// about these inputs; the files of the library are added to `sources`.
+    #[must_use]
+    pub fn new(
+        robot: Option<&Robot>,
+        domains: &[File],
+        scene: Option<&Scene>,
+        state: Option<&State>,
+        options: Options,
+        sources: &mut Sources,
+    ) -> (Self, Vec<Diagnostic>) {
+        let mut builder = Library::builder(robot, sources);
+        if !domains.is_empty() {
+            builder.layer(domains);
+        }
+        let (library, mut diagnostics) = builder.clone().build();
+        let (world, said) = World::new(&library, scene, state);
+        diagnostics.extend(said);
+        let session = Self { builder, library, world, scene: scene.cloned(), state: state.cloned(), options };
+        (session, diagnostics)
+    }
+
+    /// The declarations in force.
+    #[must_use]
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// Everything there is to say about a document: its front end's findings and those of every policy in it.
+    #[must_use]
+    pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
+        let mut diagnostics = parsed.diagnostics.clone();
+        self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
+            for policy in policies(&parsed.file) {
+                diagnostics.extend(self.analyse(policy, parsed, library, world).2);
+            }
+        });
+        finish(diagnostics)
+    }
+
+    /// Compiles the policy with a name, or the one policy without parameters.
+    #[must_use]
+    pub fn compile(&self, parsed: &Parsed, name: Option<&str>) -> Compiled {
+        let mut diagnostics = parsed.diagnostics.clone();
+        let mut graph = None;
+        self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
+            let runnable = || policies(&parsed.file).filter(|policy| policy.params.is_empty());
+            let chosen = match name {
+                Some(name) => runnable().find(|policy| policy.name.text == name),
+                None => runnable().next().filter(|_| runnable().count() == 1),
+            };
+            let Some(policy) = chosen else {
+                let span = parsed.file.items.first().map_or_else(Span::default, item_span);
+                let known = runnable().map(|policy| policy.name.text.clone()).collect();
+                if !diagnostics.iter().any(|said| said.severity == Severity::Error) {
+                    diagnostics.push(NoPolicy { span, wanted: name.map(Into::into), known }.into());
+                }
+                return;
+            };
+            let (program, proof, said) = self.analyse(policy, parsed, library, world);
+            diagnostics.extend(said);
+            if !diagnostics.iter().any(|said| said.severity == Severity::Error) {
+                graph = Some(crate::lower::lower(&program, &proof, library, world));
+            }
+        });
+        Compiled { graph, diagnostics: finish(diagnostics) }
+    }
+
+    /// Runs with the library and the world of a document: the session's own, unless it declares something itself.
+    fn within(
+        &self,
+        parsed: &Parsed,
+        diagnostics: &mut Vec<Diagnostic>,
+        run: impl FnOnce(&Library, &World, &mut Vec<Diagnostic>),
+    ) {
+        if matches!(parsed.file.items.as_slice(), [Item::Policy(policy)] if policy.params.is_empty()) {
+            return run(&self.library, &self.world, diagnostics);
+        }
+        let mut builder = self.builder.clone();
+        builder.layer(std::slice::from_ref(&parsed.file));
+        let (library, said) = builder.build();
+        let file = parsed.file.items.first().map(|item| item_span(item).file);
+        // What is wrong with the layers below was said when they were read.
+        diagnostics.extend(said.into_iter().filter(|said| Some(said.span.file) == file));
+        let (world, _) = World::new(&library, self.scene.as_ref(), self.state.as_ref());
+        run(&library, &world, diagnostics);
+    }
+
+    fn analyse(
+        &self,
+        policy: &Policy,
+        parsed: &Parsed,
+        library: &Library,
+        world: &World,
+    ) -> (Program, Proof, Vec<Diagnostic>) {
+        let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
+        if let Some(robot) = policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
+        {
+            let (written, given) = (robot.text.clone(), library.robot.clone());
+            diagnostics.push(OtherRobot { span: robot.span, written, given }.into());
+        }
+        diagnostics.extend(crate::check::check(&mut program, library, world, self.options.max_duration_secs));
+        let (proof, said) = crate::prove::prove(&program, library, world);
+        diagnostics.extend(said);
+        for diagnostic in &mut diagnostics {
+            place(diagnostic, policy, &program);
+        }
+        (program, proof, diagnostics)
+    }
+}
+
+fn policies(file: &File) -> impl Iterator<Item = &Policy> {
+    file.items.iter().filter_map(|item| match item {
+        Item::Policy(policy) => Some(policy),
+        Item::Kind(_)
+        | Item::Fluent(_)
+        | Item::Measure(_)
+        | Item::Failure(_)
+        | Item::Enum(_)
+        | Item::Primitive(_)
+        | Item::Entities(_)
+        | Item::Initially(_)
+        | Item::ClosedWorld(_) => None,
+    })
+}
+
+fn item_span(item: &Item) -> Span {
+    match item {
+        Item::Kind(decl) => decl.span,
+        Item::Fluent(decl) => decl.span,
+        Item::Measure(decl) => decl.span,
+        Item::Failure(decl) => decl.span,
+        Item::Enum(decl) => decl.span,
+        Item::Primitive(decl) => decl.span,
+        Item::Policy(decl) => decl.span,
+        Item::Entities(decl) => decl.span,
+        Item::Initially(decl) => decl.span,
+        Item::ClosedWorld(span) => *span,
+    }
+}
+
+/// Gives a finding its path, and moves one inside an inlined policy of another file to the call.
+fn place(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
+    if diagnostic.span.file != policy.span.file {
+        if let Some(call) = call_site(diagnostic.span, policy, program) {
+            diagnostic.related.insert(0, Related::new("in this step of the policy", diagnostic.span));
+            diagnostic.span = call;
+            diagnostic.fix = None;
+        }
+    }
+    diagnostic.path = motet_syntax::path::pointer(policy, diagnostic.span);
+    for related in &mut diagnostic.related {
+        if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {
+            related.path = motet_syntax::path::pointer(policy, span);
+        }
+    }
+}
+
+/// The call in the document by which a step of another file got here.
+fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
+    let mut step = program.steps.iter().find(|step| step.span.contains(span))?;
+    while step.span.file != policy.span.file {
+        step = program.steps.get(step.place.parent?.index())?;
+    }
+    matches!(step.kind, StepKind::Inline { .. }).then_some(step.span)
+}
+
+/// In the order of the document, each finding once.
+fn finish(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.sort_by_key(|said| (said.span, std::cmp::Reverse(said.severity), said.code));
+    diagnostics.dedup_by(|a, b| a.code == b.code && a.span == b.span && a.message == b.message);
+    diagnostics
+}

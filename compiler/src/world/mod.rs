@@ -1,0 +1,115 @@
+//! What the compiler is told of the world: its entities, and the facts that hold at the start. Made once from a library,
+//! a scene and a state, then shared by all policies that are checked against it.
+
+mod entities;
+mod errors;
+mod seed;
+mod state;
+
+pub(crate) use entities::Entities;
+pub use entities::MAX_ENTITIES;
+pub use state::State;
+
+use motet_robots::scene::Scene;
+use motet_syntax::Diagnostic;
+use smol_str::SmolStr;
+
+use crate::ir::{Entity, Fact, Kind, ROBOT, Term};
+use crate::library::Library;
+use crate::prove::facts::{ANY, Facts, Key, arg};
+use crate::prove::value::{Cause, Value};
+
+pub(crate) use errors::CODES;
+
+/// Entities and the facts at the start.
+#[derive(Clone, Debug)]
+pub struct World {
+    entities: Entities,
+    /// The scene's entity behind each of ours, from the first that a scene gave.
+    scene: Option<Scene>,
+    pub(crate) facts: Facts,
+    /// The facts at the start as they were given, in order, for the graph.
+    pub(crate) given: Vec<(Fact, bool)>,
+}
+
+impl World {
+    /// The world of a library, a scene and a state, and what is wrong with them.
+    #[must_use]
+    pub fn new(library: &Library, scene: Option<&Scene>, state: Option<&State>) -> (Self, Vec<Diagnostic>) {
+        let mut diagnostics = Vec::new();
+        let mut entities = Entities::default();
+        for (name, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
+            entities.add(name.into(), library.kind_named(kind));
+        }
+        for (name, kind, _) in &library.entities {
+            entities.add(name.clone(), *kind);
+        }
+        if let Some(scene) = scene {
+            seed::entities(library, scene, &mut entities, &mut diagnostics);
+        }
+        let closed = Value::no(Cause::NOTHING);
+        let default = if library.closed_world { closed } else { Value::NOTHING_KNOWN };
+        let facts = Facts::new(library.fluents.len(), default);
+        let mut world = Self { entities, scene: scene.cloned(), facts, given: Vec::new() };
+        seed::facts(library, &mut world);
+        for (fact, value, _) in &library.initially {
+            world.tell(fact.clone(), *value);
+        }
+        if let Some(state) = state {
+            diagnostics.extend(state.tell(library, &mut world));
+        }
+        (world, diagnostics)
+    }
+
+    pub(crate) fn entities(&self) -> &Entities {
+        &self.entities
+    }
+
+    /// Whether a scene was given.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    /// Records a fact that holds at the start.
+    pub(crate) fn tell(&mut self, fact: Fact, value: bool) {
+        let key = Key::new(fact.args.iter().map(|term| match term {
+            Some(Term::Entity(entity)) => arg(*entity),
+            Some(Term::Case(_, case)) => *case,
+            _ => ANY,
+        }));
+        self.facts.set(fact.fluent, key, Value::of(value, Cause::START));
+        self.given.push((fact, value));
+    }
+
+    /// The entities of a kind that a description fits.
+    pub(crate) fn described(&self, library: &Library, description: &str, kind: Kind) -> Vec<Entity> {
+        let fits = |found: &(Entity, Kind)| library.is_kind(found.1, kind);
+        match &self.scene {
+            Some(scene) => {
+                let matches = scene.matches(description).into_iter();
+                matches.filter_map(|entity| self.entities.find(&entity.id)).filter(fits).map(|found| found.0).collect()
+            }
+            None => self.entities.find(description).filter(fits).map(|found| found.0).into_iter().collect(),
+        }
+    }
+
+    /// A number that an entity of the scene has: `mass`, `width`, or a field of its own, in SI units.
+    pub(crate) fn number(&self, entity: Entity, field: &str) -> Option<f64> {
+        if entity == ROBOT {
+            return None;
+        }
+        let found = self.scene.as_ref()?.entities.get(self.entities.name(entity)?)?;
+        match field {
+            "mass" => found.mass_kg,
+            "width" => found.width(),
+            _ => None,
+        }
+        .or_else(|| found.fields.get(field).copied())
+    }
+
+    /// The name of an entity.
+    pub(crate) fn name(&self, entity: Entity) -> SmolStr {
+        self.entities.name(entity).cloned().unwrap_or_else(|| SmolStr::new_static("?"))
+    }
+}

@@ -1,0 +1,66 @@
+//! A state given from outside: facts known at the start, beside the scene.
+
+use indexmap::IndexMap;
+use motet_syntax::{Diagnostic, Form, Span};
+
+use super::World;
+use super::errors::NotAFact;
+use crate::ir::Term;
+use crate::library::Library;
+use crate::resolve::expr::Resolver;
+use crate::resolve::scope::Scope;
+
+/// Facts in their text form with their values, in order: `{"holding(mug_1)": true}`.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct State {
+    /// Each fact, whether it holds, and where it stands.
+    pub facts: IndexMap<String, (bool, Span)>,
+}
+
+impl State {
+    /// Records every fact of the state in a world. What the scene says otherwise is overridden.
+    pub(super) fn tell(&self, library: &Library, world: &mut World) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        let entities = world.entities().clone();
+        let says_free = self.facts.keys().any(|text| text.trim_start().starts_with("free"));
+        for (text, (value, span)) in &self.facts {
+            let parsed = match motet_syntax::text::condition(text) {
+                Ok(expr) => expr,
+                Err(mistake) => {
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why: mistake.message }.into());
+                    continue;
+                }
+            };
+            let mut resolver = Resolver {
+                library,
+                entities: &entities,
+                has_scene: world.has_scene(),
+                form: Form::Text,
+                scope: Scope::default(),
+                bindings: Vec::new(),
+                diagnostics: Vec::new(),
+            };
+            let fact = match &parsed.kind {
+                motet_syntax::ast::ExprKind::Call(call) => resolver.fact(call),
+                _ => None,
+            };
+            let why = resolver.diagnostics.first().map(|mistake| mistake.message.clone());
+            match (fact, why) {
+                (Some(fact), None) => {
+                    let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
+                    if let (true, true, false, [Some(Term::Entity(held))]) =
+                        (is_holding, *value, says_free, fact.args.as_slice())
+                    {
+                        super::seed::held(library, world, *held);
+                    }
+                    world.tell(fact, *value);
+                }
+                (_, why) => {
+                    let why = why.unwrap_or_else(|| "a fluent is asked for".to_owned());
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why }.into());
+                }
+            }
+        }
+        diagnostics
+    }
+}
