@@ -12,11 +12,11 @@ macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident: $int:ty)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-        pub struct $name(pub $int);
+        pub(crate) struct $name(pub(crate) $int);
         impl $name {
             /// The index into its table.
             #[must_use]
-            pub fn index(self) -> usize {
+            pub(crate) fn index(self) -> usize {
                 self.0 as usize
             }
         }
@@ -45,26 +45,26 @@ ids! {
 }
 
 /// Always there, at these indices.
-pub const ROBOT: Entity = Entity(0);
+pub(crate) const ROBOT: Entity = Entity(0);
 /// The person who gives the instructions.
-pub const USER: Entity = Entity(1);
+pub(crate) const USER: Entity = Entity(1);
 /// Where the robot stood when the policy began.
-pub const START: Entity = Entity(2);
+pub(crate) const START: Entity = Entity(2);
 /// The failure that every primitive can end in.
-pub const TIMEOUT: Failure = Failure(0);
+pub(crate) const TIMEOUT: Failure = Failure(0);
 
 /// A type: a base and how many lists are around it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Ty {
+pub(crate) struct Ty {
     /// What is inside.
-    pub base: Base,
+    pub(crate) base: Base,
     /// How many `List<…>` are around it.
-    pub lists: u8,
+    pub(crate) lists: u8,
 }
 
 /// A type that is no list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Base {
+pub(crate) enum Base {
     /// `Bool`
     Bool,
     /// `Int`
@@ -87,37 +87,37 @@ pub enum Base {
 
 impl Ty {
     /// A type that fits everything, after an error.
-    pub const UNKNOWN: Self = Self::plain(Base::Unknown);
+    pub(crate) const UNKNOWN: Self = Self::plain(Base::Unknown);
     /// `Bool`
-    pub const BOOL: Self = Self::plain(Base::Bool);
+    pub(crate) const BOOL: Self = Self::plain(Base::Bool);
     /// `Text`
-    pub const TEXT: Self = Self::plain(Base::Text);
+    pub(crate) const TEXT: Self = Self::plain(Base::Text);
     /// `Int`
-    pub const INT: Self = Self::plain(Base::Int);
+    pub(crate) const INT: Self = Self::plain(Base::Int);
     /// `Duration`
-    pub const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
+    pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
 
     /// A type that is no list.
     #[must_use]
-    pub const fn plain(base: Base) -> Self {
+    pub(crate) const fn plain(base: Base) -> Self {
         Self { base, lists: 0 }
     }
 
     /// A list of it.
     #[must_use]
-    pub const fn list(self) -> Self {
+    pub(crate) const fn list(self) -> Self {
         Self { base: self.base, lists: self.lists.saturating_add(1) }
     }
 
     /// The type of an element; none where it is no list.
     #[must_use]
-    pub fn element(self) -> Option<Self> {
+    pub(crate) fn element(self) -> Option<Self> {
         (self.lists > 0).then(|| Self { base: self.base, lists: self.lists - 1 })
     }
 
     /// The kind, of an entity that is in no list.
     #[must_use]
-    pub fn kind(self) -> Option<Kind> {
+    pub(crate) fn kind(self) -> Option<Kind> {
         match self {
             Self { base: Base::Entity(kind), lists: 0 } => Some(kind),
             _ => None,
@@ -127,7 +127,7 @@ impl Ty {
 
 /// Something that has a value.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Term {
+pub(crate) enum Term {
     /// `true`
     Bool(bool),
     /// A whole number.
@@ -162,7 +162,7 @@ pub enum Term {
 
 /// A condition.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Condition {
+pub(crate) enum Condition {
     /// `true`
     Literal(bool),
     /// A fluent.
@@ -185,77 +185,77 @@ pub enum Condition {
 
 /// A fluent applied to arguments.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Fact {
+pub(crate) struct Fact {
     /// The fluent.
-    pub fluent: Fluent,
+    pub(crate) fluent: Fluent,
     /// Its arguments; none stands for `any`.
-    pub args: Vec<Option<Term>>,
+    pub(crate) args: Vec<Option<Term>>,
 }
 
 /// A policy, resolved.
 #[derive(Clone, Debug, Default)]
-pub struct Program {
+pub(crate) struct Program {
     /// Its name.
-    pub name: SmolStr,
+    pub(crate) name: SmolStr,
     /// The robot's name; empty without one.
-    pub robot: SmolStr,
+    pub(crate) robot: SmolStr,
     /// Where it stands.
-    pub span: Span,
+    pub(crate) span: Span,
     /// All steps, parents before children, in document order.
-    pub steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
     /// The body.
-    pub body: Block,
+    pub(crate) body: Block,
     /// The bindings.
-    pub bindings: Vec<Binding>,
+    pub(crate) bindings: Vec<Binding>,
     /// Its goal.
-    pub achieves: Option<(Condition, Span)>,
+    pub(crate) achieves: Option<(Condition, Span)>,
 }
 
 /// Steps that run one after the other.
-pub type Block = Vec<StepId>;
+pub(crate) type Block = Vec<StepId>;
 
 /// A binding.
 #[derive(Clone, Debug)]
-pub struct Binding {
+pub(crate) struct Binding {
     /// Its name; `_` for a result that is not named.
-    pub name: SmolStr,
+    pub(crate) name: SmolStr,
     /// Its type.
-    pub ty: Ty,
+    pub(crate) ty: Ty,
     /// Where it is bound.
-    pub span: Span,
+    pub(crate) span: Span,
     /// The description that it was found by, where it is a literal.
-    pub description: Option<SmolStr>,
+    pub(crate) description: Option<SmolStr>,
     /// How often it is used.
-    pub uses: u32,
+    pub(crate) uses: u32,
 }
 
 /// A step, resolved.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub(crate) struct Step {
     /// What it does.
-    pub kind: StepKind,
+    pub(crate) kind: StepKind,
     /// Where it is written.
-    pub span: Span,
+    pub(crate) span: Span,
     /// The step that it lies in, and in which of its blocks.
-    pub place: Place,
+    pub(crate) place: Place,
     /// Least and greatest duration in seconds; filled in by `check`.
-    pub bounds: (f64, f64),
+    pub(crate) bounds: (f64, f64),
 }
 
 /// Where a step lies.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Place {
+pub(crate) struct Place {
     /// The step around it; none for the policy's own body.
-    pub parent: Option<StepId>,
+    pub(crate) parent: Option<StepId>,
     /// Which block of it.
-    pub slot: Slot,
+    pub(crate) slot: Slot,
     /// The position in that block, from 0.
-    pub index: u32,
+    pub(crate) index: u32,
 }
 
 /// The blocks that a step can have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Slot {
+pub(crate) enum Slot {
     /// `steps`: of a policy, a sequence, a loop.
     Steps,
     /// `then`
@@ -278,7 +278,7 @@ pub enum Slot {
 
 /// What a step does.
 #[derive(Clone, Debug)]
-pub enum StepKind {
+pub(crate) enum StepKind {
     /// Runs a primitive.
     Call(Call),
     /// A named group.
@@ -365,37 +365,37 @@ pub enum StepKind {
 
 /// A call of a primitive.
 #[derive(Clone, Debug)]
-pub struct Call {
+pub(crate) struct Call {
     /// Which.
-    pub primitive: Primitive,
+    pub(crate) primitive: Primitive,
     /// An argument for each parameter.
-    pub args: Vec<Term>,
+    pub(crate) args: Vec<Term>,
     /// Where each argument stands; of a default, the call.
-    pub spans: Vec<Span>,
+    pub(crate) spans: Vec<Span>,
     /// Where the result goes.
-    pub binds: Option<BindingId>,
+    pub(crate) binds: Option<BindingId>,
     /// The deadline where one is written.
-    pub within_secs: Option<f64>,
+    pub(crate) within_secs: Option<f64>,
     /// How often it is tried again.
-    pub retries: u32,
+    pub(crate) retries: u32,
 }
 
 /// A watched condition.
 #[derive(Clone, Debug)]
-pub struct When {
+pub(crate) struct When {
     /// The condition.
-    pub condition: Condition,
+    pub(crate) condition: Condition,
     /// Where it stands.
-    pub span: Span,
+    pub(crate) span: Span,
     /// Seconds for which it must hold.
-    pub hold_secs: f64,
+    pub(crate) hold_secs: f64,
     /// What then happens.
-    pub reaction: Reaction,
+    pub(crate) reaction: Reaction,
 }
 
 /// What a monitor does.
 #[derive(Clone, Debug)]
-pub enum Reaction {
+pub(crate) enum Reaction {
     /// Holds the body.
     Pause {
         /// The longest pause.
@@ -426,11 +426,9 @@ pub enum Reaction {
 
 /// A handler.
 #[derive(Clone, Debug)]
-pub struct Catch {
+pub(crate) struct Catch {
     /// The failures with their places; none for `any`.
-    pub on: Option<Vec<(Failure, Span)>>,
+    pub(crate) on: Option<Vec<(Failure, Span)>>,
     /// What then runs.
-    pub body: Block,
-    /// The whole of it.
-    pub span: Span,
+    pub(crate) body: Block,
 }

@@ -5,7 +5,7 @@
 /// Each has a `span`; `help`, `related` and `fix` may be left out.
 macro_rules! mistakes {
     ($(
-        $(#[$doc:meta])*
+        $(#[$doc:meta])+
         $name:ident($code:literal, $severity:ident) { $($field:ident: $ty:ty),* $(,)? }
         message($m:ident) $message:block
         $(help($h:ident) $help:block)?
@@ -15,7 +15,7 @@ macro_rules! mistakes {
         /// Every code that this stage can raise.
         pub(crate) const CODES: &[motet_syntax::Code] = &[$(motet_syntax::Code($code)),*];
         $(
-            $(#[$doc])*
+            $(#[$doc])+
             #[derive(Clone, Debug)]
             pub(crate) struct $name {
                 pub(crate) span: motet_syntax::Span,

@@ -136,7 +136,8 @@ impl Session {
         world: &World,
     ) -> (Program, Proof, Vec<Diagnostic>) {
         let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
-        if let Some(robot) = policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
+        if let Some(robot) =
+            policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
         {
             let (written, given) = (robot.text.clone(), library.robot.clone());
             diagnostics.push(OtherRobot { span: robot.span, written, given }.into());

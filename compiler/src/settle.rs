@@ -108,14 +108,17 @@ impl Settler<'_> {
         }
         if let Some(policy) = names.policies.get(name).and_then(|index| self.library.policies.get(*index)) {
             let params = policy.params.iter();
-            return Some(params.map(|param| (param.name.text.clone(), self.library.written_type(&param.ty))).collect());
+            return Some(
+                params.map(|param| (param.name.text.clone(), self.library.written_type(&param.ty))).collect(),
+            );
         }
         self.observed(name)
     }
 
     fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
-        let fluent = names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| def.params.clone());
+        let fluent =
+            names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| def.params.clone());
         fluent.or_else(|| {
             names.measures.get(name).and_then(|id| self.library.measure(*id)).map(|def| def.params.clone())
         })
@@ -153,7 +156,9 @@ impl Settler<'_> {
     fn condition(&self, expr: &mut Expr) {
         match &mut expr.kind {
             ExprKind::Not(inner) => self.condition(inner),
-            ExprKind::All(parts) | ExprKind::AnyOf(parts) => parts.iter_mut().for_each(|part| self.condition(part)),
+            ExprKind::All(parts) | ExprKind::AnyOf(parts) => {
+                parts.iter_mut().for_each(|part| self.condition(part))
+            }
             ExprKind::Compare(_, left, right) => {
                 let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));
                 self.term(left, right_ty);
@@ -201,8 +206,14 @@ impl Settler<'_> {
                 self.term(left, right_ty);
                 self.term(right, left_ty);
             }
-            ExprKind::Bool(_) | ExprKind::Quantity(..) | ExprKind::Text(_) | ExprKind::Name(_) | ExprKind::Any => {}
-            ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => self.condition(expr),
+            ExprKind::Bool(_)
+            | ExprKind::Quantity(..)
+            | ExprKind::Text(_)
+            | ExprKind::Name(_)
+            | ExprKind::Any => {}
+            ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
+                self.condition(expr)
+            }
         }
     }
 
@@ -226,9 +237,8 @@ impl Settler<'_> {
 fn plain(text: &SmolStr, ty: Option<Ty>) -> ExprKind {
     match ty.map(|ty| ty.base) {
         Some(Base::Entity(_) | Base::Enum(_)) => ExprKind::Name(text.clone()),
-        Some(Base::Quantity(_)) => {
-            parse_quantity(text).map_or_else(|| ExprKind::Text(text.clone()), |(value, unit)| ExprKind::Quantity(value, unit))
-        }
+        Some(Base::Quantity(_)) => parse_quantity(text)
+            .map_or_else(|| ExprKind::Text(text.clone()), |(value, unit)| ExprKind::Quantity(value, unit)),
         Some(Base::Bool | Base::Int | Base::Number | Base::Text | Base::Pose) => ExprKind::Text(text.clone()),
         Some(Base::Unknown) | None => {
             let mut letters = text.chars();

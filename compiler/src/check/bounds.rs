@@ -8,7 +8,12 @@ use crate::library::Library;
 
 type Bounds = (f64, f64);
 
-pub(super) fn check(program: &mut Program, library: &Library, limit: Option<f64>, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn check(
+    program: &mut Program,
+    library: &Library,
+    limit: Option<f64>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     // Children come after their parents, so backwards every block is known before the step that holds it.
     for index in (0..program.steps.len()).rev() {
         let Some(step) = program.steps.get(index) else { continue };
@@ -81,9 +86,10 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
             (if until.is_some() { least } else { least * rounds }, (greatest + test) * rounds)
         }
         StepKind::Each { at_most, body, .. } => (0.0, block(body).1 * f64::from(*at_most)),
-        StepKind::Parallel { branches } => branches.iter().map(block).fold((0.0, 0.0), |longest: Bounds, branch| {
-            (longest.0.max(branch.0), longest.1.max(branch.1))
-        }),
+        StepKind::Parallel { branches } => branches
+            .iter()
+            .map(block)
+            .fold((0.0, 0.0), |longest: Bounds, branch| (longest.0.max(branch.0), longest.1.max(branch.1))),
         StepKind::End { .. } => (0.0, 0.0),
     };
     finite(bounds)

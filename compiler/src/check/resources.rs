@@ -21,9 +21,11 @@ pub(super) fn check(program: &Program, library: &Library, diagnostics: &mut Vec<
                 let clash = earlier.iter().find(|(other, ..)| other & set != 0);
                 if let Some((other, one, first)) = clash {
                     let shared = (other & set).trailing_zeros() as usize;
-                    let resource = library.resources.get(shared).map(|def| def.name.clone()).unwrap_or_default();
+                    let resource =
+                        library.resources.get(shared).map(|def| def.name.clone()).unwrap_or_default();
                     let (one, other) = (one.clone(), name.clone());
-                    diagnostics.push(ResourceConflict { span: *span, resource, one, other, first: *first }.into());
+                    diagnostics
+                        .push(ResourceConflict { span: *span, resource, one, other, first: *first }.into());
                     break;
                 }
             }
@@ -37,7 +39,9 @@ fn collect(block: &Block, program: &Program, library: &Library, uses: &mut Uses)
     for step in block.iter().filter_map(|id| program.steps.get(id.index())) {
         match &step.kind {
             StepKind::Call(call) => {
-                let Some(def) = library.primitive(call.primitive).filter(|def| def.uses != 0) else { continue };
+                let Some(def) = library.primitive(call.primitive).filter(|def| def.uses != 0) else {
+                    continue;
+                };
                 if !uses.iter().any(|(set, ..)| set & def.uses == def.uses) {
                     uses.push((def.uses, def.name.clone(), step.span));
                 }

@@ -64,7 +64,9 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
 /// A number with the SI unit of its type.
 fn quantity(value: f64, ty: Ty) -> String {
     match ty.base {
-        Base::Quantity(dimension) if !dimension.si_symbol().is_empty() => format!("{value} {}", dimension.si_symbol()),
+        Base::Quantity(dimension) if !dimension.si_symbol().is_empty() => {
+            format!("{value} {}", dimension.si_symbol())
+        }
         _ => value.to_string(),
     }
 }

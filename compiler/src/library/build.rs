@@ -1,9 +1,9 @@
 //! From layers of declarations to a [`Library`]: kinds, enumerations, fluents and measures first, then the contracts
 //! that speak of them.
 
+use motet_robots::card::Robot;
 use motet_syntax::ast::{File, Param, TypeExpr};
 use motet_syntax::{Diagnostic, Form, Source, Sources};
-use motet_robots::card::Robot;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -34,10 +34,15 @@ impl Library {
     /// The standard library, and the robot's declarations where a robot is given. Its files are added to `sources`.
     #[must_use]
     pub fn builder(robot: Option<&Robot>, sources: &mut Sources) -> LibraryBuilder {
-        let mut builder =
-            LibraryBuilder { declarations: Declarations::default(), robot: robot.cloned(), diagnostics: Vec::new() };
-        let standard: Vec<_> =
-            motet_stdlib::FILES.iter().map(|(name, text)| builder.read(Source::new(*name, *text), sources)).collect();
+        let mut builder = LibraryBuilder {
+            declarations: Declarations::default(),
+            robot: robot.cloned(),
+            diagnostics: Vec::new(),
+        };
+        let standard: Vec<_> = motet_stdlib::FILES
+            .iter()
+            .map(|(name, text)| builder.read(Source::new(*name, *text), sources))
+            .collect();
         builder.layer(&standard);
         if let Some(robot) = robot.filter(|robot| !robot.declarations.is_empty()) {
             let name = format!("{}/primitives.motet", robot.name);
@@ -102,7 +107,12 @@ fn index<T>(table: &[T]) -> u16 {
     u16::try_from(table.len()).unwrap_or(u16::MAX)
 }
 
-fn limit(len: usize, what: &'static str, span: motet_syntax::Span, diagnostics: &mut Vec<Diagnostic>) -> bool {
+fn limit(
+    len: usize,
+    what: &'static str,
+    span: motet_syntax::Span,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> bool {
     if len == MAX_DECLARATIONS {
         diagnostics.push(LimitExceeded { span, what, limit: MAX_DECLARATIONS }.into());
     }
@@ -112,10 +122,10 @@ fn limit(len: usize, what: &'static str, span: motet_syntax::Span, diagnostics: 
 /// Kinds, parents before children; one without a parent, or with a wrong one, hangs below the root `Entity`.
 fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut Vec<Diagnostic>) {
     let root = SmolStr::new_static("Entity");
-    let span = declarations.kinds.get(&root).map_or_else(Default::default, |decl| decl.item.name.span);
     library.names.kinds.insert(root.clone(), Kind(0));
-    library.kinds.push(KindDef { name: root.clone(), parent: None, fields: Default::default(), span });
-    let mut waiting: Vec<_> = declarations.kinds.values().filter(|decl| decl.item.name.text != root).collect();
+    library.kinds.push(KindDef { name: root.clone(), parent: None, fields: Default::default() });
+    let mut waiting: Vec<_> =
+        declarations.kinds.values().filter(|decl| decl.item.name.text != root).collect();
     while !waiting.is_empty() {
         let before = waiting.len();
         waiting.retain(|decl| {
@@ -131,7 +141,7 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
             library.names.kinds.insert(decl.name.text.clone(), Kind(index(&library.kinds)));
             let name = decl.name.text.clone();
             let fields = Default::default();
-            library.kinds.push(KindDef { name, parent: Some(parent), fields, span: decl.name.span });
+            library.kinds.push(KindDef { name, parent: Some(parent), fields });
             false
         });
         if waiting.len() == before {
@@ -151,7 +161,7 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         }
         library.names.kinds.insert(decl.name.text.clone(), Kind(index(&library.kinds)));
         let (name, fields) = (decl.name.text.clone(), Default::default());
-        library.kinds.push(KindDef { name, parent: Some(Kind(0)), fields, span: decl.name.span });
+        library.kinds.push(KindDef { name, parent: Some(Kind(0)), fields });
     }
 }
 
@@ -182,12 +192,13 @@ fn enums(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
             }
         }
         library.names.enums.insert(name.clone(), id);
-        library.enums.push(EnumDef { name: name.clone(), cases, span: decl.item.name.span });
+        library.enums.push(EnumDef { name: name.clone(), cases });
     }
 }
 
 fn failures(library: &mut Library, declarations: &Declarations) {
-    let always = [SmolStr::new_static("timeout"), SmolStr::new_static("failed"), SmolStr::new_static("exhausted")];
+    let always =
+        [SmolStr::new_static("timeout"), SmolStr::new_static("failed"), SmolStr::new_static("exhausted")];
     let declared = declarations.failures.iter().map(|(name, decl)| (name.clone(), decl.item.name.span));
     for (name, span) in always.into_iter().map(|name| (name, Default::default())).chain(declared) {
         if library.names.failures.contains_key(&name) {
@@ -225,7 +236,7 @@ fn fluents(
         library.names.fluents.insert(name.clone(), Fluent(index(&library.fluents)));
         let derived = name == "reachable";
         let observable = derived || robot.is_none_or(|robot| robot.observes.contains(name));
-        library.fluents.push(FluentDef { name: name.clone(), params, derived, observable, span: decl.name.span });
+        library.fluents.push(FluentDef { name: name.clone(), params, derived, observable });
     }
 }
 
@@ -244,12 +255,16 @@ fn measures(
         }
         library.names.measures.insert(name.clone(), Measure(index(&library.measures)));
         let observable = robot.is_none_or(|robot| robot.observes.contains(name));
-        library.measures.push(MeasureDef { name: name.clone(), params, result, observable, span: decl.name.span });
+        library.measures.push(MeasureDef { name: name.clone(), params, result, observable });
     }
 }
 
 /// `robot`, `user`, `start`, then what the declarations name.
-fn entities(library: &mut Library, declarations: &Declarations, diagnostics: &mut Vec<Diagnostic>) -> Entities {
+fn entities(
+    library: &mut Library,
+    declarations: &Declarations,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Entities {
     let mut entities = Entities::default();
     for (name, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
         entities.add(name.into(), library.kind_named(kind));
@@ -259,7 +274,8 @@ fn entities(library: &mut Library, declarations: &Declarations, diagnostics: &mu
             Some(kind) => *kind,
             None => {
                 let near = near(&decl.kind.text, library.kinds.iter().map(|def| def.name.as_str()));
-                diagnostics.push(UnknownType { span: decl.kind.span, name: decl.kind.text.clone(), near }.into());
+                diagnostics
+                    .push(UnknownType { span: decl.kind.span, name: decl.kind.text.clone(), near }.into());
                 Kind(0)
             }
         };
@@ -268,7 +284,8 @@ fn entities(library: &mut Library, declarations: &Declarations, diagnostics: &mu
                 let known = library.entities.iter().find(|(known, ..)| *known == name.text);
                 let first = known.map_or(decl.span, |(.., span)| *span);
                 let name_text = name.text.clone();
-                diagnostics.push(Duplicate { span: name.span, name: name_text, what: "entity", first }.into());
+                diagnostics
+                    .push(Duplicate { span: name.span, name: name_text, what: "entity", first }.into());
                 continue;
             }
             library.entities.push((name.text.clone(), kind, name.span));

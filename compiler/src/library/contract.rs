@@ -34,9 +34,9 @@ pub(crate) const MOTIONS: &[(&str, usize)] = &[
 /// Keys of the JSON form that no parameter may bear. `on` is not among them: it names the failures of a `catch`, which
 /// takes no arguments, and is the natural name for a support.
 const RESERVED: &[&str] = &[
-    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch", "repeat", "until",
-    "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "when", "for", "react", "is", "get", "field",
-    "of",
+    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
+    "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "when", "for",
+    "react", "is", "get", "field", "of",
 ];
 
 /// Seconds that a primitive takes at most where its contract does not say.
@@ -83,7 +83,9 @@ pub(super) fn initially(
     let mut resolver = resolver(library, entities);
     let mut facts = Vec::new();
     let card: Vec<Expr> = robot
-        .map(|robot| robot.initially.iter().filter_map(|text| motet_syntax::text::condition(text).ok()).collect())
+        .map(|robot| {
+            robot.initially.iter().filter_map(|text| motet_syntax::text::condition(text).ok()).collect()
+        })
         .unwrap_or_default();
     let declared = declarations.initially.iter().flat_map(|decl| &decl.facts);
     for expr in card.iter().chain(declared) {
@@ -134,7 +136,8 @@ fn primitive(resolver: &mut Resolver<'_>, decl: &Arc<PrimitiveDecl>, robot: Opti
         let default = param.default.as_ref().map(|default| resolver.term_of(default, wanted));
         let term = Term::Param(u16::try_from(index).unwrap_or(u16::MAX));
         resolver.scope.push(param_name.clone(), term, ty, param.name.span);
-        let range = ranges.and_then(|ranges| ranges.get(param_name)).map(|range| (range.least, range.greatest));
+        let range =
+            ranges.and_then(|ranges| ranges.get(param_name)).map(|range| (range.least, range.greatest));
         params.push(ParamDef { name: param_name.clone(), ty, default, range });
     }
     let result = decl.result.as_ref().map(|ty| resolve_type(resolver, ty));
@@ -145,7 +148,6 @@ fn primitive(resolver: &mut Resolver<'_>, decl: &Arc<PrimitiveDecl>, robot: Opti
         provided: robot.is_none_or(|robot| robot.primitives.contains_key(&name)),
         name,
         form: decl.form,
-        doc: decl.doc.clone(),
         params,
         result,
         needs: Vec::new(),
@@ -176,8 +178,12 @@ fn clause_into(resolver: &mut Resolver<'_>, clause: &Clause, def: &mut Primitive
                 def.needs.push(NeedDef { condition, each, when, span: entry.expr.span });
             }
         }
-        Clause::Makes(entries) => def.makes.extend(entries.iter().filter_map(|entry| effect(resolver, entry))),
-        Clause::Unsettles(entries) => def.unsettles.extend(entries.iter().filter_map(|entry| effect(resolver, entry))),
+        Clause::Makes(entries) => {
+            def.makes.extend(entries.iter().filter_map(|entry| effect(resolver, entry)))
+        }
+        Clause::Unsettles(entries) => {
+            def.unsettles.extend(entries.iter().filter_map(|entry| effect(resolver, entry)))
+        }
         Clause::Motion(call) => {
             let name = &call.name.text;
             let Some((_, arity)) = MOTIONS.iter().find(|(known, _)| known == name) else {
@@ -186,8 +192,15 @@ fn clause_into(resolver: &mut Resolver<'_>, clause: &Clause, def: &mut Primitive
                 return;
             };
             if call.args.len() != *arity {
-                let what = format!("the motion `{name}` takes {arity} argument{}", if *arity == 1 { "" } else { "s" });
-                resolver.say(BadDeclaration { span: call.span, what, mend: "name what it is about".to_owned() });
+                let what = format!(
+                    "the motion `{name}` takes {arity} argument{}",
+                    if *arity == 1 { "" } else { "s" }
+                );
+                resolver.say(BadDeclaration {
+                    span: call.span,
+                    what,
+                    mend: "name what it is about".to_owned(),
+                });
             }
             let args = call.args.iter().map(|arg| resolver.term(&arg.value, None).0).collect();
             def.motion = Some((name.clone(), args));
@@ -220,7 +233,12 @@ fn clause_into(resolver: &mut Resolver<'_>, clause: &Clause, def: &mut Primitive
                         let known = || resolver.library.failures.iter().map(|(name, _)| name);
                         let near = near(&name.text, known().map(SmolStr::as_str));
                         let known = list(known().cloned());
-                        resolver.say(UnknownFailure { span: name.span, name: name.text.clone(), near, known });
+                        resolver.say(UnknownFailure {
+                            span: name.span,
+                            name: name.text.clone(),
+                            near,
+                            known,
+                        });
                     }
                 }
             }
@@ -280,8 +298,13 @@ fn quantified<'a, T>(
         let ty = resolve_type(resolver, ty);
         let kind = ty.kind().unwrap_or_else(|| {
             if ty.base != Base::Unknown {
-                let what = format!("`for each` goes over entities, not over {}", resolver.library.type_name(ty));
-                resolver.say(BadDeclaration { span: name.span, what, mend: "name a kind of entity".to_owned() });
+                let what =
+                    format!("`for each` goes over entities, not over {}", resolver.library.type_name(ty));
+                resolver.say(BadDeclaration {
+                    span: name.span,
+                    what,
+                    mend: "name a kind of entity".to_owned(),
+                });
             }
             Kind(0)
         });
@@ -316,18 +339,23 @@ pub(super) fn type_of(library: &Library, ty: &TypeExpr) -> (Ty, Option<Diagnosti
         "Number" => Base::Number,
         "Text" => Base::Text,
         "Pose" => Base::Pose,
-        text => match (Dimension::of_type(text), library.names.kinds.get(text), library.names.enums.get(text)) {
-            (Some(dimension), ..) => Base::Quantity(dimension),
-            (_, Some(kind), _) => Base::Entity(*kind),
-            (_, _, Some(id)) => Base::Enum(*id),
-            (None, None, None) => return (Ty::UNKNOWN, Some(unknown_type(library, name.span, &name.text))),
-        },
+        text => {
+            match (Dimension::of_type(text), library.names.kinds.get(text), library.names.enums.get(text)) {
+                (Some(dimension), ..) => Base::Quantity(dimension),
+                (_, Some(kind), _) => Base::Entity(*kind),
+                (_, _, Some(id)) => Base::Enum(*id),
+                (None, None, None) => {
+                    return (Ty::UNKNOWN, Some(unknown_type(library, name.span, &name.text)));
+                }
+            }
+        }
     };
     (Ty { base, lists }, None)
 }
 
 fn unknown_type(library: &Library, span: Span, name: &SmolStr) -> Diagnostic {
-    let builtin = ["Bool", "Int", "Number", "Text", "Pose", "Length", "Angle", "Duration", "Mass", "Force", "Speed"];
+    let builtin =
+        ["Bool", "Int", "Number", "Text", "Pose", "Length", "Angle", "Duration", "Mass", "Force", "Speed"];
     let kinds = library.kinds.iter().map(|def| def.name.as_str());
     let enums = library.enums.iter().map(|def| def.name.as_str());
     let near = near(name, builtin.into_iter().chain(["Ratio", "List"]).chain(kinds).chain(enums));

@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_syntax::ast::{EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl};
+use motet_syntax::ast::{
+    EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl,
+};
 use motet_syntax::ast::{MeasureDecl, Name, Policy, PrimitiveDecl};
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
@@ -45,8 +47,12 @@ impl Declarations {
             match item {
                 Item::Kind(decl) => put(&mut self.kinds, "kind", &decl.name, decl, layer, diagnostics),
                 Item::Fluent(decl) => put(&mut self.fluents, "fluent", &decl.name, decl, layer, diagnostics),
-                Item::Measure(decl) => put(&mut self.measures, "measure", &decl.name, decl, layer, diagnostics),
-                Item::Failure(decl) => put(&mut self.failures, "failure", &decl.name, decl, layer, diagnostics),
+                Item::Measure(decl) => {
+                    put(&mut self.measures, "measure", &decl.name, decl, layer, diagnostics)
+                }
+                Item::Failure(decl) => {
+                    put(&mut self.failures, "failure", &decl.name, decl, layer, diagnostics)
+                }
                 Item::Enum(decl) => put(&mut self.enums, "enumeration", &decl.name, decl, layer, diagnostics),
                 Item::Primitive(decl) => {
                     self.policies.shift_remove(&decl.name.text);

@@ -7,7 +7,10 @@ mod layer;
 pub(crate) mod model;
 mod robot;
 
-pub use model::{Library, ResourceSet};
+pub use build::{LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS};
+pub use model::Library;
+pub(crate) use model::ResourceSet;
+pub use robot::MAX_RESOURCES;
 
 pub(crate) use contract::resolve_type;
 pub(crate) use model::{EffectDef, NeedDef, PrimitiveDef};

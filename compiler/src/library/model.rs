@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 use crate::ir::{Base, Condition, Entity, EnumId, Fact, Failure, Fluent, Kind, Measure, Primitive, Term, Ty};
 
 /// A set of resources, as bits; at most 64 of them.
-pub type ResourceSet = u64;
+pub(crate) type ResourceSet = u64;
 
 /// The declarations in force.
 #[derive(Clone, Debug, Default)]
@@ -57,7 +57,6 @@ pub(crate) struct KindDef {
     pub(crate) name: SmolStr,
     pub(crate) parent: Option<Kind>,
     pub(crate) fields: IndexMap<SmolStr, Ty>,
-    pub(crate) span: Span,
 }
 
 /// An enumeration; `Hand`, `Camera` and `Resource` come from the card.
@@ -65,7 +64,6 @@ pub(crate) struct KindDef {
 pub(crate) struct EnumDef {
     pub(crate) name: SmolStr,
     pub(crate) cases: Vec<SmolStr>,
-    pub(crate) span: Span,
 }
 
 /// A fluent.
@@ -76,7 +74,6 @@ pub(crate) struct FluentDef {
     /// Whether the verdict of a motion decides it (`reachable`).
     pub(crate) derived: bool,
     pub(crate) observable: bool,
-    pub(crate) span: Span,
 }
 
 /// A measure.
@@ -86,7 +83,6 @@ pub(crate) struct MeasureDef {
     pub(crate) params: Vec<(SmolStr, Ty)>,
     pub(crate) result: Ty,
     pub(crate) observable: bool,
-    pub(crate) span: Span,
 }
 
 /// A resource of the robot.
@@ -102,7 +98,6 @@ pub(crate) struct ResourceDef {
 pub(crate) struct PrimitiveDef {
     pub(crate) name: SmolStr,
     pub(crate) form: PrimitiveForm,
-    pub(crate) doc: SmolStr,
     pub(crate) params: Vec<ParamDef>,
     pub(crate) result: Option<Ty>,
     pub(crate) needs: Vec<NeedDef>,
@@ -222,6 +217,16 @@ impl Library {
     #[must_use]
     pub(crate) fn kind_named(&self, name: &str) -> Kind {
         self.names.kinds.get(name).copied().unwrap_or(Kind(0))
+    }
+
+    /// The declarations of the primitives that the robot provides, in the order in which they were read.
+    pub fn signatures(&self) -> impl Iterator<Item = &ast::PrimitiveDecl> {
+        self.primitives.iter().filter(|def| def.provided).map(|def| &*def.source)
+    }
+
+    /// The policies that can be called.
+    pub fn policies(&self) -> impl Iterator<Item = &ast::Policy> {
+        self.policies.iter().map(|policy| &**policy)
     }
 
     pub(crate) fn primitive(&self, id: Primitive) -> Option<&PrimitiveDef> {

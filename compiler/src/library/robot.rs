@@ -26,8 +26,9 @@ pub(super) fn apply(library: &mut Library, robot: Option<&Robot>) {
             library.observe_within_secs = 2.0;
             let bit = |index: usize| 1u64 << index;
             let generic = GENERIC.iter().enumerate();
-            library.resources =
-                generic.map(|(index, name)| ResourceDef { name: (*name).into(), closure: bit(index) }).collect();
+            library.resources = generic
+                .map(|(index, name)| ResourceDef { name: (*name).into(), closure: bit(index) })
+                .collect();
             (vec![SmolStr::new_static("hand")], vec![SmolStr::new_static("camera")])
         }
     };
@@ -40,13 +41,14 @@ pub(super) fn apply(library: &mut Library, robot: Option<&Robot>) {
             library.names.cases.entry(case.clone()).or_insert(place);
         }
         library.names.enums.insert(name.into(), id);
-        library.enums.push(EnumDef { name: name.into(), cases, span: Default::default() });
+        library.enums.push(EnumDef { name: name.into(), cases });
     }
 }
 
 fn resources(library: &mut Library, robot: &Robot) {
     let position = |name: &SmolStr| robot.resources.get_index_of(name).filter(|index| *index < MAX_RESOURCES);
-    let mut closures: Vec<ResourceSet> = (0..robot.resources.len().min(MAX_RESOURCES)).map(|index| 1 << index).collect();
+    let mut closures: Vec<ResourceSet> =
+        (0..robot.resources.len().min(MAX_RESOURCES)).map(|index| 1 << index).collect();
     // A card has no cycle, so as many rounds as there are resources reach the closure.
     for _ in 0..closures.len() {
         for (index, contained) in robot.resources.values().enumerate().take(MAX_RESOURCES) {

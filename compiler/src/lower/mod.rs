@@ -144,7 +144,8 @@ impl Lowering<'_> {
                 let mut handlers = Vec::with_capacity(catches.len());
                 for catch in catches {
                     let on = catch.on.as_ref();
-                    let on = on.map(|kinds| kinds.iter().map(|(kind, _)| self.tables.failure(*kind)).collect());
+                    let on =
+                        on.map(|kinds| kinds.iter().map(|(kind, _)| self.tables.failure(*kind)).collect());
                     handlers.push(graph::Handler { on, body: self.region(&catch.body, owner) });
                 }
                 graph::NodeKind::Try { body, handlers }
@@ -182,7 +183,9 @@ impl Lowering<'_> {
             EndKind::Replan => graph::Ending::Replan,
         };
         // `replan` ends the whole policy, wherever it stands.
-        let of = of.filter(|_| kind != EndKind::Replan).and_then(|step| self.ids.get(step.index()).copied().flatten());
+        let of = of
+            .filter(|_| kind != EndKind::Replan)
+            .and_then(|step| self.ids.get(step.index()).copied().flatten());
         (how, of, why.map(|why| self.tables.term(why, &[], None)))
     }
 

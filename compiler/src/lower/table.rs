@@ -62,8 +62,10 @@ impl<'a> Tables<'a> {
         // All of the robot's resources, so that what contains what can be said by index.
         for def in &library.resources {
             let contains = (0..library.resources.len()).filter(|index| def.closure & (1 << index) != 0);
-            let contains = contains.filter(|index| library.resources.get(*index).is_some_and(|it| it.name != def.name));
-            let contains = contains.filter_map(|index| u32::try_from(index).ok()).map(graph::ResourceId).collect();
+            let contains =
+                contains.filter(|index| library.resources.get(*index).is_some_and(|it| it.name != def.name));
+            let contains =
+                contains.filter_map(|index| u32::try_from(index).ok()).map(graph::ResourceId).collect();
             tables.resources.push(graph::Resource { name: def.name.clone(), contains });
         }
         tables
@@ -87,7 +89,8 @@ impl<'a> Tables<'a> {
     /// All kinds of the library, in its order: parents before children.
     pub(super) fn kinds(&self) -> Vec<graph::Kind> {
         let kinds = self.library.kinds.iter();
-        let parent = |def: &crate::library::model::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
+        let parent =
+            |def: &crate::library::model::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
         kinds.map(|def| graph::Kind { name: def.name.clone(), parent: parent(def) }).collect()
     }
 
@@ -102,9 +105,9 @@ impl<'a> Tables<'a> {
             Base::Text => graph::Type::Text,
             Base::Pose => graph::Type::Pose,
             Base::Entity(kind) => graph::Type::Entity(graph::KindId(u32::from(kind.0))),
-            Base::Enum(id) => {
-                graph::Type::Case(self.library.enums.get(id.index()).map(|def| def.name.clone()).unwrap_or_default())
-            }
+            Base::Enum(id) => graph::Type::Case(
+                self.library.enums.get(id.index()).map(|def| def.name.clone()).unwrap_or_default(),
+            ),
         };
         (0..ty.lists).fold(base, |inner, _| graph::Type::List(Box::new(inner)))
     }
@@ -130,7 +133,11 @@ impl<'a> Tables<'a> {
         self.measure_ids.insert(id, new);
         if let Some(def) = self.library.measure(id) {
             let params = def.params.iter().map(|(_, ty)| self.ty(*ty)).collect();
-            self.measures.push(graph::Measure { name: def.name.clone(), params, result: self.ty(def.result) });
+            self.measures.push(graph::Measure {
+                name: def.name.clone(),
+                params,
+                result: self.ty(def.result),
+            });
         }
         new
     }
@@ -169,7 +176,8 @@ impl<'a> Tables<'a> {
     /// The failure of a refuted guard: what the need is about, where the primitive can fail so, else `failed`.
     pub(super) fn guard_failure(&mut self, condition: &Condition, fails: &[Failure]) -> graph::FailureId {
         let about = self.about(condition);
-        let named = GUARDS.iter().find(|(word, _)| Some(*word) == about.as_deref()).map(|(_, failure)| *failure);
+        let named =
+            GUARDS.iter().find(|(word, _)| Some(*word) == about.as_deref()).map(|(_, failure)| *failure);
         let names = &self.library.names.failures;
         let kind = named.and_then(|name| names.get(name)).filter(|kind| fails.contains(kind));
         let kind = kind.or_else(|| names.get("failed")).copied();
@@ -181,7 +189,9 @@ impl<'a> Tables<'a> {
             Condition::Fact(fact) => self.library.fluent(fact.fluent).map(|def| def.name.clone()),
             Condition::Compare(_, crate::ir::Term::Field(_, name), _) => Some(name.clone()),
             Condition::Not(inner) => self.about(inner),
-            Condition::All(parts) | Condition::AnyOf(parts) => parts.first().and_then(|part| self.about(part)),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                parts.first().and_then(|part| self.about(part))
+            }
             Condition::Compare(..)
             | Condition::Literal(_)
             | Condition::MonitoredMeasure(_)

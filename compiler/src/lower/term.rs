@@ -7,7 +7,12 @@ use super::table::Tables;
 use crate::ir::{Condition, Fact, Term};
 
 impl Tables<'_> {
-    pub(super) fn term(&mut self, term: &Term, args: &[Term], result: Option<graph::BindingId>) -> graph::Term {
+    pub(super) fn term(
+        &mut self,
+        term: &Term,
+        args: &[Term],
+        result: Option<graph::BindingId>,
+    ) -> graph::Term {
         use graph::Value;
         let literal = graph::Term::Literal;
         match term {
@@ -96,7 +101,12 @@ impl Tables<'_> {
         }
     }
 
-    pub(super) fn fact(&mut self, fact: &Fact, args: &[Term], result: Option<graph::BindingId>) -> Option<graph::Fact> {
+    pub(super) fn fact(
+        &mut self,
+        fact: &Fact,
+        args: &[Term],
+        result: Option<graph::BindingId>,
+    ) -> Option<graph::Fact> {
         let fluent = self.fluent(fact.fluent);
         let terms = fact.args.iter().map(|arg| match arg {
             None => graph::FactArg::Any,

@@ -73,18 +73,30 @@ impl Prover<'_> {
     }
 
     /// The entities of a kind for which `when` may hold: by name, and whether it may hold for others too.
-    fn candidates(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Vec<Entity>, Option<Sure>) {
+    fn candidates(
+        &self,
+        when: Option<&Condition>,
+        kind: Kind,
+        frame: Frame<'_>,
+    ) -> (Vec<Entity>, Option<Sure>) {
         match when {
             None => (Vec::new(), Some(Sure::Always)),
-            Some(Condition::Compare(CompareOp::Equal, Term::Each, other) | Condition::Compare(CompareOp::Equal, other, Term::Each)) => {
+            Some(
+                Condition::Compare(CompareOp::Equal, Term::Each, other)
+                | Condition::Compare(CompareOp::Equal, other, Term::Each),
+            ) => {
                 let only = self.argument(other, frame).map(Entity);
                 let fits = |entity: &Entity| {
-                    self.symbols.kind(self.world, *entity).is_some_and(|other| self.library.is_kind(other, kind))
+                    self.symbols
+                        .kind(self.world, *entity)
+                        .is_some_and(|other| self.library.is_kind(other, kind))
                 };
                 (only.filter(fits).into_iter().collect(), None)
             }
             Some(Condition::Fact(fact)) => {
-                let Some(pattern) = self.key(fact, Frame { each: None, ..frame }) else { return (Vec::new(), None) };
+                let Some(pattern) = self.key(fact, Frame { each: None, ..frame }) else {
+                    return (Vec::new(), None);
+                };
                 let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
                 let Some(place) = place else { return (self.of_kind(kind, usize::MAX), None) };
                 let mut known: Vec<_> = self
@@ -93,7 +105,9 @@ impl Prover<'_> {
                     .filter(|(_, value)| !value.is_false())
                     .map(|(key, _)| Entity(key.arg(place)))
                     .filter(|entity| {
-                        self.symbols.kind(self.world, *entity).is_some_and(|other| self.library.is_kind(other, kind))
+                        self.symbols
+                            .kind(self.world, *entity)
+                            .is_some_and(|other| self.library.is_kind(other, kind))
                     })
                     .collect();
                 known.sort_unstable();
@@ -106,7 +120,12 @@ impl Prover<'_> {
     }
 
     /// For which entities a quantified need is asked, and whether there may be others.
-    pub(crate) fn asked(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Vec<Entity>, bool) {
+    pub(crate) fn asked(
+        &self,
+        when: Option<&Condition>,
+        kind: Kind,
+        frame: Frame<'_>,
+    ) -> (Vec<Entity>, bool) {
         match when {
             None => (self.of_kind(kind, usize::MAX), false),
             Some(_) => {

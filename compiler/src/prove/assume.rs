@@ -7,7 +7,13 @@ use crate::ir::Condition;
 
 impl Prover<'_> {
     /// Narrows the facts to those in which `condition` is `truth`; false where there are none, so that the way is dead.
-    pub(crate) fn assume(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    pub(crate) fn assume(
+        &mut self,
+        condition: &Condition,
+        truth: bool,
+        cause: Cause,
+        frame: Frame<'_>,
+    ) -> bool {
         match condition {
             Condition::Literal(value) => *value == truth,
             Condition::Unknown | Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => true,

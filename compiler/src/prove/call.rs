@@ -68,7 +68,7 @@ impl Prover<'_> {
 
     /// A pose that was perceived before something moved is stale, and using it an error.
     fn check_fresh(&mut self, call: &Call, def: &PrimitiveDef) {
-        for ((arg, span), param) in call.args.iter().zip(&call.spans).zip(&def.params) {
+        for (arg, span) in call.args.iter().zip(&call.spans) {
             let Term::Binding(binding) = arg else { continue };
             let Some(bound) = self.program.bindings.get(binding.index()) else { continue };
             if bound.ty != Ty::plain(Base::Pose) {
@@ -80,7 +80,6 @@ impl Prover<'_> {
                     span: *span,
                     name: bound.name.clone(),
                     callee: def.name.clone(),
-                    param: param.name.clone(),
                     found: bound.span,
                     moved: self.cause_span(fresh.no),
                     mover: self.cause_name(fresh.no),
@@ -140,7 +139,8 @@ impl Prover<'_> {
         let mut culprit = None;
         for candidate in candidates {
             let frame = Frame { each: Some(candidate), ..frame };
-            let when = need.when.as_ref().map_or(Value::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
+            let when =
+                need.when.as_ref().map_or(Value::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
             let value = when.not().or(self.evaluate(&need.condition, frame));
             if value.no.is_some() && culprit.is_none() {
                 culprit = Some(candidate);
@@ -164,7 +164,8 @@ impl Prover<'_> {
     /// A new result: its pose is fresh, its facts last as the contract says.
     fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: Frame<'_>) {
         let Some(lasts) = &def.lasts else { return };
-        let entities = lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
+        let entities =
+            lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
         self.lasting.insert(id, Lasting { resources: lasts.resources, entities });
         if let Some(binding) = call.binds.filter(|_| def.result == Some(Ty::plain(Base::Pose))) {
             self.facts.set(self.fresh, binding_key(binding.0), Value::yes(Cause::step(id)));
@@ -178,7 +179,8 @@ impl Prover<'_> {
             .facts
             .all_entries()
             .filter(|(fluent, key, _)| {
-                let params = self.library.fluent(*fluent).map(|def| def.params.as_slice()).unwrap_or_default();
+                let params =
+                    self.library.fluent(*fluent).map(|def| def.params.as_slice()).unwrap_or_default();
                 params.iter().enumerate().any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0)
             })
             .map(|(fluent, key, _)| (fluent, key))

@@ -23,18 +23,11 @@ pub(crate) struct Collector {
 #[derive(Clone, Debug)]
 pub(crate) enum Enclosing {
     /// A `try`: a collector for each handler, with the failures that reach it.
-    Try {
-        catches: Vec<(Option<Vec<Failure>>, Collector, Vec<Failure>)>,
-    },
+    Try { catches: Vec<(Option<Vec<Failure>>, Collector, Vec<Failure>)> },
     /// An inlined policy: where it is done.
-    Inline {
-        step: StepId,
-        exits: Collector,
-    },
+    Inline { step: StepId, exits: Collector },
     /// A monitor: all states of its body.
-    Monitor {
-        states: Collector,
-    },
+    Monitor { states: Collector },
 }
 
 impl Collector {

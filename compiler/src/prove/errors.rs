@@ -22,7 +22,7 @@ mistakes! {
 
     /// A step uses a pose that is no longer right.
     Stale("M0502", Error) {
-        name: SmolStr, callee: SmolStr, param: SmolStr, found: Span, moved: Option<Span>, mover: SmolStr,
+        name: SmolStr, callee: SmolStr, found: Span, moved: Option<Span>, mover: SmolStr,
     }
     message(m) { format!("`{}` is stale: `{}` came after it was perceived", m.name, m.mover) }
     help(m) { Some(format!("perceive it again just before `{}`", m.callee)) }

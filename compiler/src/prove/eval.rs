@@ -89,10 +89,15 @@ impl Prover<'_> {
                 return Value::open(Cause::NOTHING);
             }
             let generic = symbol.may_be.is_none().then(|| self.facts.get(fluent, key));
-            let known = candidates.iter().map(|candidate| self.read_plain(fluent, key.with(index, candidate.0)));
+            let known =
+                candidates.iter().map(|candidate| self.read_plain(fluent, key.with(index, candidate.0)));
             let mut values = known.chain(generic);
             let Some(first) = values.next() else { return self.facts.get(fluent, key) };
-            return if values.all(|value| value.same_set(first)) { first } else { Value::open(Cause::NOTHING) };
+            return if values.all(|value| value.same_set(first)) {
+                first
+            } else {
+                Value::open(Cause::NOTHING)
+            };
         }
         self.facts.get(fluent, key)
     }
@@ -159,7 +164,9 @@ impl Prover<'_> {
         let equal = match op {
             CompareOp::Equal => true,
             CompareOp::Unequal => false,
-            CompareOp::Less | CompareOp::AtMost | CompareOp::More | CompareOp::AtLeast => return Value::NOTHING_KNOWN,
+            CompareOp::Less | CompareOp::AtMost | CompareOp::More | CompareOp::AtLeast => {
+                return Value::NOTHING_KNOWN;
+            }
         };
         let same = match (self.argument(left, frame), self.argument(right, frame)) {
             (Some(a), Some(b)) if a == b => Some(true),

@@ -129,11 +129,6 @@ impl Facts {
         })
     }
 
-    /// Whether a fluent has any single entry.
-    pub(crate) fn has_entries(&self, fluent: Fluent) -> bool {
-        self.tables.get(fluent.index()).is_some_and(|table| !table.single.is_empty())
-    }
-
     /// Sets a fact, or a pattern and all that it covers.
     pub(crate) fn set(&mut self, fluent: Fluent, key: Key, value: Value) {
         let before = self.get(fluent, key);
@@ -185,7 +180,9 @@ impl Facts {
                 Undo::Pattern => {
                     table.patterns.pop();
                 }
-                Undo::Removed(at, old) => table.patterns.insert(at.min(table.patterns.len()), (entry.key, old)),
+                Undo::Removed(at, old) => {
+                    table.patterns.insert(at.min(table.patterns.len()), (entry.key, old))
+                }
             }
         }
     }
@@ -279,10 +276,12 @@ impl Delta {
 
 /// A fact in words: "`on(cup, table)`".
 pub(crate) fn show(name: &str, key: Key, arity: usize, arg: impl Fn(usize, u16) -> SmolStr) -> String {
-    let args: Vec<_> = (0..arity).map(|index| {
-        let value = key.arg(index);
-        if value == ANY { SmolStr::new_static("any") } else { arg(index, value) }
-    }).collect();
+    let args: Vec<_> = (0..arity)
+        .map(|index| {
+            let value = key.arg(index);
+            if value == ANY { SmolStr::new_static("any") } else { arg(index, value) }
+        })
+        .collect();
     if args.is_empty() { format!("`{name}`") } else { format!("`{name}({})`", args.join(", ")) }
 }
 

@@ -11,7 +11,8 @@ impl Prover<'_> {
         let Self { enclosing, facts, .. } = self;
         for enclosing in enclosing.iter_mut().take(depth).rev() {
             let Enclosing::Try { catches } = enclosing else { continue };
-            let taker = catches.iter_mut().find(|(on, ..)| on.as_ref().is_none_or(|kinds| kinds.contains(&kind)));
+            let taker =
+                catches.iter_mut().find(|(on, ..)| on.as_ref().is_none_or(|kinds| kinds.contains(&kind)));
             if let Some((_, states, kinds)) = taker {
                 // The same state for another kind adds nothing but the kind.
                 states.see(facts);

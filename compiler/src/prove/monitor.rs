@@ -137,11 +137,15 @@ fn constant(condition: &Condition) -> bool {
 
 fn fixed(term: &Term) -> bool {
     match term {
-        Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::Case(..) | Term::Entity(_) => true,
+        Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::Case(..) | Term::Entity(_) => {
+            true
+        }
         Term::Field(of, _) => fixed(of),
         Term::Arith(_, left, right) => fixed(left) && fixed(right),
         Term::List(items) => items.iter().all(fixed),
-        Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown => false,
+        Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown => {
+            false
+        }
     }
 }
 

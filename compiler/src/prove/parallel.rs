@@ -70,7 +70,8 @@ impl Prover<'_> {
 
     fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {
         let Some(def) = self.library.fluent(fluent) else { return };
-        let fact = show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
+        let fact =
+            show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
         let cause = |value: Value| if value.yes.is_some() { value.yes } else { value.no };
         let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
         let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));

@@ -68,7 +68,13 @@ impl Prover<'_> {
             Condition::Compare(_, left, right) => {
                 let numbers = self.numbers(left, right, frame);
                 let wanted = self.show(condition, truth, frame);
-                return Blame { wanted, cause: Cause::START, fact: None, numbers: Some(numbers), maker: None };
+                return Blame {
+                    wanted,
+                    cause: Cause::START,
+                    fact: None,
+                    numbers: Some(numbers),
+                    maker: None,
+                };
             }
             Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => {
                 let wanted = self.show(condition, truth, frame);
@@ -140,7 +146,12 @@ impl Prover<'_> {
             Some(StepKind::Repeat { .. }) => "repeat".into(),
             Some(StepKind::Each { .. }) => "each".into(),
             Some(StepKind::Parallel { .. }) => "parallel".into(),
-            Some(StepKind::Sequence { .. } | StepKind::Inline { .. } | StepKind::Try { .. } | StepKind::End { .. })
+            Some(
+                StepKind::Sequence { .. }
+                | StepKind::Inline { .. }
+                | StepKind::Try { .. }
+                | StepKind::End { .. },
+            )
             | None => "a step".into(),
         }
     }
@@ -218,15 +229,19 @@ impl Prover<'_> {
                 let items: Vec<_> = items.iter().map(|item| self.term_text(item, frame)).collect();
                 format!("[{}]", items.join(", "))
             }
-            Term::Binding(id) => {
-                self.program.bindings.get(id.index()).map_or_else(|| "?".to_owned(), |binding| binding.name.to_string())
-            }
+            Term::Binding(id) => self
+                .program
+                .bindings
+                .get(id.index())
+                .map_or_else(|| "?".to_owned(), |binding| binding.name.to_string()),
             Term::Param(index) => match frame.args.get(usize::from(*index)) {
                 None | Some(Term::Param(_)) => "?".to_owned(),
                 Some(term) => self.term_text(term, frame),
             },
             Term::Result => "result".to_owned(),
-            Term::Each => frame.each.map_or_else(|| "each".to_owned(), |entity| self.world.name(entity).to_string()),
+            Term::Each => {
+                frame.each.map_or_else(|| "each".to_owned(), |entity| self.world.name(entity).to_string())
+            }
             Term::Field(of, name) => format!("{}.{name}", self.term_text(of, frame)),
             Term::Measure(id, args) => {
                 let name = self.library.measure(*id).map_or("?", |def| def.name.as_str());

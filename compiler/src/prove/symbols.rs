@@ -25,7 +25,8 @@ pub(crate) struct Symbol {
 impl Symbols {
     pub(crate) fn new(program: &Program, library: &Library, world: &World) -> Self {
         let first = u16::try_from(world.entities().len()).unwrap_or(u16::MAX);
-        let mut table = Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
+        let mut table =
+            Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
         for binding in &program.bindings {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
                 table.bindings.push(None);
@@ -44,7 +45,8 @@ impl Symbols {
 
     fn add(&mut self, kind: Kind, may_be: Option<Vec<Entity>>) -> Option<Entity> {
         // The last number stands for `any`.
-        let index = u16::try_from(self.symbols.len()).ok()?.checked_add(self.first).filter(|id| *id < u16::MAX)?;
+        let index =
+            u16::try_from(self.symbols.len()).ok()?.checked_add(self.first).filter(|id| *id < u16::MAX)?;
         self.symbols.push(Symbol { kind, may_be });
         Some(Entity(index))
     }

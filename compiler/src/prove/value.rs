@@ -93,7 +93,8 @@ impl Value {
     /// The values that a conjunction can have.
     pub(crate) fn and(self, other: Self) -> Self {
         let both = self.yes.is_some() && other.yes.is_some();
-        let unfalse = (self.yes.is_some() || self.open.is_some()) && (other.yes.is_some() || other.open.is_some());
+        let unfalse =
+            (self.yes.is_some() || self.open.is_some()) && (other.yes.is_some() || other.open.is_some());
         Self {
             yes: if both { self.yes } else { Cause::NONE },
             no: self.no.or(other.no),

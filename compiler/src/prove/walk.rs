@@ -2,13 +2,13 @@
 
 use motet_syntax::ast::EndKind;
 
+use super::MAX_FIXPOINTS;
 use super::Prover;
 use super::collect::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
 use super::eval::Frame;
 use super::facts::Delta;
 use super::value::{Cause, Value};
-use super::MAX_FIXPOINTS;
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 
 impl Prover<'_> {
@@ -51,11 +51,17 @@ impl Prover<'_> {
                 }
                 let before = Delta::default();
                 let symbol = self.symbols.of_binding(item.index());
-                self.looped_with(id, body, vec![before], |prover| prover.forget(symbol), |prover, back| {
-                    let way = prover.facts.delta(back.mark);
-                    back.ways.push(way.clone());
-                    back.back = Some(way);
-                });
+                self.looped_with(
+                    id,
+                    body,
+                    vec![before],
+                    |prover| prover.forget(symbol),
+                    |prover, back| {
+                        let way = prover.facts.delta(back.mark);
+                        back.ways.push(way.clone());
+                        back.back = Some(way);
+                    },
+                );
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
             StepKind::End { kind, of, .. } => self.end(*kind, *of),
@@ -254,9 +260,10 @@ impl Prover<'_> {
 
     /// Ends the policy, or the inlined policy `of`.
     pub(crate) fn end(&mut self, kind: EndKind, of: Option<StepId>) {
-        let depth = self.enclosing.iter().rposition(|enclosing| {
-            matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of)
-        });
+        let depth = self
+            .enclosing
+            .iter()
+            .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
             (EndKind::Done, None, _) => self.check_goal(),
             (EndKind::Done, Some(_), Some(depth)) => {

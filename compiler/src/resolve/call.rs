@@ -7,7 +7,8 @@ use motet_syntax::ast::{Do, Expr, Policy, PrimitiveForm};
 use smol_str::SmolStr;
 
 use super::errors::{
-    BadDeclaration, MissingArgument, NoResult, Recursion, TooManyArguments, UnknownParameter, UnknownPrimitive,
+    BadDeclaration, MissingArgument, NoResult, Recursion, TooManyArguments, UnknownParameter,
+    UnknownPrimitive,
 };
 use super::expr::{Place as Spot, Wanted};
 use super::near::{list, near};
@@ -30,7 +31,8 @@ impl Steps<'_> {
             let def = library.primitive(id)?;
             return self.primitive(call, id, def, span, place);
         }
-        if let Some(policy) = library.names.policies.get(name).and_then(|index| library.policies.get(*index)) {
+        if let Some(policy) = library.names.policies.get(name).and_then(|index| library.policies.get(*index))
+        {
             return self.inline(call, &Arc::clone(policy), span, place);
         }
         if library.names.fluents.contains_key(name) || library.names.measures.contains_key(name) {
@@ -38,7 +40,8 @@ impl Steps<'_> {
             return None;
         }
         let provided = library.primitives.iter().filter(|def| def.provided).map(|def| def.name.as_str());
-        let near = near(name, provided.chain(library.policies.iter().map(|policy| policy.name.text.as_str())));
+        let near =
+            near(name, provided.chain(library.policies.iter().map(|policy| policy.name.text.as_str())));
         self.resolver.say(UnknownPrimitive { span: call.call.name.span, name: name.clone(), near });
         // What it binds exists all the same, so that its uses are not reported as well.
         if let Some(bind) = &call.bind {
@@ -84,7 +87,8 @@ impl Steps<'_> {
             spans.push(at);
         }
         let within_secs = call.within.as_ref().and_then(|within| self.resolver.seconds(within, "a deadline"));
-        let retries = call.retry.as_ref().and_then(|retry| self.resolver.count(retry, "the count of a `retry`", 0));
+        let retries =
+            call.retry.as_ref().and_then(|retry| self.resolver.count(retry, "the count of a `retry`", 0));
         let binds = match (def.result, &call.bind) {
             (Some(ty), Some(name)) => {
                 let described = description.filter(|_| matches!(ty.base, Base::Entity(_)));
@@ -170,7 +174,12 @@ impl Steps<'_> {
     }
 
     /// The argument for each parameter.
-    fn match_arguments<'e>(&mut self, call: &'e Do, callee: &SmolStr, formals: &[Formal<'_>]) -> Vec<Option<&'e Expr>> {
+    fn match_arguments<'e>(
+        &mut self,
+        call: &'e Do,
+        callee: &SmolStr,
+        formals: &[Formal<'_>],
+    ) -> Vec<Option<&'e Expr>> {
         let mut given: Vec<Option<&Expr>> = vec![None; formals.len()];
         for (position, arg) in call.call.args.iter().enumerate() {
             let index = match &arg.name {
@@ -181,7 +190,13 @@ impl Steps<'_> {
                         let near = near(&name.text, formals.iter().map(|formal| formal.name.as_str()));
                         let known = list(formals.iter().map(|formal| formal.name.clone()));
                         let (name, span) = (name.text.clone(), name.span);
-                        self.resolver.say(UnknownParameter { span, name, callee: callee.clone(), near, known });
+                        self.resolver.say(UnknownParameter {
+                            span,
+                            name,
+                            callee: callee.clone(),
+                            near,
+                            known,
+                        });
                         continue;
                     }
                 },
@@ -191,11 +206,21 @@ impl Steps<'_> {
                 Some(Some(_)) => {
                     let twice = formals.get(index).map(|formal| formal.name.clone());
                     let most = formals.len();
-                    self.resolver.say(TooManyArguments { span: arg.span, callee: callee.clone(), most, twice });
+                    self.resolver.say(TooManyArguments {
+                        span: arg.span,
+                        callee: callee.clone(),
+                        most,
+                        twice,
+                    });
                 }
                 None => {
                     let most = formals.len();
-                    self.resolver.say(TooManyArguments { span: arg.span, callee: callee.clone(), most, twice: None });
+                    self.resolver.say(TooManyArguments {
+                        span: arg.span,
+                        callee: callee.clone(),
+                        most,
+                        twice: None,
+                    });
                 }
             }
         }

@@ -4,9 +4,7 @@ use motet_syntax::ast::{Arg, Call, CompareOp, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
-use super::errors::{
-    MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter,
-};
+use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
 use super::expr::{Place, Resolver, Wanted, dimension};
 use super::near::{list, near};
 use crate::ir::{Base, Condition, Fact, Term, Ty};
@@ -19,7 +17,9 @@ impl Resolver<'_> {
             ExprKind::Call(call) => self.fluent(call),
             ExprKind::Not(inner) => Condition::Not(Box::new(self.condition(inner))),
             ExprKind::All(parts) => Condition::All(parts.iter().map(|part| self.condition(part)).collect()),
-            ExprKind::AnyOf(parts) => Condition::AnyOf(parts.iter().map(|part| self.condition(part)).collect()),
+            ExprKind::AnyOf(parts) => {
+                Condition::AnyOf(parts.iter().map(|part| self.condition(part)).collect())
+            }
             ExprKind::Compare(op, left, right) => self.compare(*op, left, right, expr),
             ExprKind::Name(_) | ExprKind::Binding(_) => match self.term(expr, None) {
                 (term, Ty::BOOL) => Condition::Compare(CompareOp::Equal, term, Term::Bool(true)),
@@ -60,7 +60,8 @@ impl Resolver<'_> {
         }
         let joined = match (dimension(left_ty), dimension(right_ty)) {
             (Some(left), Some(right)) => {
-                left == right && (left != Dimension::NONE || plain(left_ty) == plain(right_ty) || computed(&a, &b))
+                left == right
+                    && (left != Dimension::NONE || plain(left_ty) == plain(right_ty) || computed(&a, &b))
             }
             _ => {
                 let alike = self.library.fits(left_ty, right_ty) || self.library.fits(right_ty, left_ty);
@@ -105,7 +106,12 @@ impl Resolver<'_> {
     fn monitored(&mut self, call: &Call) -> Condition {
         let Some(Arg { value, .. }) = call.args.first() else {
             let (callee, param) = (call.name.text.clone(), SmolStr::new("what"));
-            self.say(MissingArgument { span: call.span, callee, param, ty: "a measure or a fluent".to_owned() });
+            self.say(MissingArgument {
+                span: call.span,
+                callee,
+                param,
+                ty: "a measure or a fluent".to_owned(),
+            });
             return Condition::Unknown;
         };
         let name = match &value.kind {
@@ -145,12 +151,22 @@ impl Resolver<'_> {
             };
             let slot = index.and_then(|index| Some((params.get(index)?, args.get_mut(index)?)));
             let Some(((param, ty), slot)) = slot else {
-                self.say(TooManyArguments { span: arg.span, callee: callee.into(), most: params.len(), twice: None });
+                self.say(TooManyArguments {
+                    span: arg.span,
+                    callee: callee.into(),
+                    most: params.len(),
+                    twice: None,
+                });
                 continue;
             };
             if slot.is_some() {
                 let twice = Some(param.clone());
-                self.say(TooManyArguments { span: arg.span, callee: callee.into(), most: params.len(), twice });
+                self.say(TooManyArguments {
+                    span: arg.span,
+                    callee: callee.into(),
+                    most: params.len(),
+                    twice,
+                });
                 continue;
             }
             *slot = Some(match &arg.value.kind {
@@ -161,7 +177,12 @@ impl Resolver<'_> {
         for ((param, ty), slot) in params.iter().zip(&mut args) {
             if slot.is_none() {
                 let ty = self.library.type_name(*ty);
-                self.say(MissingArgument { span: call.span, callee: callee.into(), param: param.clone(), ty });
+                self.say(MissingArgument {
+                    span: call.span,
+                    callee: callee.into(),
+                    param: param.clone(),
+                    ty,
+                });
                 *slot = Some(Some(Term::Unknown));
             }
         }

@@ -7,8 +7,8 @@ use motet_syntax::{Diagnostic, Form, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
-    MisplacedAny, MissingUnit, NotACondition, UnknownBinding, UnknownCase, UnknownField, UnknownFluent, UnknownName,
-    WrongDimension, WrongType,
+    MisplacedAny, MissingUnit, NotACondition, UnknownBinding, UnknownCase, UnknownField, UnknownFluent,
+    UnknownName, WrongDimension, WrongType,
 };
 use super::near::{list, near};
 use super::scope::Scope;
@@ -180,7 +180,10 @@ impl<'a> Resolver<'a> {
                 }
                 None => (Term::Text(text.clone()), Ty::TEXT),
             },
-            Ty { base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown, .. }
+            Ty {
+                base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown,
+                ..
+            }
             | Ty { base: Base::Quantity(_), .. } => (Term::Text(text.clone()), Ty::TEXT),
         }
     }
@@ -229,9 +232,14 @@ impl<'a> Resolver<'a> {
             Some(Base::Entity(kind)) => {
                 let fitting: Vec<_> =
                     self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
-                let names = self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
+                let names =
+                    self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
                 let near = near(&name, names);
-                let known = if fitting.len() <= 12 { list(fitting.iter().map(|row| row.1.clone())) } else { String::new() };
+                let known = if fitting.len() <= 12 {
+                    list(fitting.iter().map(|row| row.1.clone()))
+                } else {
+                    String::new()
+                };
                 let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
                 let scene = self.has_scene;
                 self.say(UnknownName { span, name, near, wanted, known, scene });
@@ -240,13 +248,21 @@ impl<'a> Resolver<'a> {
                 let names = self.scope.names().map(SmolStr::as_str);
                 let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())));
                 let scene = self.has_scene;
-                self.say(UnknownName { span, name, near, wanted: String::new(), known: String::new(), scene });
+                self.say(UnknownName {
+                    span,
+                    name,
+                    near,
+                    wanted: String::new(),
+                    known: String::new(),
+                    scene,
+                });
             }
         }
     }
 
     fn list(&mut self, items: &[Expr], wanted: Option<Wanted<'_>>) -> (Term, Ty) {
-        let element = wanted.and_then(|wanted| Some(Wanted { ty: wanted.ty.element()?, place: wanted.place }));
+        let element =
+            wanted.and_then(|wanted| Some(Wanted { ty: wanted.ty.element()?, place: wanted.place }));
         let mut ty = element.map_or(Ty::UNKNOWN, |element| element.ty);
         let mut terms = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
@@ -304,7 +320,8 @@ impl<'a> Resolver<'a> {
             Some(ty) => (Term::Field(Box::new(term), name.text.clone()), ty),
             None => {
                 let robot = (term == Term::Entity(ROBOT)).then(|| library.numbers.keys());
-                let fields = library.kinds.iter().flat_map(|def| def.fields.keys()).chain(robot.into_iter().flatten());
+                let fields =
+                    library.kinds.iter().flat_map(|def| def.fields.keys()).chain(robot.into_iter().flatten());
                 let near = near(&name.text, fields.map(SmolStr::as_str));
                 let of = format_smolstr!("`{}`", library.type_name(ty)).to_string();
                 self.say(UnknownField { span: name.span, name: name.text.clone(), of, near });

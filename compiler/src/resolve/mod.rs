@@ -56,7 +56,13 @@ impl Resolver<'_> {
             Term::Number(value) => {
                 let (least, greatest) = ("0 s".to_owned(), format!("{MAX_SECONDS} s"));
                 let actual = format!("{value} s");
-                self.say(errors::OutOfRange { span: expr.span, place: place.to_owned(), least, greatest, actual });
+                self.say(errors::OutOfRange {
+                    span: expr.span,
+                    place: place.to_owned(),
+                    least,
+                    greatest,
+                    actual,
+                });
                 None
             }
             Term::Unknown => None,

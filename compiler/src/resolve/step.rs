@@ -4,14 +4,14 @@ use motet_syntax::ast::{Block, Catch, CatchOn, End, Policy, Reaction, Step, Step
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
+use super::MAX_NODES;
 use super::errors::{NotACondition, Shadows, TooManySteps, UnknownFailure, WrongType};
 use super::expr::{Place as Spot, Resolver, Wanted};
 use super::near::{list, near};
-use super::MAX_NODES;
 use crate::ir::{self, Base, Binding, BindingId, Place, Program, Slot, StepId, Term, Ty};
 
 /// Seconds of a `wait` or `pause` that says nothing of its own.
-pub const DEFAULT_WAIT_SECS: f64 = 60.0;
+pub(super) const DEFAULT_WAIT_SECS: f64 = 60.0;
 
 /// Resolves steps into the arena of a program.
 pub(super) struct Steps<'a> {
@@ -91,7 +91,13 @@ impl<'a> Steps<'a> {
         Some(id)
     }
 
-    pub(super) fn bind(&mut self, name: SmolStr, ty: Ty, span: Span, description: Option<SmolStr>) -> BindingId {
+    pub(super) fn bind(
+        &mut self,
+        name: SmolStr,
+        ty: Ty,
+        span: Span,
+        description: Option<SmolStr>,
+    ) -> BindingId {
         let id = BindingId(u32::try_from(self.resolver.bindings.len()).unwrap_or(u32::MAX));
         self.resolver.bindings.push(Binding { name, ty, span, description, uses: 0 });
         id
@@ -112,9 +118,10 @@ impl<'a> Steps<'a> {
         let id = self.reserve(step.span, place)?;
         let kind = match &step.kind {
             StepKind::Do(_) => return None,
-            StepKind::Sequence { name, body } => {
-                ir::StepKind::Sequence { name: name.text.clone(), body: self.block(body, Some(id), Slot::Steps) }
-            }
+            StepKind::Sequence { name, body } => ir::StepKind::Sequence {
+                name: name.text.clone(),
+                body: self.block(body, Some(id), Slot::Steps),
+            },
             StepKind::If { condition, then, otherwise } => ir::StepKind::If {
                 condition: self.resolver.condition(condition),
                 span: condition.span,
@@ -126,12 +133,14 @@ impl<'a> Steps<'a> {
                 within_secs: self.seconds_or(within.as_ref(), "the deadline of a `wait`"),
             },
             StepKind::Monitor { whens, body } => {
-                let whens = whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();
+                let whens =
+                    whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();
                 ir::StepKind::Monitor { whens, body: self.block(body, Some(id), Slot::During) }
             }
             StepKind::Try { body, catches } => {
                 let body = self.block(body, Some(id), Slot::Try);
-                let catches = catches.iter().enumerate().map(|(index, catch)| self.catch(catch, id, index)).collect();
+                let catches =
+                    catches.iter().enumerate().map(|(index, catch)| self.catch(catch, id, index)).collect();
                 ir::StepKind::Try { body, catches }
             }
             StepKind::Repeat { times, body, until } => {
@@ -154,12 +163,12 @@ impl<'a> Steps<'a> {
                 let branches = branches.iter().enumerate();
                 let slot = |index: usize| Slot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
                 ir::StepKind::Parallel {
-                    branches: branches.map(|(index, block)| self.block(block, Some(id), slot(index))).collect(),
+                    branches: branches
+                        .map(|(index, block)| self.block(block, Some(id), slot(index)))
+                        .collect(),
                 }
             }
-            StepKind::End(end) => {
-                ir::StepKind::End { kind: end.kind, of: self.inline, why: self.why(end) }
-            }
+            StepKind::End(end) => ir::StepKind::End { kind: end.kind, of: self.inline, why: self.why(end) },
         };
         self.fill(id, kind)
     }
@@ -172,7 +181,12 @@ impl<'a> Steps<'a> {
                 if ty.base != Base::Unknown {
                     let actual = self.resolver.library.type_name(ty);
                     let place = "the list of an `each`".to_owned();
-                    self.resolver.say(WrongType { span: list.span, expected: "a list".to_owned(), actual, place });
+                    self.resolver.say(WrongType {
+                        span: list.span,
+                        expected: "a list".to_owned(),
+                        actual,
+                        place,
+                    });
                 }
                 (Term::Unknown, Ty::UNKNOWN)
             }
@@ -192,7 +206,8 @@ impl<'a> Steps<'a> {
         let slot = Slot::Reaction(u16::try_from(index).unwrap_or(u16::MAX));
         let condition = self.resolver.condition(&when.condition);
         let hold = when.hold.as_ref();
-        let hold_secs = hold.and_then(|hold| self.resolver.seconds(hold, "the time of a `for`")).unwrap_or(0.0);
+        let hold_secs =
+            hold.and_then(|hold| self.resolver.seconds(hold, "the time of a `for`")).unwrap_or(0.0);
         let reaction = match &when.reaction {
             Reaction::Pause { within, .. } => {
                 ir::Reaction::Pause { within_secs: self.seconds_or(within.as_ref(), "the time of a `pause`") }
@@ -222,7 +237,12 @@ impl<'a> Steps<'a> {
                             let known = || library.failures.iter().map(|(name, _)| name);
                             let near = near(&name.text, known().map(SmolStr::as_str));
                             let known = list(known().cloned());
-                            self.resolver.say(UnknownFailure { span: name.span, name: name.text.clone(), near, known });
+                            self.resolver.say(UnknownFailure {
+                                span: name.span,
+                                name: name.text.clone(),
+                                near,
+                                known,
+                            });
                         }
                     }
                 }
@@ -230,7 +250,7 @@ impl<'a> Steps<'a> {
             }
         };
         let slot = Slot::Catch(u16::try_from(index).unwrap_or(u16::MAX));
-        ir::Catch { on, body: self.block(&catch.body, Some(id), slot), span: catch.span }
+        ir::Catch { on, body: self.block(&catch.body, Some(id), slot) }
     }
 
     /// An expression in a place of a step where nothing but a name of something called makes sense.

@@ -45,8 +45,9 @@ impl Entities {
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Entity, &SmolStr, Kind)> {
-        self.list.iter().enumerate().filter_map(|(index, (name, kind))| {
-            Some((Entity(u16::try_from(index).ok()?), name, *kind))
-        })
+        self.list
+            .iter()
+            .enumerate()
+            .filter_map(|(index, (name, kind))| Some((Entity(u16::try_from(index).ok()?), name, *kind)))
     }
 }

@@ -88,7 +88,11 @@ impl World {
         match &self.scene {
             Some(scene) => {
                 let matches = scene.matches(description).into_iter();
-                matches.filter_map(|entity| self.entities.find(&entity.id)).filter(fits).map(|found| found.0).collect()
+                matches
+                    .filter_map(|entity| self.entities.find(&entity.id))
+                    .filter(fits)
+                    .map(|found| found.0)
+                    .collect()
             }
             None => self.entities.find(description).filter(fits).map(|found| found.0).into_iter().collect(),
         }

@@ -69,9 +69,9 @@ impl Teller<'_> {
         let library = self.library;
         let Some(fluent) = library.names.fluents.get("free").copied() else { return };
         let Some(hand) = library.names.enums.get("Hand").copied() else { return };
-        let takes_hand = library.fluent(fluent).is_some_and(|def| {
-            matches!(def.params.as_slice(), [(_, ty)] if ty.base == crate::ir::Base::Enum(hand))
-        });
+        let takes_hand = library.fluent(fluent).is_some_and(
+            |def| matches!(def.params.as_slice(), [(_, ty)] if ty.base == crate::ir::Base::Enum(hand)),
+        );
         if !takes_hand {
             return;
         }
