@@ -14,6 +14,8 @@ pub const MAX_NESTING: usize = 64;
 pub const MAX_BYTES: usize = 16 * 1024 * 1024;
 /// The most steps that one document may hold.
 pub const MAX_STEPS: usize = 100_000;
+/// The most words, numbers, texts and marks (in JSON: keys and values) that one document may hold.
+pub const MAX_TOKENS: usize = 4_000_000;
 
 /// An identifier where it is written.
 #[derive(Clone, Debug)]

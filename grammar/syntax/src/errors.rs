@@ -1,6 +1,6 @@
 //! Mistakes that either surface can have, and the list of every code that this crate raises.
 
-use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS};
+use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
 use crate::diagnostic::{Code, Mistake};
 use crate::source::Span;
 
@@ -77,6 +77,26 @@ impl Mistake for TooManySteps {
             "use `repeat` or `each` for steps that are alike, or split the document into several policies"
                 .into(),
         )
+    }
+}
+
+/// The document has more than [`MAX_TOKENS`] words and marks.
+#[derive(Clone, Debug)]
+pub struct TooManyTokens {
+    /// The first that is too many.
+    pub span: Span,
+}
+
+impl Mistake for TooManyTokens {
+    const CODE: Code = Code("M0118");
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        format!("the document has more than {MAX_TOKENS} words and values")
+    }
+    fn help(&self) -> Option<String> {
+        Some("split it into several files".into())
     }
 }
 

@@ -7,9 +7,12 @@ pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
+mod read;
 pub mod source;
 pub mod suggest;
+pub mod text;
 pub mod unit;
 
 pub use diagnostic::{Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
+pub use read::{Parsed, read};
 pub use source::{FileId, Form, Source, Sources, Span};

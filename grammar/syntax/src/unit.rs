@@ -140,6 +140,26 @@ const UNITS: &[(Unit, &str, Dimension, f64, f64)] = &[
 ];
 
 impl Unit {
+    /// Every unit, by dimension.
+    pub const ALL: &[Self] = &[
+        Self::Metre,
+        Self::Centimetre,
+        Self::Millimetre,
+        Self::Kilometre,
+        Self::Radian,
+        Self::Degree,
+        Self::Second,
+        Self::Millisecond,
+        Self::Minute,
+        Self::Hour,
+        Self::Kilogram,
+        Self::Gram,
+        Self::Newton,
+        Self::MetrePerSecond,
+        Self::KilometrePerHour,
+        Self::Percent,
+    ];
+
     /// The unit with this symbol; case matters.
     #[must_use]
     pub fn parse(symbol: &str) -> Option<Self> {

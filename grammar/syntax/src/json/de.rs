@@ -14,13 +14,10 @@ use serde::de::{Unexpected, Visitor};
 use super::access::{Elements, Fields, Members, Place, Recovery, Variant};
 use super::fault::{Fault, Reason};
 use super::tree::{Kind, Number, Tree};
-use super::{lenient, spanned};
+use super::{lenient, spanned, term};
 
 /// In a struct's list of fields: any other key is welcome too.
 pub(crate) const OPEN: &str = "*";
-
-/// First character of the name of an enum whose visitor also takes what is no object.
-pub(crate) const MIXED: char = '$';
 
 /// What all deserializers of one document share.
 pub(crate) struct Context<'s> {
@@ -93,6 +90,9 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         match name {
             spanned::NAME => visitor.visit_seq(Place::new(self)),
             lenient::NAME => visitor.visit_seq(Recovery::new(self)),
+            term::MIXED if !matches!(self.kind(), Some(Kind::Object)) => {
+                return self.deserialize_any(visitor);
+            }
             _ => visitor.visit_newtype_struct(self),
         }
         .map_err(|fault| fault.or_at(self.at))
@@ -114,7 +114,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
 
     fn deserialize_enum<V: Visitor<'de>>(
         self,
-        name: &'static str,
+        _name: &'static str,
         variants: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Fault> {
@@ -127,7 +127,6 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
                 };
                 visitor.visit_enum(Variant { context: self.context, object: self.at, key, variants })
             }
-            Some(_) if name.starts_with(MIXED) => self.deserialize_any(visitor),
             Some(Kind::Text(text)) => visitor.visit_enum(text.as_ref().into_deserializer()),
             Some(_) | None => return self.wrong("a string or an object"),
         }

@@ -413,3 +413,86 @@ impl Mistake for TwoForms {
         vec![Related::new(format!("`{}` is here", self.first), self.first_span)]
     }
 }
+
+/// A key in a call that belongs to another kind of step and is no parameter of any primitive.
+#[derive(Clone, Debug)]
+pub struct ReservedKey {
+    /// The key.
+    pub span: Span,
+    /// As written.
+    pub key: SmolStr,
+}
+
+/// The keys that no parameter bears, and the forms that they belong to.
+pub const RESERVED: &[(&str, &str)] = &[
+    ("if", "a step of its own"),
+    ("then", "`if` and to a monitor's `when`"),
+    ("else", "`if`"),
+    ("wait", "a step of its own"),
+    ("monitor", "a step of its own"),
+    ("during", "`monitor`"),
+    ("try", "a step of its own"),
+    ("catch", "`try`"),
+    ("repeat", "a step of its own"),
+    ("until", "`repeat`"),
+    ("steps", "`sequence`, `repeat` and `each`"),
+    ("each", "a step of its own"),
+    ("in", "`each`"),
+    ("at_most", "`each` and to the reactions"),
+    ("parallel", "a step of its own"),
+    ("end", "a step of its own"),
+    ("why", "`end`"),
+    ("sequence", "a step of its own"),
+    ("when", "`monitor`"),
+    ("for", "a monitor's `when`"),
+    ("react", "a monitor's `then`"),
+    ("is", "conditions"),
+    ("get", "terms"),
+    ("field", "terms"),
+    ("of", "`field`"),
+];
+
+impl Mistake for ReservedKey {
+    const CODE: Code = Code("M0117");
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        format!("`{}` is no argument of a `do` step", self.key)
+    }
+    fn help(&self) -> Option<String> {
+        let owner = RESERVED.iter().find(|(key, _)| *key == self.key).map(|(_, owner)| *owner);
+        owner.map(|owner| {
+            format!("the key belongs to {owner}; a `do` step has `as`, `within`, `retry` and arguments")
+        })
+    }
+}
+
+/// A string that cannot be a name.
+#[derive(Clone, Debug)]
+pub struct BadName {
+    /// The string.
+    pub span: Span,
+    /// As written.
+    pub name: SmolStr,
+}
+
+impl Mistake for BadName {
+    const CODE: Code = Code("M0121");
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        if self.name.is_empty() { "a name is empty".into() } else { format!("`{}` is not a name", self.name) }
+    }
+    fn help(&self) -> Option<String> {
+        Some(match self.name.strip_prefix('$') {
+            Some(rest) => format!("write `{rest}`: `$` marks the use of a binding, not its name"),
+            None => "a name has at least one character, and no back-quote and no line break".into(),
+        })
+    }
+    fn fix(&self) -> Option<Fix> {
+        let rest = self.name.strip_prefix('$').filter(|rest| crate::text::is_bare_name(rest))?;
+        Some(replace(self.span, &format!("\"{rest}\""), &format!("write `{rest}`")))
+    }
+}

@@ -22,6 +22,8 @@
 //! ```
 
 mod access;
+mod convert;
+mod convert_term;
 mod de;
 pub mod errors;
 mod fault;
@@ -29,7 +31,9 @@ mod lenient;
 mod parse;
 mod scan;
 mod spanned;
+pub mod term;
 mod tree;
+pub mod wire;
 
 use std::cell::RefCell;
 
@@ -38,7 +42,7 @@ use serde::Deserialize;
 pub use lenient::Lenient;
 pub use spanned::Spanned;
 
-use crate::ast::{MAX_BYTES, MAX_NESTING};
+use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{Empty, TooLarge};
 use crate::source::{FileId, Source, Span};
@@ -59,15 +63,24 @@ pub fn read<'s, T: Deserialize<'s>>(source: &'s Source, file: FileId) -> (Option
 
 /// [`read`] of a text that is no source of its own.
 pub(crate) fn read_str<'s, T: Deserialize<'s>>(text: &'s str, file: FileId) -> (Option<T>, Vec<Diagnostic>) {
+    let (value, _, found) = read_tree(text, file);
+    (value, found)
+}
+
+/// [`read_str`], with the tree where the syntax is right, so that a later stage can find its pointers.
+fn read_tree<'s, T: Deserialize<'s>>(
+    text: &'s str,
+    file: FileId,
+) -> (Option<T>, Option<tree::Tree<'s>>, Vec<Diagnostic>) {
     let start = Span::new(file, 0, 0);
     if text.len() > MAX_BYTES {
-        return (None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
+        return (None, None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
     }
     if text.trim_ascii().is_empty() {
-        return (None, vec![Empty { span: start }.into()]);
+        return (None, None, vec![Empty { span: start }.into()]);
     }
     let (tree, mut found) = parse::parse(text, file);
-    let Some(tree) = tree else { return (None, found) };
+    let Some(tree) = tree else { return (None, None, found) };
     let context = de::Context { tree, sink: RefCell::default() };
     let value = match T::deserialize(de::Value { context: &context, at: 0 }) {
         Ok(value) => Some(value),
@@ -79,5 +92,20 @@ pub(crate) fn read_str<'s, T: Deserialize<'s>>(text: &'s str, file: FileId) -> (
     let de::Context { tree, sink } = context;
     found.extend(sink.into_inner().into_iter().map(|fault| fault.diagnostic(&tree)));
     found.sort_by_key(|diagnostic| diagnostic.span.start);
-    (value, found)
+    (value, Some(tree), found)
+}
+
+/// Reads a policy into a file with one item; none where it could not be read.
+pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
+    let (document, tree, mut found) = read_tree::<Spanned<wire::Document>>(text, file);
+    let Some(document) = document else { return (File::default(), found) };
+    let (policy, mistakes) = convert::policy(document, file);
+    found.extend(mistakes);
+    for diagnostic in &mut found {
+        if let Some(tree) = tree.as_ref().filter(|_| diagnostic.path.is_empty()) {
+            diagnostic.path = tree.pointer_at(diagnostic.span);
+        }
+    }
+    found.sort_by_key(|diagnostic| diagnostic.span.start);
+    (File { items: vec![Item::Policy(policy)] }, found)
 }

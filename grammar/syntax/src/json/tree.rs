@@ -100,6 +100,24 @@ impl<'s> Tree<'s> {
         std::iter::successors(first, move |key| Some(self.next(key + 1)).filter(|at| *at < end))
     }
 
+    /// The JSON Pointer of the innermost value that covers a span, or whose key does.
+    pub(crate) fn pointer_at(&self, span: Span) -> String {
+        let covers = |node: &Node<'_>| node.start <= span.start && span.end <= node.end;
+        let mut target = 0;
+        let mut at = 0;
+        while let Some(node) = self.get(at) {
+            if covers(node) {
+                target = at;
+                at += 1;
+            } else if node.start >= span.end && span.end > span.start {
+                break;
+            } else {
+                at = node.next;
+            }
+        }
+        self.pointer(target)
+    }
+
     /// The JSON Pointer of the value (or of the value of the key) at `target`. O(members before it on each level).
     pub(crate) fn pointer(&self, target: u32) -> String {
         let mut pointer = String::new();

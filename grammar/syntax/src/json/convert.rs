@@ -1,0 +1,224 @@
+//! The wire types of a policy to the AST, step by step. What the types cannot say is checked here: names, nesting, the
+//! number of steps, which keys a reaction has. Conditions and terms are in [`super::convert_term`].
+
+use super::errors::{BadName, BadValue, MissingKey, RESERVED, ReservedKey, UnknownKey};
+use super::wire::{self, ReactKind};
+use super::{Lenient, Spanned};
+use crate::ast::{
+    Block, Catch, CatchOn, Do, End, EndKind, MAX_NESTING, MAX_STEPS, Name, Policy, Reaction, Step, StepKind,
+    When,
+};
+use crate::diagnostic::Diagnostic;
+use crate::errors::{TooDeep, TooManySteps};
+use crate::source::{FileId, Span};
+use crate::text;
+
+/// The policy of a document, and what is wrong with it.
+pub(super) fn policy(document: Spanned<wire::Document>, file: FileId) -> (Policy, Vec<Diagnostic>) {
+    let mut converter = Converter { file, found: Vec::new(), steps: 0 };
+    let Spanned { value: document, span } = document;
+    if *document.motet != 1 {
+        let message = format!("version {} of the format is not known", *document.motet);
+        converter.bad_value(document.motet.span, message, &["1"]);
+    }
+    let policy = Policy {
+        doc: smol_str::SmolStr::default(),
+        name: converter.name(document.policy),
+        params: Vec::new(),
+        robot: document.robot.map(|robot| converter.name(robot)),
+        achieves: document.achieves.map(|goal| converter.condition(goal, 1)),
+        body: converter.block(document.steps, 1),
+        span,
+    };
+    (policy, converter.found)
+}
+
+pub(super) struct Converter {
+    pub(super) file: FileId,
+    pub(super) found: Vec<Diagnostic>,
+    steps: usize,
+}
+
+impl Converter {
+    /// A block; `depth` counts the braces that the text form has around its steps.
+    fn block(&mut self, steps: wire::Steps, depth: usize) -> Block {
+        let span = steps.span;
+        if depth > MAX_NESTING {
+            self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
+            return Block { steps: Vec::new(), span };
+        }
+        let mut block = Vec::with_capacity(steps.value.len());
+        for Lenient(step) in steps.value {
+            let Some(step) = step else { continue };
+            self.steps += 1;
+            if self.steps > MAX_STEPS {
+                if self.steps == MAX_STEPS + 1 {
+                    self.found.push(TooManySteps { span: step.span }.into());
+                }
+                break;
+            }
+            let span = step.span;
+            block.extend(self.step(step.value, span, depth).map(|kind| Step { kind, span }));
+        }
+        Block { steps: block, span }
+    }
+
+    fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> Option<StepKind> {
+        Some(match step {
+            wire::Step::Do(step) => StepKind::Do(self.call_step(step, span, depth)),
+            wire::Step::Sequence(step) => {
+                StepKind::Sequence { name: self.name(step.sequence), body: self.block(step.steps, depth + 1) }
+            }
+            wire::Step::If(step) => StepKind::If {
+                condition: self.condition(step.r#if, depth),
+                then: self.block(step.then, depth + 1),
+                otherwise: step.r#else.map(|steps| self.block(steps, depth + 1)),
+            },
+            wire::Step::Wait(step) => StepKind::Wait {
+                condition: self.condition(step.wait, depth),
+                within: step.within.map(|within| self.duration(within, depth)),
+            },
+            wire::Step::Monitor(step) => {
+                self.at_least_one(step.monitor.value.is_empty(), step.monitor.span, "monitor", "condition");
+                let whens = step.monitor.value.into_iter().filter_map(|Lenient(when)| when);
+                StepKind::Monitor {
+                    whens: whens.filter_map(|when| self.when(when, depth)).collect(),
+                    body: self.block(step.during, depth + 1),
+                }
+            }
+            wire::Step::Try(step) => {
+                self.at_least_one(step.catch.value.is_empty(), step.catch.span, "try", "handler");
+                let body = self.block(step.r#try, depth + 1);
+                let catches = step.catch.value.into_iter().filter_map(|Lenient(catch)| catch);
+                StepKind::Try { body, catches: catches.map(|catch| self.catch(catch, depth)).collect() }
+            }
+            wire::Step::Repeat(step) => StepKind::Repeat {
+                times: self.count(step.repeat, depth),
+                body: self.block(step.steps, depth + 1),
+                until: step.until.map(|until| self.condition(until, depth)),
+            },
+            wire::Step::Each(step) => StepKind::Each {
+                item: self.name(step.each),
+                list: self.term(step.r#in, depth + 1),
+                at_most: self.count(step.at_most, depth),
+                body: self.block(step.steps, depth + 1),
+            },
+            wire::Step::Parallel(step) => {
+                self.at_least_one(step.parallel.value.is_empty(), step.parallel.span, "parallel", "branch");
+                let branches = step.parallel.value.into_iter();
+                StepKind::Parallel { branches: branches.map(|steps| self.block(steps, depth + 2)).collect() }
+            }
+            wire::Step::End(end) => StepKind::End(self.end(end, span, depth)),
+        })
+    }
+
+    fn call_step(&mut self, step: wire::Do, span: Span, depth: usize) -> Do {
+        for (key, _) in &step.args.0 {
+            if RESERVED.iter().any(|(reserved, _)| *reserved == key.value) {
+                self.found.push(ReservedKey { span: key.span, key: key.value.clone() }.into());
+            }
+        }
+        Do {
+            call: self.call(step.r#do, step.args, span, depth + 1, false),
+            bind: step.r#as.map(|bind| self.name(bind)),
+            within: step.within.map(|within| self.duration(within, depth)),
+            retry: step.retry.map(|retry| self.count(retry, depth)),
+        }
+    }
+
+    fn when(&mut self, when: Spanned<wire::When>, depth: usize) -> Option<When> {
+        let Spanned { value: when, span } = when;
+        let condition = self.condition(when.when, depth);
+        let hold = when.r#for.map(|hold| self.duration(hold, depth));
+        let Spanned { value: reaction, span: place } = when.then;
+        let reaction = match reaction {
+            wire::Reaction::End(end) => Reaction::End(self.end(end, place, depth)),
+            wire::Reaction::React(react) => self.react(react, place, depth)?,
+        };
+        Some(When { condition, hold, reaction, span })
+    }
+
+    /// A reaction; `None` where a key is missing.
+    fn react(&mut self, react: wire::React, span: Span, depth: usize) -> Option<Reaction> {
+        let kind = react.react.value;
+        let place = react.react.span;
+        let mut surplus = |key: &'static str, at: Option<Span>, expected: &'static [&'static str]| {
+            self.found
+                .extend(at.map(|span| Diagnostic::from(UnknownKey { key: key.into(), span, expected })));
+        };
+        if kind != ReactKind::Pause {
+            surplus(
+                "within",
+                react.within.as_ref().map(|within| within.0.span),
+                &["react", "at_most", "steps"],
+            );
+        }
+        if kind == ReactKind::Pause {
+            surplus("at_most", react.at_most.as_ref().map(|count| count.0.span), &["react", "within"]);
+        }
+        if kind != ReactKind::Resume {
+            surplus("steps", react.steps.as_ref().map(|steps| steps.span), &["react", "within", "at_most"]);
+        }
+        if kind == ReactKind::Pause {
+            return Some(Reaction::Pause {
+                within: react.within.map(|within| self.duration(within, depth)),
+                span,
+            });
+        }
+        let Some(at_most) = react.at_most else {
+            self.found.push(MissingKey { key: "at_most", span: place }.into());
+            return None;
+        };
+        let at_most = self.count(at_most, depth);
+        if kind == ReactKind::Restart {
+            return Some(Reaction::Restart { at_most, span });
+        }
+        let Some(steps) = react.steps else {
+            self.found.push(MissingKey { key: "steps", span: place }.into());
+            return None;
+        };
+        Some(Reaction::Resume { at_most, body: self.block(steps, depth + 2), span })
+    }
+
+    fn catch(&mut self, catch: Spanned<wire::Catch>, depth: usize) -> Catch {
+        let Spanned { value: catch, span } = catch;
+        let Spanned { value: on, span: place } = catch.on;
+        self.at_least_one(on.is_empty(), place, "catch", "kind of failure");
+        let on = match on.as_slice() {
+            [only] if only.value == "any" => CatchOn::Any(only.span),
+            _ => CatchOn::Kinds(on.into_iter().map(|kind| self.name(kind)).collect()),
+        };
+        Catch { on, body: self.block(catch.steps, depth + 1), span }
+    }
+
+    fn end(&mut self, end: wire::End, span: Span, depth: usize) -> End {
+        let kind = match end.end.value {
+            wire::EndKind::Done => EndKind::Done,
+            wire::EndKind::Fail => EndKind::Fail,
+            wire::EndKind::Replan => EndKind::Replan,
+        };
+        if let (EndKind::Done, Some(why)) = (kind, &end.why) {
+            self.bad_value(why.span, "`done` has no reason".into(), &[]);
+            return End { kind, why: None, span };
+        }
+        End { kind, why: end.why.map(|why| self.term(why, depth + 1)), span }
+    }
+
+    pub(super) fn name(&mut self, name: Spanned<smol_str::SmolStr>) -> Name {
+        let Spanned { value, span } = name;
+        if !text::is_name(&value) || value.starts_with('$') {
+            self.found.push(BadName { span, name: value.clone() }.into());
+        }
+        Name { text: value, span }
+    }
+
+    fn at_least_one(&mut self, is_empty: bool, span: Span, key: &str, what: &str) {
+        if is_empty {
+            self.bad_value(span, format!("`{key}` needs at least one {what}"), &[]);
+        }
+    }
+
+    pub(super) fn bad_value(&mut self, span: Span, message: String, expected: &'static [&'static str]) {
+        self.found.push(BadValue { span, message, expected, found: smol_str::SmolStr::default() }.into());
+    }
+}

@@ -1,0 +1,173 @@
+//! The wire types of conditions and terms to the AST. A string means something else in each place: the text form of a
+//! condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its place.
+
+use smol_str::SmolStr;
+
+use super::Spanned;
+use super::convert::Converter;
+use super::errors::{BadValue, WrongType};
+use super::term::{Args, Condition, Count, Duration, Form, Pair, Term};
+use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
+use crate::errors::TooDeep;
+use crate::source::Span;
+use crate::text::{self, Origin};
+use crate::unit::{Dimension, Unit};
+
+impl Converter {
+    /// A condition of a step in `depth` blocks.
+    pub(super) fn condition(&mut self, condition: Condition, depth: usize) -> Expr {
+        self.condition_at(condition, depth + 1)
+    }
+
+    /// A condition; `level` counts blocks and expressions.
+    fn condition_at(&mut self, condition: Condition, level: usize) -> Expr {
+        let Spanned { value, span } = condition.0;
+        let Term::Text(text) = value else { return self.term(Spanned { value, span }, level) };
+        // A string without escapes is as long as it looks.
+        let is_plain = (span.end - span.start) as usize == text.len() + 2;
+        let origin = if is_plain { Origin::At(self.file, span.start + 1) } else { Origin::Within(span) };
+        let (expr, found) = text::parse_expr(&text, origin, level.saturating_sub(1));
+        self.found.extend(found);
+        expr.unwrap_or(Expr { kind: ExprKind::Plain(text), span })
+    }
+
+    /// A duration: a bare number is seconds.
+    pub(super) fn duration(&mut self, duration: Duration, depth: usize) -> Expr {
+        let Spanned { value, span } = duration.0;
+        let kind = match value {
+            Term::Number(seconds) => ExprKind::Quantity(seconds, Unit::Second),
+            Term::Text(text) if !text.starts_with('$') => {
+                let quantity = quantity(&text);
+                if quantity.is_none_or(|(_, unit)| unit.dimension() != Dimension::DURATION) {
+                    let mistake = BadValue {
+                        span,
+                        message: format!("`{text}` is not a duration"),
+                        expected: &["20", "\"200 ms\""],
+                        found: SmolStr::default(),
+                    };
+                    self.found.push(mistake.into());
+                }
+                quantity.map_or(ExprKind::Plain(text), |(value, unit)| ExprKind::Quantity(value, unit))
+            }
+            other @ (Term::Text(_) | Term::Form(_)) => {
+                return self.term(Spanned { value: other, span }, depth + 1);
+            }
+            Term::Bool(_) | Term::List(_) => {
+                return self.wrong(span, "a duration: seconds, or a string such as \"200 ms\"");
+            }
+        };
+        Expr { kind, span }
+    }
+
+    /// A whole number; whether it is one is for the compiler to check.
+    pub(super) fn count(&mut self, count: Count, depth: usize) -> Expr {
+        match &count.0.value {
+            Term::Number(_) | Term::Form(_) => self.term(count.0, depth + 1),
+            Term::Text(text) if text.starts_with('$') => self.term(count.0, depth + 1),
+            Term::Text(_) | Term::Bool(_) | Term::List(_) => self.wrong(count.0.span, "a whole number"),
+        }
+    }
+
+    fn wrong(&mut self, span: Span, expected: &str) -> Expr {
+        self.found.push(WrongType { span, expected: expected.into(), found: "another value".into() }.into());
+        Expr { kind: ExprKind::Plain(SmolStr::default()), span }
+    }
+
+    /// A term; `level` counts blocks and expressions.
+    pub(super) fn term(&mut self, term: Spanned<Term>, level: usize) -> Expr {
+        let Spanned { value, span } = term;
+        if level > MAX_NESTING {
+            self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
+            return Expr { kind: ExprKind::Plain(SmolStr::default()), span };
+        }
+        let kind = match value {
+            Term::Bool(value) => ExprKind::Bool(value),
+            Term::Number(value) => ExprKind::Number(value),
+            Term::Text(text) => self.string(text, span),
+            Term::List(members) => {
+                ExprKind::List(members.into_iter().map(|member| self.term(member, level + 1)).collect())
+            }
+            Term::Form(form) => self.form(*form, span, level),
+        };
+        Expr { kind, span }
+    }
+
+    /// A string that is no condition: `$x` is a binding, `$$` a dollar sign, anything else is settled later.
+    fn string(&mut self, text: SmolStr, span: Span) -> ExprKind {
+        match text.strip_prefix('$') {
+            None => ExprKind::Plain(text),
+            Some(rest) if rest.starts_with('$') => ExprKind::Text(rest.into()),
+            Some(rest) => ExprKind::Binding(self.name(Spanned { value: SmolStr::new(rest), span }).text),
+        }
+    }
+
+    fn form(&mut self, form: Form, span: Span, level: usize) -> ExprKind {
+        use {ArithOp as A, CompareOp as C};
+        match form {
+            Form::Is(form) => ExprKind::Call(self.call(form.is, form.args, span, level, true)),
+            Form::Get(form) => ExprKind::Call(self.call(form.get, form.args, span, level, true)),
+            Form::Field(form) => {
+                let of = self.term(form.of, level + 1);
+                ExprKind::Field(Box::new(of), self.name(form.field))
+            }
+            Form::Not(inner) => ExprKind::Not(Box::new(self.condition_at(inner, level + 1))),
+            Form::All(members) => ExprKind::All(self.conditions(members, level + 1)),
+            Form::Any(members) => ExprKind::AnyOf(self.conditions(members, level + 1)),
+            Form::Less(pair) => self.compare(C::Less, pair, level),
+            Form::AtMost(pair) => self.compare(C::AtMost, pair, level),
+            Form::Equal(pair) => self.compare(C::Equal, pair, level),
+            Form::More(pair) => self.compare(C::More, pair, level),
+            Form::AtLeast(pair) => self.compare(C::AtLeast, pair, level),
+            Form::Unequal(pair) => self.compare(C::Unequal, pair, level),
+            Form::Add(pair) => self.arithmetic(A::Add, pair, level),
+            Form::Subtract(pair) => self.arithmetic(A::Subtract, pair, level),
+            Form::Multiply(pair) => self.arithmetic(A::Multiply, pair, level),
+            Form::Divide(pair) => self.arithmetic(A::Divide, pair, level),
+        }
+    }
+
+    fn conditions(&mut self, members: Vec<Condition>, level: usize) -> Vec<Expr> {
+        members.into_iter().map(|member| self.condition_at(member, level)).collect()
+    }
+
+    fn compare(&mut self, op: CompareOp, [left, right]: Pair, level: usize) -> ExprKind {
+        ExprKind::Compare(op, Box::new(self.term(left, level + 1)), Box::new(self.term(right, level + 1)))
+    }
+
+    fn arithmetic(&mut self, op: ArithOp, [left, right]: Pair, level: usize) -> ExprKind {
+        ExprKind::Arith(op, Box::new(self.term(left, level + 1)), Box::new(self.term(right, level + 1)))
+    }
+
+    /// A call; among the arguments of a fluent or a measure, the string `any` stands for every entity.
+    pub(super) fn call(
+        &mut self,
+        name: Spanned<SmolStr>,
+        args: Args,
+        span: Span,
+        level: usize,
+        takes_any: bool,
+    ) -> Call {
+        let mut converted = Vec::with_capacity(args.0.len());
+        for (key, value) in args.0 {
+            let span = key.span.to(value.span);
+            let is_any = takes_any && matches!(&value.value, Term::Text(text) if text == "any");
+            let value = if is_any {
+                Expr { kind: ExprKind::Any, span: value.span }
+            } else {
+                self.term(value, level + 1)
+            };
+            converted.push(Arg { name: Some(self.name(key)), value, span });
+        }
+        Call { name: self.name(name), args: converted, span }
+    }
+}
+
+/// `"20 cm"`: a number, perhaps spaces, and a unit.
+pub(crate) fn quantity(text: &str) -> Option<(f64, Unit)> {
+    let text = text.trim();
+    let digits = text.find(|c: char| !matches!(c, '0'..='9' | '.' | '-'))?;
+    let (number, unit) = text.split_at_checked(digits)?;
+    let unit = Unit::parse(unit.trim_start())?;
+    let value: f64 = number.parse().ok()?;
+    value.is_finite().then_some((value, unit))
+}

@@ -1,0 +1,384 @@
+//! Conditions and terms in JSON, as they are read, written and described. Part of [`super::wire`].
+
+use std::borrow::Cow;
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use smol_str::SmolStr;
+
+use super::Spanned;
+use super::wire::Do;
+
+/// The name by which [`super::de`] knows a type that is an enum as an object and a literal otherwise.
+pub(crate) const MIXED: &str = "$motet::Mixed";
+
+/// A literal, a binding, or a form.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Term {
+    /// `true`
+    Bool(bool),
+    /// `0.5`: a number, in SI units where a quantity is meant.
+    Number(f64),
+    /// `"$mug"`, `"mug_1"`, `"20 cm"`, `"red mug"`
+    Text(SmolStr),
+    /// `["$a", "$b"]`
+    List(Vec<Spanned<Term>>),
+    /// `{"get": "distance", "to": "user"}`
+    Form(Box<Form>),
+}
+
+/// An object that is a condition or a term; its key says which.
+#[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// The condition does not hold.
+    Not(Condition),
+    /// All conditions hold.
+    All(Vec<Condition>),
+    /// One condition at least holds.
+    Any(Vec<Condition>),
+    /// `<`
+    Less(Pair),
+    /// `<=`
+    AtMost(Pair),
+    /// `==`
+    Equal(Pair),
+    /// `>`
+    More(Pair),
+    /// `>=`
+    AtLeast(Pair),
+    /// `!=`
+    Unequal(Pair),
+    /// `+`
+    Add(Pair),
+    /// `-`
+    Subtract(Pair),
+    /// `*`
+    Multiply(Pair),
+    /// `/`
+    Divide(Pair),
+    /// A fluent.
+    #[schemars(untagged)]
+    Is(Is),
+    /// A measure.
+    #[schemars(untagged)]
+    Get(Get),
+    /// A field of an entity.
+    #[schemars(untagged)]
+    Field(Field),
+}
+
+/// The two sides of a comparison or a calculation.
+pub type Pair = [Spanned<Term>; 2];
+
+/// A fluent holds. Every other key is an argument; `"any"` stands for some entity.
+#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
+pub struct Is {
+    /// The fluent.
+    pub is: Spanned<SmolStr>,
+    /// The arguments.
+    #[serde(flatten)]
+    pub args: Args,
+}
+
+/// The value of a measure. Every other key is an argument.
+#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
+pub struct Get {
+    /// The measure.
+    pub get: Spanned<SmolStr>,
+    /// The arguments.
+    #[serde(flatten)]
+    pub args: Args,
+}
+
+/// The value of a field of an entity.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Field {
+    /// The field.
+    pub field: Spanned<SmolStr>,
+    /// The entity.
+    pub of: Spanned<Term>,
+}
+
+/// Arguments by the names of their parameters, in the order written.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Args(pub Vec<(Spanned<SmolStr>, Spanned<Term>)>);
+
+/// A condition; a string is read as the text form.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Condition(pub Spanned<Term>);
+
+/// A duration: a number of seconds, or a string with a unit such as `"200 ms"`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Duration(pub Spanned<Term>);
+
+/// A whole number.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Count(pub Spanned<Term>);
+
+impl<'de> Deserialize<'de> for Term {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_newtype_struct(MIXED, TermVisitor)
+    }
+}
+
+struct TermVisitor;
+
+impl<'de> Visitor<'de> for TermVisitor {
+    type Value = Term;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a string, a number, `true`, `false`, an array or an object")
+    }
+    fn visit_bool<E>(self, value: bool) -> Result<Term, E> {
+        Ok(Term::Bool(value))
+    }
+    #[expect(clippy::cast_precision_loss, reason = "numbers of policies are floats")]
+    fn visit_u64<E>(self, value: u64) -> Result<Term, E> {
+        Ok(Term::Number(value as f64))
+    }
+    #[expect(clippy::cast_precision_loss, reason = "numbers of policies are floats")]
+    fn visit_i64<E>(self, value: i64) -> Result<Term, E> {
+        Ok(Term::Number(value as f64))
+    }
+    fn visit_f64<E>(self, value: f64) -> Result<Term, E> {
+        Ok(Term::Number(value))
+    }
+    fn visit_str<E>(self, value: &str) -> Result<Term, E> {
+        Ok(Term::Text(SmolStr::new(value)))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Term, A::Error> {
+        let mut members = Vec::with_capacity(access.size_hint().unwrap_or(0));
+        while let Some(member) = access.next_element()? {
+            members.push(member);
+        }
+        Ok(Term::List(members))
+    }
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, deserializer: D) -> Result<Term, D::Error> {
+        Form::deserialize(deserializer).map(|form| Term::Form(Box::new(form)))
+    }
+}
+
+impl Serialize for Term {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Bool(value) => serializer.serialize_bool(*value),
+            Self::Number(value) => match super::tree::Number::of(*value) {
+                super::tree::Number::Unsigned(whole) => serializer.serialize_u64(whole),
+                super::tree::Number::Signed(whole) => serializer.serialize_i64(whole),
+                super::tree::Number::Float(value) => serializer.serialize_f64(value),
+            },
+            Self::Text(text) => serializer.serialize_str(text),
+            Self::List(members) => members.serialize(serializer),
+            Self::Form(form) => form.serialize(serializer),
+        }
+    }
+}
+
+impl Serialize for Form {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        fn one<S: Serializer>(serializer: S, key: &str, value: &impl Serialize) -> Result<S::Ok, S::Error> {
+            let mut map = serializer.serialize_map(Some(1))?;
+            map.serialize_entry(key, value)?;
+            map.end()
+        }
+        match self {
+            Self::Is(form) => form.serialize(serializer),
+            Self::Get(form) => form.serialize(serializer),
+            Self::Field(form) => form.serialize(serializer),
+            Self::Not(inner) => one(serializer, "not", inner),
+            Self::All(inner) => one(serializer, "all", inner),
+            Self::Any(inner) => one(serializer, "any", inner),
+            Self::Less(pair) => one(serializer, "less", pair),
+            Self::AtMost(pair) => one(serializer, "at_most", pair),
+            Self::Equal(pair) => one(serializer, "equal", pair),
+            Self::More(pair) => one(serializer, "more", pair),
+            Self::AtLeast(pair) => one(serializer, "at_least", pair),
+            Self::Unequal(pair) => one(serializer, "unequal", pair),
+            Self::Add(pair) => one(serializer, "add", pair),
+            Self::Subtract(pair) => one(serializer, "subtract", pair),
+            Self::Multiply(pair) => one(serializer, "multiply", pair),
+            Self::Divide(pair) => one(serializer, "divide", pair),
+        }
+    }
+}
+
+impl Serialize for Args {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name.as_str(), value)))
+    }
+}
+
+/// What an object with arguments among its keys is made into.
+trait Applied: Sized {
+    /// The keys that are no arguments, the one that names what is called first, and [`super::de::OPEN`].
+    const KEYS: &'static [&'static str];
+    /// One key that is no argument.
+    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error>;
+    /// All parts together.
+    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self;
+}
+
+/// The parts of a call, as they come.
+#[derive(Default)]
+struct Parts {
+    name: Option<Spanned<SmolStr>>,
+    args: Vec<(Spanned<SmolStr>, Spanned<Term>)>,
+    within: Option<Duration>,
+    retry: Option<Count>,
+    bind: Option<Spanned<SmolStr>>,
+}
+
+struct AppliedVisitor<T>(std::marker::PhantomData<T>);
+
+impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<T, A::Error> {
+        let head = T::KEYS.first().copied().unwrap_or("");
+        let mut parts = Parts::default();
+        while let Some(key) = access.next_key::<Spanned<SmolStr>>()? {
+            if key.value == head {
+                parts.name = Some(access.next_value()?);
+            } else if !T::take(&mut parts, &key.value, &mut access)? {
+                if parts.args.capacity() == 0 {
+                    parts.args.reserve(2);
+                }
+                parts.args.push((key, access.next_value()?));
+            }
+        }
+        match parts.name.take() {
+            Some(name) => Ok(T::make(name, parts)),
+            None => Err(A::Error::missing_field(head)),
+        }
+    }
+}
+
+impl Applied for Do {
+    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", super::de::OPEN];
+
+    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
+        match key {
+            "as" => parts.bind = access.next_value()?,
+            "within" => parts.within = access.next_value()?,
+            "retry" => parts.retry = access.next_value()?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
+        let Parts { args, within, retry, bind, .. } = parts;
+        Self { r#do: name, args: Args(args), within, retry, r#as: bind }
+    }
+}
+
+impl Applied for Is {
+    const KEYS: &'static [&'static str] = &["is", super::de::OPEN];
+    fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
+        Ok(false)
+    }
+    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
+        Self { is: name, args: Args(parts.args) }
+    }
+}
+
+impl Applied for Get {
+    const KEYS: &'static [&'static str] = &["get", super::de::OPEN];
+    fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
+        Ok(false)
+    }
+    fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
+        Self { get: name, args: Args(parts.args) }
+    }
+}
+
+macro_rules! deserialize_applied {
+    ($($name:ident)*) => {$(
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let visitor = AppliedVisitor::<Self>(std::marker::PhantomData);
+                deserializer.deserialize_struct(stringify!($name), <Self as Applied>::KEYS, visitor)
+            }
+        }
+    )*};
+}
+
+deserialize_applied!(Do Is Get);
+
+impl JsonSchema for Term {
+    fn schema_name() -> Cow<'static, str> {
+        "Term".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A literal, a binding `\"$x\"`, or an object that says how the value is found.",
+            "anyOf": [
+                {"type": "string"},
+                {"type": "number"},
+                {"type": "boolean"},
+                {"type": "array", "items": generator.subschema_for::<Term>()},
+                generator.subschema_for::<Form>(),
+            ],
+        })
+    }
+}
+
+impl JsonSchema for Args {
+    fn schema_name() -> Cow<'static, str> {
+        "Arguments".into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": "object", "additionalProperties": generator.subschema_for::<Term>()})
+    }
+}
+
+impl JsonSchema for Condition {
+    fn schema_name() -> Cow<'static, str> {
+        "Condition".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A condition: an object, `true`, `false`, or a string in the text form.",
+            "anyOf": [{"type": "string"}, {"type": "boolean"}, generator.subschema_for::<Form>()],
+        })
+    }
+}
+
+impl JsonSchema for Duration {
+    fn schema_name() -> Cow<'static, str> {
+        "Duration".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A duration: seconds, a string with a unit such as `\"200 ms\"`, or a binding.",
+            "anyOf": [{"type": "number"}, {"type": "string"}, generator.subschema_for::<Form>()],
+        })
+    }
+}
+
+impl JsonSchema for Count {
+    fn schema_name() -> Cow<'static, str> {
+        "Count".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A whole number, or a binding.",
+            "anyOf": [{"type": "integer"}, {"type": "string"}, generator.subschema_for::<Form>()],
+        })
+    }
+}

@@ -1,0 +1,291 @@
+//! What a policy looks like in JSON. From these types it is read, written, and described (`motet schema policy`: their
+//! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
+//!
+//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a condition
+//! or a term is a literal or an object that has one of the keys of [`Form`].
+//!
+//! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`, `multiply`, `divide`
+//! calculate; `true` and `false` are conditions; an array is a list; the plain string `"any"` as an argument of `is` or
+//! `get` is `any`; `"on": ["any"]` is `catch any`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
+use super::term::{Args, Condition, Count, Duration, Term};
+use super::{Lenient, Spanned};
+
+/// A Motet policy.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Motet policy", rename = "Policy")]
+pub struct Document {
+    /// Version of the format: 1.
+    #[schemars(extend("const" = 1))]
+    pub motet: Spanned<u32>,
+    /// The policy's name.
+    pub policy: Spanned<SmolStr>,
+    /// The robot that it is written for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<Spanned<SmolStr>>,
+    /// What holds where the policy is done.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub achieves: Option<Condition>,
+    /// What it does, step by step.
+    pub steps: Steps,
+}
+
+/// Steps that run one after the other.
+pub type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
+
+/// One step; its first key says which.
+#[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(untagged)]
+pub enum Step {
+    /// A call.
+    Do(Do),
+    /// A named group.
+    Sequence(Sequence),
+    /// A choice.
+    If(If),
+    /// Waiting for a condition.
+    Wait(Wait),
+    /// Steps that are watched over.
+    Monitor(Monitor),
+    /// Steps whose failures are handled.
+    Try(Try),
+    /// A bounded loop.
+    Repeat(Repeat),
+    /// A bounded loop over a list.
+    Each(Each),
+    /// Steps at the same time.
+    Parallel(Parallel),
+    /// An ending.
+    End(End),
+}
+
+/// Runs one primitive or sub-policy. Every other key is an argument, under the name of its parameter.
+#[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
+pub struct Do {
+    /// The primitive or sub-policy.
+    pub r#do: Spanned<SmolStr>,
+    /// The arguments.
+    #[serde(flatten)]
+    pub args: Args,
+    /// The deadline.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within: Option<Duration>,
+    /// How often it is tried again after a failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retry: Option<Count>,
+    /// The name that its result is bound to; `"$name"` stands for it afterwards.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub r#as: Option<Spanned<SmolStr>>,
+}
+
+/// A named group of steps.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sequence {
+    /// Its name.
+    pub sequence: Spanned<SmolStr>,
+    /// Its steps.
+    pub steps: Steps,
+}
+
+/// Runs `then` if the condition holds and `else` otherwise.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct If {
+    /// The condition.
+    pub r#if: Condition,
+    /// Steps where it holds.
+    pub then: Steps,
+    /// Steps where it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r#else: Option<Steps>,
+}
+
+/// Blocks until the condition holds, else fails with `timeout`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wait {
+    /// The condition.
+    pub wait: Condition,
+    /// The deadline; 60 s where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<Duration>,
+}
+
+/// Runs `during` while watching every condition.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Monitor {
+    /// What is watched.
+    #[schemars(length(min = 1))]
+    pub monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
+    /// What runs meanwhile.
+    pub during: Steps,
+}
+
+/// A watched condition and what happens when it holds.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct When {
+    /// The condition.
+    pub when: Condition,
+    /// How long it must hold before anything happens.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r#for: Option<Duration>,
+    /// What then happens.
+    pub then: Spanned<Reaction>,
+}
+
+/// What a monitor does; its first key says which.
+#[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(untagged)]
+pub enum Reaction {
+    /// The policy goes on.
+    React(React),
+    /// The policy ends.
+    End(End),
+}
+
+/// `pause` holds until the condition is false again; `restart` runs the body again from its start; `resume` runs
+/// `steps` and goes on.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct React {
+    /// The reaction.
+    pub react: Spanned<ReactKind>,
+    /// Of `pause`: the longest pause; 60 s where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<Duration>,
+    /// Of `restart` and `resume`: how often.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<Count>,
+    /// Of `resume`: what runs in between.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Steps>,
+}
+
+/// A reaction after which the policy goes on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ReactKind {
+    /// Hold, and go on when the condition is false again.
+    Pause,
+    /// Run the body again from its start.
+    Restart,
+    /// Interrupt, run some steps, and go on.
+    Resume,
+}
+
+/// Runs steps and handles their failures by kind; the first handler that fits.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Try {
+    /// What may fail.
+    pub r#try: Steps,
+    /// The handlers.
+    #[schemars(length(min = 1))]
+    pub catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
+}
+
+/// A handler of failures.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Catch {
+    /// The kinds of failure, or `["any"]`.
+    #[schemars(length(min = 1))]
+    pub on: Spanned<Vec<Spanned<SmolStr>>>,
+    /// What then runs.
+    pub steps: Steps,
+}
+
+/// Runs the steps, then tests; with `until`, not true after the last run is the failure `exhausted`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Repeat {
+    /// How often at most.
+    pub repeat: Count,
+    /// The steps.
+    pub steps: Steps,
+    /// The test after each run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<Condition>,
+}
+
+/// Runs the steps for each element of a list; a longer list is the failure `exhausted`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Each {
+    /// The name that each element is bound to.
+    pub each: Spanned<SmolStr>,
+    /// The list.
+    pub r#in: Spanned<Term>,
+    /// The longest list that is taken.
+    pub at_most: Count,
+    /// The steps.
+    pub steps: Steps,
+}
+
+/// Runs all branches at the same time.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parallel {
+    /// The branches, each a list of steps.
+    #[schemars(length(min = 1))]
+    pub parallel: Spanned<Vec<Steps>>,
+}
+
+/// Ends the policy.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct End {
+    /// The ending.
+    pub end: Spanned<EndKind>,
+    /// The reason, of `fail` and `replan`: a text.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<Spanned<Term>>,
+}
+
+/// The ways a policy can end by its own word.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum EndKind {
+    /// It reached what it was for.
+    Done,
+    /// It gives up.
+    Fail,
+    /// It asks for a new policy.
+    Replan,
+}
+
+impl Serialize for Step {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Do(step) => step.serialize(serializer),
+            Self::Sequence(step) => step.serialize(serializer),
+            Self::If(step) => step.serialize(serializer),
+            Self::Wait(step) => step.serialize(serializer),
+            Self::Monitor(step) => step.serialize(serializer),
+            Self::Try(step) => step.serialize(serializer),
+            Self::Repeat(step) => step.serialize(serializer),
+            Self::Each(step) => step.serialize(serializer),
+            Self::Parallel(step) => step.serialize(serializer),
+            Self::End(step) => step.serialize(serializer),
+        }
+    }
+}
+
+impl Serialize for Reaction {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::React(react) => react.serialize(serializer),
+            Self::End(end) => end.serialize(serializer),
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The text front end: `motet.pest` parses, the builders in this folder make the AST with exact spans, and
+//! [`explain`] puts what the grammar refuses into words.
+
+mod build;
+mod contract;
+pub mod errors;
+mod explain;
+mod expr;
+mod scan;
+mod step;
+pub(crate) mod token;
+
+use pest::Parser as _;
+
+use crate::ast;
+use crate::diagnostic::Diagnostic;
+use crate::source::{FileId, Span};
+
+/// What pest makes of the grammar.
+mod grammar {
+    #![allow(missing_docs, unreachable_pub, reason = "generated, and private to the front end")]
+
+    /// The parser of the grammar file.
+    #[derive(pest_derive::Parser)]
+    #[grammar = "motet.pest"]
+    pub(super) struct MotetParser;
+}
+
+use grammar::{MotetParser, Rule};
+
+type Pair<'s> = pest::iterators::Pair<'s, Rule>;
+
+/// Parses a text of declarations and policies. A syntax error is one diagnostic and an empty file. O(bytes).
+pub(crate) fn parse(text: &str, file: FileId) -> (ast::File, Vec<Diagnostic>) {
+    if let Err(diagnostic) = scan::scan(text, file) {
+        return (ast::File::default(), vec![*diagnostic]);
+    }
+    match MotetParser::parse(Rule::file, text) {
+        Ok(mut pairs) => {
+            let mut builder = build::Builder::new(file);
+            let tree = pairs.next().map(|pair| builder.items(pair)).unwrap_or_default();
+            (tree, builder.found)
+        }
+        Err(error) => (ast::File::default(), vec![explain::explain(text, &error, file)]),
+    }
+}
+
+/// Parses one condition or term that stands at `origin` in another document, in `depth` blocks of it.
+pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<ast::Expr>, Vec<Diagnostic>) {
+    let file = FileId::default();
+    let moved = |diagnostic| (None, vec![origin.moved(diagnostic)]);
+    if let Err(diagnostic) = scan::scan(text, file) {
+        return moved(*diagnostic);
+    }
+    match MotetParser::parse(Rule::lone_expr, text) {
+        Ok(mut pairs) => {
+            let mut builder = build::Builder::new(file);
+            builder.origin = origin;
+            let inner = pairs.next().and_then(|pair| pair.into_inner().next());
+            let expr = inner.map(|pair| builder.expr(pair, depth));
+            (expr, builder.found)
+        }
+        Err(error) => moved(explain::explain(text, &error, file)),
+    }
+}
+
+/// Where a text stands in its document.
+#[derive(Clone, Copy)]
+pub(crate) enum Origin {
+    /// As it is, from this offset of this file on.
+    At(FileId, u32),
+    /// Otherwise written, somewhere in this span.
+    Within(Span),
+}
+
+impl Origin {
+    fn place(self, start: usize, end: usize) -> Span {
+        match self {
+            Self::At(file, offset) => Span::new(file, start + offset as usize, end + offset as usize),
+            Self::Within(span) => span,
+        }
+    }
+
+    /// A diagnostic of the text as one of its document.
+    fn moved(self, mut diagnostic: Diagnostic) -> Diagnostic {
+        let place = |span: Span| self.place(span.start as usize, span.end as usize);
+        diagnostic.span = place(diagnostic.span);
+        for related in &mut diagnostic.related {
+            related.span = related.span.map(place);
+        }
+        if let (Some(fix), Self::At(..)) = (&mut diagnostic.fix, self) {
+            fix.edits.iter_mut().for_each(|edit| edit.span = place(edit.span));
+        } else {
+            diagnostic.fix = None;
+        }
+        diagnostic
+    }
+}
+
+/// Whether a word is never a bare name, because the grammar says so.
+pub(crate) fn is_reserved(word: &str) -> bool {
+    MotetParser::parse(Rule::reserved, word).is_ok_and(|pairs| pairs.as_str().len() == word.len())
+}
+
+/// Whether a text can stand as a name without back-quotes.
+pub(crate) fn is_bare_name(text: &str) -> bool {
+    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+    let begins = text.bytes().next().is_some_and(|byte| !byte.is_ascii_digit());
+    begins && text.bytes().all(is_word) && !is_reserved(text)
+}
+
+/// Whether a text can stand as a name, in back-quotes if need be.
+pub(crate) fn is_name(text: &str) -> bool {
+    !text.is_empty() && !text.chars().any(|c| c == '`' || c.is_ascii_control() && c != '\t')
+}

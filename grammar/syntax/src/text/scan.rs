@@ -1,0 +1,107 @@
+//! What is checked of a text before it is parsed: that brackets match and are few enough to recurse over, that texts
+//! end, that there are not too many tokens. A missing bracket is best explained here, where the open one is known.
+
+use super::errors::TextSyntax;
+use super::token::{Token, TokenKind, tokens};
+use crate::ast::{MAX_NESTING, MAX_TOKENS};
+use crate::diagnostic::Diagnostic;
+use crate::errors::{Empty, TooDeep, TooManyTokens};
+use crate::source::{FileId, Span};
+
+/// The first thing that makes parsing hopeless or dangerous.
+pub(crate) fn scan(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
+    let mut open: Vec<Token<'_>> = Vec::with_capacity(MAX_NESTING);
+    let (mut count, mut previous) = (0, "");
+    for token in tokens(text, 0) {
+        count += usize::from(token.kind != TokenKind::Comment);
+        if count > MAX_TOKENS {
+            return Err(Box::new(TooManyTokens { span: token.span(file) }.into()));
+        }
+        match (token.kind, token.text) {
+            (TokenKind::Open, _) => return Err(Box::new(unended(token, file))),
+            (TokenKind::Mark, "{" | "(" | "[") => open.push(token),
+            // `List<List<…>>`; elsewhere `<` compares.
+            (TokenKind::Mark, "<") if previous == "List" => open.push(token),
+            (TokenKind::Mark, ">") if open.last().is_some_and(|last| last.text == "<") => {
+                open.pop();
+            }
+            (TokenKind::Mark, "}" | ")" | "]") => {
+                open.retain(|opening| opening.text != "<");
+                close(&mut open, token, file)?;
+            }
+            (_, _) => {}
+        }
+        if open.len() > MAX_NESTING {
+            return Err(Box::new(TooDeep { span: token.span(file), limit: MAX_NESTING }.into()));
+        }
+        previous = token.text;
+    }
+    if count == 0 {
+        return Err(Box::new(Empty { span: Span::new(file, 0, 0) }.into()));
+    }
+    open.retain(|opening| opening.text != "<");
+    match open.last() {
+        None => Ok(()),
+        Some(opening) => {
+            let end = text.trim_end().len();
+            let closing = closing(opening.text);
+            Err(boxed(TextSyntax {
+                span: Span::new(file, end, end),
+                message: format!("the text ends before the `{closing}` for a `{}`", opening.text),
+                help: Some(format!("close it with `{closing}`")),
+                related: Some(("opened here", opening.span(file))),
+                fix: None,
+            }))
+        }
+    }
+}
+
+fn closing(opening: &str) -> &'static str {
+    match opening {
+        "{" => "}",
+        "(" => ")",
+        _ => "]",
+    }
+}
+
+fn close(open: &mut Vec<Token<'_>>, token: Token<'_>, file: FileId) -> Result<(), Box<Diagnostic>> {
+    let span = token.span(file);
+    match open.pop() {
+        Some(opening) if closing(opening.text) == token.text => Ok(()),
+        Some(opening) => {
+            let expected = closing(opening.text);
+            Err(boxed(TextSyntax {
+                span,
+                message: format!("expected `{expected}`, found `{}`", token.text),
+                help: Some(format!("close the `{}` with `{expected}` first", opening.text)),
+                related: Some(("opened here", opening.span(file))),
+                fix: None,
+            }))
+        }
+        None => Err(boxed(TextSyntax {
+            span,
+            message: format!("nothing is open that this `{}` could close", token.text),
+            help: Some("remove it, or look for a bracket that closes too early above".into()),
+            ..TextSyntax::default()
+        })),
+    }
+}
+
+fn boxed(mistake: TextSyntax) -> Box<Diagnostic> {
+    Box::new(mistake.into())
+}
+
+fn unended(token: Token<'_>, file: FileId) -> Diagnostic {
+    let (what, mark) = if token.text.starts_with('`') { ("name", "`") } else { ("text", "\"") };
+    let help = match what {
+        "text" => "close it with `\"` on the same line; a line break inside is written `\\n`".into(),
+        _ => format!("close it with another {mark} on the same line"),
+    };
+    TextSyntax {
+        span: token.span(file),
+        message: format!("the {what} is not closed"),
+        help: Some(help),
+        ..TextSyntax::default()
+    }
+    .into()
+}

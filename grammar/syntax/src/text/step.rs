@@ -1,0 +1,163 @@
+//! Pairs to steps. `depth` is how many blocks a step is in, counted as braces: a branch of `parallel` and the block of a
+//! `resume` are in two.
+
+use super::build::{Builder, Parts};
+use super::{Pair, Rule};
+use crate::ast::{
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, MAX_NESTING, MAX_STEPS, Reaction, Step, StepKind, When,
+};
+use crate::errors::{TooDeep, TooManySteps};
+use crate::source::Span;
+
+impl Builder {
+    pub(super) fn block(&mut self, pair: Pair<'_>, depth: usize) -> Block {
+        let span = self.span(&pair);
+        let steps = Parts::of(pair).filter_map(|step| self.step(step, depth)).collect();
+        Block { steps, span }
+    }
+
+    fn step(&mut self, pair: Pair<'_>, depth: usize) -> Option<Step> {
+        let span = self.span(&pair);
+        self.steps += 1;
+        if self.steps > MAX_STEPS {
+            if self.steps == MAX_STEPS + 1 {
+                self.found.push(TooManySteps { span }.into());
+            }
+            return None;
+        }
+        let rule = pair.as_rule();
+        let mut parts = Parts::of(pair);
+        let kind = match rule {
+            Rule::do_step => self.do_step(parts, depth)?,
+            Rule::sequence => StepKind::Sequence {
+                name: self.name(parts.next()?),
+                body: self.block(parts.next()?, depth + 1),
+            },
+            Rule::if_else => self.if_else(parts, depth, span)?,
+            Rule::wait => StepKind::Wait {
+                condition: self.expr(parts.next()?, depth),
+                within: self.expr_in(parts.next_of(Rule::within), depth),
+            },
+            Rule::monitor => {
+                let mut whens = Vec::with_capacity(2);
+                while let Some(when) = parts.next_of(Rule::when) {
+                    whens.extend(self.when(when, depth));
+                }
+                StepKind::Monitor { whens, body: self.block(parts.next()?, depth + 1) }
+            }
+            Rule::try_catch => {
+                let body = self.block(parts.next()?, depth + 1);
+                let catches = parts.filter_map(|catch| self.catch(catch, depth)).collect();
+                StepKind::Try { body, catches }
+            }
+            Rule::repeat => StepKind::Repeat {
+                times: self.expr(parts.next()?, depth),
+                body: self.block(parts.next()?, depth + 1),
+                until: self.expr_in(parts.next_of(Rule::until), depth),
+            },
+            Rule::each => StepKind::Each {
+                item: self.name(parts.next()?),
+                list: self.expr(parts.next()?, depth),
+                at_most: self.expr_in(parts.next_of(Rule::at_most), depth)?,
+                body: self.block(parts.next()?, depth + 1),
+            },
+            Rule::parallel => {
+                StepKind::Parallel { branches: parts.map(|branch| self.block(branch, depth + 2)).collect() }
+            }
+            Rule::end => StepKind::End(self.end(parts, span, depth)?),
+            _ => return None,
+        };
+        Some(Step { kind, span })
+    }
+
+    fn do_step(&mut self, mut parts: Parts<'_>, depth: usize) -> Option<StepKind> {
+        let bind = parts.next_of(Rule::name).map(|name| self.name(name));
+        let call = self.call(parts.next()?, depth)?;
+        let mut step = Do { call, bind, within: None, retry: None };
+        for part in parts {
+            match part.as_rule() {
+                Rule::within => step.within = self.expr_in(Some(part), depth),
+                _ => step.retry = self.expr_in(Some(part), depth),
+            }
+        }
+        Some(StepKind::Do(step))
+    }
+
+    /// `if a { } else if b { } else { }`: each `else if` is an `if` alone in a block of its own. The braces of that
+    /// block are not written; its span is that of the inner `if`.
+    fn if_else(&mut self, parts: Parts<'_>, depth: usize, whole: Span) -> Option<StepKind> {
+        let mut arms: Vec<(Expr, Block, Span)> = Vec::with_capacity(1);
+        let mut otherwise = None;
+        let mut parts = parts.peekable();
+        while let Some(part) = parts.next() {
+            let inner = depth + arms.len();
+            if inner > MAX_NESTING {
+                self.found.push(TooDeep { span: self.span(&part), limit: MAX_NESTING }.into());
+                return None;
+            }
+            if part.as_rule() == Rule::block {
+                // Without a condition before it, it is the `else` of the last arm.
+                otherwise = Some(self.block(part, inner));
+            } else {
+                let start = if arms.is_empty() { whole } else { self.span(&part) };
+                let condition = self.expr(part, inner);
+                arms.push((condition, self.block(parts.next()?, inner + 1), start));
+            }
+        }
+        let (mut condition, mut then, mut start) = arms.pop()?;
+        while let Some(outer) = arms.pop() {
+            let span = Span { end: whole.end, ..start };
+            let steps = vec![Step { kind: StepKind::If { condition, then, otherwise }, span }];
+            otherwise = Some(Block { steps, span });
+            self.steps += 1;
+            (condition, then, start) = outer;
+        }
+        Some(StepKind::If { condition, then, otherwise })
+    }
+
+    fn when(&mut self, pair: Pair<'_>, depth: usize) -> Option<When> {
+        let span = self.span(&pair);
+        let mut parts = Parts::of(pair);
+        let condition = self.expr(parts.next()?, depth);
+        let hold = self.expr_in(parts.next_of(Rule::hold), depth);
+        let reaction = self.reaction(parts.next()?, depth)?;
+        Some(When { condition, hold, reaction, span })
+    }
+
+    fn reaction(&mut self, pair: Pair<'_>, depth: usize) -> Option<Reaction> {
+        let span = self.span(&pair);
+        let rule = pair.as_rule();
+        let mut parts = Parts::of(pair);
+        Some(match rule {
+            Rule::pause => Reaction::Pause { within: self.expr_in(parts.next_of(Rule::within), depth), span },
+            Rule::restart => Reaction::Restart { at_most: self.expr_in(parts.next(), depth)?, span },
+            Rule::resume => Reaction::Resume {
+                at_most: self.expr_in(parts.next(), depth)?,
+                body: self.block(parts.next()?, depth + 2),
+                span,
+            },
+            Rule::end => Reaction::End(self.end(parts, span, depth)?),
+            _ => return None,
+        })
+    }
+
+    fn catch(&mut self, pair: Pair<'_>, depth: usize) -> Option<Catch> {
+        let span = self.span(&pair);
+        let mut parts = Parts::of(pair);
+        let on = parts.next()?;
+        let on = match on.as_rule() {
+            Rule::kw_any => CatchOn::Any(self.span(&on)),
+            _ => CatchOn::Kinds(self.names(on)),
+        };
+        Some(Catch { on, body: self.block(parts.next()?, depth + 1), span })
+    }
+
+    fn end(&mut self, mut parts: Parts<'_>, span: Span, depth: usize) -> Option<End> {
+        let kind = match parts.next()?.as_rule() {
+            Rule::kw_done => EndKind::Done,
+            Rule::kw_fail => EndKind::Fail,
+            _ => EndKind::Replan,
+        };
+        Some(End { kind, why: self.expr_in(parts.next(), depth), span })
+    }
+}
