@@ -361,6 +361,8 @@ pub(crate) enum StepKind {
         /// The reason.
         why: Option<Term>,
     },
+    /// After an error: it may do anything.
+    Unknown,
 }
 
 /// A call of a primitive.

@@ -90,7 +90,7 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
             .iter()
             .map(block)
             .fold((0.0, 0.0), |longest: Bounds, branch| (longest.0.max(branch.0), longest.1.max(branch.1))),
-        StepKind::End { .. } => (0.0, 0.0),
+        StepKind::End { .. } | StepKind::Unknown => (0.0, 0.0),
     };
     finite(bounds)
 }
@@ -112,7 +112,8 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
         | StepKind::If { .. }
         | StepKind::Wait { .. }
         | StepKind::Parallel { .. }
-        | StepKind::End { .. } => return,
+        | StepKind::End { .. }
+        | StepKind::Unknown => return,
     };
     if body.is_empty() {
         diagnostics.push(EmptyBlock { span, what }.into());
@@ -122,7 +123,7 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
 /// Visits the blocks of a step, in document order.
 pub(crate) fn blocks(kind: &StepKind, mut visit: impl FnMut(&Block)) {
     match kind {
-        StepKind::Call(_) | StepKind::Wait { .. } | StepKind::End { .. } => {}
+        StepKind::Call(_) | StepKind::Wait { .. } | StepKind::End { .. } | StepKind::Unknown => {}
         StepKind::Sequence { body, .. }
         | StepKind::Inline { body, .. }
         | StepKind::Repeat { body, .. }

@@ -26,7 +26,8 @@ pub(super) fn check(program: &Program, library: &Library, diagnostics: &mut Vec<
             | StepKind::Repeat { until: None, .. }
             | StepKind::Each { .. }
             | StepKind::Parallel { .. }
-            | StepKind::End { .. } => {}
+            | StepKind::End { .. }
+            | StepKind::Unknown => {}
         }
     }
 }

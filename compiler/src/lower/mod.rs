@@ -168,6 +168,8 @@ impl Lowering<'_> {
                 let (how, of, why) = self.ending(*kind, *of, why.as_ref());
                 graph::NodeKind::End { how, of, why }
             }
+            // What has errors is not lowered.
+            StepKind::Unknown => graph::NodeKind::End { how: graph::Ending::Fail, of: None, why: None },
         }
     }
 

@@ -54,8 +54,19 @@ impl Prover<'_> {
     fn change(&self, effect: &EffectDef, frame: Frame<'_>, changes: &mut Vec<Change>) {
         let sure = effect.when.as_ref().map_or(Some(Sure::Always), |when| sure(self.evaluate(when, frame)));
         let Some(sure) = sure else { return };
-        if let Some(key) = self.key(&effect.fact, frame) {
-            changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+        let fluent = effect.fact.fluent;
+        match self.key(&effect.fact, frame) {
+            Some(key) => changes.push(Change { fluent, key, truth: effect.value, sure }),
+            // An argument that was reported as wrong may be anything.
+            None => changes.push(Change { fluent, key: Key::ALL, truth: effect.value, sure: Sure::Unknown }),
+        }
+    }
+
+    /// After a step of which nothing is known, nothing is known of anything.
+    pub(crate) fn forget_all(&mut self, cause: Cause) {
+        for index in 0..self.library.fluents.len() {
+            let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
+            self.facts.set(fluent, Key::ALL, Value::open(cause));
         }
     }
 

@@ -18,6 +18,9 @@ pub(crate) struct Key(pub(crate) u64);
 pub(crate) const ANY: u16 = u16::MAX;
 
 impl Key {
+    /// Every fact of a fluent.
+    pub(crate) const ALL: Self = Self(u64::MAX);
+
     pub(crate) fn new(args: impl Iterator<Item = u16>) -> Self {
         Self(args.take(4).enumerate().fold(0, |key, (index, arg)| key | (u64::from(arg) << (16 * index))))
     }

@@ -150,7 +150,8 @@ impl Prover<'_> {
                 StepKind::Sequence { .. }
                 | StepKind::Inline { .. }
                 | StepKind::Try { .. }
-                | StepKind::End { .. },
+                | StepKind::End { .. }
+                | StepKind::Unknown,
             )
             | None => "a step".into(),
         }
@@ -162,7 +163,10 @@ impl Prover<'_> {
         if let Some(Base::Enum(id)) = ty.map(|ty| ty.base) {
             return self.library.case_name(id, arg).into();
         }
-        let entity = Entity(arg);
+        self.entity_name(Entity(arg))
+    }
+
+    fn entity_name(&self, entity: Entity) -> SmolStr {
         let bound = self.symbols.binding_of(entity).and_then(|index| self.program.bindings.get(index));
         bound.map_or_else(|| self.world.name(entity), |binding| binding.name.clone())
     }
@@ -240,7 +244,7 @@ impl Prover<'_> {
             },
             Term::Result => "result".to_owned(),
             Term::Each => {
-                frame.each.map_or_else(|| "each".to_owned(), |entity| self.world.name(entity).to_string())
+                frame.each.map_or_else(|| "each".to_owned(), |entity| self.entity_name(entity).to_string())
             }
             Term::Field(of, name) => format!("{}.{name}", self.term_text(of, frame)),
             Term::Measure(id, args) => {

@@ -65,6 +65,7 @@ impl Prover<'_> {
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
             StepKind::End { kind, of, .. } => self.end(*kind, *of),
+            StepKind::Unknown => self.forget_all(Cause::step(id)),
         }
     }
 

@@ -37,7 +37,7 @@ impl Steps<'_> {
         }
         if library.names.fluents.contains_key(name) || library.names.measures.contains_key(name) {
             self.misplaced(call.call.name.span);
-            return None;
+            return self.unknown(span, place);
         }
         let provided = library.primitives.iter().filter(|def| def.provided).map(|def| def.name.as_str());
         let near =
@@ -51,7 +51,23 @@ impl Steps<'_> {
                 binding.uses = 1;
             }
         }
-        None
+        for arg in &call.call.args {
+            self.use_names(&arg.value);
+        }
+        self.unknown(span, place)
+    }
+
+    /// A step of which nothing is known, after an error that was reported.
+    fn unknown(&mut self, span: Span, place: Place) -> Option<StepId> {
+        let id = self.reserve(span, place)?;
+        self.fill(id, StepKind::Unknown)
+    }
+
+    /// Names in the arguments of a call that does not exist count as used, and are not reported.
+    fn use_names(&mut self, expr: &Expr) {
+        let said = self.resolver.diagnostics.len();
+        self.resolver.term(expr, None);
+        self.resolver.diagnostics.truncate(said);
     }
 
     fn primitive(
@@ -117,7 +133,7 @@ impl Steps<'_> {
         let name = policy.name.text.clone();
         if self.calls.contains(&name) {
             self.resolver.say(Recursion { span: call.call.name.span, name });
-            return None;
+            return self.unknown(span, place);
         }
         let id = self.reserve(span, place)?;
         if let Some(bind) = &call.bind {

@@ -3,6 +3,7 @@
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
+use super::near::article;
 use crate::mistake::mistakes;
 
 fn replace(span: Span, text: &str) -> Option<Fix> {
@@ -132,7 +133,7 @@ mistakes! {
 
     /// A quantity without a unit, in text.
     MissingUnit("M0302", Error) { value: String, unit: &'static str, ty: String, others: String }
-    message(m) { format!("`{}` needs a unit: a {} is asked for", m.value, m.ty) }
+    message(m) { format!("`{}` needs a unit: {} is asked for", m.value, article(&m.ty)) }
     help(m) { Some(format!("write `{} {}`; the units are {}", m.value, m.unit, m.others)) }
     fix(m) { replace(m.span, &format!("{} {}", m.value, m.unit)) }
 

@@ -10,7 +10,7 @@ use super::errors::{
     MisplacedAny, MissingUnit, NotACondition, UnknownBinding, UnknownCase, UnknownField, UnknownFluent,
     UnknownName, WrongDimension, WrongType,
 };
-use super::near::{list, near};
+use super::near::{article, list, near};
 use super::scope::Scope;
 use crate::ir::{Base, Binding, EnumId, ROBOT, Term, Ty};
 use crate::library::Library;
@@ -71,7 +71,7 @@ impl<'a> Resolver<'a> {
             };
         }
         let actual = self.describe(&term, ty);
-        let expected = self.library.type_name(wanted.ty);
+        let expected = article(&self.library.type_name(wanted.ty));
         self.say(WrongType { span: expr.span, expected, actual, place: wanted.place.to_string() });
         Term::Unknown
     }
@@ -371,14 +371,14 @@ impl<'a> Resolver<'a> {
         let name = self.library.type_name(ty);
         match term {
             Term::Entity(id) => match self.entities.name(*id) {
-                Some(id) => format!("`{id}`, which is a {name}"),
-                None => name,
+                Some(id) => format!("`{id}`, which is {}", article(&name)),
+                None => article(&name),
             },
-            Term::Case(id, case) => format!("the case `{}` of {name}", self.library.case_name(*id, *case)),
+            Term::Case(id, case) => format!("the case `{}` of `{name}`", self.library.case_name(*id, *case)),
             Term::Text(text) => format!("the text \"{}\"", text.chars().take(40).collect::<String>()),
             Term::Binding(id) => match self.bindings.get(id.index()) {
-                Some(binding) => format!("`{}`, which is a {name}", binding.name),
-                None => name,
+                Some(binding) => format!("`{}`, which is {}", binding.name, article(&name)),
+                None => article(&name),
             },
             Term::Bool(_)
             | Term::Int(_)
@@ -390,7 +390,7 @@ impl<'a> Resolver<'a> {
             | Term::Field(..)
             | Term::Measure(..)
             | Term::Arith(..)
-            | Term::Unknown => name,
+            | Term::Unknown => article(&name),
         }
     }
 }

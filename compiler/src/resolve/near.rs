@@ -16,3 +16,10 @@ pub(crate) fn list(names: impl Iterator<Item = SmolStr>) -> String {
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
     }
 }
+
+/// A type's name with its article: "an `Object`".
+pub(crate) fn article(name: &str) -> String {
+    let vowel =
+        name.chars().next().is_some_and(|first| matches!(first.to_ascii_lowercase(), 'a' | 'e' | 'i' | 'o'));
+    format!("{} `{name}`", if vowel { "an" } else { "a" })
+}
