@@ -30,7 +30,7 @@ pub fn page(code: &str) -> Option<&'static Page> {
 #[must_use]
 pub fn all() -> Vec<Code> {
     let stages = [
-        motet_syntax::CODES,
+        motet_syntax::errors::CODES,
         crate::resolve::errors::CODES,
         crate::world::CODES,
         crate::check::errors::CODES,

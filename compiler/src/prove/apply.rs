@@ -4,9 +4,11 @@ use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
 use super::Prover;
 use super::eval::Frame;
-use super::facts::Key;
+use super::facts::{ANY, Key};
 use super::value::{Cause, Value};
-use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term};
+use smol_str::SmolStr;
+
+use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
 use crate::library::{EffectDef, PrimitiveDef, ResourceSet};
 
 /// A change that a step will make, worked out in the state before it.
@@ -38,17 +40,16 @@ pub(crate) struct Lasting {
 
 impl Prover<'_> {
     /// The changes of a list of effects, worked out in the state as it is.
-    pub(crate) fn changes(&self, effects: &[EffectDef], frame: Frame<'_>) -> Vec<Change> {
-        let mut changes = Vec::with_capacity(effects.len() + 2);
+    pub(crate) fn changes(&self, effects: &[EffectDef], frame: Frame<'_>, changes: &mut Vec<Change>) {
+        changes.clear();
         for effect in effects {
             match effect.each {
-                None => self.change(effect, frame, &mut changes),
-                Some(kind) => self.change_each(effect, kind, frame, &mut changes),
+                None => self.change(effect, frame, changes),
+                Some(kind) => self.change_each(effect, kind, frame, changes),
             }
         }
         // A fact that is both made and unmade is made.
         changes.sort_by_key(|change| change.truth);
-        changes
     }
 
     fn change(&self, effect: &EffectDef, frame: Frame<'_>, changes: &mut Vec<Change>) {
@@ -188,20 +189,17 @@ impl Prover<'_> {
 
     /// An effect on one entity is a possible effect on all that it may be.
     fn echo(&mut self, fluent: Fluent, key: Key, value: Value, cause: Cause) {
-        let Some(def) = self.library.fluent(fluent) else { return };
-        let entities: Vec<_> = def.params.iter().map(|(_, ty)| ty.kind().is_some()).collect();
+        let library = self.library;
+        let Some(def) = library.fluent(fluent) else { return };
         let mut targets: Vec<(Key, Value)> = Vec::new();
-        let all = entities.iter().enumerate().fold(key, |key, (index, is_entity)| {
-            if *is_entity { key.with(index, super::facts::ANY) } else { key }
-        });
-        for (other, known) in self.facts.entries(fluent, all) {
-            if other != key && !key.covers(other) && self.may_be_same(&entities, key, other) {
+        for (other, known) in self.facts.entries(fluent, Key::ALL) {
+            if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {
                 targets.push((other, known));
             }
         }
         // Entities behind a symbol that have no entry yet.
-        for (index, is_entity) in entities.iter().enumerate() {
-            let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| *is_entity);
+        for (index, (_, ty)) in def.params.iter().enumerate() {
+            let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| ty.kind().is_some());
             let Some(symbol) = symbol else { continue };
             let candidates = symbol.may_be.clone().unwrap_or_else(|| self.of_kind(symbol.kind, usize::MAX));
             for candidate in candidates {
@@ -219,13 +217,14 @@ impl Prover<'_> {
         }
     }
 
-    fn may_be_same(&self, entities: &[bool], a: Key, b: Key) -> bool {
-        entities.iter().enumerate().all(|(index, is_entity)| {
+    fn may_be_same(&self, params: &[(SmolStr, Ty)], a: Key, b: Key) -> bool {
+        params.iter().enumerate().all(|(index, (_, ty))| {
             let (one, two) = (a.arg(index), b.arg(index));
             one == two
-                || one == super::facts::ANY
-                || two == super::facts::ANY
-                || (*is_entity && self.symbols.may_equal(self.library, self.world, Entity(one), Entity(two)))
+                || one == ANY
+                || two == ANY
+                || (ty.kind().is_some()
+                    && self.symbols.may_equal(self.library, self.world, Entity(one), Entity(two)))
         })
     }
 

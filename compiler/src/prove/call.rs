@@ -21,8 +21,9 @@ impl Prover<'_> {
 
         self.check_fresh(call, def);
         let mut verdicts = self.needs(id, def, frame, span);
-        let makes = self.changes(&def.makes, frame);
-        let unsettles = self.changes(&def.unsettles, frame);
+        let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
+        self.changes(&def.makes, frame, &mut makes);
+        self.changes(&def.unsettles, frame, &mut unsettles);
         if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(def);
@@ -32,6 +33,7 @@ impl Prover<'_> {
         self.fail(def, &makes, cause, call.retries > 0, frame, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         self.make(&makes, cause);
+        self.buffers = (makes, unsettles);
         self.bind(id, call, def, frame);
         self.see_states();
         if let Some(slot) = self.proof.needs.get_mut(id.index()) {

@@ -3,15 +3,17 @@
 
 use rustc_hash::FxHashMap;
 
-use super::facts::{Atom, Delta, Facts};
+use super::facts::{Atom, Delta, Facts, Key};
 use super::value::Value;
-use crate::ir::{Failure, StepId};
+use crate::ir::{Failure, Fluent, StepId};
 
 /// The join of the states seen so far, as changes since a mark.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
     pub(crate) mark: usize,
     pending: FxHashMap<Atom, Value>,
+    /// The patterns among them.
+    patterns: Vec<Atom>,
     /// Whether any state was seen.
     pub(crate) hit: bool,
     /// How far the trail has been taken in; only what comes after it can differ, unless the trail was cut back.
@@ -32,30 +34,30 @@ pub(crate) enum Enclosing {
 
 impl Collector {
     pub(crate) fn new(mark: usize) -> Self {
-        Self { mark, pending: FxHashMap::default(), hit: false, last: mark, cut: false }
+        Self { mark, pending: FxHashMap::default(), patterns: Vec::new(), hit: false, last: mark, cut: false }
     }
 
     /// Takes in the state as it is.
     pub(crate) fn see(&mut self, facts: &Facts) {
+        if self.hit && !self.cut && self.last == facts.mark() {
+            return;
+        }
         let from = if self.hit && !self.cut { self.last } else { self.mark };
-        let mut touched = facts.touched(from);
         // Single facts first: one that is new here had, until now, the values of the patterns that cover it.
-        touched.sort_by_key(|((_, key), _)| key.is_pattern());
-        for ((fluent, key), before) in touched {
-            let now = facts.get(fluent, key);
-            if let Some(value) = self.pending.get_mut(&(fluent, key)) {
-                *value = value.join(now);
-                continue;
+        for patterns in [false, true] {
+            for (fluent, key, before) in facts.writes(from).filter(|(_, key, _)| key.is_pattern() == patterns)
+            {
+                let now = facts.get(fluent, key);
+                if let Some(value) = self.pending.get_mut(&(fluent, key)) {
+                    *value = value.join(now);
+                    continue;
+                }
+                let value = if self.hit { self.earlier(fluent, key, now.join(before)) } else { now };
+                if patterns {
+                    self.patterns.push((fluent, key));
+                }
+                self.pending.insert((fluent, key), value);
             }
-            let mut value = now;
-            if self.hit {
-                value = value.join(before);
-                let covering = self.pending.iter().filter(|((other, pattern), _)| {
-                    *other == fluent && pattern.is_pattern() && pattern.covers(key)
-                });
-                value = covering.fold(value, |value, (_, earlier)| value.join(*earlier));
-            }
-            self.pending.insert((fluent, key), value);
         }
         if self.cut {
             for ((fluent, key), value) in &mut self.pending {
@@ -65,6 +67,14 @@ impl Collector {
         self.hit = true;
         self.cut = false;
         self.last = facts.mark();
+    }
+
+    /// A fact that is new here had, until now, the values of the patterns that cover it.
+    fn earlier(&self, fluent: Fluent, key: Key, value: Value) -> Value {
+        let covering =
+            self.patterns.iter().filter(|(other, pattern)| *other == fluent && pattern.covers(key));
+        let values = covering.filter_map(|atom| self.pending.get(atom));
+        values.fold(value, |value, earlier| value.join(*earlier))
     }
 
     /// The trail was cut back to `mark`.

@@ -190,6 +190,12 @@ impl Facts {
         }
     }
 
+    /// All writes since `mark`, in order: what was written, and what was known of it just before.
+    pub(crate) fn writes(&self, mark: usize) -> impl Iterator<Item = (Fluent, Key, Value)> + '_ {
+        let trail = self.trail.get(mark..).unwrap_or_default();
+        trail.iter().map(|entry| (entry.fluent, entry.key, entry.before))
+    }
+
     /// The facts and patterns written since `mark`, each once, with what was known of it just before its first write.
     pub(crate) fn touched(&self, mark: usize) -> Vec<(Atom, Value)> {
         let trail = self.trail.get(mark..).unwrap_or_default();

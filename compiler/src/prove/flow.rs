@@ -30,6 +30,7 @@ impl Prover<'_> {
             return;
         }
         let depth = self.enclosing.len();
+        // A handler sees one state once, however many kinds reach it.
         for kind in &def.fails {
             self.throw(*kind, depth);
         }

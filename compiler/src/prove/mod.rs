@@ -21,7 +21,7 @@ mod walk;
 use motet_syntax::Diagnostic;
 use rustc_hash::FxHashMap;
 
-use self::apply::Lasting;
+use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::facts::{Facts, Key};
 use self::symbols::Symbols;
@@ -70,6 +70,8 @@ pub(crate) struct Prover<'a> {
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
+    /// Room for the changes of a step, kept so that no step asks for new.
+    pub(crate) buffers: (Vec<Change>, Vec<Change>),
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) proof: Proof,
 }
@@ -99,6 +101,7 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         enclosing: Vec::new(),
         live: true,
         fixpoints: 0,
+        buffers: Default::default(),
         diagnostics: Vec::new(),
         proof: Proof { needs: vec![Vec::new(); steps], reached: vec![false; steps] },
     };

@@ -27,8 +27,7 @@ impl State {
             let parsed = match motet_syntax::text::condition(text) {
                 Ok(expr) => expr,
                 Err(mistake) => {
-                    diagnostics
-                        .push(NotAFact { span: *span, text: text.clone(), why: mistake.message }.into());
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why: mistake }.into());
                     continue;
                 }
             };
