@@ -1,5 +1,18 @@
 //! Robot cards: what a robot is, what it can do, what it can observe.
+//!
+//! A card is a folder with a `robot.toml` ([`wire`]) and, where the robot's primitives differ from the standard ones, a
+//! `primitives.motet`. [`read`] makes a [`Robot`] of it.
 
+mod embedded;
+mod errors;
 pub mod model;
+mod quantity;
+mod read;
+mod shape;
+pub mod wire;
 
+pub use embedded::embedded;
+pub use errors::CODES;
 pub use model::*;
+pub use read::read;
+pub use wire::schema;

@@ -25,7 +25,9 @@ pub struct Robot {
     pub observe_within_secs: f64,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.
     pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
-    /// Other numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …).
+    /// Numbers that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …,
+    /// `Number` where it has no unit): `payload`, `opening` and `reach` of the first hand, `speed` of the base, and what
+    /// the card lists beside them.
     pub numbers: IndexMap<SmolStr, (f64, SmolStr)>,
     /// Facts that hold at the start unless a state says otherwise, as text conditions: `free(hand)`, `not standing(robot)`.
     pub initially: Vec<String>,
@@ -68,6 +70,8 @@ pub struct Hand {
     pub opening_m: f64,
     /// The greatest distance in m, in the plane, at which it serves a thing from where the base stands.
     pub reach_m: f64,
+    /// Heights above the floor in m at which it serves a thing.
+    pub heights_m: Range,
 }
 
 /// A camera.

@@ -1,5 +1,27 @@
 //! Scenes: the room, what stands in it, where the robot is at the start.
+//!
+//! ```
+//! use motet_robots::scene;
+//! use motet_syntax::{FileId, Source};
+//!
+//! let text = r#"{"motet_scene": 1, "entities": [{"id": "mug_1", "kind": "Object", "names": ["red mug"]}]}"#;
+//! let (scene, diagnostics) = scene::read(&Source::new("room.json", text), FileId(0));
+//! assert_eq!(diagnostics, []);
+//! assert_eq!(scene.unwrap().matches("the red mug")[0].id, "mug_1");
+//! ```
 
+mod check;
+mod embedded;
+mod errors;
+mod matching;
 pub mod model;
+mod number;
+mod read;
+mod relations;
+mod wire;
 
+pub use embedded::embedded;
+pub use errors::CODES;
 pub use model::*;
+pub use read::{MAX_ENTITIES, read};
+pub use wire::schema;

@@ -1,0 +1,101 @@
+//! Numbers of a card: read from a number or from a text with a unit, checked, in SI units.
+
+use motet_syntax::unit::{Dimension, Unit};
+use motet_syntax::{Diagnostic, FileId, Span};
+
+use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
+use super::model::Range;
+use super::wire::{self, At, Quantity};
+
+/// What a number must be.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Sign {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Anything finite.
+    Any,
+}
+
+/// No length, mass, time or speed of a robot is larger.
+const GREATEST: f64 = 1e6;
+
+/// Reads quantities and collects what is wrong with them.
+pub(super) struct Numbers {
+    pub(super) file: FileId,
+    pub(super) found: Vec<Diagnostic>,
+}
+
+impl Numbers {
+    pub(super) fn span<T>(&self, at: &At<T>) -> Span {
+        let range = at.0.span();
+        Span::new(self.file, range.start, range.end)
+    }
+
+    /// A quantity of a known dimension; 0 where it is wrong.
+    pub(super) fn of(&mut self, key: &str, at: &At<Quantity>, dimension: Dimension, sign: Sign) -> f64 {
+        let Some((value, found)) = self.any(key, at) else { return 0.0 };
+        if let Some(unit) = found.filter(|unit| unit.dimension() != dimension) {
+            let units = Unit::symbols_of(dimension).collect();
+            let mistake = WrongDimension { span: self.span(at), key: key.to_owned(), unit: unit.symbol(), units };
+            self.found.push(mistake.into());
+            return 0.0;
+        }
+        self.checked(key, self.span(at), value, sign)
+    }
+
+    /// A quantity of any dimension with its unit, in SI units.
+    pub(super) fn any(&mut self, key: &str, at: &At<Quantity>) -> Option<(f64, Option<Unit>)> {
+        let text = match at.get() {
+            Quantity::Number(value) => return Some((*value, None)),
+            Quantity::Text(text) => text,
+        };
+        let split = text.find(|c: char| !(c.is_ascii_digit() || ".+-eE_".contains(c))).unwrap_or(text.len());
+        let (number, symbol) = text.split_at_checked(split).unwrap_or((text, ""));
+        let parsed = number.parse::<f64>().ok().zip(Unit::parse(symbol.trim()));
+        if parsed.is_none() {
+            let units = ["m", "cm", "mm", "rad", "deg", "s", "ms", "kg", "g", "N", "m/s", "%"].to_vec();
+            let mistake = BadQuantity { span: self.span(at), key: key.to_owned(), text: text.clone(), units };
+            self.found.push(mistake.into());
+        }
+        parsed.map(|(value, unit)| (unit.to_si(value), Some(unit)))
+    }
+
+    /// The number where it is possible, else 0.
+    pub(super) fn checked(&mut self, key: &str, span: Span, value: f64, sign: Sign) -> f64 {
+        let (fits, wanted) = match sign {
+            Sign::Positive => (value > 0.0, "above zero"),
+            Sign::NotNegative => (value >= 0.0, "zero or more"),
+            Sign::Any => (true, "a finite number"),
+        };
+        let wanted = if !value.is_finite() {
+            "a finite number"
+        } else if !fits {
+            wanted
+        } else if value.abs() > GREATEST {
+            "at most a million"
+        } else {
+            return value;
+        };
+        self.found.push(OutOfRange { span, key: key.to_owned(), actual: value.to_string(), wanted }.into());
+        0.0
+    }
+
+    /// An interval of a known dimension, or of any.
+    pub(super) fn range(&mut self, key: &str, at: &wire::Range, dimension: Option<Dimension>) -> Range {
+        let before = self.found.len();
+        let dimension = match dimension {
+            Some(dimension) => dimension,
+            None => self.any(key, &at.least).and_then(|(_, unit)| unit).map_or(Dimension::NONE, Unit::dimension),
+        };
+        self.found.truncate(before);
+        let least = self.of(&format!("{key}.least"), &at.least, dimension, Sign::Any);
+        let greatest = self.of(&format!("{key}.greatest"), &at.greatest, dimension, Sign::Any);
+        if self.found.len() == before && least > greatest {
+            let (span, other) = (self.span(&at.least), self.span(&at.greatest));
+            self.found.push(EmptyRange { span, key: key.to_owned(), least, greatest, other }.into());
+        }
+        Range { least, greatest }
+    }
+}

@@ -1,0 +1,252 @@
+//! From the text of a card to a [`Robot`], or to what is wrong with it.
+
+use indexmap::IndexMap;
+use motet_syntax::unit::{Dimension, Unit};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
+use rustc_hash::FxHashMap;
+use smol_str::SmolStr;
+use toml::de::DeTable;
+
+use super::errors::{
+    BadName, ListedTwice, NotAResource, NotToml, ResourceCycle, TakenName, TakenNumber, UnknownResource,
+};
+use super::model::{Base, Camera, Drive, Hand, Range, Robot};
+use super::quantity::{Numbers, Sign};
+use super::wire::{self, At};
+use super::shape;
+
+/// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept as it is: the
+/// compiler reads it. There is no robot where there is an error. O(bytes).
+#[must_use]
+pub fn read(toml: &Source, file: FileId, declarations: Option<&str>) -> (Option<Robot>, Vec<Diagnostic>) {
+    let (document, problems) = DeTable::parse_recoverable(&toml.text);
+    if !problems.is_empty() {
+        return (None, problems.iter().map(|problem| not_toml(problem, file)).collect());
+    }
+    let found = shape::check(&document, file);
+    if !found.is_empty() {
+        return (None, sorted(found));
+    }
+    let card = match toml::from_str::<wire::Card>(&toml.text) {
+        Ok(card) => card,
+        Err(problem) => return (None, vec![not_toml(&problem, file)]),
+    };
+    let mut reader = Reader { numbers: Numbers { file, found: Vec::new() } };
+    let robot = reader.robot(&card, declarations.unwrap_or_default());
+    let found = sorted(reader.numbers.found);
+    let wrong = found.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
+    ((!wrong).then_some(robot), found)
+}
+
+fn sorted(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    found.sort_by_key(|diagnostic| diagnostic.span);
+    found
+}
+
+fn not_toml(problem: &toml::de::Error, file: FileId) -> Diagnostic {
+    let span = problem.span().unwrap_or_default();
+    NotToml { span: Span::new(file, span.start, span.end), problem: problem.message().to_owned() }.into()
+}
+
+struct Reader {
+    numbers: Numbers,
+}
+
+impl Reader {
+    fn robot(&mut self, card: &wire::Card, declarations: &str) -> Robot {
+        self.name(card.name.get(), self.numbers.span(&card.name));
+        let base = self.base(&card.base);
+        let hands: IndexMap<_, _> =
+            card.hands.iter().map(|(name, hand)| (SmolStr::new(name), self.hand(name, hand.get()))).collect();
+        let cameras = card.cameras.iter().map(|(name, camera)| (SmolStr::new(name), self.camera(name, camera.get())));
+        let cameras = cameras.collect();
+        let resources = self.resources(card);
+        let numbers = self.named_numbers(card, &base, hands.values().next());
+        let observe_within_secs =
+            self.numbers.of("observe_within", &card.observe_within, Dimension::DURATION, Sign::Positive);
+        Robot {
+            name: card.name.get().into(),
+            title: card.title.get().clone(),
+            base,
+            hands,
+            cameras,
+            resources,
+            observes: self.observes(&card.observes),
+            observe_within_secs,
+            primitives: self.primitives(card),
+            numbers,
+            initially: card.initially.iter().map(|fact| fact.get().clone()).collect(),
+            declarations: declarations.to_owned(),
+        }
+    }
+
+    fn name(&mut self, name: &str, span: Span) {
+        let mut letters = name.chars();
+        let starts = letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+        if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+            self.numbers.found.push(BadName { span, name: name.to_owned() }.into());
+        }
+    }
+
+    fn base(&mut self, base: &wire::Base) -> Base {
+        let (drive, sign) = match base.drive {
+            wire::Drive::Fixed => (Drive::Fixed, Sign::NotNegative),
+            wire::Drive::Omnidirectional => (Drive::Omnidirectional, Sign::Positive),
+            wire::Drive::Differential => (Drive::Differential, Sign::Positive),
+            wire::Drive::Legged => (Drive::Legged, Sign::Positive),
+        };
+        let turn_span = self.numbers.span(&base.turn);
+        Base {
+            drive,
+            speed_m_per_s: self.numbers.of("base.speed", &base.speed, Dimension::SPEED, sign),
+            turn_rad_per_s: self.numbers.checked("base.turn", turn_span, *base.turn.get(), sign),
+            radius_m: self.numbers.of("base.radius", &base.radius, Dimension::LENGTH, Sign::Positive),
+        }
+    }
+
+    fn hand(&mut self, name: &str, hand: &wire::Hand) -> Hand {
+        let key = |field: &str| format!("hands.{name}.{field}");
+        let numbers = &mut self.numbers;
+        Hand {
+            payload_kg: numbers.of(&key("payload"), &hand.payload, Dimension::MASS, Sign::Positive),
+            opening_m: numbers.of(&key("opening"), &hand.opening, Dimension::LENGTH, Sign::Positive),
+            reach_m: numbers.of(&key("reach"), &hand.reach, Dimension::LENGTH, Sign::Positive),
+            heights_m: numbers.range(&key("heights"), hand.heights.get(), Some(Dimension::LENGTH)),
+        }
+    }
+
+    fn camera(&mut self, name: &str, camera: &wire::Camera) -> Camera {
+        let key = |field: &str| format!("cameras.{name}.{field}");
+        Camera {
+            range_m: self.numbers.of(&key("range"), &camera.range, Dimension::LENGTH, Sign::Positive),
+            view_rad: self.numbers.of(&key("view"), &camera.view, Dimension::ANGLE, Sign::Positive),
+        }
+    }
+
+    fn observes(&mut self, listed: &[At<String>]) -> Vec<SmolStr> {
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        for name in listed {
+            let span = self.numbers.span(name);
+            self.name(name.get(), span);
+            if let Some(first) = first.get(name.get().as_str()).copied() {
+                self.numbers.found.push(ListedTwice { span, name: name.get().clone(), first }.into());
+            } else {
+                first.insert(name.get(), span);
+            }
+        }
+        let mut names: Vec<SmolStr> = Vec::new();
+        names.extend(listed.iter().filter(|name| first.get(name.get().as_str()) == Some(&self.numbers.span(name))).map(|name| SmolStr::new(name.get())));
+        names
+    }
+
+    fn primitives(&mut self, card: &wire::Card) -> IndexMap<SmolStr, IndexMap<SmolStr, Range>> {
+        let mut primitives = IndexMap::new();
+        for (name, bounds) in &card.primitives {
+            self.name(name, self.numbers.span(bounds));
+            let bounds = bounds.get().iter().map(|(param, range)| {
+                let key = format!("{name}.{param}");
+                (SmolStr::new(param), self.numbers.range(&key, range.get(), None))
+            });
+            primitives.insert(SmolStr::new(name), bounds.collect());
+        }
+        primitives
+    }
+
+    /// The numbers that every robot has, and those of the card.
+    fn named_numbers(
+        &mut self,
+        card: &wire::Card,
+        base: &Base,
+        hand: Option<&Hand>,
+    ) -> IndexMap<SmolStr, (f64, SmolStr)> {
+        let mut numbers: IndexMap<SmolStr, (f64, SmolStr)> = IndexMap::new();
+        let mut add = |name: &'static str, value: f64, ty: &'static str| {
+            numbers.insert(SmolStr::new_static(name), (value, SmolStr::new_static(ty)));
+        };
+        if let Some(hand) = hand {
+            add("payload", hand.payload_kg, "Mass");
+            add("opening", hand.opening_m, "Length");
+            add("reach", hand.reach_m, "Length");
+        }
+        add("speed", base.speed_m_per_s, "Speed");
+        for (name, number) in &card.numbers {
+            let span = self.numbers.span(number);
+            self.name(name, span);
+            let place = match name.as_str() {
+                "payload" | "opening" | "reach" => Some("hands"),
+                "speed" => Some("base"),
+                _ => None,
+            };
+            if let Some(place) = place {
+                self.numbers.found.push(TakenNumber { span, name: name.clone(), place }.into());
+                continue;
+            }
+            let Some((value, unit)) = self.numbers.any(&format!("numbers.{name}"), number) else { continue };
+            let value = self.numbers.checked(&format!("numbers.{name}"), span, value, Sign::Any);
+            let ty = unit.map_or(Some("Number"), |unit: Unit| unit.dimension().type_name()).unwrap_or("Number");
+            numbers.insert(name.into(), (value, SmolStr::new_static(ty)));
+        }
+        numbers
+    }
+
+    fn resources(&mut self, card: &wire::Card) -> IndexMap<SmolStr, Vec<SmolStr>> {
+        let mut resources = IndexMap::new();
+        for (name, contains) in &card.resources {
+            self.name(name, self.numbers.span(contains));
+            for inner in contains.get().iter().filter(|inner| !card.resources.contains_key(inner.get())) {
+                let near = suggest::closest(inner.get(), card.resources.keys().map(String::as_str));
+                let (span, near) = (self.numbers.span(inner), near.map(str::to_owned));
+                self.numbers.found.push(UnknownResource { span, resource: inner.get().clone(), near }.into());
+            }
+            let contains = contains.get().iter().map(|inner| SmolStr::new(inner.get())).collect();
+            resources.insert(SmolStr::new(name), contains);
+        }
+        for (name, span) in card.hands.iter().map(|(name, hand)| (name, self.numbers.span(hand))).collect::<Vec<_>>() {
+            self.is_resource(card, "hand", name, span);
+            if card.cameras.contains_key(name) {
+                self.numbers.found.push(TakenName { span, name: name.clone() }.into());
+            }
+        }
+        for (name, camera) in &card.cameras {
+            self.is_resource(card, "camera", name, self.numbers.span(camera));
+        }
+        if let Some(chain) = cycle(&resources) {
+            let first = chain.first().and_then(|name| card.resources.get(name.as_str()));
+            let span = first.map(|contains| self.numbers.span(contains)).unwrap_or_default();
+            let chain = chain.iter().map(ToString::to_string).collect();
+            self.numbers.found.push(ResourceCycle { span, chain }.into());
+        }
+        resources
+    }
+
+    fn is_resource(&mut self, card: &wire::Card, what: &'static str, name: &str, span: Span) {
+        if !card.resources.contains_key(name) {
+            self.numbers.found.push(NotAResource { span, what, name: name.to_owned() }.into());
+        }
+    }
+}
+
+/// A chain of resources that ends where it begins. Takes away, again and again, what contains nothing that is left.
+fn cycle(resources: &IndexMap<SmolStr, Vec<SmolStr>>) -> Option<Vec<SmolStr>> {
+    let mut left = resources.clone();
+    loop {
+        let before = left.len();
+        let names: Vec<SmolStr> = left.keys().cloned().collect();
+        left.retain(|_, contains| contains.iter().any(|inner| names.contains(inner)));
+        if left.len() == before {
+            break;
+        }
+    }
+    // From here every resource contains one that is left, so following the first such must come back.
+    let mut chain = vec![left.keys().next()?.clone()];
+    loop {
+        let last = left.get(chain.last()?)?;
+        let next = last.iter().find(|inner| left.contains_key(*inner))?.clone();
+        if let Some(at) = chain.iter().position(|seen| *seen == next) {
+            let mut chain = chain.split_off(at);
+            chain.push(next);
+            return Some(chain);
+        }
+        chain.push(next);
+    }
+}

@@ -1,0 +1,122 @@
+//! One entity or view: from its wire form to the model's, number by number. What cannot be is left out.
+
+use indexmap::IndexMap;
+use motet_syntax::json::Spanned;
+use smol_str::SmolStr;
+
+use super::errors::{EmptyName, FieldTwice, TooWideAngle};
+use super::model::{Entity, Placement, Shape, Travel, View};
+use super::number::{Numbers, Quantity};
+use super::wire;
+
+/// Fields of entities that have a key of their own.
+const OWN_KEYS: &[&str] = &["mass", "width"];
+
+/// An entity, its relations as given.
+pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Entity {
+    if wire.kind.is_empty() {
+        numbers.found.push(EmptyName { span: wire.kind.span, key: "kind" }.into());
+    }
+    let name = |name: &Option<Spanned<SmolStr>>| name.as_ref().map(|name| name.value.clone());
+    Entity {
+        id: wire.id.value.clone(),
+        kind: wire.kind.value.clone(),
+        class: wire.class.clone(),
+        names: wire.names.clone(),
+        categories: wire.categories.clone(),
+        pose: wire.pose.0.as_ref().and_then(|pose| placement(pose, numbers)),
+        shape: wire.shape.0.as_ref().and_then(|it| shape(it, numbers)),
+        mass_kg: wire.mass.as_ref().and_then(|mass| numbers.one(mass, Quantity::Mass)),
+        fixed: wire.fixed,
+        on: name(&wire.on),
+        inside: name(&wire.r#in),
+        visible: wire.visible,
+        open: wire.open,
+        locked: wire.locked,
+        travel: wire.travel.0.as_ref().and_then(|it| travel(it, numbers)),
+        fields: fields(wire, numbers),
+    }
+}
+
+fn fields(wire: &wire::Entity, numbers: &mut Numbers) -> IndexMap<SmolStr, f64> {
+    let mut fields = IndexMap::new();
+    if let Some(width) = wire.width.as_ref().and_then(|width| numbers.one(width, Quantity::Size)) {
+        fields.insert("width".into(), width);
+    }
+    for (name, value) in &wire.fields {
+        if OWN_KEYS.contains(&name.as_str()) {
+            numbers.found.push(FieldTwice { span: value.span, field: name.clone() }.into());
+        } else if let Some(value) = numbers.one(value, Quantity::Field) {
+            fields.insert(name.clone(), value);
+        }
+    }
+    fields
+}
+
+fn placement(pose: &wire::Pose, numbers: &mut Numbers) -> Option<Placement> {
+    let xyz = numbers.three(&pose.xyz, Quantity::Coordinate);
+    let rpy = match &pose.rpy {
+        Some(rpy) => numbers.three(rpy, Quantity::Angle),
+        None => Some([0.0; 3]),
+    };
+    Some(Placement { xyz: xyz?, rpy: rpy? })
+}
+
+fn shape(shape: &wire::Shape, numbers: &mut Numbers) -> Option<Shape> {
+    let mut rod = |rod: &wire::Rod| {
+        let radius = numbers.one(&rod.radius, Quantity::Size);
+        let height = numbers.one(&rod.height, Quantity::Size);
+        Some((radius?, height?))
+    };
+    Some(match shape {
+        wire::Shape::Cylinder(it) => rod(it).map(|(radius, height)| Shape::Cylinder { radius, height })?,
+        wire::Shape::Capsule(it) => rod(it).map(|(radius, height)| Shape::Capsule { radius, height })?,
+        wire::Shape::Box(extents) => Shape::Box(numbers.three(extents, Quantity::Size)?),
+        wire::Shape::Sphere(ball) => Shape::Sphere { radius: numbers.one(&ball.radius, Quantity::Size)? },
+        wire::Shape::Mesh(mesh) => {
+            let scale = match &mesh.scale {
+                Some(scale) => numbers.three(scale, Quantity::Scale)?,
+                None => [1.0; 3],
+            };
+            Shape::Mesh { file: mesh.file.clone(), scale }
+        }
+    })
+}
+
+fn travel(travel: &wire::Travel, numbers: &mut Numbers) -> Option<Travel> {
+    match travel {
+        wire::Travel::Slide(slide) => {
+            let axis = numbers.axis(&slide.axis);
+            let distance = numbers.one(&slide.distance, Quantity::Size);
+            Some(Travel::Slide { axis: axis?, distance: distance? })
+        }
+        wire::Travel::Hinge(hinge) => {
+            let axis = numbers.axis(&hinge.axis);
+            let at = numbers.three(&hinge.at, Quantity::Coordinate);
+            let angle = numbers.one(&hinge.angle, Quantity::Opening)?;
+            if angle > std::f64::consts::TAU {
+                numbers.found.push(TooWideAngle { span: hinge.angle.span, found: angle }.into());
+                return None;
+            }
+            Some(Travel::Hinge { axis: axis?, at: at?, angle })
+        }
+    }
+}
+
+/// What a camera saw.
+pub(super) fn view(view: &wire::View, numbers: &mut Numbers) -> Option<View> {
+    let intrinsics = view.intrinsics.0.as_ref().and_then(|it| {
+        let fx = numbers.one(&it.fx, Quantity::FocalLength);
+        let fy = numbers.one(&it.fy, Quantity::FocalLength);
+        let cx = numbers.one(&it.cx, Quantity::Pixel);
+        let cy = numbers.one(&it.cy, Quantity::Pixel);
+        Some([fx?, fy?, cx?, cy?])
+    });
+    Some(View {
+        camera: view.camera.clone(),
+        image: view.image.clone(),
+        depth: view.depth.clone(),
+        pose: view.pose.0.as_ref().and_then(|pose| placement(pose, numbers)),
+        intrinsics,
+    })
+}

@@ -1,0 +1,133 @@
+//! What can be wrong with a scene beyond its JSON: its numbers, its ids, and how its things stand on each other.
+
+use motet_syntax::{Edit, Fix, Related, Span};
+use smol_str::SmolStr;
+
+use super::number::{FURTHEST, Quantity};
+use super::read::MAX_ENTITIES;
+use crate::mistake::mistakes;
+
+mistakes! {
+    /// Another version of the format.
+    Version("M0431", Error) { found: u32 }
+    message(m) { format!("this scene is of version {}, known is version 1", m.found) }
+    help(_m) { Some("write `\"motet_scene\": 1`".into()) }
+    fix(m) { Some(replace(m.span, "1", "1")) }
+
+    /// Another frame than `map`.
+    Frame("M0432", Error) { found: SmolStr }
+    message(m) { format!("the frame `{}` is not known, poses of a scene are in the frame `map`", m.found) }
+    help(_m) { Some("transform the poses into `map` and write `\"frame\": \"map\"`".into()) }
+
+    /// Two entities with one id.
+    DuplicateId("M0433", Error) { id: SmolStr, first: Span }
+    message(m) { format!("the id `{}` is taken", m.id) }
+    help(_m) { Some("give each entity an id of its own".into()) }
+    related(m) { vec![Related::new("it is first used here", m.first)] }
+
+    /// An id that no policy could name.
+    BadId("M0434", Error) { id: SmolStr }
+    message(m) {
+        match m.id.is_empty() {
+            true => "an id is empty".into(),
+            false => format!("`{}` cannot be named in a policy", m.id.escape_debug()),
+        }
+    }
+    help(_m) { Some("an id has at least one character, no back-quote and no control character".into()) }
+
+    /// An id that has a meaning of its own in the language.
+    ReservedId("M0435", Error) { id: SmolStr }
+    message(m) { format!("the id `{}` is reserved", m.id) }
+    help(m) {
+        Some(match m.id.as_str() {
+            "robot" => "the robot stands under `\"robot\"`, not among the entities".into(),
+            other => format!("name it otherwise, such as `{other}_1`"),
+        })
+    }
+
+    /// More entities than a scene may have.
+    TooManyEntities("M0436", Error) { count: usize }
+    message(m) { format!("the scene has {} entities, at most {MAX_ENTITIES} are read", m.count) }
+    help(_m) { Some("leave out what the robot does not need to know of".into()) }
+
+    /// A name that no entity has.
+    UnknownEntity("M0437", Error) { key: &'static str, name: SmolStr, near: Option<SmolStr> }
+    message(m) { format!("`{}` names the entity `{}`, which the scene does not have", m.key, m.name) }
+    help(m) {
+        Some(match &m.near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("add it to `entities`, or leave out `{}`", m.key),
+        })
+    }
+    fix(m) { m.near.as_ref().map(|near| replace(m.span, &quoted(near), near)) }
+
+    /// Things that stand on each other in a ring.
+    SupportCycle("M0438", Error) { ring: Vec<SmolStr>, others: Vec<(SmolStr, Span)> }
+    message(m) {
+        match m.ring.as_slice() {
+            [alone] => format!("`{alone}` is on or in itself"),
+            ring => {
+                let names: Vec<_> = ring.iter().chain(ring.first()).map(|id| format!("`{id}`")).collect();
+                format!("things stand on or in each other: {}", names.join(" on "))
+            }
+        }
+    }
+    help(_m) { Some("say for at least one of them that it stands on something else, or nothing".into()) }
+    related(m) {
+        m.others.iter().map(|(id, span)| Related::new(format!("`{id}` says where it stands here"), *span)).collect()
+    }
+
+    /// A thing that is in the hand and elsewhere too.
+    HeldElsewhere("M0439", Error) { id: SmolStr, held: Span }
+    message(m) { format!("`{}` is held, and is on or in something too", m.id) }
+    help(_m) { Some("leave out `on` and `in` of what the robot holds".into()) }
+    related(m) { vec![Related::new("it is held here", m.held)] }
+
+    /// A number that is none: infinite or not a number.
+    NotFinite("M0440", Error) { quantity: Quantity }
+    message(m) { format!("{} is not a finite number", m.quantity.words()) }
+
+    /// A size, mass or way that is zero or negative.
+    NotPositive("M0441", Error) { quantity: Quantity, found: f64 }
+    message(m) {
+        format!("{} is {}, it has to be above zero", m.quantity.words(), m.quantity.show(m.found))
+    }
+
+    /// A coordinate or size beyond what a room has.
+    TooFar("M0442", Error) { quantity: Quantity, found: f64 }
+    message(m) {
+        let limit = m.quantity.show(FURTHEST);
+        format!("{} is {}, at most {limit} are taken", m.quantity.words(), m.quantity.show(m.found))
+    }
+    help(_m) { Some("lengths are in metres: 72 cm is 0.72".into()) }
+
+    /// An axis without a direction.
+    ZeroAxis("M0443", Error) {}
+    message(_m) { "the axis has length 0, so it has no direction".into() }
+    help(_m) { Some("write a direction such as `[0, 0, 1]`".into()) }
+
+    /// A door that opens by more than a turn.
+    TooWideAngle("M0444", Error) { found: f64 }
+    message(m) {
+        format!("the door opens by {:.2} rad, at most {:.2} rad are possible", m.found, std::f64::consts::TAU)
+    }
+    help(m) { Some(format!("angles are in radians: {} deg is {:.4}", m.found, m.found.to_radians())) }
+
+    /// A name that is empty.
+    EmptyName("M0445", Error) { key: &'static str }
+    message(m) { format!("`{}` is empty", m.key) }
+    help(_m) { Some("write the name of a kind such as `Object`".into()) }
+
+    /// A number of its own that has a key of its own, or stands twice.
+    FieldTwice("M0446", Error) { field: SmolStr }
+    message(m) { format!("the field `{}` has a key of its own", m.field) }
+    help(m) { Some(format!("write `\"{}\": …` beside `fields`, not in it", m.field)) }
+}
+
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+fn replace(span: Span, text: &str, name: &str) -> Fix {
+    Fix { title: format!("write `{name}`"), edits: vec![Edit { span, text: text.into() }] }
+}

@@ -1,0 +1,248 @@
+//! What a scene looks like in JSON. From these types it is read and described; they are not the model, which
+//! [`super::read`] makes of them.
+
+use indexmap::IndexMap;
+use motet_syntax::json::{Lenient, Spanned};
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize};
+use smol_str::SmolStr;
+
+/// The JSON Schema of a scene.
+#[must_use]
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(Document)
+}
+
+/// A number, position or direction, with its place.
+pub(super) type Point = Spanned<[f64; 3]>;
+
+/// A Motet scene: the room, what stands in it, where the robot is at the start. Lengths in metres, angles in radians,
+/// masses in kilograms, z up.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Motet scene", rename = "Scene")]
+pub(super) struct Document {
+    /// Version of the format: 1.
+    #[schemars(extend("const" = 1))]
+    pub(super) motet_scene: Spanned<u32>,
+    /// The frame of all poses: `map`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("const" = "map"))]
+    pub(super) frame: Option<Spanned<SmolStr>>,
+    /// The robot at the start.
+    #[serde(default = "absent::<Robot>", skip_serializing_if = "is_absent")]
+    pub(super) robot: Lenient<Robot>,
+    /// Things, places and people.
+    #[serde(default)]
+    pub(super) entities: Vec<Lenient<Spanned<Entity>>>,
+    /// What cameras saw.
+    #[serde(default)]
+    pub(super) views: Vec<Lenient<View>>,
+}
+
+/// The robot at the start.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Robot {
+    /// Position in m and heading in rad.
+    #[serde(default = "absent::<Point>", skip_serializing_if = "is_absent")]
+    pub(super) base: Lenient<Point>,
+    /// Joint values by name, in m or rad.
+    #[serde(default)]
+    pub(super) joints: IndexMap<SmolStr, Spanned<f64>>,
+    /// What it holds: `null` for nothing; nothing is said where the key is missing.
+    #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
+    pub(super) holding: Option<Option<Spanned<SmolStr>>>,
+    /// The entity that it stands at so that it serves it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) at: Option<Spanned<SmolStr>>,
+}
+
+/// Tells a key that is `null` from one that is missing.
+fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Spanned<SmolStr>>>, D::Error> {
+    Deserialize::deserialize(deserializer).map(Some)
+}
+
+fn absent<T>() -> Lenient<T> {
+    Lenient(None)
+}
+
+fn is_absent<T>(value: &Lenient<T>) -> bool {
+    value.0.is_none()
+}
+
+/// One thing, place or person.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Entity {
+    /// Its id, unique in the scene.
+    pub(super) id: Spanned<SmolStr>,
+    /// The name of its kind: `Object`, `Surface`, `Container`, `Place`, `Person`, or one that a robot declares.
+    pub(super) kind: Spanned<SmolStr>,
+    /// What it is: `mug`.
+    #[serde(default)]
+    pub(super) class: SmolStr,
+    /// Other names: `red mug`.
+    #[serde(default)]
+    pub(super) names: Vec<SmolStr>,
+    /// What it belongs to: `drinkware`.
+    #[serde(default)]
+    pub(super) categories: Vec<SmolStr>,
+    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`.
+    #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
+    pub(super) pose: Lenient<Pose>,
+    /// Its shape.
+    #[serde(default = "absent::<Shape>", skip_serializing_if = "is_absent")]
+    pub(super) shape: Lenient<Shape>,
+    /// Its mass in kg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) mass: Option<Spanned<f64>>,
+    /// The width in m that a hand has to span; without it the smallest horizontal extent of the shape counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) width: Option<Spanned<f64>>,
+    /// Whether it never moves.
+    #[serde(default)]
+    pub(super) fixed: bool,
+    /// The entity that it stands on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) on: Option<Spanned<SmolStr>>,
+    /// The container that it is in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) r#in: Option<Spanned<SmolStr>>,
+    /// Whether the robot's camera sees it at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) visible: Option<bool>,
+    /// Whether it is open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) open: Option<bool>,
+    /// Whether it is locked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) locked: Option<bool>,
+    /// How it opens; what has none is always open.
+    #[serde(default = "absent::<Travel>", skip_serializing_if = "is_absent")]
+    pub(super) travel: Lenient<Travel>,
+    /// Other numbers that its kind declares, in SI units.
+    #[serde(default)]
+    pub(super) fields: IndexMap<SmolStr, Spanned<f64>>,
+}
+
+/// A pose in the frame `map`.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Pose {
+    /// Position in m.
+    pub(super) xyz: Point,
+    /// Roll, pitch, yaw in rad, about the fixed axes x, y, z in that order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) rpy: Option<Point>,
+}
+
+/// A shape about its own centre.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Shape {
+    /// Full extents along x, y, z in m.
+    Box(Point),
+    /// Along z.
+    Cylinder(Rod),
+    /// A ball.
+    Sphere(Ball),
+    /// Along z; `height` without the caps.
+    Capsule(Rod),
+    /// Triangles in a file.
+    Mesh(Mesh),
+}
+
+/// A round shape along z.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Rod {
+    /// Radius in m.
+    pub(super) radius: Spanned<f64>,
+    /// Height in m.
+    pub(super) height: Spanned<f64>,
+}
+
+/// A ball.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Ball {
+    /// Radius in m.
+    pub(super) radius: Spanned<f64>,
+}
+
+/// Triangles in a file.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Mesh {
+    /// The file's name.
+    pub(super) file: String,
+    /// Scale along x, y, z; 1 where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) scale: Option<Point>,
+}
+
+/// How a container or a door opens.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Travel {
+    /// A drawer.
+    Slide(Slide),
+    /// A door or a lid.
+    Hinge(Hinge),
+}
+
+/// How a drawer opens.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Slide {
+    /// Direction of opening in the entity's frame.
+    pub(super) axis: Point,
+    /// How far, in m.
+    pub(super) distance: Spanned<f64>,
+}
+
+/// How a door opens.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Hinge {
+    /// Axis in the entity's frame; it opens counter-clockwise about it.
+    pub(super) axis: Point,
+    /// A point of the axis in the entity's frame, in m.
+    pub(super) at: Point,
+    /// How far, in rad, at most a whole turn.
+    pub(super) angle: Spanned<f64>,
+}
+
+/// What a camera saw.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct View {
+    /// Which camera.
+    pub(super) camera: SmolStr,
+    /// The image's file.
+    pub(super) image: String,
+    /// The depth image's file: 16-bit PNG in mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) depth: Option<String>,
+    /// The camera's pose in the frame `map`.
+    #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
+    pub(super) pose: Lenient<Pose>,
+    /// Focal lengths and centre, in pixels.
+    #[serde(default = "absent::<Intrinsics>", skip_serializing_if = "is_absent")]
+    pub(super) intrinsics: Lenient<Intrinsics>,
+}
+
+/// Focal lengths and centre of a pinhole camera, in pixels.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Intrinsics {
+    /// Focal length along the rows.
+    pub(super) fx: Spanned<f64>,
+    /// Focal length along the columns.
+    pub(super) fy: Spanned<f64>,
+    /// Centre along the rows.
+    pub(super) cx: Spanned<f64>,
+    /// Centre along the columns.
+    pub(super) cy: Spanned<f64>,
+}
