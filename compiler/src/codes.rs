@@ -18,7 +18,13 @@ macro_rules! pages {
 }
 
 /// All pages, in the order of their codes.
-pub const PAGES: &[Page] = pages! {};
+pub const PAGES: &[Page] = pages! {
+    "M0201" "M0202" "M0203" "M0204" "M0205" "M0206" "M0207" "M0208" "M0209" "M0210" "M0211" "M0212"
+    "M0213" "M0214" "M0215" "M0221" "M0222" "M0223" "M0224" "M0301" "M0302" "M0303" "M0304" "M0305"
+    "M0306" "M0307" "M0308" "M0309" "M0310" "M0311" "M0312" "M0313" "M0314" "M0401" "M0402" "M0403"
+    "M0404" "M0405" "M0501" "M0502" "M0503" "M0504" "M0701" "M0702" "M0801" "M0802" "M0803" "M0804"
+    "M0901" "M0902" "M0903" "M0904"
+};
 
 /// The page of a code; letter case does not matter.
 #[must_use]
@@ -33,6 +39,8 @@ pub fn all() -> Vec<Code> {
         motet_syntax::errors::CODES,
         crate::resolve::errors::CODES,
         crate::world::CODES,
+        motet_robots::card::CODES,
+        motet_robots::scene::CODES,
         crate::check::errors::CODES,
         crate::prove::errors::CODES,
     ];

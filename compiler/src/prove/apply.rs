@@ -182,8 +182,19 @@ impl Prover<'_> {
             return;
         }
         self.facts.set(fluent, key, value);
-        if !self.symbols.is_empty() {
-            self.echo(fluent, key, value, cause);
+        if self.symbols.is_empty() {
+            return;
+        }
+        // Only a symbol can be the same as something else.
+        let symbolic = self.library.fluent(fluent).is_some_and(|def| {
+            let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
+            entities.into_iter().any(|(index, _)| self.symbols.get(Entity(key.arg(index))).is_some())
+        });
+        if let Some(aliased) = self.aliased.get_mut(fluent.index()) {
+            *aliased |= symbolic;
+            if *aliased {
+                self.echo(fluent, key, value, cause);
+            }
         }
     }
 

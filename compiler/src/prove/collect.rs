@@ -86,7 +86,7 @@ impl Collector {
 
     /// The joined state, as a way from the mark.
     pub(crate) fn delta(&self) -> Delta {
-        Delta::new(self.pending.clone())
+        Delta::new(self.pending.iter().map(|(atom, value)| (*atom, *value)))
     }
 }
 

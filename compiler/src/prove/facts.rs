@@ -4,6 +4,8 @@
 //! that it covers and that has no entry of its own; writing one drops the entries that it covers. So `not on(cup, any)`
 //! costs what is known of it, not the size of the world.
 
+use std::collections::hash_map::Entry as MapEntry;
+
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -108,8 +110,7 @@ impl Facts {
         if let Some(value) = table.single.get(&key) {
             return *value;
         }
-        let pattern = table.patterns.iter().rev().find(|(pattern, _)| pattern.covers(key));
-        pattern.map_or(table.default, |(_, value)| *value)
+        pattern_value(&table.patterns, key).unwrap_or(table.default)
     }
 
     /// The entry of a single fact, where it has one.
@@ -134,13 +135,22 @@ impl Facts {
 
     /// Sets a fact, or a pattern and all that it covers.
     pub(crate) fn set(&mut self, fluent: Fluent, key: Key, value: Value) {
-        let before = self.get(fluent, key);
         if !key.is_pattern() {
             let Some(table) = self.tables.get_mut(fluent.index()) else { return };
-            let old = table.single.insert(key, value);
+            let (old, before) = match table.single.entry(key) {
+                MapEntry::Occupied(mut entry) => {
+                    let old = entry.insert(value);
+                    (Some(old), old)
+                }
+                MapEntry::Vacant(entry) => {
+                    entry.insert(value);
+                    (None, pattern_value(&table.patterns, key).unwrap_or(table.default))
+                }
+            };
             self.trail.push(Entry { fluent, key, undo: Undo::Single(old), before });
             return;
         }
+        let before = self.get(fluent, key);
         let covered: Vec<_> = self.entries(fluent, key).collect();
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
         for (single, old) in covered {
@@ -196,18 +206,18 @@ impl Facts {
         trail.iter().map(|entry| (entry.fluent, entry.key, entry.before))
     }
 
-    /// The facts and patterns written since `mark`, each once, with what was known of it just before its first write.
-    pub(crate) fn touched(&self, mark: usize) -> Vec<(Atom, Value)> {
-        let trail = self.trail.get(mark..).unwrap_or_default();
-        let mut seen = rustc_hash::FxHashSet::default();
-        let entries = trail.iter().filter(|entry| seen.insert((entry.fluent, entry.key)));
-        entries.map(|entry| ((entry.fluent, entry.key), entry.before)).collect()
+    /// The facts and patterns written since `mark`, each once.
+    pub(crate) fn touched(&self, mark: usize) -> Vec<Atom> {
+        let mut atoms: Vec<Atom> = self.writes(mark).map(|(fluent, key, _)| (fluent, key)).collect();
+        atoms.sort_unstable_by_key(order);
+        atoms.dedup();
+        atoms
     }
 
     /// The writes since `mark` and what they leave: one way through a fork.
     pub(crate) fn delta(&self, mark: usize) -> Delta {
-        let touched = self.touched(mark).into_iter();
-        Delta::new(touched.map(|(atom, _)| (atom, self.get(atom.0, atom.1))).collect())
+        let atoms = self.touched(mark).into_iter();
+        Delta { written: atoms.map(|atom| (atom, self.get(atom.0, atom.1))).collect() }
     }
 
     /// Joins the ways through a fork that began where the facts are now. No way leaves the facts as they are.
@@ -216,9 +226,9 @@ impl Facts {
             self.replay(only);
             return;
         }
-        let mut atoms: Vec<Atom> = ways.iter().flat_map(|way| way.written.keys().copied()).collect();
-        // Patterns first, the widest before the others, so that the facts they cover are written after them.
-        atoms.sort_unstable_by_key(|(fluent, key)| (key.concrete().count_ones(), *fluent, *key));
+        let mut atoms: Vec<Atom> =
+            ways.iter().flat_map(|way| way.written.iter().map(|(atom, _)| *atom)).collect();
+        atoms.sort_unstable_by_key(order);
         atoms.dedup();
         let values: Vec<_> = atoms
             .iter()
@@ -236,50 +246,61 @@ impl Facts {
 
     /// Goes one way on.
     pub(crate) fn replay(&mut self, way: &Delta) {
-        let mut atoms: Vec<_> = way.written.iter().collect();
-        atoms.sort_unstable_by_key(|((fluent, key), _)| (key.concrete().count_ones(), *fluent, *key));
-        for ((fluent, key), value) in atoms {
+        for ((fluent, key), value) in &way.written {
             self.set(*fluent, *key, *value);
         }
     }
 }
 
-/// What one way through a fork left written.
+fn pattern_value(patterns: &[(Key, Value)], key: Key) -> Option<Value> {
+    patterns.iter().rev().find(|(pattern, _)| pattern.covers(key)).map(|(_, value)| *value)
+}
+
+/// Patterns first, the widest before the others, so that the facts they cover are written after them.
+fn order((fluent, key): &Atom) -> (u32, Fluent, Key) {
+    (key.concrete().count_ones(), *fluent, *key)
+}
+
+/// What one way through a fork left written, in [`order`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Delta {
-    pub(crate) written: FxHashMap<Atom, Value>,
-    patterns: Vec<(Atom, Value)>,
+    written: Vec<(Atom, Value)>,
 }
 
 impl Delta {
-    pub(crate) fn new(written: FxHashMap<Atom, Value>) -> Self {
-        let patterns = written.iter().filter(|((_, key), _)| key.is_pattern());
-        let patterns = patterns.map(|(atom, value)| (*atom, *value)).collect();
-        Self { written, patterns }
+    pub(crate) fn new(written: impl Iterator<Item = (Atom, Value)>) -> Self {
+        let mut written: Vec<_> = written.collect();
+        written.sort_unstable_by_key(|(atom, _)| order(atom));
+        Self { written }
     }
 
     /// This way or the other, from the same fork.
     pub(crate) fn or(&self, other: &Self, base: &Facts) -> Self {
-        let atoms = self.written.keys().chain(other.written.keys());
-        Self::new(atoms.map(|atom| (*atom, self.get(base, *atom).join(other.get(base, *atom)))).collect())
+        let mut atoms: Vec<_> = self.written.iter().chain(&other.written).map(|(atom, _)| *atom).collect();
+        atoms.sort_unstable_by_key(order);
+        atoms.dedup();
+        let joined = atoms.into_iter().map(|atom| (atom, self.get(base, atom).join(other.get(base, atom))));
+        Self { written: joined.collect() }
     }
 
     /// Whether both ways leave the same sets of values, whatever caused them.
     pub(crate) fn same_sets(&self, other: &Self, base: &Facts) -> bool {
-        let atoms = self.written.keys().chain(other.written.keys());
-        atoms.into_iter().all(|atom| self.get(base, *atom).same_set(other.get(base, *atom)))
+        let mut atoms = self.written.iter().chain(&other.written).map(|(atom, _)| *atom);
+        atoms.all(|atom| self.get(base, atom).same_set(other.get(base, atom)))
     }
 
     /// What this way knows of a fact; `base` is where the fork began.
-    pub(crate) fn get(&self, base: &Facts, (fluent, key): Atom) -> Value {
-        if let Some(value) = self.written.get(&(fluent, key)) {
+    pub(crate) fn get(&self, base: &Facts, atom: Atom) -> Value {
+        let wanted = order(&atom);
+        let written = self.written.binary_search_by_key(&wanted, |(atom, _)| order(atom));
+        if let Some((_, value)) = written.ok().and_then(|at| self.written.get(at)) {
             return *value;
         }
-        let covering =
-            self.patterns.iter().filter(|((other, pattern), _)| *other == fluent && pattern.covers(key));
-        // The narrowest pattern is the one that says most of this fact.
-        let narrowest = covering.max_by_key(|((_, pattern), _)| (pattern.concrete().count_ones(), *pattern));
-        narrowest.map_or_else(|| base.get(fluent, key), |(_, value)| *value)
+        let (fluent, key) = atom;
+        // Patterns stand first, the narrowest of them last: that one says most of this fact.
+        let patterns = self.written.iter().take_while(|((_, key), _)| key.is_pattern());
+        let covering = patterns.filter(|((other, pattern), _)| *other == fluent && pattern.covers(key));
+        covering.last().map_or_else(|| base.get(fluent, key), |(_, value)| *value)
     }
 }
 

@@ -70,6 +70,8 @@ pub(crate) struct Prover<'a> {
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
+    /// By fluent: whether a symbol has an entry.
+    pub(crate) aliased: Vec<bool>,
     /// Room for the changes of a step, kept so that no step asks for new.
     pub(crate) buffers: (Vec<Change>, Vec<Change>),
     pub(crate) diagnostics: Vec<Diagnostic>,
@@ -101,6 +103,7 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         enclosing: Vec::new(),
         live: true,
         fixpoints: 0,
+        aliased: vec![false; library.fluents.len()],
         buffers: Default::default(),
         diagnostics: Vec::new(),
         proof: Proof { needs: vec![Vec::new(); steps], reached: vec![false; steps] },

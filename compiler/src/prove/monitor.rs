@@ -1,5 +1,7 @@
 //! Monitors: the body under watch, and what their reactions start from.
 
+use motet_syntax::ast::EndKind;
+
 use super::collect::{Collector, Enclosing};
 use super::errors::NeverFires;
 use super::eval::Frame;
@@ -10,6 +12,9 @@ use crate::ir::{Condition, Reaction, StepId, TIMEOUT, Term, When};
 
 impl Prover<'_> {
     pub(crate) fn monitor(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
+        if whens.iter().all(|when| self.is_outside(when)) {
+            return self.watch(id, whens, body);
+        }
         if !self.enter_fixpoint(id) {
             return;
         }
@@ -68,6 +73,30 @@ impl Prover<'_> {
         self.meet(mark, end.as_slice());
     }
 
+    /// Whether a reaction leaves the policy, or only waits, so that there is nothing to prove of it.
+    fn is_outside(&self, when: &When) -> bool {
+        let caught = self.enclosing.iter().any(|enclosing| matches!(enclosing, Enclosing::Try { .. }));
+        let outside = match &when.reaction {
+            Reaction::Pause { .. } => !caught,
+            Reaction::End { kind: EndKind::Fail | EndKind::Replan, of: None, .. } => true,
+            Reaction::End { kind: EndKind::Replan, .. } => true,
+            Reaction::Restart { .. } | Reaction::Resume { .. } | Reaction::End { .. } => false,
+        };
+        outside && !constant(&when.condition)
+    }
+
+    /// A monitor whose reactions need no proof: its body, under watch.
+    fn watch(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
+        for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
+            self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+        }
+        self.watched.push(watched(whens));
+        if self.live {
+            self.block(body);
+        }
+        self.watched.pop();
+    }
+
     /// What the blocks of `resume` reactions change may change at any moment of the body.
     fn disturb(&mut self, id: StepId, whens: &[When], mark: usize) {
         for when in whens {
@@ -76,7 +105,7 @@ impl Prover<'_> {
             self.assume(&when.condition, true, Cause::step(id), Frame::default());
             let seen = self.facts.mark();
             self.block(body);
-            for ((fluent, key), _) in self.facts.touched(seen) {
+            for (fluent, key) in self.facts.touched(seen) {
                 let value = self.facts.get(fluent, key);
                 self.volatile.push((fluent, key, value));
             }

@@ -28,7 +28,7 @@ impl Prover<'_> {
         let mut live = true;
         for (index, branch) in branches.iter().enumerate() {
             let others = changed.iter().enumerate().filter(|(other, _)| *other != index);
-            for ((fluent, key), _) in others.flat_map(|(_, touched)| touched) {
+            for (fluent, key) in others.flat_map(|(_, touched)| touched) {
                 self.facts.set(*fluent, *key, Value::open(Cause::step(id)));
             }
             self.block(branch);
@@ -44,12 +44,10 @@ impl Prover<'_> {
     }
 
     /// The effects of all branches together. Two branches that leave one fact with different values are an error.
-    fn compose(&mut self, id: StepId, changed: &[Vec<(Atom, Value)>], deltas: &[Delta]) -> Delta {
+    fn compose(&mut self, id: StepId, changed: &[Vec<Atom>], deltas: &[Delta]) -> Delta {
         let mut written: FxHashMap<Atom, Value> = FxHashMap::default();
         for (touched, delta) in changed.iter().zip(deltas) {
-            let mut atoms: Vec<_> = touched.iter().map(|(atom, _)| *atom).collect();
-            atoms.sort_unstable();
-            for atom in atoms {
+            for atom in touched.iter().copied() {
                 let value = delta.get(&self.facts, atom);
                 match written.get(&atom).copied() {
                     None => {
@@ -65,7 +63,7 @@ impl Prover<'_> {
                 }
             }
         }
-        Delta::new(written)
+        Delta::new(written.into_iter())
     }
 
     fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {

@@ -1,0 +1,245 @@
+//! The pages of `motet explain` are true: what stands under "Wrong" raises the page's code, what stands under "Right" and
+//! "Near miss" raises neither that code nor any error, every code has a page, and every page a code.
+
+use std::collections::BTreeSet;
+
+use motet_compiler::{Options, Session, State, codes};
+use motet_robots::{card, scene};
+use motet_syntax::json::{self, Spanned};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
+
+/// The sections of a page that hold examples, in order.
+const SECTIONS: [&str; 3] = ["Wrong", "Right", "Near miss"];
+
+/// One fenced example: the words after the fence, and its text.
+#[derive(Debug)]
+struct Fence<'a> {
+    info: Vec<&'a str>,
+    text: String,
+}
+
+/// The examples under a heading.
+fn fences<'a>(page: &'a str, section: &str) -> Vec<Fence<'a>> {
+    let mut heading = "";
+    let mut open = false;
+    let mut found: Vec<Fence<'a>> = Vec::new();
+    for line in page.lines() {
+        match (open, line.strip_prefix("```"), line.strip_prefix("## ")) {
+            (false, Some(info), _) => {
+                open = true;
+                if heading == section {
+                    found.push(Fence { info: info.split_whitespace().collect(), text: String::new() });
+                }
+            }
+            (true, Some(_), _) => open = false,
+            (false, None, Some(words)) => heading = words,
+            (false, None, None) => {}
+            (true, None, _) if heading == section => {
+                if let Some(fence) = found.last_mut() {
+                    fence.text.push_str(line);
+                    fence.text.push('\n');
+                }
+            }
+            (true, None, _) => {}
+        }
+    }
+    found
+}
+
+/// Documents that are too large for a page.
+fn generated(words: &[&str]) -> Option<Vec<u8>> {
+    let count = |text: &&str| text.parse::<usize>().ok();
+    match words {
+        ["entities", n] => {
+            let names: Vec<_> = (0..count(n)?).map(|index| format!("e{index}")).collect();
+            Some(format!("entity {}: Object\npolicy nothing {{ done }}\n", names.join(", ")).into_bytes())
+        }
+        ["steps", n] => {
+            let steps = "say(\"x\")\n".repeat(count(n)?);
+            Some(format!("policy long {{\n{steps}}}\n").into_bytes())
+        }
+        ["words", n] => {
+            let list = "0,".repeat(count(n)? / 2);
+            Some(format!("policy long {{ choose(\"x\", [{list}0]) }}\n").into_bytes())
+        }
+        ["spaces", n] => Some(format!("policy short {{ done }}\n{}", " ".repeat(count(n)?)).into_bytes()),
+        ["nested", n] => {
+            let n = count(n)?;
+            Some(format!("policy deep {{ {} done {} }}\n", "sequence s {".repeat(n), "}".repeat(n)).into_bytes())
+        }
+        ["latin1"] => Some(b"policy cafe { go(caf\xe9) }\n".to_vec()),
+        ["scene", n] => {
+            let things: Vec<_> = (0..count(n)?).map(|n| format!(r#"{{"id":"e{n}","kind":"Object"}}"#)).collect();
+            Some(format!(r#"{{"motet_scene":1,"entities":[{}]}}"#, things.join(",")).into_bytes())
+        }
+        _ => None,
+    }
+}
+
+/// Everything that is said of the examples of one section, which are one case together.
+#[derive(Default)]
+struct Case {
+    sources: Sources,
+    said: Vec<Diagnostic>,
+    robot: Option<card::Robot>,
+    scene: Option<scene::Scene>,
+    state: Option<State>,
+    options: Options,
+}
+
+impl Case {
+    fn add(&mut self, text: &[u8]) -> Option<(Source, FileId)> {
+        let file = FileId(u16::try_from(self.sources.len()).unwrap_or(u16::MAX));
+        match motet_syntax::decode(text, file) {
+            Ok(text) => {
+                let source = Source::new("example", text);
+                self.sources.add(source.clone());
+                Some((source, file))
+            }
+            Err(mistake) => {
+                self.said.push(*mistake);
+                None
+            }
+        }
+    }
+
+    fn card(&mut self, toml: &str, declarations: Option<&str>) {
+        if let Some((source, file)) = self.add(toml.as_bytes()) {
+            let (robot, said) = card::read(&source, file, declarations);
+            self.said.extend(said);
+            self.robot = robot;
+        }
+    }
+
+    fn scene(&mut self, text: &[u8]) {
+        if let Some((source, file)) = self.add(text) {
+            let (scene, said) = scene::read(&source, file);
+            self.said.extend(said);
+            self.scene = scene;
+        }
+    }
+
+    fn state(&mut self, text: &[u8]) {
+        if let Some((source, file)) = self.add(text) {
+            let (facts, said) = json::read::<indexmap::IndexMap<Spanned<String>, bool>>(&source, file);
+            self.said.extend(said);
+            let facts = facts.unwrap_or_default().into_iter();
+            self.state = Some(State { facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() });
+        }
+    }
+
+    /// Runs the examples through every stage.
+    fn run(mut self, fences: &[Fence<'_>]) -> Result<Vec<Diagnostic>, String> {
+        let (mut domains, mut policies) = (Vec::new(), Vec::new());
+        for Fence { info, text } in fences {
+            let mut words = info.iter().copied().skip(1);
+            let mut bytes = text.clone().into_bytes();
+            let mut role = "policy";
+            while let Some(word) = words.next() {
+                match word.split_once('=') {
+                    Some(("robot", name)) => {
+                        let known = card::embedded().iter().find(|(robot, ..)| *robot == name);
+                        let (_, toml, declarations) = known.ok_or_else(|| format!("no robot `{name}`"))?;
+                        self.card(toml, *declarations);
+                    }
+                    Some(("scene", name)) => {
+                        let known = scene::embedded().iter().find(|(scene, _)| *scene == name);
+                        let (_, text) = known.ok_or_else(|| format!("no scene `{name}`"))?;
+                        self.scene(text.as_bytes());
+                    }
+                    Some(("max", secs)) => self.options.max_duration_secs = secs.parse().ok(),
+                    None if word == "generated" => {
+                        let rest: Vec<_> = words.by_ref().collect();
+                        bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
+                        if rest.first() == Some(&"scene") {
+                            role = "scene";
+                        }
+                    }
+                    None if ["card", "scene", "state", "domain"].contains(&word) => role = word,
+                    Some(_) | None => return Err(format!("what is `{word}`?")),
+                }
+            }
+            match role {
+                "card" => self.card(text, None),
+                "scene" => self.scene(&bytes),
+                "state" => self.state(&bytes),
+                _ => {
+                    let Some((source, file)) = self.add(&bytes) else { continue };
+                    let parsed = motet_syntax::read(&source, file);
+                    if role == "domain" {
+                        self.said.extend(parsed.diagnostics);
+                        domains.push(parsed.file);
+                    } else {
+                        policies.push(parsed);
+                    }
+                }
+            }
+        }
+        let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
+        let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);
+        self.said.extend(said);
+        for parsed in &policies {
+            self.said.extend(session.check(parsed));
+            // A file whose policies all have parameters is there to be called.
+            self.said.extend(session.compile(parsed, None).diagnostics);
+        }
+        Ok(self.said)
+    }
+}
+
+/// What is wrong with a page.
+fn faults(page: &codes::Page) -> Vec<String> {
+    let mut faults = Vec::new();
+    if !page.text.starts_with(&format!("# {}: ", page.code)) {
+        faults.push("does not begin with its code and title".to_owned());
+    }
+    for section in SECTIONS {
+        let fences = fences(page.text, section);
+        if fences.is_empty() {
+            faults.push(format!("has nothing under `{section}`"));
+            continue;
+        }
+        let said = match Case::default().run(&fences) {
+            Ok(said) => said,
+            Err(problem) => {
+                faults.push(format!("`{section}`: {problem}"));
+                continue;
+            }
+        };
+        let raised: BTreeSet<_> = said.iter().map(|said| said.code.0).collect();
+        let wrong = section == "Wrong";
+        if raised.contains(page.code) != wrong {
+            faults.push(format!("`{section}` raises {raised:?}"));
+        }
+        let allowed = |said: &&Diagnostic| {
+            // Policies in a document that only shows declarations are not chosen to run.
+            said.severity == Severity::Error && (wrong && page.code == said.code.0 || said.code.0 == "M0405")
+        };
+        for said in said.iter().filter(|said| said.severity == Severity::Error && !allowed(said)) {
+            faults.push(format!("`{section}` raises {}: {}", said.code, said.message));
+        }
+    }
+    faults
+}
+
+#[test]
+fn examples_raise_what_their_page_says() {
+    let faults: Vec<_> = codes::PAGES
+        .iter()
+        .flat_map(|page| faults(page).into_iter().map(|fault| format!("{}: {fault}", page.code)))
+        .collect();
+    assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+}
+
+#[test]
+fn every_code_has_a_page_and_every_page_a_code() {
+    let codes: Vec<_> = codes::all().into_iter().map(|code| code.0).collect();
+    let pages: Vec<_> = codes::PAGES.iter().map(|page| page.code).collect();
+    assert_eq!(codes, pages);
+}
+
+#[test]
+fn a_page_is_found_in_any_case() {
+    let page = codes::page("m0501").map(|page| page.code);
+    assert_eq!(page, Some("M0501"));
+}
