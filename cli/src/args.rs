@@ -1,0 +1,223 @@
+//! The command line: every command, flag and help text. What they do is in `command`.
+
+mod duration;
+mod input;
+mod run;
+
+pub use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
+pub use run::{RunArgs, RunFormat, Speed};
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Check, format, compile and run robot policies written in Motet.
+#[derive(Parser, Debug)]
+#[command(
+    name = "motet",
+    version,
+    propagate_version = true,
+    disable_help_subcommand = true,
+    after_help = "Exit codes: 0 clean, 1 errors found (or a file would be reformatted), 2 could not run.\n\
+                  `motet run`: 0 done, 1 refused by the check, 3 failed, 130 interrupted."
+)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Colours: `auto` is on in a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    pub color: ColorChoice,
+}
+
+/// When to colour what is printed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub enum ColorChoice {
+    /// In a terminal, unless `NO_COLOR` is set.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Find what is wrong with policies before a robot moves
+    Check(CheckArgs),
+    /// Write policies in their canonical layout, or in the other form
+    Fmt(FmtArgs),
+    /// Compile a policy to its execution graph, a drawing, or either form
+    Compile(CompileArgs),
+    /// Check a policy and run it in simulation
+    Run(RunArgs),
+    /// Show the robots that are built in
+    Robots(RobotsArgs),
+    /// Explain a diagnostic code
+    Explain(ExplainArgs),
+    /// Print the JSON Schema of a file format
+    Schema(SchemaArgs),
+    /// Print completions for a shell
+    Completions(CompletionsArgs),
+}
+
+/// `motet check`
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
+    motet check policies/ --format sarif > findings.sarif\n  \
+    cat reply.txt | motet check - --robot hsr")]
+pub struct CheckArgs {
+    /// What to check.
+    #[command(flatten)]
+    pub documents: DocumentArgs,
+    /// Against what.
+    #[command(flatten)]
+    pub world: WorldArgs,
+    /// How to say it.
+    #[command(flatten)]
+    pub format: FormatArgs,
+}
+
+/// `motet fmt`
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet fmt .                       rewrite every policy below this folder\n  \
+    motet fmt --check .               only list what would change, exit 1 if anything would\n  \
+    motet fmt --to json a.motet       print the JSON form\n  \
+    motet fmt --to text reply.json    print the text form")]
+pub struct FmtArgs {
+    /// What to format.
+    #[command(flatten)]
+    pub documents: DocumentArgs,
+    /// Only list the files that would change
+    #[arg(long)]
+    pub check: bool,
+    /// Print the other form on standard output instead of rewriting the file
+    #[arg(long, value_enum, value_name = "FORM", conflicts_with = "check")]
+    pub to: Option<Form>,
+    /// Robot whose primitives name and order arguments: a built-in name, or a folder with a robot.toml
+    #[arg(long, value_name = "NAME|FOLDER")]
+    pub robot: Option<String>,
+    /// File of further declarations; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub domain: Vec<PathBuf>,
+    /// How to say what is wrong.
+    #[command(flatten)]
+    pub format: FormatArgs,
+}
+
+/// A surface form.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub enum Form {
+    /// `.motet`
+    Text,
+    /// `.json`
+    Json,
+}
+
+/// `motet compile`
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet compile fetch_mug.motet --robot hsr -o fetch_mug.graph.json\n  \
+    motet compile fetch_mug.json --emit text\n  \
+    motet compile fetch_mug.motet --emit dot | dot -Tsvg > fetch_mug.svg")]
+pub struct CompileArgs {
+    /// The policy: a file, or `-` for standard input
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// What to write
+    #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
+    pub emit: Emit,
+    /// Where to write it; standard output where not given
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Which policy of the file; needed where it has several
+    #[arg(long, value_name = "NAME")]
+    pub policy: Option<String>,
+    /// Against what.
+    #[command(flatten)]
+    pub world: WorldArgs,
+    /// How to say what is wrong.
+    #[command(flatten)]
+    pub format: FormatArgs,
+}
+
+/// What `compile` writes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub enum Emit {
+    /// The execution graph, in its versioned JSON encoding
+    #[default]
+    Graph,
+    /// The policy's JSON form
+    Json,
+    /// The policy's text form
+    Text,
+    /// A Mermaid flowchart of the graph
+    Mermaid,
+    /// A Graphviz drawing of the graph
+    Dot,
+}
+
+/// `motet robots`
+#[derive(Args, Debug)]
+pub struct RobotsArgs {
+    /// What to show; `list` where not given.
+    #[command(subcommand)]
+    pub command: Option<RobotsCommand>,
+}
+
+/// What `robots` shows.
+#[derive(Subcommand, Debug)]
+pub enum RobotsCommand {
+    /// List the robots that are built in
+    List,
+    /// Show a robot: its body, what it observes, the signature of every primitive
+    Show {
+        /// A built-in name, or a folder with a robot.toml
+        #[arg(value_name = "NAME|FOLDER")]
+        name: String,
+    },
+}
+
+/// `motet explain`
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet explain M0501")]
+pub struct ExplainArgs {
+    /// A code such as M0501; every code is listed where none is given
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
+}
+
+/// `motet schema`
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet schema policy > policy.schema.json")]
+pub struct SchemaArgs {
+    /// Which format
+    #[arg(value_enum, value_name = "FORMAT")]
+    pub of: SchemaOf,
+}
+
+/// The file formats with a schema.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub enum SchemaOf {
+    /// A policy in its JSON form
+    Policy,
+    /// A scene
+    Scene,
+    /// A robot card (robot.toml, as JSON)
+    Robot,
+    /// A diagnostic, as `--format json` prints it
+    Diagnostic,
+}
+
+/// `motet completions`
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  motet completions bash > ~/.local/share/bash-completion/completions/motet")]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}

@@ -1,0 +1,58 @@
+//! Flags that several commands share: the documents, the world they are checked against, the form of what is said.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::duration::duration;
+
+/// The documents.
+#[derive(Args, Debug)]
+pub struct DocumentArgs {
+    /// Files, folders (every .motet and .json file below), .jsonl files with a policy a line, or `-` for standard input
+    #[arg(value_name = "PATH", required = true)]
+    pub paths: Vec<PathBuf>,
+}
+
+/// The robot, the room and what else is known.
+#[derive(Args, Debug, Default)]
+pub struct WorldArgs {
+    /// Robot: a built-in name (`motet robots`), or a folder with a robot.toml. Where not given, the policy's own
+    /// `for NAME` decides
+    #[arg(long, value_name = "NAME|FOLDER")]
+    pub robot: Option<String>,
+    /// Scene: a built-in name, or a JSON file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub scene: Option<String>,
+    /// What is known at the start: a JSON file such as {"holding(mug_1)": true, "free(hand)": false}
+    #[arg(long, value_name = "FILE")]
+    pub state: Option<PathBuf>,
+    /// File of further declarations; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub domain: Vec<PathBuf>,
+    /// The longest that a policy may take, such as 90s or 10min
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub max_duration: Option<f64>,
+}
+
+/// The form of diagnostics.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct FormatArgs {
+    /// How to print diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub format: Format,
+}
+
+/// How diagnostics are printed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub enum Format {
+    /// With the source and colours, for people
+    #[default]
+    Human,
+    /// One JSON object a line (`motet schema diagnostic`)
+    Json,
+    /// SARIF 2.1.0, for code scanners
+    Sarif,
+    /// Workflow commands of GitHub Actions
+    Github,
+}

@@ -1,0 +1,74 @@
+//! The flags of `motet run`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+
+use super::input::WorldArgs;
+
+/// `motet run`
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
+    motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json")]
+pub struct RunArgs {
+    /// The policy: a file, or `-` for standard input
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Which policy of the file; needed where it has several
+    #[arg(long, value_name = "NAME")]
+    pub policy: Option<String>,
+    /// In which world.
+    #[command(flatten)]
+    pub world: WorldArgs,
+    /// How much faster than real time: a factor, or `max` for as fast as it can be computed
+    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
+    pub speed: Speed,
+    /// Seed of everything random in the simulated world
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    pub seed: u64,
+    /// Faults to inject: a JSON file
+    #[arg(long, value_name = "FILE")]
+    pub faults: Option<PathBuf>,
+    /// What the simulated person answers: a JSON file
+    #[arg(long, value_name = "FILE")]
+    pub answers: Option<PathBuf>,
+    /// How to show the run
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub format: RunFormat,
+}
+
+/// How a run is shown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub enum RunFormat {
+    /// The plan as a tree, with the state of every step
+    #[default]
+    Human,
+    /// One JSON object a line for everything that happens
+    Json,
+}
+
+/// How fast simulated time goes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Speed {
+    /// As fast as it can be computed.
+    Max,
+    /// So many times real time.
+    Times(f64),
+}
+
+impl FromStr for Speed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "max" {
+            return Ok(Self::Max);
+        }
+        let factor: Option<f64> = text.strip_suffix('x').unwrap_or(text).parse().ok();
+        match factor {
+            Some(factor) if factor.is_finite() && factor > 0.0 => Ok(Self::Times(factor)),
+            _ => Err("write `max`, or a factor above 0 such as 10".to_owned()),
+        }
+    }
+}

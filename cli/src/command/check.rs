@@ -1,0 +1,137 @@
+//! `motet check`: what is wrong with policies, before a robot moves.
+
+use motet_syntax::ast::{Item, Policy};
+
+use crate::args::CheckArgs;
+use crate::document;
+use crate::exit::{Exit, Trouble};
+use crate::input::{self, Bytes, Document, Flow};
+use crate::out::{Colors, count, note};
+use crate::progress::Progress;
+use crate::report::Report;
+use crate::workbench::{Workbench, wanted_robot};
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// An input cannot be read, or what it is checked against cannot be used.
+pub fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let mut report = Report::new(args.format.format, colors);
+    let result = check(args, &mut report);
+    report.close(result)
+}
+
+fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
+    let inputs = input::collect(&args.documents.paths)?;
+    let mut bench = Workbench::open(&args.world, report)?;
+    let progress = Progress::new(inputs.inputs.len(), inputs.size, "checking");
+    let mut tally = Tally::default();
+    for input in &inputs.inputs {
+        let flow = input.documents(&mut |found| {
+            tally.add(&found, &mut bench, report, &progress)?;
+            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
+        })?;
+        if flow == Flow::Stop {
+            break;
+        }
+    }
+    drop(progress);
+    tally.tell(&bench, inputs.skipped);
+    note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
+    Ok(if report.errors() > 0 { Exit::Findings } else { Exit::Clean })
+}
+
+/// What the last lines say, beside the number of errors.
+#[derive(Default)]
+struct Tally {
+    documents: usize,
+    /// Motions whose geometry nobody looked at.
+    motions: usize,
+    /// Documents that were checked against no robot.
+    without_robot: usize,
+    /// Robots that documents name and that are not built in.
+    strangers: Vec<String>,
+}
+
+impl Tally {
+    fn add(
+        &mut self,
+        found: &Document,
+        bench: &mut Workbench,
+        report: &mut Report,
+        progress: &Progress,
+    ) -> Result<(), Trouble> {
+        self.documents += 1;
+        let (source, parsed) = document::read(found);
+        let setting = bench.setting(&parsed.file, report)?;
+        let runnable = parsed.file.items.iter().filter_map(runnable);
+        if setting.robot.is_none() && runnable.clone().next().is_some() {
+            match wanted_robot(&parsed.file) {
+                Some(name) if !self.strangers.contains(&name) => self.strangers.push(name),
+                Some(_) => {}
+                None => self.without_robot += 1,
+            }
+        }
+        // A document that is one policy is checked by compiling it, which also tells of its motions.
+        let said = if parsed.file.items.len() == 1 && runnable.clone().count() == 1 {
+            let compiled = setting.session.compile(&parsed, None);
+            self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
+            compiled.diagnostics
+        } else {
+            for policy in runnable {
+                let graph = setting.session.compile(&parsed, Some(&policy.name.text)).graph;
+                self.motions += graph.as_ref().map_or(0, crate::graph::deferred_motions);
+            }
+            setting.session.check(&parsed)
+        };
+        if let Bytes::All(bytes) = &found.bytes {
+            progress.advance(bytes.len());
+        }
+        if !said.is_empty() {
+            let sources = setting.sources(source);
+            progress.suspend(|| report.say(&said, &sources));
+        }
+        Ok(())
+    }
+
+    fn tell(&self, bench: &Workbench, skipped: usize) {
+        if skipped > 0 {
+            let files = if skipped == 1 { "1 JSON file that is no policy".to_owned() } else {
+                format!("{skipped} JSON files that are no policies")
+            };
+            note(&format!("note: skipped {files}"));
+        }
+        for name in &self.strangers {
+            let near = motet_syntax::suggest::closest(name, crate::workbench::robot_names())
+                .map_or_else(|| "give its card with --robot FOLDER".to_owned(), |near| format!("did you mean `{near}`?"));
+            note(&format!("warning: there is no robot `{name}`, so nothing was checked against its card: {near}"));
+        }
+        if self.without_robot > 0 {
+            note("note: no robot was given, so all that the standard library declares was allowed (--robot NAME)");
+        }
+        if self.motions > 0 {
+            let why = if bench.has_scene() { "" } else { ", because no scene was given (--scene NAME)" };
+            note(&format!("note: {} not checked geometrically{why}", were(self.motions)));
+        }
+    }
+}
+
+fn were(motions: usize) -> String {
+    if motions == 1 { "1 motion was".to_owned() } else { format!("{motions} motions were") }
+}
+
+fn runnable(item: &Item) -> Option<&Policy> {
+    match item {
+        Item::Policy(policy) => Some(policy).filter(|policy| policy.params.is_empty()),
+        Item::Kind(_)
+        | Item::Fluent(_)
+        | Item::Measure(_)
+        | Item::Failure(_)
+        | Item::Enum(_)
+        | Item::Primitive(_)
+        | Item::Entities(_)
+        | Item::Initially(_)
+        | Item::ClosedWorld(_) => None,
+    }
+}

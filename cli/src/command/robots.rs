@@ -1,0 +1,117 @@
+//! `motet robots`: the robots that are built in, and what one of them can do.
+
+use motet_robots::card::{Drive, Range, Robot};
+use motet_syntax::ast::{Item, PrimitiveDecl};
+use motet_syntax::{FileId, Source, Sources};
+
+use crate::args::{Format, RobotsArgs, RobotsCommand};
+use crate::exit::{Exit, Trouble};
+use crate::out::Colors;
+use crate::report::Report;
+use crate::workbench::{Card, robot_names};
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// There is no such robot, or its card has a mistake.
+pub fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let mut report = Report::new(Format::Human, colors);
+    let result = match &args.command {
+        None | Some(RobotsCommand::List) => list(&mut report),
+        Some(RobotsCommand::Show { name }) => show(name, &mut report),
+    };
+    report.close(result)
+}
+
+fn list(report: &mut Report) -> Result<Exit, Trouble> {
+    let width = robot_names().map(str::len).max().unwrap_or_default();
+    for name in robot_names() {
+        let robot = Card::find(name)?.read(&mut Sources::default(), report)?;
+        let hands = robot.hands.first().map_or_else(String::new, |(_, hand)| {
+            format!(", carries {} kg, reaches {} m", hand.payload_kg, hand.reach_m)
+        });
+        let primitives = robot.primitives.len();
+        report.out.line(&format!("{name:width$}  {}: {primitives} primitives{hands}", robot.title));
+    }
+    Ok(Exit::Clean)
+}
+
+fn show(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
+    let robot = Card::find(name)?.read(&mut Sources::default(), report)?;
+    body(&robot, report);
+    let declared = signatures(&robot);
+    for (primitive, bounds) in &robot.primitives {
+        match declared.iter().rfind(|(decl, _)| decl.name.text == *primitive) {
+            Some((decl, text)) => report.out.text(&signature(decl, text, bounds)),
+            None => report.out.line(&format!("\n// {primitive}: not declared")),
+        }
+    }
+    Ok(Exit::Clean)
+}
+
+fn body(robot: &Robot, report: &mut Report) {
+    let base = &robot.base;
+    let drive = match base.drive {
+        Drive::Fixed => "bolted down".to_owned(),
+        Drive::Omnidirectional => format!("omnidirectional, {} m/s", base.speed_m_per_s),
+        Drive::Differential => format!("differential drive, {} m/s", base.speed_m_per_s),
+        Drive::Legged => format!("on legs, {} m/s", base.speed_m_per_s),
+    };
+    report.out.line(&format!("{} ({})", robot.title, robot.name));
+    report.out.line(&format!("  base      {drive}, radius {} m", base.radius_m));
+    for (name, hand) in &robot.hands {
+        report.out.line(&format!(
+            "  {name:8}  hand: up to {} kg and {} m wide, reaches {} m at heights of {}",
+            hand.payload_kg,
+            hand.opening_m,
+            hand.reach_m,
+            range(&hand.heights_m, " m"),
+        ));
+    }
+    for (name, camera) in &robot.cameras {
+        let view = camera.view_rad.to_degrees().round();
+        report.out.line(&format!("  {name:8}  camera: sees {} m, {view}° wide", camera.range_m));
+    }
+    for (name, parts) in robot.resources.iter().filter(|(_, parts)| !parts.is_empty()) {
+        report.out.line(&format!("  {name:8}  contains {}", parts.join(", ")));
+    }
+    report.out.line(&format!("  observes  {}", robot.observes.join(", ")));
+    if !robot.initially.is_empty() {
+        report.out.line(&format!("  at first  {}", robot.initially.join(", ")));
+    }
+}
+
+/// Every declaration of a primitive, the later ones in force, with its text.
+fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
+    let own = ("primitives.motet", robot.declarations.as_str());
+    let files = motet_stdlib::FILES.iter().copied().chain([own]);
+    let mut found = Vec::new();
+    for (name, text) in files.filter(|(_, text)| !text.trim().is_empty()) {
+        let source = Source::new(name, text);
+        for item in motet_syntax::read(&source, FileId(0)).file.items {
+            if let Item::Primitive(decl) = item {
+                let text = source.slice(decl.span).to_owned();
+                found.push((decl, text));
+            }
+        }
+    }
+    found
+}
+
+fn signature(decl: &PrimitiveDecl, text: &str, bounds: &indexmap::IndexMap<smol_str::SmolStr, Range>) -> String {
+    let mut written = String::from("\n");
+    for line in decl.doc.lines() {
+        written.push_str(&format!("/// {line}\n"));
+    }
+    written.push_str(text.trim_end());
+    for (param, bound) in bounds {
+        written.push_str(&format!("\n    // {param}: {}", range(bound, "")));
+    }
+    written.push('\n');
+    written
+}
+
+fn range(range: &Range, unit: &str) -> String {
+    format!("{} .. {}{unit}", range.least, range.greatest)
+}

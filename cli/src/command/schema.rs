@@ -1,0 +1,25 @@
+//! `motet schema`: the JSON Schema of a file format, generated from the types that read it.
+
+use crate::args::{SchemaArgs, SchemaOf};
+use crate::exit::{Exit, Trouble};
+use crate::out::Out;
+use crate::report;
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// Standard output cannot be written.
+pub fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
+    let schema = match args.of {
+        SchemaOf::Policy => schemars::schema_for!(motet_syntax::json::wire::Document),
+        SchemaOf::Scene => motet_robots::scene::schema(),
+        SchemaOf::Robot => motet_robots::card::schema(),
+        SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
+    };
+    let text = serde_json::to_string_pretty(&schema)
+        .map_err(|error| Trouble::Other(format!("the schema cannot be written: {error}")))?;
+    let mut out = Out::default();
+    out.line(&text);
+    report::close(&mut out, Ok(Exit::Clean))
+}

@@ -1,0 +1,38 @@
+//! A document on its way in: bytes to text, text to the syntax tree.
+
+use motet_syntax::errors::TooLarge;
+use motet_syntax::ast::File;
+use motet_syntax::{Diagnostic, FileId, Form, Parsed, Source, Span};
+
+use crate::input::{Bytes, Document};
+use crate::workbench::DOCUMENT;
+
+/// Turns bytes into a source, with what is wrong with them as text.
+#[must_use]
+pub fn decode(name: &str, bytes: &[u8], file: FileId) -> (Source, Vec<Diagnostic>) {
+    match motet_syntax::decode(bytes, file) {
+        Ok(text) => (Source::new(name, text), Vec::new()),
+        Err(said) => (Source::new(name, String::from_utf8_lossy(bytes)), vec![*said]),
+    }
+}
+
+/// Reads a document.
+#[must_use]
+pub fn read(document: &Document) -> (Source, Parsed) {
+    match &document.bytes {
+        Bytes::All(bytes) => {
+            let (source, said) = decode(&document.name, bytes, DOCUMENT);
+            let parsed = if said.is_empty() { motet_syntax::read(&source, DOCUMENT) } else { nothing(said) };
+            (source, parsed)
+        }
+        Bytes::TooMany(bytes) => {
+            let mistake = TooLarge { span: Span::new(DOCUMENT, 0, 0), bytes: *bytes };
+            (Source::new(document.name.as_str(), ""), nothing(vec![mistake.into()]))
+        }
+    }
+}
+
+/// What is read of a document that is no text.
+fn nothing(diagnostics: Vec<Diagnostic>) -> Parsed {
+    Parsed { file: File::default(), form: Form::Text, diagnostics }
+}

@@ -1,0 +1,172 @@
+//! Against what documents are checked: the robot, the scene, the state, the domains. Read once; a session is made for
+//! each robot that the documents ask for.
+
+mod cards;
+mod scenes;
+mod state;
+
+use std::collections::BTreeMap;
+
+use motet_compiler::{Options, Session, State};
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_syntax::ast::{File, Item};
+use motet_syntax::{FileId, Parsed, Source, Sources};
+
+use crate::args::WorldArgs;
+use crate::exit::Trouble;
+use crate::input::read_small;
+use crate::report::Report;
+
+pub use cards::{Card, robot_names};
+
+/// The id of the document in the sources of its setting. The files of the setting come after it.
+pub const DOCUMENT: FileId = FileId(0);
+
+/// What all documents have in common.
+#[derive(Debug)]
+pub struct Workbench {
+    robot: Option<Robot>,
+    domains: Vec<File>,
+    scene: Option<Scene>,
+    state: Option<State>,
+    options: Options,
+    /// An empty place for the document, then the files that were given.
+    sources: Sources,
+    settings: BTreeMap<String, Setting>,
+}
+
+/// A session with the sources of its files.
+#[derive(Debug)]
+pub struct Setting {
+    /// The session.
+    pub session: Session,
+    /// The robot, if any.
+    pub robot: Option<Robot>,
+    /// The scene, if any.
+    pub scene: Option<Scene>,
+    sources: Sources,
+}
+
+impl Workbench {
+    /// Reads what the flags name. Its diagnostics go to the report.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read, or what it says cannot be used.
+    pub fn open(args: &WorldArgs, report: &mut Report) -> Result<Self, Trouble> {
+        let mut sources = Sources::default();
+        sources.add(Source::new("", ""));
+        let robot = match &args.robot {
+            Some(name) => Some(Card::find(name)?.read(&mut sources, report)?),
+            None => None,
+        };
+        let mut domains = Vec::new();
+        for path in &args.domain {
+            let name = path.display().to_string();
+            let parsed = read_text(&name, &read_small(path)?, &mut sources);
+            report.usable("domain", &parsed.diagnostics, &sources)?;
+            domains.push(parsed.file);
+        }
+        let scene = match &args.scene {
+            Some(name) => Some(scenes::read(name, &mut sources, report)?),
+            None => None,
+        };
+        let state = match &args.state {
+            Some(path) => Some(state::read(path, &mut sources, report)?),
+            None => None,
+        };
+        let options = Options { max_duration_secs: args.max_duration };
+        Ok(Self { robot, domains, scene, state, options, sources, settings: BTreeMap::new() })
+    }
+
+    /// The setting for a document: with the robot that was given, else with the one that the document names.
+    ///
+    /// # Errors
+    ///
+    /// The state, the scene or a domain does not fit the robot.
+    pub fn setting(&mut self, document: &File, report: &mut Report) -> Result<&Setting, Trouble> {
+        let wanted = match &self.robot {
+            Some(robot) => robot.name.to_string(),
+            None => wanted_robot(document).filter(|name| cards::embedded(name).is_some()).unwrap_or_default(),
+        };
+        if !self.settings.contains_key(&wanted) {
+            let setting = self.make(&wanted, report)?;
+            self.settings.insert(wanted.clone(), setting);
+        }
+        self.settings.get(&wanted).ok_or_else(|| Trouble::Unknown {
+            what: "robot",
+            name: wanted,
+            help: String::new(),
+        })
+    }
+
+    /// Whether a scene was given.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    fn make(&self, robot: &str, report: &mut Report) -> Result<Setting, Trouble> {
+        let mut sources = self.sources.clone();
+        let robot = match (&self.robot, robot) {
+            (Some(given), _) => Some(given.clone()),
+            (None, "") => None,
+            (None, name) => Some(Card::find(name)?.read(&mut sources, report)?),
+        };
+        let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
+        let (session, said) =
+            Session::new(robot.as_ref(), &self.domains, scene, state, self.options, &mut sources);
+        report.usable("robot, scene, state or domain", &said, &sources)?;
+        Ok(Setting { session, robot, scene: self.scene.clone(), sources })
+    }
+}
+
+impl Setting {
+    /// The sources with a document in its place.
+    #[must_use]
+    pub fn sources(&self, document: Source) -> Sources {
+        let mut all = Sources::default();
+        all.add(document);
+        for index in 1..self.sources.len() {
+            if let Some(source) = u16::try_from(index).ok().and_then(|index| self.sources.get(FileId(index))) {
+                all.add(source.clone());
+            }
+        }
+        all
+    }
+}
+
+/// Adds a text to the sources and reads it.
+fn read_text(name: &str, bytes: &[u8], sources: &mut Sources) -> Parsed {
+    let file = next_id(sources);
+    let (source, said) = crate::document::decode(name, bytes, file);
+    sources.add(source.clone());
+    let mut parsed = motet_syntax::read(&source, file);
+    if !said.is_empty() {
+        parsed.diagnostics = said;
+    }
+    parsed
+}
+
+/// The id that the next file gets.
+fn next_id(sources: &Sources) -> FileId {
+    FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX))
+}
+
+/// The robot that a document names first.
+#[must_use]
+pub fn wanted_robot(document: &File) -> Option<String> {
+    document.items.iter().find_map(|item| match item {
+        Item::Policy(policy) => policy.robot.as_ref().map(|name| name.text.to_string()),
+        Item::Kind(_)
+        | Item::Fluent(_)
+        | Item::Measure(_)
+        | Item::Failure(_)
+        | Item::Enum(_)
+        | Item::Primitive(_)
+        | Item::Entities(_)
+        | Item::Initially(_)
+        | Item::ClosedWorld(_) => None,
+    })
+}

@@ -1,0 +1,91 @@
+//! Robot cards: built in, or a folder of the user's own.
+
+use std::path::{Path, PathBuf};
+
+use motet_robots::card::{self, Robot};
+use motet_syntax::{Sources, suggest};
+
+use super::next_id;
+use crate::exit::Trouble;
+use crate::input::read_small;
+use crate::report::Report;
+
+/// The text of a card.
+#[derive(Clone, Debug)]
+pub struct Card {
+    /// Its name in diagnostics.
+    name: String,
+    toml: Vec<u8>,
+    declarations: Option<String>,
+}
+
+/// The names of the robots that are built in.
+pub fn robot_names() -> impl Iterator<Item = &'static str> {
+    card::embedded().iter().map(|(name, _, _)| *name)
+}
+
+/// The card of a robot that is built in.
+pub(super) fn embedded(name: &str) -> Option<Card> {
+    card::embedded().iter().find(|(known, _, _)| *known == name).map(|(name, toml, declarations)| Card {
+        name: format!("{name}/robot.toml"),
+        toml: toml.as_bytes().to_vec(),
+        declarations: declarations.map(Into::into),
+    })
+}
+
+impl Card {
+    /// Finds a card by the name of a built-in robot or by a folder.
+    ///
+    /// # Errors
+    ///
+    /// There is none, or its files cannot be read.
+    pub fn find(name: &str) -> Result<Self, Trouble> {
+        if let Some(card) = embedded(name) {
+            return Ok(card);
+        }
+        let path = Path::new(name);
+        if path.is_dir() {
+            return Self::in_folder(path);
+        }
+        if path.file_name().is_some_and(|file| file == "robot.toml") && path.is_file() {
+            return Self::in_folder(path.parent().unwrap_or(Path::new(".")));
+        }
+        let near = suggest::closest(name, robot_names()).map(|near| format!("did you mean `{near}`? "));
+        let known = suggest::one_of(robot_names());
+        let help = format!(
+            "{}built in: {known}; a robot of your own is a folder with a robot.toml",
+            near.unwrap_or_default()
+        );
+        Err(Trouble::Unknown { what: "robot", name: name.to_owned(), help })
+    }
+
+    fn in_folder(folder: &Path) -> Result<Self, Trouble> {
+        let path = folder.join("robot.toml");
+        if !path.is_file() {
+            return Err(Trouble::NoCard { path: folder.to_owned() });
+        }
+        let declarations: PathBuf = folder.join("primitives.motet");
+        let declarations = if declarations.exists() {
+            let text = String::from_utf8(read_small(&declarations)?);
+            Some(text.map_err(|_| Trouble::Other(format!("`{}` is not UTF-8 text", declarations.display())))?)
+        } else {
+            None
+        };
+        Ok(Self { name: path.display().to_string(), toml: read_small(&path)?, declarations })
+    }
+
+    /// Reads the card; its diagnostics go to the report.
+    ///
+    /// # Errors
+    ///
+    /// It has a mistake.
+    pub fn read(&self, sources: &mut Sources, report: &mut Report) -> Result<Robot, Trouble> {
+        let file = next_id(sources);
+        let (source, mut said) = crate::document::decode(&self.name, &self.toml, file);
+        sources.add(source.clone());
+        let (robot, more) = card::read(&source, file, self.declarations.as_deref());
+        said.extend(more);
+        report.usable("robot card", &said, sources)?;
+        robot.ok_or(Trouble::Diagnosed("robot card"))
+    }
+}
