@@ -1,11 +1,38 @@
 //! Mistakes that either surface can have, and the list of every code that this crate raises.
 
 use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
-use crate::diagnostic::{Code, Mistake};
+use crate::diagnostic::{Code, Mistake, Severity};
+use crate::json::errors::{
+    BadName, BadValue, DuplicateKey, JsonSyntax, MissingKey, NoForm, NumberRange, ReservedKey, TwoForms,
+    UnknownKey, WrongType,
+};
 use crate::source::Span;
+use crate::text::errors::{TextSyntax, UnknownUnit};
 
 /// Every code of the syntax stage, in order.
-pub const CODES: &[Code] = &[];
+pub const CODES: &[Code] = &[
+    TextSyntax::CODE,
+    JsonSyntax::CODE,
+    UnknownKey::CODE,
+    DuplicateKey::CODE,
+    MissingKey::CODE,
+    WrongType::CODE,
+    NumberRange::CODE,
+    BadValue::CODE,
+    NoForm::CODE,
+    TwoForms::CODE,
+    TooDeep::CODE,
+    TooLarge::CODE,
+    TooManySteps::CODE,
+    NotUtf8::CODE,
+    Empty::CODE,
+    IgnoredProse::CODE,
+    ReservedKey::CODE,
+    TooManyTokens::CODE,
+    NoDocument::CODE,
+    UnknownUnit::CODE,
+    BadName::CODE,
+];
 
 /// Brackets, blocks or expressions nest deeper than any policy needs.
 #[derive(Clone, Debug)]
@@ -117,5 +144,80 @@ impl Mistake for Empty {
     }
     fn help(&self) -> Option<String> {
         Some("a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`".into())
+    }
+}
+
+/// The bytes are not UTF-8.
+#[derive(Clone, Debug)]
+pub struct NotUtf8 {
+    /// The first bad byte.
+    pub span: Span,
+    /// Its value.
+    pub byte: u8,
+}
+
+impl Mistake for NotUtf8 {
+    const CODE: Code = Code("M0114");
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        format!("byte {} (0x{:02x}) is not UTF-8", self.span.start, self.byte)
+    }
+    fn help(&self) -> Option<String> {
+        Some("save the file as UTF-8".into())
+    }
+}
+
+/// Text about a document in a model's reply.
+#[derive(Clone, Debug)]
+pub struct IgnoredProse {
+    /// The first line of it.
+    pub span: Span,
+}
+
+impl Mistake for IgnoredProse {
+    const CODE: Code = Code("M0116");
+    const SEVERITY: Severity = Severity::Warning;
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        "text that is no part of the policy is ignored".into()
+    }
+    fn help(&self) -> Option<String> {
+        Some("reply with the policy alone".into())
+    }
+}
+
+/// A reply in which there is no policy.
+#[derive(Clone, Debug)]
+pub struct NoDocument {
+    /// The first line of it.
+    pub span: Span,
+}
+
+impl Mistake for NoDocument {
+    const CODE: Code = Code("M0119");
+    fn span(&self) -> Span {
+        self.span
+    }
+    fn message(&self) -> String {
+        "there is no policy in this text".into()
+    }
+    fn help(&self) -> Option<String> {
+        Some("a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`".into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_code_is_declared_once() {
+        let codes: Vec<&str> = super::CODES.iter().map(|code| code.0).collect();
+        let mut sorted = codes.clone();
+        sorted.sort_unstable();
+        sorted.dedup();
+        assert_eq!(codes, sorted);
     }
 }

@@ -7,12 +7,15 @@ pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
+pub mod path;
 mod read;
+pub mod render;
+mod reply;
 pub mod source;
 pub mod suggest;
 pub mod text;
 pub mod unit;
 
 pub use diagnostic::{Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
-pub use read::{Parsed, read};
+pub use read::{Parsed, decode, read};
 pub use source::{FileId, Form, Source, Sources, Span};

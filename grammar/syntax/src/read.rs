@@ -1,8 +1,9 @@
-//! The entry point: a document of either form to the AST.
+//! The entry point: bytes to text, and a document of either form, or a model's reply with one in it, to the AST.
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::TooLarge;
+use crate::errors::{IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::reply::{self, Reply};
 use crate::source::{FileId, Form, Source, Span};
 use crate::{json, text};
 
@@ -17,16 +18,69 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. O(bytes), no recursion
-/// deeper than [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
+/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. A document in a
+/// Markdown fence or between prose is found, and what is ignored is a warning. O(bytes), no recursion deeper than
+/// [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> Parsed {
     let document: &str = &source.text;
-    let form = form(document);
     if document.len() > MAX_BYTES {
         let mistake = TooLarge { span: Span::new(file, 0, 0), bytes: document.len() };
-        return Parsed { file: File::default(), form, diagnostics: vec![mistake.into()] };
+        return Parsed { file: File::default(), form: form(document), diagnostics: vec![mistake.into()] };
     }
+    if let Some(rest) = document.strip_prefix(BOM) {
+        return located(&format!("{BLANK_BOM}{rest}"), file);
+    }
+    located(document, file)
+}
+
+/// The text of a file: a byte order mark is blanked out, so that offsets stay those of the bytes.
+///
+/// # Errors
+/// Bytes that are not UTF-8, with the offset of the first, and more than [`MAX_BYTES`] of them.
+pub fn decode(bytes: &[u8], file: FileId) -> Result<String, Box<Diagnostic>> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Box::new(TooLarge { span: Span::new(file, 0, 0), bytes: bytes.len() }.into()));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(match text.strip_prefix(BOM) {
+            Some(rest) => format!("{BLANK_BOM}{rest}"),
+            None => text.into(),
+        }),
+        Err(error) => {
+            let at = error.valid_up_to();
+            let byte = bytes.get(at).copied().unwrap_or(0);
+            Err(Box::new(NotUtf8 { span: Span::new(file, at, at + 1), byte }.into()))
+        }
+    }
+}
+
+const BOM: char = '\u{feff}';
+const BLANK_BOM: &str = "   ";
+
+/// Reads a document that may be part of a reply.
+fn located(document: &str, file: FileId) -> Parsed {
+    match reply::locate(document) {
+        Reply::Whole => whole(document, file),
+        Reply::Part(found) => {
+            let mut parsed = whole(&reply::blanked(document, &found), file);
+            let ignored =
+                found.ignored.iter().map(|(start, end)| IgnoredProse { span: Span::new(file, *start, *end) });
+            parsed.diagnostics.extend(ignored.map(Diagnostic::from));
+            parsed.diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
+            parsed
+        }
+        Reply::Prose => {
+            let start = document.len() - document.trim_start().len();
+            let line = document.trim_start().lines().next().unwrap_or("").trim_end();
+            let mistake = NoDocument { span: Span::new(file, start, start + line.len()) };
+            Parsed { file: File::default(), form: Form::Text, diagnostics: vec![mistake.into()] }
+        }
+    }
+}
+
+fn whole(document: &str, file: FileId) -> Parsed {
+    let form = form(document);
     let (file, diagnostics) = match form {
         Form::Text => text::parse(document, file),
         Form::Json => json::read_policy(document, file),

@@ -219,6 +219,8 @@ impl Converter {
     }
 
     pub(super) fn bad_value(&mut self, span: Span, message: String, expected: &'static [&'static str]) {
-        self.found.push(BadValue { span, message, expected, found: smol_str::SmolStr::default() }.into());
+        self.found.push(
+            BadValue { span, message, expected, found: smol_str::SmolStr::default(), help: None }.into(),
+        );
     }
 }

@@ -10,6 +10,7 @@ use super::term::{Args, Condition, Count, Duration, Form, Pair, Term};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
 use crate::errors::TooDeep;
 use crate::source::Span;
+use crate::text::errors::UnknownUnit;
 use crate::text::{self, Origin};
 use crate::unit::{Dimension, Unit};
 
@@ -42,8 +43,9 @@ impl Converter {
                     let mistake = BadValue {
                         span,
                         message: format!("`{text}` is not a duration"),
-                        expected: &["20", "\"200 ms\""],
+                        expected: &[],
                         found: SmolStr::default(),
+                        help: Some(duration_help(&text)),
                     };
                     self.found.push(mistake.into());
                 }
@@ -52,9 +54,7 @@ impl Converter {
             other @ (Term::Text(_) | Term::Form(_)) => {
                 return self.term(Spanned { value: other, span }, depth + 1);
             }
-            Term::Bool(_) | Term::List(_) => {
-                return self.wrong(span, "a duration: seconds, or a string such as \"200 ms\"");
-            }
+            Term::Bool(_) | Term::List(_) => return self.wrong(span, "a number of seconds"),
         };
         Expr { kind, span }
     }
@@ -69,7 +69,7 @@ impl Converter {
     }
 
     fn wrong(&mut self, span: Span, expected: &str) -> Expr {
-        self.found.push(WrongType { span, expected: expected.into(), found: "another value".into() }.into());
+        self.found.push(WrongType { span, expected: expected.into(), found: "something else".into() }.into());
         Expr { kind: ExprKind::Plain(SmolStr::default()), span }
     }
 
@@ -159,6 +159,16 @@ impl Converter {
             converted.push(Arg { name: Some(self.name(key)), value, span });
         }
         Call { name: self.name(name), args: converted, span }
+    }
+}
+
+/// What to write for a duration that is none.
+fn duration_help(text: &str) -> String {
+    let unit = text.trim().trim_start_matches(|c: char| matches!(c, '0'..='9' | '.' | '-' | ' '));
+    let number = text.trim().strip_suffix(unit).unwrap_or("").trim_end();
+    match UnknownUnit::meant(unit) {
+        Some(meant) if !number.is_empty() => format!("did you mean `\"{number} {}\"`?", meant.symbol()),
+        Some(_) | None => "write seconds, or a number and a unit such as `\"200 ms\"`".into(),
     }
 }
 

@@ -322,6 +322,8 @@ pub struct BadValue {
     pub expected: &'static [&'static str],
     /// The value as written, where it is a string.
     pub found: SmolStr,
+    /// What to write instead, where no value can be named.
+    pub help: Option<String>,
 }
 
 impl BadValue {
@@ -341,7 +343,7 @@ impl Mistake for BadValue {
     fn help(&self) -> Option<String> {
         match self.meant() {
             Some(meant) => Some(format!("did you mean `{meant}`?")),
-            None if self.expected.is_empty() => None,
+            None if self.expected.is_empty() => self.help.clone(),
             None => Some(format!("write {}", suggest::one_of(self.expected.iter().copied()))),
         }
     }

@@ -67,9 +67,14 @@ impl Fault {
         let mut diagnostic: Diagnostic = match self.0.reason {
             Reason::Type { found, expected } => WrongType { span, expected, found }.into(),
             Reason::Range { found, expected } => NumberRange { span, found, expected: Some(expected) }.into(),
-            Reason::Choice { found, expected } => {
-                BadValue { span, message: format!("`{found}` is not known here"), expected, found }.into()
+            Reason::Choice { found, expected } => BadValue {
+                span,
+                message: format!("`{found}` is not known here"),
+                expected,
+                found,
+                help: None,
             }
+            .into(),
             Reason::UnknownKey { key, expected } => UnknownKey { key, span, expected }.into(),
             Reason::Missing(key) => MissingKey { key, span: head }.into(),
             Reason::NoForm(forms) => {
@@ -89,7 +94,7 @@ impl Fault {
             }
             .into(),
             Reason::Words(message) => {
-                BadValue { span, message, expected: &[], found: SmolStr::default() }.into()
+                BadValue { span, message, expected: &[], found: SmolStr::default(), help: None }.into()
             }
         };
         diagnostic.path = tree.pointer(at);

@@ -41,6 +41,7 @@ use serde::Deserialize;
 
 pub use lenient::Lenient;
 pub use spanned::Spanned;
+pub(crate) use tree::push_escaped;
 
 use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
 use crate::diagnostic::Diagnostic;

@@ -20,7 +20,7 @@ pub struct TextSyntax {
     /// The other place, such as the bracket that is open.
     pub related: Option<(&'static str, Span)>,
     /// What to write in place of the span, where that is sure to be right.
-    pub fix: Option<&'static str>,
+    pub fix: Option<String>,
 }
 
 impl Mistake for TextSyntax {
@@ -38,9 +38,9 @@ impl Mistake for TextSyntax {
         self.related.iter().map(|(words, span)| Related::new(*words, *span)).collect()
     }
     fn fix(&self) -> Option<Fix> {
-        self.fix.map(|text| {
+        self.fix.as_ref().map(|text| {
             let title = if text.is_empty() { "remove it".into() } else { format!("write `{text}`") };
-            Fix { title, edits: vec![Edit { span: self.span, text: text.into() }] }
+            Fix { title, edits: vec![Edit { span: self.span, text: text.clone() }] }
         })
     }
 }

@@ -27,6 +27,11 @@ pub(super) fn explain(text: &str, error: &Error<Rule>, file: FileId) -> Diagnost
     if place.found.is_none() && place.before.is_none() {
         return Empty { span: Span::new(file, 0, 0) }.into();
     }
+    if let Some(word) = place.lone_word() {
+        let message = format!("`{}` is no step", short(word.text));
+        let (help, fix) = place.advice_on_lone(word, text);
+        return TextSyntax { span: word.span(file), message, help, related: None, fix }.into();
+    }
     let end = text.trim_end().len();
     let span = place.found.map_or(Span::new(file, end, end), |token| token.span(file));
     let found = match place.found {
@@ -56,13 +61,15 @@ fn words(expected: &[Rule]) -> Option<String> {
     labels.sort_unstable();
     labels.dedup();
     let has = |words: &str| labels.iter().any(|(_, label)| *label == words);
-    let (step, value) = (has(STEP), has(VALUE));
-    let only_operator =
-        labels.iter().all(|(_, label)| *label == OPERATOR || *label == "`(`" || *label == "`.`");
+    // What always goes is named only where nothing else does.
+    let (step, declaration, value) = (has(STEP), has(DECLARATION), has(VALUE));
+    let strong = labels.iter().any(|(_, label)| !matches!(*label, OPERATOR | "`(`" | "`.`"));
     labels.retain(|(_, label)| match *label {
-        NAME => !step && !value,
-        OPERATOR => only_operator,
-        "`(`" | "`.`" | "`[`" => !step && !value && labels_len_is_small(expected),
+        STEP | DECLARATION => true,
+        "`}`" | CLAUSE => step || declaration || !value,
+        VALUE => !step && !declaration,
+        _ if step || declaration || value => false,
+        OPERATOR | "`(`" | "`.`" => !strong,
         _ => true,
     });
     match labels.as_slice() {
@@ -75,15 +82,10 @@ fn words(expected: &[Rule]) -> Option<String> {
     }
 }
 
-/// Whether so few rules could have gone on that each is worth naming.
-fn labels_len_is_small(expected: &[Rule]) -> bool {
-    expected.len() <= 2
-}
-
 const STEP: &str = "a step";
 const DECLARATION: &str = "a declaration such as `policy`";
 const CLAUSE: &str = "a clause such as `needs`";
-const VALUE: &str = "a value or a condition";
+const VALUE: &str = "a value";
 const NAME: &str = "a name";
 const OPERATOR: &str = "an operator";
 
@@ -108,7 +110,8 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
         | Rule::kw_repeat
         | Rule::kw_parallel
         | Rule::kw_done => (0, STEP),
-        Rule::item
+        Rule::file
+        | Rule::item
         | Rule::kind
         | Rule::fluent
         | Rule::measure
@@ -188,8 +191,9 @@ fn label(rule: Rule) -> Option<(u8, &'static str)> {
 
 /// The tokens about an error.
 struct Place<'t> {
-    found: Option<Token<'t>>,
+    earlier: Option<Token<'t>>,
     before: Option<Token<'t>>,
+    found: Option<Token<'t>>,
     after: Option<Token<'t>>,
     expected: &'t [Rule],
 }
@@ -218,6 +222,13 @@ const HABITS: &[(&str, &str)] = &[
     ("match", "write `if c { … } else if d { … }`"),
     ("do", "write the call itself: `pick(mug)`"),
     ("call", "write the call itself: `pick(mug)`"),
+    ("timeout", "write `within 20 s`"),
+    ("deadline", "write `within 20 s`"),
+    ("retries", "write `retry 2`"),
+    ("times", "leave it out: `repeat 3 { … }`"),
+    ("begin", "blocks stand in braces: `{ … }`"),
+    ("end", "blocks stand in braces: `{ … }`"),
+    ("print", "write `say(\"…\")` to speak, and `//` for a comment"),
     ("null", "leave it out: there is no null"),
     ("None", "leave it out: there is no null"),
     ("True", "write `true`"),
@@ -246,10 +257,10 @@ const CLAUSES: &[&str] = &["needs", "makes", "unsettles", "motion", "uses", "tak
 
 impl<'t> Place<'t> {
     fn find(text: &'t str, at: usize, expected: &'t [Rule]) -> Self {
-        let mut place = Place { found: None, before: None, after: None, expected };
+        let mut place = Place { earlier: None, before: None, found: None, after: None, expected };
         for token in tokens(text, 0).filter(|token| token.kind != TokenKind::Comment) {
             if token.end() <= at {
-                place.before = Some(token);
+                place.earlier = place.before.replace(token);
             } else if place.found.is_none() {
                 place.found = Some(token);
             } else {
@@ -264,21 +275,56 @@ impl<'t> Place<'t> {
         self.expected.iter().filter_map(|rule| label(*rule)).any(|(_, label)| label == words)
     }
 
-    /// `20 sec`: a word on the place of a unit that cannot be anything else there.
+    /// `20 sec`: a word on the place of a unit. What else a word after a number could be is left alone.
     fn unknown_unit(&self) -> Option<Token<'t>> {
-        let (number, word) = (self.before?, self.found?);
-        let adjoins = number.kind == TokenKind::Number && word.kind == TokenKind::Word;
-        let is_call = self.after.is_some_and(|after| after.text == "(");
-        let is_known = STARTERS.contains(&word.text) || CLAUSES.contains(&word.text);
-        let follows = self.expected.contains(&Rule::unit) || word.start == number.end();
-        (adjoins && follows && !is_call && !is_known).then_some(word)
+        let candidates = [(self.before, self.found, self.after), (self.earlier, self.before, self.found)];
+        candidates.into_iter().find_map(|(number, word, after)| {
+            let (number, word) = (number?, word?);
+            let adjoins = number.kind == TokenKind::Number && word.kind == TokenKind::Word;
+            let is_spelling =
+                UnknownUnit::meant(word.text).is_some() && after.is_none_or(|after| after.text != "(");
+            let is_glued = word.start == number.end();
+            (adjoins && crate::unit::Unit::parse(word.text).is_none() && (is_spelling || is_glued))
+                .then_some(word)
+        })
+    }
+
+    /// A word where a step should begin, without the `(` of a call after it. It is the mistake, not what follows it.
+    fn lone_word(&self) -> Option<Token<'t>> {
+        let needs_args = self.expected.iter().all(|rule| matches!(rule, Rule::args | Rule::lparen));
+        let word = self.before.filter(|before| before.kind == TokenKind::Word)?;
+        let declares = self
+            .earlier
+            .is_some_and(|earlier| DECLARATIONS.contains(&earlier.text) || earlier.text == "motion");
+        (needs_args && !self.expected.is_empty() && !declares).then_some(word)
+    }
+
+    fn advice_on_lone(&self, word: Token<'_>, text: &str) -> (Option<String>, Option<String>) {
+        if let Some((_, advice)) = HABITS.iter().find(|(habit, _)| *habit == word.text) {
+            return (Some((*advice).into()), None);
+        }
+        let next = self.found.map_or("", |token| token.text);
+        if next == "=" {
+            return (
+                Some(format!("a binding is written `let {} = …`", word.text)),
+                Some(format!("let {}", word.text)),
+            );
+        }
+        let starters = STARTERS.iter().chain(DECLARATIONS).chain(CLAUSES).copied();
+        if let Some(meant) = suggest::closest(word.text, starters).filter(|meant| *meant != word.text) {
+            return (Some(format!("did you mean `{meant}`?")), Some(meant.into()));
+        }
+        let rest = text.get(word.end()..).unwrap_or("");
+        let ends_line = rest.trim_start_matches([' ', '\t', '\r']).starts_with(['\n', '}']);
+        let call = format!("{}()", word.text);
+        (Some(format!("a call needs its parentheses: `{call}`")), ends_line.then_some(call))
     }
 
     /// Help, and what to write in place of the token where that is sure.
-    fn advice(&self) -> (Option<String>, Option<&'static str>) {
-        let Some(found) = self.found else { return (None, None) };
+    fn advice(&self) -> (Option<String>, Option<String>) {
+        let Some(found) = self.found else { return (self.structure().map(Into::into), None) };
         let say = |words: &str| (Some(String::from(words)), None);
-        let mend = |words: &str, fix: &'static str| (Some(String::from(words)), Some(fix));
+        let mend = |words: &str, fix: &str| (Some(String::from(words)), Some(fix.into()));
         let before = self.before.map_or("", |token| token.text);
         let after = self.after.map_or("", |token| token.text);
         match (found.kind, found.text) {
@@ -287,7 +333,6 @@ impl<'t> Place<'t> {
             (_, "||") => mend("write `or`", "or"),
             (_, "!") => mend("write `not`", "not "),
             (_, "=") if self.expects(OPERATOR) => mend("compare with `==`", "=="),
-            (_, "=") => say("a binding is written `let name = …`"),
             (_, "'" | "‘" | "’" | "“" | "”") => {
                 say("texts stand in straight double quotes: `\"red mug\"`")
             }
@@ -297,50 +342,68 @@ impl<'t> Place<'t> {
             (_, "-") if self.expects(VALUE) => say("write `0 - x`: only a number can begin with `-`"),
             (TokenKind::Doc, _) => say("`///` documents a declaration: write `//` here"),
             (_, "else") => say("`else` stands after the block of an `if` and nowhere else"),
-            (_, "catch") => say("`catch` stands after the block of a `try`"),
-            (_, "{") if before == "else" => say("write `else { … }` after the block of an `if`"),
-            (_, ",") if self.expects(STEP) => mend("steps need no separator: remove `,`", ""),
-            (_, ":") if self.expects(STEP) => say("blocks stand in braces: `{ … }`"),
-            (_, ":") if self.expects("`{`") => say("blocks stand in braces: `{ … }`"),
+            (_, "catch") if self.expects(STEP) => say("`catch` stands after the block of a `try`"),
+            (_, "{") if before == "repeat" => say("a loop has a bound: `repeat 3 { … }`"),
             (_, "{") if self.expects(DECLARATION) => {
                 say("a policy begins with its name: `policy name { … }`")
             }
-            (_, "\"") => say("close the text with `\"`"),
-            (TokenKind::Word, word) => (self.word(word, after), None),
+            (_, ",") if self.expects(STEP) => mend("steps need no separator: remove `,`", ""),
+            (_, ":") if self.expects(STEP) || self.expects("`{`") => say("blocks stand in braces: `{ … }`"),
             (TokenKind::Text, _) if self.expects(STEP) => {
                 say("a text is no step: call something with it, `say(\"…\")`")
             }
-            (_, _) if self.expected.contains(&Rule::at_most) => {
-                say("a loop over a list has a bound: `at most 5`")
+            (TokenKind::Word, word) => {
+                (self.word(word, after).or_else(|| self.structure().map(Into::into)), None)
             }
-            (_, _) if self.expected.contains(&Rule::kw_during) => {
-                say("a monitor ends with what it watches over: `during { … }`")
-            }
-            (_, _) if self.expected.contains(&Rule::catch) => {
-                say("a `try` needs a handler: `catch any { … }`")
-            }
-            (_, _) if self.expects("`(`") && self.expected.len() <= 3 => {
-                say("a call needs its parentheses: `home()`")
-            }
-            (_, _) => (None, None),
+            (_, _) => (self.structure().map(Into::into), None),
         }
+    }
+
+    /// What the construct that is being written looks like.
+    fn structure(&self) -> Option<&'static str> {
+        let wants = |rules: &[Rule]| self.expected.iter().any(|rule| rules.contains(rule));
+        if wants(&[Rule::at_most, Rule::kw_at, Rule::kw_most]) {
+            return Some("it has a bound: write `at most 5`");
+        }
+        if wants(&[Rule::kw_during]) {
+            return Some("a monitor ends with what it watches over: `monitor when c then R during { … }`");
+        }
+        if wants(&[Rule::catch, Rule::kw_catch]) {
+            return Some("a `try` has a handler: `try { … } catch any { … }`");
+        }
+        if wants(&[Rule::kw_then]) {
+            return Some("what happens follows `then`: `when c then pause`");
+        }
+        if wants(&[Rule::kw_until]) && self.before.is_some_and(|before| before.text == "wait") {
+            return Some("write `wait until c within 60 s`");
+        }
+        if wants(&[Rule::pause, Rule::kw_pause]) {
+            return Some(
+                "the reactions are `pause`, `restart at most 3`, `resume at most 3 { … }`, `done`, `fail \"why\"` and \
+                 `replan \"why\"`",
+            );
+        }
+        if wants(&[Rule::block, Rule::lbrace]) {
+            return Some("blocks stand in braces: `{ … }`");
+        }
+        if self.expected == [Rule::colon] {
+            return Some("a parameter has a type: `name: Type`");
+        }
+        None
     }
 
     /// Help for a word.
     fn word(&self, word: &str, after: &str) -> Option<String> {
         let is_start = self.expects(STEP) || self.expects(DECLARATION);
-        if let Some((_, advice)) =
-            HABITS.iter().find(|(habit, _)| *habit == word).filter(|_| is_start || self.expects(VALUE))
-        {
+        let habit =
+            HABITS.iter().find(|(habit, _)| *habit == word).filter(|_| is_start || self.expects(VALUE));
+        if let Some((_, advice)) = habit {
             return Some((*advice).into());
         }
         if self.expects(NAME) && super::is_reserved(word) && !is_start {
             return Some(format!(
                 "`{word}` is a word of the language: choose another name, or write `` `{word}` ``"
             ));
-        }
-        if self.expected.contains(&Rule::at_most) {
-            return Some("a loop over a list has a bound: `at most 5`".into());
         }
         let mut candidates: Vec<&'static str> = Vec::new();
         if self.expects(STEP) {
@@ -356,16 +419,7 @@ impl<'t> Place<'t> {
         if let Some(meant) = suggest::closest(word, candidates).filter(|meant| *meant != word) {
             return Some(format!("did you mean `{meant}`?"));
         }
-        if self.before.is_some_and(|before| before.kind == TokenKind::Word) && self.expects("`(`") {
-            let name = self.before.map_or("", |before| before.text);
-            if let Some(meant) =
-                suggest::closest(name, STARTERS.iter().copied()).filter(|meant| *meant != name)
-            {
-                return Some(format!("did you mean `{meant}` instead of `{name}`?"));
-            }
-            return Some(format!("a call needs its parentheses: `{name}()`"));
-        }
-        if self.expects(DECLARATION) && after == "(" {
+        if self.expects(DECLARATION) && (after == "(" || STARTERS.contains(&word)) {
             return Some("steps stand in a policy: `policy name { … }`".into());
         }
         None

@@ -64,6 +64,20 @@ pub(crate) fn parse_expr(text: &str, origin: Origin, depth: usize) -> (Option<as
     }
 }
 
+/// Parses one condition that stands by itself, such as a fact of a state: `on(cup, table)`.
+///
+/// # Errors
+///
+/// What is wrong, in words, where the text is no condition.
+pub fn condition(text: &str) -> Result<ast::Expr, String> {
+    let (expr, found) = parse_expr(text, Origin::At(FileId::default(), 0), 0);
+    match (expr, found.into_iter().next()) {
+        (Some(expr), None) => Ok(expr),
+        (_, Some(mistake)) => Err(mistake.message),
+        (None, None) => Err("nothing is written here".to_owned()),
+    }
+}
+
 /// Where a text stands in its document.
 #[derive(Clone, Copy)]
 pub(crate) enum Origin {
@@ -99,14 +113,13 @@ impl Origin {
 
 /// Whether a word is never a bare name, because the grammar says so.
 pub(crate) fn is_reserved(word: &str) -> bool {
-    MotetParser::parse(Rule::reserved, word).is_ok_and(|pairs| pairs.as_str().len() == word.len())
+    !is_bare_name(word)
 }
 
 /// Whether a text can stand as a name without back-quotes.
 pub(crate) fn is_bare_name(text: &str) -> bool {
-    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-    let begins = text.bytes().next().is_some_and(|byte| !byte.is_ascii_digit());
-    begins && text.bytes().all(is_word) && !is_reserved(text)
+    let parsed = MotetParser::parse(Rule::name, text);
+    !text.starts_with('`') && parsed.is_ok_and(|pairs| pairs.as_str().len() == text.len())
 }
 
 /// Whether a text can stand as a name, in back-quotes if need be.

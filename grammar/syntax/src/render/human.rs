@@ -1,0 +1,145 @@
+//! Diagnostics as a person reads them in a terminal: the code, the message, the lines with the place underlined, help.
+
+use std::fmt::{self, Display};
+use std::sync::Arc;
+
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+
+use super::source;
+use crate::diagnostic::{Diagnostic, Related, Severity};
+use crate::source::{Sources, Span};
+
+/// Whether escape sequences for colours are written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Color {
+    /// They are.
+    On,
+    /// They are not.
+    Off,
+}
+
+/// All diagnostics, one below the other, wrapped at `width` columns. Empty where there is none.
+#[must_use]
+pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: Color, width: usize) -> String {
+    let theme = match color {
+        Color::On => GraphicalTheme::unicode(),
+        Color::Off => GraphicalTheme::unicode_nocolor(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_links(false);
+    let mut text = String::new();
+    for diagnostic in diagnostics {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        let report = Report::new(diagnostic, sources);
+        if handler.render_report(&mut text, &report).is_err() {
+            // Nothing in a report can fail to be formatted; if it did, the message alone is still worth having.
+            text.push_str(&format!("{}: {}\n", diagnostic.code, diagnostic.message));
+        }
+    }
+    text
+}
+
+/// A diagnostic as miette takes it.
+#[derive(Debug)]
+struct Report {
+    code: &'static str,
+    severity: Severity,
+    message: String,
+    help: Option<String>,
+    source: Option<NamedSource<Arc<str>>>,
+    labels: Vec<LabeledSpan>,
+    /// Places in other files.
+    elsewhere: Vec<Report>,
+}
+
+impl Report {
+    fn new(diagnostic: &Diagnostic, sources: &Sources) -> Self {
+        let span = diagnostic.span;
+        let mut report = Self::at(span, sources);
+        report.code = diagnostic.code.0;
+        report.severity = diagnostic.severity;
+        report.message.clone_from(&diagnostic.message);
+        report.help.clone_from(&diagnostic.help);
+        report.labels.extend(label(span, None, sources));
+        for related in &diagnostic.related {
+            report.relate(related, span, sources);
+        }
+        report
+    }
+
+    fn at(span: Span, sources: &Sources) -> Self {
+        let source = source(sources, span);
+        Self {
+            code: "",
+            severity: Severity::Note,
+            message: String::new(),
+            help: None,
+            source: source.map(|source| NamedSource::new(&source.name, Arc::clone(&source.text))),
+            labels: Vec::new(),
+            elsewhere: Vec::new(),
+        }
+    }
+
+    /// A remark in the same file is a second label; any other is a report of its own below.
+    fn relate(&mut self, related: &Related, main: Span, sources: &Sources) {
+        match related.span {
+            Some(span) if span.file == main.file => {
+                self.labels.extend(label(span, Some(related.message.clone()), sources));
+            }
+            Some(span) => {
+                let mut report = Self::at(span, sources);
+                report.message.clone_from(&related.message);
+                report.labels.extend(label(span, None, sources));
+                self.elsewhere.push(report);
+            }
+            None => {
+                let mut report = Self::at(main, &Sources::default());
+                report.message.clone_from(&related.message);
+                self.elsewhere.push(report);
+            }
+        }
+    }
+}
+
+/// A label on a place; the text ends it where the span is beyond it.
+fn label(span: Span, words: Option<String>, sources: &Sources) -> Option<LabeledSpan> {
+    let length = source(sources, span)?.text.len();
+    let start = (span.start as usize).min(length);
+    let end = (span.end as usize).clamp(start, length);
+    Some(LabeledSpan::new(words, start, end - start))
+}
+
+impl Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Report {}
+
+impl miette::Diagnostic for Report {
+    fn code<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        (!self.code.is_empty()).then(|| Box::new(self.code) as Box<dyn Display>)
+    }
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Note => miette::Severity::Advice,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Error => miette::Severity::Error,
+        })
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn Display>)
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.labels.iter().cloned()))
+    }
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn miette::Diagnostic> + 'a>> {
+        let reports = self.elsewhere.iter().map(|report| report as &dyn miette::Diagnostic);
+        (!self.elsewhere.is_empty()).then(|| Box::new(reports) as Box<dyn Iterator<Item = _>>)
+    }
+}

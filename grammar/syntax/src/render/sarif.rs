@@ -1,0 +1,123 @@
+//! Diagnostics as a SARIF 2.1.0 log, for code scanning services.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use super::{end_line_column, file_name, line_column};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::{Sources, Span};
+
+/// One log with one run of the tool `motet`.
+#[must_use]
+pub fn sarif(diagnostics: &[Diagnostic], sources: &Sources) -> String {
+    let codes: BTreeMap<&str, usize> = diagnostics.iter().map(|diagnostic| (diagnostic.code.0, 0)).collect();
+    let codes: BTreeMap<&str, usize> =
+        codes.into_keys().enumerate().map(|(index, code)| (code, index)).collect();
+    let rules: Vec<Value> = codes
+        .keys()
+        .map(|code| json!({"id": code, "help": {"text": format!("motet explain {code}")}}))
+        .collect();
+    let results: Vec<Value> = diagnostics
+        .iter()
+        .map(|diagnostic| result(diagnostic, codes.get(diagnostic.code.0).copied(), sources))
+        .collect();
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": {"driver": {
+                "name": "motet",
+                "version": env!("CARGO_PKG_VERSION"),
+                "rules": rules,
+            }},
+            "columnKind": "unicodeCodePoints",
+            "results": results,
+        }],
+    });
+    let mut text = serde_json::to_string_pretty(&log).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Value {
+    let level = match diagnostic.severity {
+        Severity::Note => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    };
+    let message = match &diagnostic.help {
+        Some(help) => format!("{} ({help})", diagnostic.message),
+        None => diagnostic.message.clone(),
+    };
+    let mut result = json!({
+        "ruleId": diagnostic.code.0,
+        "ruleIndex": rule,
+        "level": level,
+        "message": {"text": message},
+        "locations": [location(diagnostic.span, &diagnostic.path, sources)],
+    });
+    let related: Vec<Value> = diagnostic
+        .related
+        .iter()
+        .filter_map(|related| {
+            let mut location = location(related.span?, &related.path, sources);
+            location.as_object_mut()?.insert("message".into(), json!({"text": related.message}));
+            Some(location)
+        })
+        .collect();
+    let fixes = diagnostic.fix.as_ref().map(|fix| {
+        let replacements: Vec<Value> = fix
+            .edits
+            .iter()
+            .map(|edit| json!({"deletedRegion": region(edit.span, sources), "insertedContent": {"text": edit.text}}))
+            .collect();
+        let changes = json!([{"artifactLocation": artifact(diagnostic.span, sources), "replacements": replacements}]);
+        json!([{"description": {"text": fix.title}, "artifactChanges": changes}])
+    });
+    if let Some(result) = result.as_object_mut() {
+        if !related.is_empty() {
+            result.insert("relatedLocations".into(), related.into());
+        }
+        result.extend(fixes.map(|fixes| ("fixes".into(), fixes)));
+    }
+    result
+}
+
+fn location(span: Span, path: &str, sources: &Sources) -> Value {
+    let mut location = json!({
+        "physicalLocation": {"artifactLocation": artifact(span, sources), "region": region(span, sources)},
+    });
+    if let (false, Some(location)) = (path.is_empty(), location.as_object_mut()) {
+        location.insert("logicalLocations".into(), json!([{"fullyQualifiedName": path, "kind": "value"}]));
+    }
+    location
+}
+
+/// The file as a relative or absolute URI reference.
+fn artifact(span: Span, sources: &Sources) -> Value {
+    let mut uri = String::new();
+    for byte in file_name(sources, span).bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'_' | b'-' | b'~' => {
+                uri.push(byte.into())
+            }
+            b'\\' => uri.push('/'),
+            other => uri.push_str(&format!("%{other:02X}")),
+        }
+    }
+    json!({"uri": uri})
+}
+
+fn region(span: Span, sources: &Sources) -> Value {
+    let ((line, column), (end_line, end_column)) =
+        (line_column(sources, span), end_line_column(sources, span));
+    json!({
+        "startLine": line,
+        "startColumn": column,
+        "endLine": end_line,
+        "endColumn": end_column,
+        "byteOffset": span.start,
+        "byteLength": span.end.saturating_sub(span.start),
+    })
+}
