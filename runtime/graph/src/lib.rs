@@ -7,3 +7,8 @@ mod display;
 pub mod model;
 
 pub use model::*;
+
+mod fit;
+pub mod validate;
+
+pub use validate::{Invalid, validate};

@@ -1,0 +1,166 @@
+//! One cell for each query that somebody asked: the last answer, its time, and who depends on it.
+
+use super::entities::Entities;
+use crate::query::{Answer, Pattern, Query};
+use crate::time::Time;
+use motet_graph::{Graph, Value};
+use rustc_hash::{FxHashMap, FxHasher};
+use smol_str::SmolStr;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+/// Index of a cell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) struct CellId(pub(crate) u32);
+
+/// What is believed of one query.
+#[derive(Clone, Debug)]
+pub(crate) struct Cell {
+    pub(crate) query: Arc<Query>,
+    pub(crate) answer: Answer,
+    /// When it was last observed or changed by an effect.
+    pub(crate) at: Time,
+    /// Who is to be judged again when it changes; keys of the run.
+    pub(crate) dependents: Vec<u32>,
+    /// How many watches and waits need it kept current.
+    pub(crate) watchers: u32,
+    /// It is watched and was reported since the watch began.
+    pub(crate) live: bool,
+    /// Whether the robot can observe it.
+    pub(crate) observable: bool,
+    /// A fact with `any`.
+    pub(crate) pattern: bool,
+    next: Option<CellId>,
+}
+
+/// What was written to all facts that a pattern covers.
+#[derive(Clone, Debug)]
+pub(crate) struct Wide {
+    pub(crate) args: Vec<Pattern>,
+    pub(crate) answer: Answer,
+    pub(crate) at: Time,
+}
+
+/// A fluent's facts.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Facts {
+    pub(crate) cells: Vec<CellId>,
+    /// Later ones win.
+    pub(crate) wides: Vec<Wide>,
+    pub(crate) observable: bool,
+}
+
+/// All beliefs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Beliefs {
+    pub(crate) entities: Entities,
+    pub(crate) fluents: FxHashMap<SmolStr, Facts>,
+    /// Keys of those who depend on something that has changed.
+    pub(crate) changed: Vec<u32>,
+    cells: Vec<Cell>,
+    index: FxHashMap<u64, CellId>,
+}
+
+impl Beliefs {
+    /// Nothing is known.
+    pub(crate) fn new(graph: &Graph) -> Self {
+        let mut beliefs = Self::default();
+        for fluent in &graph.fluents {
+            let facts = Facts { observable: fluent.observable, ..Facts::default() };
+            beliefs.fluents.insert(fluent.name.clone(), facts);
+        }
+        beliefs
+    }
+
+    pub(crate) fn cell(&self, id: CellId) -> Option<&Cell> {
+        self.cells.get(id.0 as usize)
+    }
+
+    pub(crate) fn cell_mut(&mut self, id: CellId) -> Option<&mut Cell> {
+        self.cells.get_mut(id.0 as usize)
+    }
+
+    /// The cell of a fact, if somebody asked for it.
+    pub(crate) fn find_fact(&self, fluent: &str, args: &[Pattern]) -> Option<CellId> {
+        self.find(fact_hash(fluent, args), |query| {
+            matches!(query, Query::Fact { fluent: f, args: a } if f == fluent && a == args)
+        })
+    }
+
+    /// The cell of a query, if somebody asked for it.
+    pub(crate) fn find_query(&self, query: &Query) -> Option<CellId> {
+        self.find(query_hash(query), |known| known == query)
+    }
+
+    /// The cell of a query.
+    pub(crate) fn intern(&mut self, query: Query) -> CellId {
+        if let Some(id) = self.find_query(&query) {
+            return id;
+        }
+        let id = CellId(self.cells.len() as u32);
+        let (answer, at, observable, pattern) = match &query {
+            Query::Fact { fluent, args } => {
+                let pattern = args.contains(&Pattern::Any);
+                let (answer, at) = self.wide_answer(fluent, args);
+                let facts = self.fluents.entry(fluent.clone()).or_default();
+                facts.cells.push(id);
+                (answer, at, facts.observable, pattern)
+            }
+            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, Time::ZERO, true, false),
+        };
+        let next = self.index.insert(query_hash(&query), id);
+        let query = Arc::new(query);
+        let dependents = Vec::new();
+        self.cells.push(Cell { query, answer, at, dependents, watchers: 0, live: false, observable, pattern, next });
+        id
+    }
+
+    fn find(&self, hash: u64, is_it: impl Fn(&Query) -> bool) -> Option<CellId> {
+        let mut at = self.index.get(&hash).copied();
+        while let Some(id) = at {
+            let cell = self.cell(id)?;
+            if is_it(&cell.query) {
+                return Some(id);
+            }
+            at = cell.next;
+        }
+        None
+    }
+}
+
+fn query_hash(query: &Query) -> u64 {
+    let mut hasher = FxHasher::default();
+    match query {
+        Query::Fact { fluent, args } => return fact_hash(fluent, args),
+        Query::Measure { measure, args } => {
+            (1_u8, measure.as_str()).hash(&mut hasher);
+            args.iter().for_each(|arg| hash_value(arg, &mut hasher));
+        }
+        Query::Field { entity, field } => (2_u8, entity.as_str(), field.as_str()).hash(&mut hasher),
+    }
+    hasher.finish()
+}
+
+fn fact_hash(fluent: &str, args: &[Pattern]) -> u64 {
+    let mut hasher = FxHasher::default();
+    fluent.hash(&mut hasher);
+    for arg in args {
+        match arg {
+            Pattern::Is(value) => hash_value(value, &mut hasher),
+            Pattern::Any => 0_u8.hash(&mut hasher),
+        }
+    }
+    hasher.finish()
+}
+
+fn hash_value(value: &Value, hasher: &mut FxHasher) {
+    match value {
+        Value::Bool(value) => value.hash(hasher),
+        Value::Int(value) => value.hash(hasher),
+        // Zero equals minus zero.
+        Value::Number(value) => (value + 0.0).to_bits().hash(hasher),
+        Value::Text(text) | Value::Entity(text) | Value::Case(text) => text.as_str().hash(hasher),
+        Value::Pose(_) => 1_u8.hash(hasher),
+        Value::List(items) => items.iter().for_each(|item| hash_value(item, hasher)),
+    }
+}

@@ -1,0 +1,213 @@
+//! Facts: how they are looked up and changed, one by one and by patterns.
+//!
+//! A pattern write covers all facts that fit it, also those that nobody has asked for yet; a later write wins. A cell
+//! that has `any` itself says whether some entity fits.
+
+use super::cells::{Beliefs, CellId, Wide};
+use crate::query::{Answer, Pattern};
+use crate::time::Time;
+use crate::truth::Truth;
+use smol_str::SmolStr;
+
+/// A change of what is believed, worked out before any change is made.
+#[derive(Clone, Debug)]
+pub(crate) struct Change {
+    pub(crate) fluent: SmolStr,
+    /// `any` means every entity.
+    pub(crate) args: Vec<Pattern>,
+    pub(crate) value: Truth,
+    /// Whether it surely happens; else it may have happened.
+    pub(crate) sure: bool,
+    /// Whether a pattern is meant only of facts that have no cell: of what nobody has asked for yet.
+    pub(crate) rest: bool,
+}
+
+impl Beliefs {
+    /// What is believed of a fact; with `any`, whether it holds of some entity.
+    pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, Time) {
+        let own = self.find_fact(fluent, args).and_then(|id| self.cell(id));
+        let (answer, at) = match own {
+            Some(cell) => (truth_of(&cell.answer), cell.at),
+            None => {
+                let (answer, at) = self.wide_answer(fluent, args);
+                (truth_of(&answer), at)
+            }
+        };
+        if args.contains(&Pattern::Any)
+            && answer != Truth::True
+            && let Some(at) = self.witness(fluent, args)
+        {
+            return (Truth::True, at);
+        }
+        (answer, at)
+    }
+
+    /// Makes a change. All who depend on what becomes different are noted.
+    pub(crate) fn apply(&mut self, change: &Change, now: Time) {
+        if change.args.contains(&Pattern::Any) {
+            self.write_wide(change, now);
+        } else {
+            self.write_one(change, now);
+        }
+    }
+
+    /// Takes an observation of a cell.
+    pub(crate) fn observe(&mut self, id: CellId, answer: Answer, now: Time) {
+        let Some(cell) = self.cell_mut(id) else { return };
+        cell.live = cell.watchers > 0;
+        cell.at = now;
+        let query = cell.query.clone();
+        if let crate::query::Query::Fact { fluent, args } = &*query {
+            let value = truth_of(&answer);
+            let change = Change { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
+            // That none fits says something of each; that some does, or that it is not known, says nothing of any.
+            if args.contains(&Pattern::Any) && value != Truth::False {
+                self.set(id, answer, now);
+            } else {
+                self.apply(&change, now);
+            }
+        } else {
+            self.set(id, answer, now);
+        }
+    }
+
+    /// What pattern writes say of a fact or a pattern that has no cell.
+    pub(super) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, Time) {
+        let unknown = (Answer::Unknown, Time::ZERO);
+        let Some(facts) = self.fluents.get(fluent) else { return unknown };
+        let mut at = Time::ZERO;
+        for wide in facts.wides.iter().rev() {
+            if covers(&wide.args, args) {
+                let none = wide.answer == Answer::Truth(false) && self.all_false(fluent, args);
+                let pattern = args.contains(&Pattern::Any);
+                return if pattern && !none { unknown } else { (wide.answer.clone(), at.max(wide.at)) };
+            }
+            // A later write to some of them: only where it says the same does an earlier one stand.
+            if overlaps(&wide.args, args) && wide.answer != Answer::Truth(false) {
+                return unknown;
+            }
+            at = at.max(wide.at);
+        }
+        unknown
+    }
+
+    fn all_false(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let mut covered = self.covered(fluent, args);
+        covered.all(|id| self.cell(id).is_none_or(|cell| cell.answer == Answer::Truth(false)))
+    }
+
+    /// When a fact was last known true that fits a pattern.
+    fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<Time> {
+        let mut covered = self.covered(fluent, args);
+        covered.find_map(|id| self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.at))
+    }
+
+    /// The cells of single facts that fit a pattern.
+    fn covered<'a>(&'a self, fluent: &str, args: &'a [Pattern]) -> impl Iterator<Item = CellId> + 'a {
+        let cells = self.fluents.get(fluent).map_or(&[][..], |facts| &facts.cells);
+        cells.iter().copied().filter(move |id| {
+            self.cell(*id).is_some_and(|cell| {
+                !cell.pattern && matches!(&*cell.query, crate::query::Query::Fact { args: own, .. } if covers(args, own))
+            })
+        })
+    }
+
+    fn write_one(&mut self, change: &Change, now: Time) {
+        let query = crate::query::Query::Fact { fluent: change.fluent.clone(), args: change.args.clone() };
+        let id = self.intern(query);
+        let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
+        let new = if change.sure { change.value } else { old.joined(change.value) };
+        self.set(id, answer_of(new), now);
+        self.unsettle_patterns(change, new, now);
+    }
+
+    fn write_wide(&mut self, change: &Change, now: Time) {
+        let written = if change.sure { change.value } else { Truth::Unknown };
+        let ids: Vec<CellId> =
+            if change.rest { Vec::new() } else { self.covered(&change.fluent, &change.args).collect() };
+        for id in ids {
+            let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
+            let new = if change.sure { change.value } else { old.joined(change.value) };
+            self.set(id, answer_of(new), now);
+        }
+        if let Some(facts) = self.fluents.get_mut(&change.fluent) {
+            facts.wides.retain(|wide| !covers(&change.args, &wide.args));
+            facts.wides.push(Wide { args: change.args.clone(), answer: answer_of(written), at: now });
+        }
+        self.unsettle_patterns(change, written, now);
+    }
+
+    /// Cells with `any` that a write touches.
+    fn unsettle_patterns(&mut self, change: &Change, written: Truth, now: Time) {
+        let Some(facts) = self.fluents.get(&change.fluent) else { return };
+        if facts.cells.is_empty() {
+            return;
+        }
+        let mut touched = Vec::new();
+        for id in &facts.cells {
+            let Some(cell) = self.cell(*id).filter(|cell| cell.pattern) else { continue };
+            let crate::query::Query::Fact { args, .. } = &*cell.query else { continue };
+            if !overlaps(&change.args, args) {
+                continue;
+            }
+            let own = truth_of(&cell.answer);
+            let new = match (own, written) {
+                (_, written) if covers(&change.args, args) => written,
+                (_, Truth::True) => Truth::True,
+                // It may have been the one that held, or it may be the one that holds.
+                (Truth::True | Truth::Unknown, _) | (Truth::False, Truth::Unknown) => Truth::Unknown,
+                (Truth::False, Truth::False) => Truth::False,
+            };
+            touched.push((*id, new));
+        }
+        for (id, new) in touched {
+            self.set(id, answer_of(new), now);
+            // What fits the pattern may have changed even where its own answer has not.
+            self.note(id);
+        }
+    }
+
+    fn set(&mut self, id: CellId, answer: Answer, now: Time) {
+        let Some(cell) = self.cell_mut(id) else { return };
+        cell.at = now;
+        if cell.answer != answer {
+            cell.answer = answer;
+            self.note(id);
+        }
+    }
+
+    pub(crate) fn note(&mut self, id: CellId) {
+        let mut changed = std::mem::take(&mut self.changed);
+        if let Some(cell) = self.cell(id) {
+            changed.extend_from_slice(&cell.dependents);
+        }
+        self.changed = changed;
+    }
+}
+
+/// The truth that an answer to a fact gives.
+pub(super) fn truth_of(answer: &Answer) -> Truth {
+    match answer {
+        Answer::Truth(truth) => Truth::from(*truth),
+        Answer::Unknown | Answer::Value(_) => Truth::Unknown,
+    }
+}
+
+fn answer_of(truth: Truth) -> Answer {
+    match truth {
+        Truth::True => Answer::Truth(true),
+        Truth::False => Answer::Truth(false),
+        Truth::Unknown => Answer::Unknown,
+    }
+}
+
+/// Whether every fact of `other` is one of `wide`.
+fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
+    wide.len() == other.len() && wide.iter().zip(other).all(|(wide, other)| *wide == Pattern::Any || wide == other)
+}
+
+/// Whether some fact is one of both.
+fn overlaps(a: &[Pattern], b: &[Pattern]) -> bool {
+    a.len() == b.len()
+        && a.iter().zip(b).all(|(a, b)| *a == Pattern::Any || *b == Pattern::Any || a == b)
+}

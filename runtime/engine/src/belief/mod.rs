@@ -1,0 +1,14 @@
+//! What the engine believes of the world: facts, readings, and the entities that it has heard of.
+//!
+//! Beliefs change by declared effects and by observations, and every change names who depends on it. Conditions are
+//! judged by [`eval`] in three values.
+
+mod cells;
+mod entities;
+mod eval;
+mod facts;
+
+pub(crate) use cells::{Beliefs, CellId};
+pub(crate) use entities::OfKind;
+pub(crate) use eval::{Freshness, Judge};
+pub(crate) use facts::Change;

@@ -1,0 +1,156 @@
+//! The engine: a graph, the state of its run, and one way in.
+
+use crate::belief::{Beliefs, Change};
+use crate::effect::Effect;
+use crate::event::Event;
+use crate::plan::Plan;
+use crate::query::{Pattern, Query};
+use crate::settings::Settings;
+use crate::start::StartState;
+use crate::state::Run;
+use crate::time::Time;
+use crate::truth::Truth;
+use crate::turn::Turn;
+use crate::verifier::{LeaveToDriver, Verifier};
+use motet_graph::{BindingId, FactArg, FailureId, Graph, Invalid, Term, Value};
+use smol_str::SmolStr;
+use std::sync::Arc;
+
+/// Runs one graph. It reads no clock and does no input or output: the same graph and the same events give the same
+/// effects.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    plan: Arc<Plan>,
+    run: Run,
+    settings: Settings,
+    verifier: Arc<dyn Verifier>,
+}
+
+impl Engine {
+    /// Makes a graph ready to run from a state. Costs the size of the graph.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the graph.
+    pub fn new(graph: Graph, start: &StartState) -> Result<Self, Vec<Invalid>> {
+        motet_graph::validate(&graph)?;
+        let plan = Plan::new(Arc::new(graph));
+        let beliefs = believe(&plan.graph, start);
+        let run = Run::new(&plan, beliefs);
+        Ok(Self { plan: Arc::new(plan), run, settings: Settings::default(), verifier: Arc::new(LeaveToDriver) })
+    }
+
+    /// With other settings.
+    #[must_use]
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Self { settings, ..self }
+    }
+
+    /// With somebody who checks deferred motions.
+    #[must_use]
+    pub fn with_verifier(self, verifier: Arc<dyn Verifier>) -> Self {
+        Self { verifier, ..self }
+    }
+
+    /// Takes in one event that happened at `now` and appends what is to be done about it to `out`. All transitions that
+    /// the event enables are made in document order, monitors first. What was due before `now` is done before it. A time
+    /// before that of the last event counts as that. After [`Effect::Finished`] nothing happens any more.
+    pub fn handle(&mut self, now: Time, event: Event, out: &mut Vec<Effect>) {
+        Turn::new(&self.plan, &mut self.run, &self.settings, &*self.verifier, out).handle(now, event);
+    }
+
+    /// When the engine wants to be woken by [`Event::Tick`], if nothing happens before.
+    #[must_use]
+    pub fn wake_at(&self) -> Option<Time> {
+        self.run.timers.next().map(|(at, _)| at).filter(|_| !self.run.over)
+    }
+
+    /// The run cannot go on, because nothing is left to wait for: ends it with [`crate::Fault::Stalled`].
+    pub fn give_up(&mut self, out: &mut Vec<Effect>) {
+        let fault = crate::effect::Fault::Stalled;
+        Turn::new(&self.plan, &mut self.run, &self.settings, &*self.verifier, out).fault(fault);
+    }
+
+    /// Whether [`Effect::Finished`] went out.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.run.over
+    }
+
+    /// The graph that runs.
+    #[must_use]
+    pub fn graph(&self) -> &Graph {
+        &self.plan.graph
+    }
+
+    /// A binding's value; none before it is bound.
+    #[must_use]
+    pub fn binding(&self, binding: BindingId) -> Option<&Value> {
+        self.run.bindings.get(binding.index())?.as_ref()
+    }
+
+    /// A failure kind's name. Beside the graph's own there are those that a driver made up.
+    #[must_use]
+    pub fn failure(&self, failure: FailureId) -> Option<&SmolStr> {
+        self.run.failures.get(failure.index())
+    }
+
+    /// What is believed of a fact; with [`Pattern::Any`]: whether it holds of some entity.
+    #[must_use]
+    pub fn believes(&self, fluent: &str, args: &[Pattern]) -> Truth {
+        self.run.beliefs.fact(fluent, args).0
+    }
+}
+
+/// What is known at the start: first what the compiler was told, then what the host knows.
+fn believe(graph: &Graph, start: &StartState) -> Beliefs {
+    let mut beliefs = Beliefs::new(graph);
+    hear_graph(graph, &mut beliefs);
+    for (id, kind) in &start.entities {
+        let kind = graph.kinds.iter().position(|known| known.name == *kind);
+        beliefs.entities.hear(graph, id, kind.map(|index| motet_graph::KindId(index as u32)));
+    }
+    for (fact, value) in &graph.initial {
+        let Some(fluent) = graph.fluents.get(fact.fluent.index()) else { continue };
+        let args = fact.args.iter().map(|arg| match arg {
+            FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
+            FactArg::Any => Some(Pattern::Any),
+            FactArg::Term(_) => None,
+        });
+        let Some(args) = args.collect::<Option<Vec<_>>>() else { continue };
+        let change = Change { fluent: fluent.name.clone(), args, value: Truth::from(*value), sure: true, rest: false };
+        beliefs.apply(&change, Time::ZERO);
+    }
+    for (query, value) in &start.facts {
+        let Query::Fact { fluent, args } = query else { continue };
+        if beliefs.fluents.contains_key(fluent) {
+            let change = Change { fluent: fluent.clone(), args: args.clone(), value: Truth::from(*value), sure: true, rest: false };
+            beliefs.apply(&change, Time::ZERO);
+        }
+    }
+    beliefs.changed.clear();
+    beliefs
+}
+
+/// The entities that a graph names.
+fn hear_graph(graph: &Graph, beliefs: &mut Beliefs) {
+    for (fact, _) in &graph.initial {
+        let params = graph.fluents.get(fact.fluent.index()).map_or(&[][..], |fluent| &fluent.params);
+        for (arg, ty) in fact.args.iter().zip(params) {
+            if let FactArg::Term(Term::Literal(value)) = arg {
+                beliefs.entities.hear_value(graph, value, Some(ty));
+            }
+        }
+    }
+    for node in &graph.nodes {
+        if let motet_graph::NodeKind::Call(call) = &node.kind
+            && let Some(primitive) = graph.primitives.get(call.primitive.index())
+        {
+            for (arg, (_, ty)) in call.args.iter().zip(&primitive.params) {
+                if let Term::Literal(value) = arg {
+                    beliefs.entities.hear_value(graph, value, Some(ty));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! Numbers that a host may choose.
+
+use crate::time::Time;
+
+/// How patient the engine is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Settings {
+    /// How long a cancel may go unanswered before the engine asks for a safe stop.
+    pub cancel_within: Time,
+    /// How long a safe stop may go unanswered before the run ends with [`crate::Fault::NotStopped`].
+    pub safe_stop_within: Time,
+    /// The least time for which a watched condition may be unknown before its monitor fires.
+    pub unknown_for: Time,
+    /// The most transitions at one instant.
+    pub step_budget: u32,
+}
+
+impl Default for Settings {
+    /// 5 s for a cancel, 5 s for a safe stop, 0.5 s unknown, 10,000,000 transitions.
+    fn default() -> Self {
+        Self {
+            cancel_within: Time::from_nanos(5_000_000_000),
+            safe_stop_within: Time::from_nanos(5_000_000_000),
+            unknown_for: Time::from_nanos(500_000_000),
+            step_budget: 10_000_000,
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Everything that changes during a run, in flat tables by node, region, watch and binding.
+
+use crate::belief::{Beliefs, CellId};
+use crate::effect::RunEnd;
+use crate::event::GoalId;
+use crate::goals::Goals;
+use crate::plan::Plan;
+use crate::record::{Cause, NodeEnding};
+use crate::table::Table;
+use crate::time::Time;
+use crate::timers::Timers;
+use crate::truth::Truth;
+use motet_graph::{NodeId, RegionId, Value};
+use smol_str::SmolStr;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+/// Where a step is in its life.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Phase {
+    /// Not reached, or over.
+    Idle,
+    /// To be entered, or a call to be started: the work list holds it.
+    Entering,
+    /// To be entered once what suspends it goes on.
+    Parked,
+    /// Over: the work list holds its end.
+    Ending,
+    /// A composite with a region running.
+    Inside,
+    /// An `if` or a loop whose test awaits observations.
+    Deciding,
+    /// A `wait`.
+    Waiting,
+    /// A call that waits for its resources.
+    Queued,
+    /// A call that has its resources and awaits observations for its guards.
+    Checking,
+    /// A call whose goal is not acknowledged.
+    Starting,
+    /// A call whose goal runs.
+    Running,
+    /// A call whose goal was told to hold.
+    Held,
+    /// A call whose goal was told to end early.
+    Cancelling,
+    /// A call whose goal was told to stop safely.
+    SafeStopping,
+    /// A call without a goal, which starts again once what suspends it goes on.
+    Suspended,
+}
+
+impl Phase {
+    /// Whether a goal is live.
+    pub(crate) const fn has_goal(self) -> bool {
+        match self {
+            Self::Starting | Self::Running | Self::Held | Self::Cancelling | Self::SafeStopping => true,
+            Self::Idle | Self::Entering | Self::Parked | Self::Ending | Self::Inside | Self::Deciding => false,
+            Self::Waiting | Self::Queued | Self::Checking | Self::Suspended => false,
+        }
+    }
+}
+
+/// Why a goal is to end early, or what is to happen once it is acknowledged.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Wish {
+    /// Nothing.
+    None,
+    /// To hold.
+    Hold,
+    /// It is interrupted and starts again later.
+    Suspend,
+    /// It took too long.
+    Expire,
+    /// Its step is over.
+    Stop,
+}
+
+/// What becomes of a node once the regions that it stops are down.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum After {
+    /// Nothing is being stopped.
+    Nothing,
+    /// It ends.
+    Exit(Exit),
+    /// A monitor starts its body again.
+    Restart,
+}
+
+/// How something ended, and where that began.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Exit {
+    pub(crate) ending: NodeEnding,
+    pub(crate) cause: Cause,
+    /// The step in which a failure arose.
+    pub(crate) origin: NodeId,
+}
+
+/// A step's state. What a field means depends on the node's kind.
+#[derive(Clone, Debug)]
+pub(crate) struct NodeRun {
+    pub(crate) phase: Phase,
+    pub(crate) wish: Wish,
+    /// Call: attempts begun. Loop: runs of the body begun. Monitor: pauses in force.
+    pub(crate) count: u32,
+    pub(crate) goal: Option<GoalId>,
+    /// When the observations that count began.
+    pub(crate) since: Time,
+    /// What is left of a deadline while the step is suspended.
+    pub(crate) left: Time,
+    pub(crate) after: After,
+    /// Monitor: the watch whose block runs or is about to.
+    pub(crate) resuming: Option<u32>,
+    /// Monitor: how the body ended while it was interrupted.
+    pub(crate) body_ended: Option<Exit>,
+    /// Whether the work list holds a judgement of it.
+    pub(crate) judging: bool,
+}
+
+/// A region's state.
+#[derive(Clone, Debug)]
+pub(crate) struct RegionRun {
+    pub(crate) active: bool,
+    pub(crate) current: Option<NodeId>,
+    /// Why it is being stopped.
+    pub(crate) stopping: Option<Cause>,
+    /// By how many pauses and interruptions it is suspended.
+    pub(crate) suspended: u32,
+}
+
+/// A watch's state.
+#[derive(Clone, Debug)]
+pub(crate) struct WatchRun {
+    /// When the monitor was entered.
+    pub(crate) since: Time,
+    /// Since when its condition has been true.
+    pub(crate) true_since: Option<Time>,
+    /// Since when its condition has not been false.
+    pub(crate) open_since: Option<Time>,
+    pub(crate) truth: Truth,
+    /// Since when it pauses the body.
+    pub(crate) paused_at: Option<Time>,
+    /// How long it has paused the body before.
+    pub(crate) spent: Time,
+    /// How often it has fired.
+    pub(crate) fired: u32,
+    pub(crate) dirty: bool,
+}
+
+/// A transition to make. The work list takes them in document order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Micro {
+    /// Enter a step.
+    Enter(NodeId),
+    /// Get a call's resources and start it.
+    Acquire(NodeId),
+    /// Judge a step that awaits observations.
+    Judge(NodeId),
+    /// A step is over.
+    NodeEnded(NodeId, Exit),
+    /// A region is over.
+    RegionEnded(RegionId, Exit),
+}
+
+/// An entry of the work list: first by place in the document, then in order of arrival.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work {
+    pub(crate) place: u32,
+    pub(crate) order: u64,
+    pub(crate) micro: Micro,
+}
+
+impl PartialEq for Work {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+impl Eq for Work {}
+impl PartialOrd for Work {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Work {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        (self.place, self.order).cmp(&(other.place, other.order))
+    }
+}
+
+/// The state of a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    pub(crate) begun: bool,
+    pub(crate) over: bool,
+    pub(crate) now: Time,
+    pub(crate) revision: u32,
+    pub(crate) nodes: Table<NodeRun>,
+    pub(crate) regions: Table<RegionRun>,
+    pub(crate) watches: Table<WatchRun>,
+    /// What each watch and each `wait` keeps watched.
+    pub(crate) subscriptions: Table<Vec<CellId>>,
+    pub(crate) bindings: Vec<Option<Value>>,
+    /// Lists that `each` loops run over, innermost last.
+    pub(crate) lists: Vec<(NodeId, Arc<[Value]>)>,
+    pub(crate) beliefs: Beliefs,
+    pub(crate) goals: Goals,
+    pub(crate) timers: Timers,
+    /// Resources that are held, as bits.
+    pub(crate) held: u128,
+    /// Calls that wait for resources, in document order.
+    pub(crate) queue: Vec<NodeId>,
+    /// Whether a resource became free since the queue was last looked at.
+    pub(crate) freed: bool,
+    /// Monitors that wait for their body to be down before they run a block.
+    pub(crate) clearing: Vec<NodeId>,
+    /// Observations that steps await.
+    pub(crate) asked: Vec<(CellId, NodeId)>,
+    pub(crate) work: BinaryHeap<Reverse<Work>>,
+    pub(crate) order: u64,
+    pub(crate) dirty: BinaryHeap<Reverse<u32>>,
+    /// How the run is to end once everything is down.
+    pub(crate) ending: Option<RunEnd>,
+    /// Names of failures, those that drivers made up last.
+    pub(crate) failures: Vec<SmolStr>,
+    /// Scratch for walks over regions.
+    pub(crate) walk: Vec<RegionId>,
+    pub(crate) missing: Vec<CellId>,
+}
+
+impl Run {
+    /// Before the beginning.
+    pub(crate) fn new(plan: &Plan, beliefs: Beliefs) -> Self {
+        let node = NodeRun {
+            phase: Phase::Idle,
+            wish: Wish::None,
+            count: 0,
+            goal: None,
+            since: Time::ZERO,
+            left: Time::ZERO,
+            after: After::Nothing,
+            resuming: None,
+            body_ended: None,
+            judging: false,
+        };
+        let region = RegionRun { active: false, current: None, stopping: None, suspended: 0 };
+        let watch = WatchRun {
+            since: Time::ZERO,
+            true_since: None,
+            open_since: None,
+            truth: Truth::Unknown,
+            paused_at: None,
+            spent: Time::ZERO,
+            fired: 0,
+            dirty: false,
+        };
+        Self {
+            begun: false,
+            over: false,
+            now: Time::ZERO,
+            revision: 0,
+            nodes: Table::new(plan.graph.nodes.len(), node),
+            regions: Table::new(plan.graph.regions.len(), region),
+            watches: Table::new(plan.watches.len(), watch),
+            subscriptions: Table::new(plan.keys(), Vec::new()),
+            bindings: vec![None; plan.graph.bindings.len()],
+            lists: Vec::new(),
+            beliefs,
+            goals: Goals::default(),
+            timers: Timers::new(plan.keys()),
+            held: 0,
+            queue: Vec::new(),
+            freed: false,
+            clearing: Vec::new(),
+            asked: Vec::new(),
+            work: BinaryHeap::new(),
+            order: 0,
+            dirty: BinaryHeap::new(),
+            ending: None,
+            failures: plan.failures.clone(),
+            walk: Vec::new(),
+            missing: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Calls up to their start: resources, then guards, then the goal goes out.
+
+use super::Turn;
+use crate::belief::Freshness;
+use crate::effect::{Command, Effect};
+use crate::plan;
+use crate::record::{Cause, Happening, NodeEnding};
+use crate::state::{Exit, Micro, Phase, Wish};
+use crate::time::Time;
+use crate::truth::Truth;
+use crate::verifier::Verification;
+use motet_graph::{CallNode, FailureId, NodeId, Term, Value, Verdict};
+use smol_str::SmolStr;
+use std::sync::Arc;
+
+/// What a look at the guards gives.
+enum Look {
+    /// All hold, and the arguments are known.
+    Go(Arc<Command>),
+    /// Something would have to be observed.
+    Unknown(Refusal),
+    /// A guard does not hold.
+    Refused(Refusal),
+}
+
+/// Why a call does not start.
+#[derive(Clone, Copy)]
+enum Refusal {
+    /// A need by its place, with its failure.
+    Need(u32, FailureId, Truth),
+    /// The motion has no solution.
+    Motion(FailureId),
+    /// An argument is not known.
+    Argument,
+}
+
+impl Turn<'_> {
+    /// Gets a call's resources, checks its guards, and starts it.
+    pub(super) fn acquire(&mut self, node: NodeId) {
+        let region = self.region_of(node);
+        if let Some(cause) = self.stopping(region) {
+            self.exit(node, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+        } else if self.suspended(region) {
+            self.run.nodes.at_mut(node.index()).phase = Phase::Suspended;
+        } else if !self.reserve(node) {
+            self.enqueue(node);
+        } else {
+            let now = self.run.now;
+            self.run.nodes.at_mut(node.index()).since = now;
+            self.run.missing.clear();
+            match self.look(node) {
+                Look::Unknown(refusal) => {
+                    if self.ask(node) {
+                        self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
+                    } else {
+                        self.refuse(node, refusal);
+                    }
+                }
+                Look::Refused(refusal) => self.refuse(node, refusal),
+                Look::Go(command) => self.start(node, command),
+            }
+        }
+    }
+
+    /// Something was learned that a guard may depend on.
+    pub(super) fn check_again(&mut self, node: NodeId) {
+        self.run.missing.clear();
+        match self.look(node) {
+            Look::Unknown(_) if self.awaits(node) => {}
+            Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
+            Look::Go(command) => self.start(node, command),
+        }
+    }
+
+    /// No time is left to observe.
+    pub(super) fn check_last(&mut self, node: NodeId) {
+        self.run.missing.clear();
+        match self.look(node) {
+            Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
+            Look::Go(command) => self.start(node, command),
+        }
+    }
+
+    fn look(&mut self, node: NodeId) -> Look {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return Look::Unknown(Refusal::Argument) };
+        let (since, attempt) = {
+            let state = self.run.nodes.at(node.index());
+            (state.since, state.count)
+        };
+        // A retry looks afresh: what refused it before may have changed.
+        let fresh = if attempt > 1 { Freshness::Refusals(since) } else { Freshness::Readings(since) };
+        let mut unknown = None;
+        for (index, need) in call.needs.iter().enumerate() {
+            if need.verdict == Verdict::Proven {
+                continue;
+            }
+            let truth = self.need(need, fresh);
+            let refusal = Refusal::Need(index as u32, need.failure, truth);
+            match truth {
+                Truth::True => {}
+                Truth::False => return Look::Refused(refusal),
+                Truth::Unknown => unknown = unknown.or(Some(refusal)),
+            }
+        }
+        if let Some(command) = plan.command(node) {
+            return unknown.map_or_else(|| self.look_at_motion(call, command.clone()), Look::Unknown);
+        }
+        let args: Option<Vec<Value>> = self.values(&call.args, fresh);
+        match (unknown, args.and_then(|args| plan::command(&plan.graph, call, args))) {
+            (Some(refusal), _) => Look::Unknown(refusal),
+            (None, None) => Look::Unknown(Refusal::Argument),
+            (None, Some(command)) => self.look_at_motion(call, Arc::new(command)),
+        }
+    }
+
+    fn values(&mut self, terms: &[Term], fresh: Freshness) -> Option<Vec<Value>> {
+        let mut judge = self.judge_missing(fresh);
+        let mut known = Some(Vec::with_capacity(terms.len()));
+        // All are looked at, so that everything that is missing is asked for together.
+        for term in terms {
+            match (judge.term(term), &mut known) {
+                (Some(value), Some(values)) => values.push(value),
+                (Some(_) | None, _) => known = None,
+            }
+        }
+        known
+    }
+
+    fn look_at_motion(&mut self, call: &CallNode, command: Arc<Command>) -> Look {
+        let Some(motion) = call.motion.as_ref().filter(|motion| motion.verdict == Verdict::Deferred) else {
+            return Look::Go(command);
+        };
+        let now = self.run.now;
+        let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else { return Look::Go(command) };
+        match self.verifier.motion(&motion.query, &args) {
+            Verification::Accepted => Look::Go(command),
+            Verification::Refuted { failure } => Look::Refused(Refusal::Motion(self.failure_id(&failure))),
+        }
+    }
+
+    fn refuse(&mut self, node: NodeId, refusal: Refusal) {
+        self.forget_asked(node);
+        self.release(node);
+        match refusal {
+            Refusal::Need(need, failure, truth) => {
+                self.report(Happening::Guard { node, need, truth });
+                self.attempt_failed(node, failure, Cause::GuardRefuted);
+            }
+            Refusal::Motion(failure) => self.attempt_failed(node, failure, Cause::GuardRefuted),
+            Refusal::Argument => self.attempt_failed(node, motet_graph::TIMEOUT, Cause::BadValue),
+        }
+    }
+
+    /// An attempt failed: the next one, if one is left.
+    pub(super) fn attempt_failed(&mut self, node: NodeId, failure: FailureId, cause: Cause) {
+        let retries = self.plan.call(node).map_or(0, |call| call.retries);
+        let state = self.run.nodes.at_mut(node.index());
+        if state.count <= retries && self.stopping(self.region_of(node)).is_none() {
+            let state = self.run.nodes.at_mut(node.index());
+            state.count += 1;
+            state.phase = Phase::Entering;
+            self.push(Micro::Acquire(node));
+        } else {
+            self.fail(node, failure, cause);
+        }
+    }
+
+    fn start(&mut self, node: NodeId, command: Arc<Command>) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return };
+        if self.run.nodes.at(node.index()).phase == Phase::Checking {
+            self.forget_asked(node);
+        }
+        for (index, need) in call.needs.iter().enumerate() {
+            if need.verdict == Verdict::Deferred {
+                self.report(Happening::Guard { node, need: index as u32, truth: Truth::True });
+            }
+        }
+        if !call.unsettles.is_empty() {
+            self.unsettle(call);
+        }
+        let goal = self.run.goals.open(node);
+        let deadline = self.run.now.after(Time::from_secs(call.deadline_secs));
+        self.run.timers.set(plan.node_key(node), deadline);
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = Phase::Starting;
+        state.wish = Wish::None;
+        state.goal = Some(goal);
+        let attempt = state.count;
+        self.report(Happening::Started { node, goal, attempt });
+        self.out.push(Effect::Start { goal, node, command, deadline });
+    }
+
+    /// The id of a failure; a kind that the graph does not name gets one of its own.
+    pub(super) fn failure_id(&mut self, name: &SmolStr) -> FailureId {
+        let known = self.run.failures.iter().position(|known| known == name);
+        let index = known.unwrap_or_else(|| {
+            // A driver that makes up names without end does not fill the memory.
+            if self.run.failures.len() >= self.plan.failures.len() + MAX_MADE_UP {
+                return self.plan.failed.index();
+            }
+            self.run.failures.push(name.clone());
+            self.run.failures.len() - 1
+        });
+        FailureId(index as u32)
+    }
+}
+
+/// How many failure kinds that the graph does not name are told apart.
+const MAX_MADE_UP: usize = 64;

@@ -1,0 +1,146 @@
+//! What a call changes in the beliefs: effects after success, doubt after everything else.
+
+use super::Turn;
+use crate::belief::{Change, Freshness, OfKind};
+use crate::query::Pattern;
+use crate::truth::Truth;
+use motet_graph::{CallNode, Condition, Fact, FactArg, KindId, Need, NodeId, Term, Value};
+use smol_str::SmolStr;
+
+/// An entry of `makes` or `unsettles`.
+#[derive(Clone, Copy)]
+struct Entry<'a> {
+    fact: &'a Fact,
+    value: Truth,
+    when: Option<&'a Condition>,
+    each: Option<KindId>,
+}
+
+/// An id that no entity has: it stands for all that nobody has heard of.
+const NOBODY: SmolStr = SmolStr::new_static("");
+
+impl Turn<'_> {
+    /// Applies a call's declared effects.
+    pub(super) fn make(&mut self, node: NodeId) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node).filter(|call| !call.effects.is_empty()) else { return };
+        let mut changes = Vec::new();
+        for effect in &call.effects {
+            let value = Truth::from(effect.value);
+            let entry = Entry { fact: &effect.fact, value, when: effect.when.as_ref(), each: effect.each };
+            self.expand(entry, &mut changes);
+        }
+        // What is both made and unmade is made.
+        changes.sort_by_key(|change| change.value == Truth::True);
+        self.apply(&changes);
+    }
+
+    /// Applies what a call unsettles as soon as it starts.
+    pub(super) fn unsettle(&mut self, call: &CallNode) {
+        let mut changes = Vec::new();
+        self.expand_unsettled(call, &mut changes);
+        self.apply(&changes);
+    }
+
+    /// After a failure or an interruption nothing is known of what a call makes or unsettles.
+    pub(super) fn doubt(&mut self, node: NodeId) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return };
+        if call.effects.is_empty() && call.unsettles.is_empty() {
+            return;
+        }
+        let mut changes = Vec::new();
+        for effect in &call.effects {
+            let (fact, when) = (&effect.fact, effect.when.as_ref());
+            self.expand(Entry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
+        }
+        self.expand_unsettled(call, &mut changes);
+        self.apply(&changes);
+    }
+
+    /// Whether a need holds; of a quantified one, whether it holds for every entity that the engine has heard of.
+    pub(super) fn need(&mut self, need: &Need, fresh: Freshness) -> Truth {
+        let Some(kind) = need.each else {
+            let mut judge = self.judge_missing(fresh);
+            let asked = need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True);
+            return if asked { judge.condition(&need.condition) } else { Truth::True };
+        };
+        let mut truth = Truth::True;
+        for index in 0..self.run.beliefs.entities.len() {
+            let graph = &self.plan.graph;
+            let Some((id, of_kind)) = self.run.beliefs.entities.get(graph, index, kind) else { continue };
+            if of_kind == OfKind::No {
+                continue;
+            }
+            // Whether it is asked is judged by what is believed; only what it asks is worth an observation.
+            let mut judge = self.judge(fresh);
+            judge.each = Some(Value::Entity(id.clone()));
+            if need.when.as_ref().is_none_or(|when| judge.condition(when) == Truth::True) {
+                let mut judge = self.judge_missing(fresh);
+                judge.each = Some(Value::Entity(id));
+                truth = truth.and(judge.condition(&need.condition));
+            }
+        }
+        truth
+    }
+
+    fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<Change>) {
+        for unsettled in &call.unsettles {
+            let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
+            self.expand(Entry { fact, value: Truth::Unknown, when, each: unsettled.each }, changes);
+        }
+    }
+
+    fn apply(&mut self, changes: &[Change]) {
+        let now = self.run.now;
+        changes.iter().for_each(|change| self.run.beliefs.apply(change, now));
+    }
+
+    /// Works out the changes of one entry in the state as it is.
+    fn expand(&mut self, entry: Entry<'_>, changes: &mut Vec<Change>) {
+        let Some(kind) = entry.each else {
+            self.expand_for(entry, None, OfKind::Surely, changes);
+            return;
+        };
+        // For those nobody has heard of it is the new default, before what is said of single ones.
+        self.expand_rest(entry, changes);
+        for index in 0..self.run.beliefs.entities.len() {
+            let graph = &self.plan.graph;
+            let Some((id, of_kind)) = self.run.beliefs.entities.get(graph, index, kind) else { continue };
+            if of_kind != OfKind::No {
+                self.expand_for(entry, Some(Value::Entity(id)), of_kind, changes);
+            }
+        }
+    }
+
+    fn expand_for(&mut self, entry: Entry<'_>, each: Option<Value>, of_kind: OfKind, changes: &mut Vec<Change>) {
+        let now = self.run.now;
+        let mut judge = self.judge(Freshness::Readings(now));
+        judge.each = each;
+        let holds = entry.when.map_or(Truth::True, |when| judge.condition(when));
+        if holds == Truth::False {
+            return;
+        }
+        let Some(args) = judge.patterns(entry.fact) else { return };
+        let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
+        let sure = holds == Truth::True && of_kind == OfKind::Surely;
+        changes.push(Change { fluent: fluent.name.clone(), args, value: entry.value, sure, rest: false });
+    }
+
+    fn expand_rest(&mut self, entry: Entry<'_>, changes: &mut Vec<Change>) {
+        let now = self.run.now;
+        let mut judge = self.judge(Freshness::Readings(now));
+        judge.each = Some(Value::Entity(NOBODY));
+        if entry.when.is_some_and(|when| judge.condition(when) == Truth::False) {
+            return;
+        }
+        let args = entry.fact.args.iter().map(|arg| match arg {
+            FactArg::Any | FactArg::Term(Term::Each) => Some(Pattern::Any),
+            FactArg::Term(term) => judge.term(term).map(Pattern::Is),
+        });
+        let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
+        let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
+        // Some of them may be of another kind, so it is never sure.
+        changes.push(Change { fluent: fluent.name.clone(), args, value: entry.value, sure: false, rest: true });
+    }
+}

@@ -1,0 +1,146 @@
+//! Steps that own regions, but for monitors: what they do when a region of theirs ends.
+
+use super::Turn;
+use crate::effect::RunEnd;
+use crate::record::{Cause, Happening, NodeEnding};
+use crate::state::{After, Exit};
+use motet_graph::{BindingId, Ending, Handler, NodeId, NodeKind, ROOT, RegionId, TIMEOUT, Term, Value};
+use smol_str::SmolStr;
+
+impl Turn<'_> {
+    /// A region ended that nobody stopped.
+    pub(super) fn child_ended(&mut self, owner: NodeId, region: RegionId, exit: Exit) {
+        match &self.plan.node(owner).kind {
+            NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => self.exit(owner, exit),
+            NodeKind::Try { body, handlers } if *body == region => self.handle_failure(owner, handlers, exit),
+            NodeKind::Try { .. } => self.exit(owner, exit),
+            NodeKind::Repeat { times, body, until } => match exit.ending {
+                NodeEnding::Success if until.is_some() => self.decide(owner),
+                NodeEnding::Success => self.again(owner, *times, *body),
+                NodeEnding::Failure(_) | NodeEnding::Interrupted => self.exit(owner, exit),
+            },
+            NodeKind::Each { item, body, .. } => match exit.ending {
+                NodeEnding::Success => self.next_item(owner, *item, *body),
+                NodeEnding::Failure(_) | NodeEnding::Interrupted => self.exit(owner, exit),
+            },
+            NodeKind::Parallel { branches } => self.branch_ended(owner, branches, exit),
+            NodeKind::Monitor { body, .. } if *body == region => self.body_ended(owner, exit),
+            NodeKind::Monitor { .. } => self.block_ended(owner, exit),
+            // These own no region.
+            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => {}
+        }
+    }
+
+    fn handle_failure(&mut self, node: NodeId, handlers: &[Handler], exit: Exit) {
+        let NodeEnding::Failure(failure) = exit.ending else {
+            self.exit(node, exit);
+            return;
+        };
+        let fits = |handler: &&Handler| handler.on.as_ref().is_none_or(|on| on.contains(&failure));
+        match handlers.iter().find(fits) {
+            Some(handler) => self.enter_region(handler.body),
+            None => self.exit(node, exit),
+        }
+    }
+
+    /// The body of a loop once more, if the bound allows it.
+    pub(super) fn again(&mut self, node: NodeId, times: u32, body: RegionId) {
+        let state = self.run.nodes.at_mut(node.index());
+        if state.count >= times {
+            self.succeed(node);
+        } else {
+            state.count += 1;
+            self.enter_region(body);
+        }
+    }
+
+    pub(super) fn enter_each(&mut self, node: NodeId, item: BindingId, list: &Term, at_most: u32, body: RegionId) {
+        let now = self.run.now;
+        match self.judge(crate::belief::Freshness::Readings(now)).term(list) {
+            Some(Value::List(items)) if items.len() > at_most as usize => {
+                self.fail(node, self.plan.exhausted, Cause::Exhausted);
+            }
+            Some(Value::List(items)) => {
+                self.run.lists.push((node, items.into()));
+                self.run.nodes.at_mut(node.index()).count = 0;
+                self.next_item(node, item, body);
+            }
+            Some(_) => self.fail(node, self.plan.failed, Cause::BadValue),
+            None => self.fail(node, TIMEOUT, Cause::BadValue),
+        }
+    }
+
+    fn next_item(&mut self, node: NodeId, item: BindingId, body: RegionId) {
+        let index = self.run.nodes.at(node.index()).count as usize;
+        let list = self.run.lists.iter().rev().find(|(loop_node, _)| *loop_node == node);
+        match list.and_then(|(_, items)| items.get(index)).cloned() {
+            Some(value) => {
+                self.bind(item, value);
+                self.run.nodes.at_mut(node.index()).count += 1;
+                self.enter_region(body);
+            }
+            None => self.succeed(node),
+        }
+    }
+
+    /// Binds a name.
+    pub(super) fn bind(&mut self, binding: BindingId, value: Value) {
+        let graph = &self.plan.graph;
+        let ty = graph.bindings.get(binding.index()).map(|binding| &binding.ty);
+        self.run.beliefs.entities.hear_value(graph, &value, ty);
+        self.report(Happening::Bound { binding, value: Box::new(value.clone()) });
+        if let Some(slot) = self.run.bindings.get_mut(binding.index()) {
+            *slot = Some(value);
+        }
+    }
+
+    fn branch_ended(&mut self, node: NodeId, branches: &[RegionId], exit: Exit) {
+        if exit.ending != NodeEnding::Success {
+            self.run.nodes.at_mut(node.index()).after = After::Exit(exit);
+            branches.iter().for_each(|branch| self.stop(*branch, Cause::SiblingFailed));
+        }
+        if self.is_down(node) {
+            self.exit(node, exit);
+        }
+    }
+
+    /// Ends the policy, or the inlined policy `of`.
+    pub(super) fn end_policy(&mut self, node: NodeId, how: Ending, of: Option<NodeId>, why: Option<&Term>, cause: Cause) {
+        let inline = of.filter(|_| how != Ending::Replan).and_then(|of| match &self.plan.node(of).kind {
+            NodeKind::Inline { body, .. } => Some((of, *body)),
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => None,
+            NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => None,
+            NodeKind::Each { .. } | NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
+        });
+        if let Some((of, body)) = inline {
+            let ending = match how {
+                Ending::Done | Ending::Replan => NodeEnding::Success,
+                Ending::Fail => NodeEnding::Failure(self.plan.failed),
+            };
+            let own = if ending == NodeEnding::Success { Cause::Completed } else { Cause::Failed };
+            let state = self.run.nodes.at_mut(of.index());
+            if state.after == After::Nothing {
+                state.after = After::Exit(Exit { ending, cause: own, origin: node });
+                self.stop(body, cause);
+            }
+        } else if self.run.ending.is_none() {
+            let why = why.and_then(|why| self.say(why));
+            self.run.ending = Some(match how {
+                Ending::Done => RunEnd::Done { why },
+                Ending::Fail => RunEnd::Failed { kind: SmolStr::new_static("failed"), why, node },
+                Ending::Replan => RunEnd::Replan { why },
+            });
+            self.stop(ROOT, cause);
+        }
+    }
+
+    /// A reason in words; none where it is not known.
+    fn say(&mut self, why: &Term) -> Option<String> {
+        let now = self.run.now;
+        self.judge(crate::belief::Freshness::Readings(now)).term(why).map(|value| match value {
+            Value::Text(text) => text.to_string(),
+            Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Entity(_) => value.to_string(),
+            Value::Case(_) | Value::Pose(_) | Value::List(_) => value.to_string(),
+        })
+    }
+}

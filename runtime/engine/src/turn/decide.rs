@@ -1,0 +1,174 @@
+//! Tests and waits: steps that look at the world, and ask it where beliefs do not tell.
+
+use super::Turn;
+use crate::belief::Freshness;
+use crate::effect::Effect;
+use crate::record::{Cause, Happening};
+use crate::state::Phase;
+use crate::time::Time;
+use crate::truth::Truth;
+use motet_graph::{Condition, NodeId, NodeKind, TIMEOUT};
+
+impl Turn<'_> {
+    /// Tests the condition of an `if`, or the `until` of a loop.
+    pub(super) fn decide(&mut self, node: NodeId) {
+        let now = self.run.now;
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = Phase::Deciding;
+        state.since = now;
+        let truth = self.test(node);
+        if truth == Truth::Unknown && self.ask(node) {
+            return;
+        }
+        self.tested(node, truth);
+    }
+
+    /// Something was learned that a test may depend on.
+    pub(super) fn decide_again(&mut self, node: NodeId) {
+        let truth = self.test(node);
+        if truth != Truth::Unknown || !self.awaits(node) {
+            self.tested(node, truth);
+        }
+    }
+
+    fn test(&mut self, node: NodeId) -> Truth {
+        let since = self.run.nodes.at(node.index()).since;
+        self.run.missing.clear();
+        match &self.plan.node(node).kind {
+            NodeKind::If { condition, .. } | NodeKind::Repeat { until: Some(condition), .. } => {
+                self.judge_missing(Freshness::Readings(since)).condition(condition)
+            }
+            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => Truth::Unknown,
+            NodeKind::Inline { .. } | NodeKind::Wait { .. } | NodeKind::Monitor { .. } => Truth::Unknown,
+            NodeKind::Try { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => Truth::Unknown,
+            NodeKind::End { .. } => Truth::Unknown,
+        }
+    }
+
+    /// A test came out; unknown counts as false.
+    pub(super) fn tested(&mut self, node: NodeId, truth: Truth) {
+        self.forget_asked(node);
+        self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
+        self.report(Happening::Tested { node, truth });
+        let holds = truth == Truth::True;
+        match &self.plan.node(node).kind {
+            NodeKind::If { then, .. } if holds => self.enter_region(*then),
+            NodeKind::If { otherwise: Some(otherwise), .. } => self.enter_region(*otherwise),
+            NodeKind::If { otherwise: None, .. } => self.succeed(node),
+            NodeKind::Repeat { .. } if holds => self.succeed(node),
+            NodeKind::Repeat { times, body, .. } => {
+                if self.run.nodes.at(node.index()).count >= *times {
+                    self.fail(node, self.plan.exhausted, Cause::Exhausted);
+                } else {
+                    self.again(node, *times, *body);
+                }
+            }
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Wait { .. } => {}
+            NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Each { .. } => {}
+            NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
+        }
+    }
+
+    /// Asks for what `run.missing` holds. False where there is nothing to ask for.
+    pub(super) fn ask(&mut self, node: NodeId) -> bool {
+        if self.run.missing.is_empty() {
+            return false;
+        }
+        let key = self.plan.node_key(node);
+        let asks = self.run.subscriptions.at_mut(key as usize);
+        asks.clear();
+        asks.extend_from_slice(&self.run.missing);
+        for id in asks {
+            self.run.asked.push((*id, node));
+            if let Some(cell) = self.run.beliefs.cell_mut(*id) {
+                cell.dependents.push(key);
+                self.out.push(Effect::Observe { query: cell.query.clone() });
+            }
+        }
+        let within = Time::from_secs(self.plan.graph.observe_within_secs);
+        self.run.timers.set(key, self.run.now.after(within));
+        true
+    }
+
+    /// Whether an answer is outstanding.
+    pub(super) fn awaits(&self, node: NodeId) -> bool {
+        self.run.asked.iter().any(|(_, asker)| *asker == node)
+    }
+
+    /// No longer waits for answers.
+    pub(super) fn forget_asked(&mut self, node: NodeId) {
+        let key = self.plan.node_key(node);
+        self.run.timers.clear(key);
+        self.run.asked.retain(|(_, asker)| *asker != node);
+        for id in self.run.subscriptions.at_mut(key as usize).drain(..) {
+            if let Some(cell) = self.run.beliefs.cell_mut(id) {
+                cell.dependents.retain(|dependent| *dependent != key);
+            }
+        }
+    }
+
+    /// Enters a `wait`.
+    pub(super) fn wait(&mut self, node: NodeId, condition: &Condition, within_secs: f64) {
+        let now = self.run.now;
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = Phase::Waiting;
+        state.since = now;
+        let key = self.plan.node_key(node);
+        self.subscribe(key, condition, now);
+        self.run.timers.set(key, now.after(Time::from_secs(within_secs)));
+        self.wait_again(node);
+    }
+
+    /// Something was learned that a `wait` may depend on.
+    pub(super) fn wait_again(&mut self, node: NodeId) {
+        let NodeKind::Wait { condition, .. } = &self.plan.node(node).kind else { return };
+        if self.suspended(self.region_of(node)) {
+            return;
+        }
+        let since = self.run.nodes.at(node.index()).since;
+        if self.judge(Freshness::Readings(since)).condition(condition) == Truth::True {
+            self.leave_wait(node);
+            self.succeed(node);
+        }
+    }
+
+    pub(super) fn leave_wait(&mut self, node: NodeId) {
+        let key = self.plan.node_key(node);
+        self.run.timers.clear(key);
+        self.unsubscribe(key);
+    }
+
+    /// A step's instant has come.
+    pub(super) fn node_due(&mut self, node: NodeId) {
+        match self.run.nodes.at(node.index()).phase {
+            Phase::Deciding => {
+                let truth = self.test(node);
+                self.tested(node, truth);
+            }
+            Phase::Waiting => {
+                self.leave_wait(node);
+                self.fail(node, TIMEOUT, Cause::Deadline);
+            }
+            Phase::Checking => self.check_last(node),
+            Phase::Starting | Phase::Running | Phase::Held | Phase::Cancelling | Phase::SafeStopping => {
+                self.goal_due(node);
+            }
+            Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending | Phase::Inside => {}
+            Phase::Queued | Phase::Suspended => {}
+        }
+    }
+
+    /// Judges a step that awaits something.
+    pub(super) fn judge_node(&mut self, node: NodeId) {
+        let state = self.run.nodes.at_mut(node.index());
+        state.judging = false;
+        match state.phase {
+            Phase::Deciding => self.decide_again(node),
+            Phase::Waiting => self.wait_again(node),
+            Phase::Checking => self.check_again(node),
+            Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending | Phase::Inside => {}
+            Phase::Queued | Phase::Suspended | Phase::Starting | Phase::Running => {}
+            Phase::Held | Phase::Cancelling | Phase::SafeStopping => {}
+        }
+    }
+}

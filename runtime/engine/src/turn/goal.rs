@@ -1,0 +1,218 @@
+//! Goals: what drivers report of them, and how they are ended early.
+
+use super::Turn;
+use crate::effect::{Effect, Fault};
+use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::query::{Answer, Query};
+use crate::record::{Cause, Happening, NodeEnding};
+use crate::state::{Exit, Micro, Phase, Wish};
+use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
+
+/// How a goal came out, in the engine's own terms.
+enum End {
+    Success(Option<Value>),
+    Failure(FailureId, Cause),
+    Interrupted,
+}
+
+impl Turn<'_> {
+    /// A driver reports.
+    pub(super) fn driver(&mut self, event: DriverEvent) {
+        match event {
+            DriverEvent::Acknowledged { goal } => {
+                if let Some(node) = self.run.goals.node(goal) {
+                    self.acknowledged(node, goal);
+                }
+            }
+            DriverEvent::Refused { goal, failure } => {
+                let failure = self.failure_id(&failure);
+                self.goal_ended(goal, End::Failure(failure, Cause::Refused));
+            }
+            DriverEvent::Ended { goal, outcome } => {
+                let end = match outcome {
+                    Outcome::Success(value) => End::Success(value),
+                    Outcome::Failure(kind) => End::Failure(self.failure_id(&kind), Cause::Failed),
+                    Outcome::Interrupted => End::Interrupted,
+                };
+                self.goal_ended(goal, end);
+            }
+            DriverEvent::Stopped { goal } => self.goal_ended(goal, End::Interrupted),
+            DriverEvent::NotHeld { goal } => {
+                if let Some(node) = self.run.goals.node(goal)
+                    && self.run.nodes.at(node.index()).phase == Phase::Held
+                {
+                    self.cancel(node, Wish::Suspend);
+                }
+            }
+            DriverEvent::Observed { query, answer } => self.observed(query, answer),
+        }
+    }
+
+    fn acknowledged(&mut self, node: NodeId, goal: GoalId) {
+        let state = self.run.nodes.at_mut(node.index());
+        if state.phase != Phase::Starting {
+            return;
+        }
+        match state.wish {
+            Wish::None => state.phase = Phase::Running,
+            Wish::Hold => {
+                state.phase = Phase::Held;
+                self.out.push(Effect::Hold { goal });
+            }
+            Wish::Suspend | Wish::Expire | Wish::Stop => {
+                state.phase = Phase::Cancelling;
+                self.out.push(Effect::Cancel { goal });
+            }
+        }
+    }
+
+    /// Ends a goal early; while it is not acknowledged, as soon as it is. The strongest wish counts.
+    pub(super) fn cancel(&mut self, node: NodeId, wish: Wish) {
+        let deadline = self.run.now.after(self.settings.cancel_within);
+        let key = self.plan.node_key(node);
+        let state = self.run.nodes.at_mut(node.index());
+        let Some(goal) = state.goal else { return };
+        match state.phase {
+            Phase::Starting => {
+                if matches!(state.wish, Wish::None | Wish::Hold) {
+                    self.run.timers.set(key, deadline);
+                }
+                state.wish = stronger(state.wish, wish);
+            }
+            Phase::Running | Phase::Held => {
+                state.wish = wish;
+                state.phase = Phase::Cancelling;
+                self.run.timers.set(key, deadline);
+                self.out.push(Effect::Cancel { goal });
+            }
+            Phase::Cancelling | Phase::SafeStopping => state.wish = stronger(state.wish, wish),
+            Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending | Phase::Inside => {}
+            Phase::Deciding | Phase::Waiting | Phase::Queued | Phase::Checking | Phase::Suspended => {}
+        }
+    }
+
+    /// A goal's instant has come: its deadline, or that of its cancel or its safe stop.
+    pub(super) fn goal_due(&mut self, node: NodeId) {
+        let state = self.run.nodes.at_mut(node.index());
+        let Some(goal) = state.goal else { return };
+        match (state.phase, state.wish) {
+            (Phase::SafeStopping, _) => self.fault(Fault::NotStopped { node }),
+            (Phase::Cancelling, _) | (Phase::Starting, Wish::Suspend | Wish::Expire | Wish::Stop) => {
+                state.phase = Phase::SafeStopping;
+                let key = self.plan.node_key(node);
+                self.run.timers.set(key, self.run.now.after(self.settings.safe_stop_within));
+                self.out.push(Effect::SafeStop { goal });
+            }
+            (_, _) => self.cancel(node, Wish::Expire),
+        }
+    }
+
+    fn goal_ended(&mut self, goal: GoalId, end: End) {
+        let Some(node) = self.run.goals.node(goal) else { return };
+        self.run.goals.close(goal);
+        self.run.timers.clear(self.plan.node_key(node));
+        self.release(node);
+        let state = self.run.nodes.at_mut(node.index());
+        let wish = std::mem::replace(&mut state.wish, Wish::None);
+        state.goal = None;
+        match end {
+            End::Success(value) => self.goal_succeeded(node, goal, value),
+            End::Failure(failure, cause) => self.goal_failed(node, goal, failure, cause),
+            End::Interrupted => {
+                if wish == Wish::Expire {
+                    self.goal_failed(node, goal, TIMEOUT, Cause::Deadline);
+                } else {
+                    self.goal_interrupted(node, goal, wish);
+                }
+            }
+        }
+        self.check_clearing();
+    }
+
+    fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return };
+        if let Some(binding) = call.binds {
+            let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
+            match value.filter(|value| ty.is_some_and(|ty| value.fits(ty))) {
+                Some(value) => self.bind(binding, value),
+                None => {
+                    self.goal_failed(node, goal, plan.failed, Cause::BadValue);
+                    return;
+                }
+            }
+        }
+        self.make(node);
+        self.succeed(node);
+    }
+
+    fn goal_failed(&mut self, node: NodeId, goal: GoalId, failure: FailureId, cause: Cause) {
+        self.doubt(node);
+        self.report(Happening::GoalEnded { node, goal, ending: NodeEnding::Failure(failure), cause });
+        self.attempt_failed(node, failure, cause);
+    }
+
+    fn goal_interrupted(&mut self, node: NodeId, goal: GoalId, wish: Wish) {
+        self.doubt(node);
+        let stopped = self.stopping(self.region_of(node));
+        let cause = match (stopped, wish) {
+            (Some(cause), _) => cause,
+            (None, Wish::Suspend) => Cause::Monitor,
+            (None, Wish::None | Wish::Hold | Wish::Expire | Wish::Stop) => Cause::Driver,
+        };
+        let ending = NodeEnding::Interrupted;
+        self.report(Happening::GoalEnded { node, goal, ending, cause });
+        if stopped.is_none() && wish == Wish::Suspend {
+            // It starts again: at once where what suspended it has gone on already.
+            self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
+            self.push(Micro::Acquire(node));
+        } else {
+            self.exit(node, Exit { ending, cause, origin: node });
+        }
+    }
+
+    fn observed(&mut self, query: Query, answer: Answer) {
+        let known = match &query {
+            Query::Fact { fluent, .. } if self.run.beliefs.fluents.contains_key(fluent) => {
+                self.hear(&query);
+                Some(self.run.beliefs.intern(query))
+            }
+            Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => self.run.beliefs.find_query(&query),
+        };
+        let Some(id) = known else { return };
+        self.run.beliefs.observe(id, answer, self.run.now);
+        // A reading that was taken afresh counts from now on, also where it reads the same.
+        self.run.beliefs.note(id);
+        let mut asked = std::mem::take(&mut self.run.asked);
+        asked.retain(|(cell, node)| {
+            if *cell == id {
+                self.push_judge(*node);
+            }
+            *cell != id
+        });
+        self.run.asked = asked;
+    }
+
+    /// The entities in an observed fact were heard of.
+    fn hear(&mut self, query: &Query) {
+        let Query::Fact { fluent, args } = query else { return };
+        let graph = &self.plan.graph;
+        let params = graph.fluents.iter().find(|known| known.name == *fluent).map_or(&[][..], |known| &known.params);
+        for (arg, ty) in args.iter().zip(params) {
+            if let crate::query::Pattern::Is(value) = arg {
+                self.run.beliefs.entities.hear_value(graph, value, Some(ty));
+            }
+        }
+    }
+}
+
+fn stronger(a: Wish, b: Wish) -> Wish {
+    let strength = |wish: Wish| match wish {
+        Wish::None => 0,
+        Wish::Hold => 1,
+        Wish::Suspend => 2,
+        Wish::Expire => 3,
+        Wish::Stop => 4,
+    };
+    if strength(b) > strength(a) { b } else { a }
+}

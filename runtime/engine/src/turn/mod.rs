@@ -1,0 +1,247 @@
+//! One event and everything that follows from it at that instant.
+//!
+//! A turn takes the event in, then makes transitions until none is left: watches first, outer before inner and earlier
+//! before later, then steps in document order. A budget bounds it.
+
+mod call;
+mod change;
+mod composite;
+mod decide;
+mod goal;
+mod leaf;
+mod monitor;
+mod region;
+mod stop;
+mod suspend;
+mod watch;
+
+use crate::belief::{Freshness, Judge};
+use crate::effect::{Effect, Fault, RunEnd};
+use crate::event::Event;
+use crate::plan::{Key, Plan};
+use crate::record::{Cause, Happening, NodeEnding, Record};
+use crate::settings::Settings;
+use crate::state::{Exit, Micro, Run, Work};
+use crate::time::Time;
+use crate::verifier::Verifier;
+use motet_graph::{NodeId, ROOT, RegionId};
+use std::cmp::Reverse;
+
+/// The engine while it handles one event.
+pub(crate) struct Turn<'a> {
+    plan: &'a Plan,
+    run: &'a mut Run,
+    settings: &'a Settings,
+    verifier: &'a dyn Verifier,
+    out: &'a mut Vec<Effect>,
+}
+
+impl<'a> Turn<'a> {
+    pub(crate) fn new(
+        plan: &'a Plan,
+        run: &'a mut Run,
+        settings: &'a Settings,
+        verifier: &'a dyn Verifier,
+        out: &'a mut Vec<Effect>,
+    ) -> Self {
+        Self { plan, run, settings, verifier, out }
+    }
+
+    /// Takes an event in.
+    pub(crate) fn handle(&mut self, now: Time, event: Event) {
+        if self.run.over {
+            return;
+        }
+        let now = now.max(self.run.now);
+        // What was due earlier happened earlier: this event does not change it.
+        while let Some(key) = self.due(|at| at < now) {
+            self.wake(key);
+            self.settle();
+        }
+        self.run.now = now;
+        match event {
+            Event::Begin if self.run.begun => {}
+            Event::Begin => {
+                self.run.begun = true;
+                self.enter_region(ROOT);
+            }
+            Event::Tick => {}
+            Event::Driver(event) if self.run.begun => self.driver(event),
+            Event::Driver(_) => {}
+            Event::Stop => self.stop_run(),
+        }
+        self.settle();
+        while let Some(key) = self.due(|at| at <= now) {
+            self.wake(key);
+            self.settle();
+        }
+    }
+
+    /// Ends the run because it cannot go on: all that still runs is told to stop safely.
+    pub(crate) fn fault(&mut self, fault: Fault) {
+        if self.run.over {
+            return;
+        }
+        let out = &mut *self.out;
+        out.extend(self.run.goals.live().map(|(goal, _)| Effect::SafeStop { goal }));
+        self.finish(RunEnd::Fault(fault));
+    }
+
+    /// The next key that is due, with the clock set to its instant.
+    fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Key> {
+        let (at, key) = self.run.timers.next().filter(|(at, _)| is_due(*at) && !self.run.over)?;
+        self.run.timers.clear(key);
+        self.run.now = self.run.now.max(at);
+        Some(self.plan.of_key(key))
+    }
+
+    fn wake(&mut self, key: Key) {
+        match key {
+            Key::Watch(watch) => self.watch_due(watch),
+            Key::Node(node) => self.node_due(node),
+        }
+    }
+
+    /// Makes transitions until none is left.
+    fn settle(&mut self) {
+        let mut steps = 0;
+        while !self.run.over {
+            if !self.run.beliefs.changed.is_empty() {
+                self.spread();
+            }
+            if let Some(Reverse(watch)) = self.run.dirty.pop() {
+                self.judge_watch(watch);
+            } else if let Some(Reverse(work)) = self.run.work.pop() {
+                self.step(work.micro);
+            } else if self.run.freed {
+                self.grant();
+            } else {
+                return;
+            }
+            steps += 1;
+            if steps > self.settings.step_budget {
+                self.fault(Fault::StepBudget { steps: self.settings.step_budget });
+            }
+        }
+    }
+
+    fn step(&mut self, micro: Micro) {
+        match micro {
+            Micro::Enter(node) => self.enter(node),
+            Micro::Acquire(node) => self.acquire(node),
+            Micro::Judge(node) => self.judge_node(node),
+            Micro::NodeEnded(node, exit) => self.node_ended(node, exit),
+            Micro::RegionEnded(region, exit) => self.region_ended(region, exit),
+        }
+    }
+
+    /// Tells all who depend on beliefs that have changed.
+    fn spread(&mut self) {
+        let mut changed = std::mem::take(&mut self.run.beliefs.changed);
+        for key in changed.drain(..) {
+            match self.plan.of_key(key) {
+                Key::Watch(watch) => self.mark(watch),
+                Key::Node(node) => self.push_judge(node),
+            }
+        }
+        self.run.beliefs.changed = changed;
+    }
+
+    /// Judges a watch again before the next step.
+    fn mark(&mut self, watch: u32) {
+        let state = self.run.watches.at_mut(watch as usize);
+        if !state.dirty {
+            state.dirty = true;
+            self.run.dirty.push(Reverse(watch));
+        }
+    }
+
+    fn push_judge(&mut self, node: NodeId) {
+        let state = self.run.nodes.at_mut(node.index());
+        if !state.judging {
+            state.judging = true;
+            self.push(Micro::Judge(node));
+        }
+    }
+
+    fn push(&mut self, micro: Micro) {
+        let place = match micro {
+            Micro::Enter(node) | Micro::Acquire(node) | Micro::Judge(node) | Micro::NodeEnded(node, _) => node.0,
+            Micro::RegionEnded(region, _) => self.plan.region(region).owner.map_or(0, |owner| owner.0),
+        };
+        self.run.order += 1;
+        self.run.work.push(Reverse(Work { place, order: self.run.order, micro }));
+    }
+
+    fn report(&mut self, what: Happening) {
+        self.out.push(Effect::Report(Record { at: self.run.now, revision: self.run.revision, what }));
+    }
+
+    fn finish(&mut self, end: RunEnd) {
+        self.run.over = true;
+        self.out.push(Effect::Finished(Box::new(end)));
+    }
+
+    /// A person stops the run.
+    fn stop_run(&mut self) {
+        if !self.run.begun {
+            self.finish(RunEnd::Interrupted);
+            return;
+        }
+        if self.run.ending.is_none() {
+            self.run.ending = Some(RunEnd::Interrupted);
+            self.stop(ROOT, Cause::Person);
+        }
+    }
+
+    /// The body of the policy is over.
+    fn root_ended(&mut self, exit: Exit) {
+        let end = self.run.ending.take().unwrap_or_else(|| match exit.ending {
+            NodeEnding::Success => RunEnd::Done { why: None },
+            NodeEnding::Failure(failure) => {
+                let kind = self.run.failures.get(failure.index()).cloned().unwrap_or_default();
+                RunEnd::Failed { kind, why: None, node: exit.origin }
+            }
+            NodeEnding::Interrupted => RunEnd::Interrupted,
+        });
+        self.finish(end);
+    }
+
+    /// A judge of conditions in the world as it is believed to be.
+    fn judge(&mut self, fresh: Freshness) -> Judge<'_> {
+        Judge {
+            graph: &self.plan.graph,
+            beliefs: &mut self.run.beliefs,
+            bindings: &self.run.bindings,
+            verifier: self.verifier,
+            each: None,
+            fresh,
+            missing: None,
+        }
+    }
+
+    /// The same, which notes in `run.missing` what would have to be observed.
+    fn judge_missing(&mut self, fresh: Freshness) -> Judge<'_> {
+        Judge {
+            graph: &self.plan.graph,
+            beliefs: &mut self.run.beliefs,
+            bindings: &self.run.bindings,
+            verifier: self.verifier,
+            each: None,
+            fresh,
+            missing: Some(&mut self.run.missing),
+        }
+    }
+
+    fn stopping(&self, region: RegionId) -> Option<Cause> {
+        self.run.regions.at(region.index()).stopping
+    }
+
+    fn suspended(&self, region: RegionId) -> bool {
+        self.run.regions.at(region.index()).suspended > 0
+    }
+
+    fn region_of(&self, node: NodeId) -> RegionId {
+        self.plan.node(node).region
+    }
+}

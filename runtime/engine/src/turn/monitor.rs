@@ -1,0 +1,181 @@
+//! Monitors: their life, and what becomes of the body when a reaction has run its course.
+
+use super::Turn;
+use crate::record::{Cause, Happening, NodeEnding};
+use crate::state::{After, Exit, Phase, Wish};
+use crate::time::Time;
+use motet_graph::{NodeId, NodeKind, Reaction, RegionId, Watch};
+
+impl Turn<'_> {
+    /// Enters a monitor. Its watches are judged before the body's first step is entered.
+    pub(super) fn enter_monitor(&mut self, node: NodeId, watches: &[Watch], body: RegionId) {
+        let now = self.run.now;
+        let state = self.run.nodes.at_mut(node.index());
+        state.count = 0;
+        state.resuming = None;
+        state.body_ended = None;
+        for (index, watch) in watches.iter().enumerate() {
+            let number = self.plan.watch_number(node, index as u32);
+            let state = self.run.watches.at_mut(number as usize);
+            state.since = now;
+            state.true_since = None;
+            state.open_since = None;
+            state.paused_at = None;
+            state.spent = Time::ZERO;
+            state.fired = 0;
+            self.subscribe(number, &watch.condition, now);
+        }
+        self.enter_region(body);
+        self.mark_all(node, watches.len() as u32);
+    }
+
+    /// Forgets all watches of a monitor that is over.
+    pub(super) fn leave_monitor(&mut self, node: NodeId, watches: u32) {
+        for index in 0..watches {
+            let number = self.plan.watch_number(node, index);
+            self.run.timers.clear(number);
+            self.unsubscribe(number);
+            self.run.watches.at_mut(number as usize).paused_at = None;
+        }
+        self.run.clearing.retain(|clearing| *clearing != node);
+        self.run.nodes.at_mut(node.index()).resuming = None;
+    }
+
+    /// Judges all watches of a monitor before the next step.
+    pub(super) fn mark_all(&mut self, node: NodeId, watches: u32) {
+        (0..watches).for_each(|index| self.mark(self.plan.watch_number(node, index)));
+    }
+
+    /// By how many suspensions of its own a monitor holds a region that is about to be entered.
+    pub(super) fn imposed(&self, owner: NodeId, region: RegionId) -> u32 {
+        let NodeKind::Monitor { body, .. } = &self.plan.node(owner).kind else { return 0 };
+        let state = self.run.nodes.at(owner.index());
+        state.count + u32::from(state.resuming.is_some() && *body == region)
+    }
+
+    /// The region of a monitor that a pause holds: the block of a reaction, or else the body.
+    pub(super) fn running_part(&self, node: NodeId) -> Option<RegionId> {
+        let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return None };
+        let Some(number) = self.run.nodes.at(node.index()).resuming else { return Some(*body) };
+        let (_, index, _) = self.plan.watch(number)?;
+        match watches.get(index as usize).map(|watch| &watch.reaction) {
+            Some(Reaction::Resume { body, .. }) => Some(*body),
+            Some(Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. }) | None => Some(*body),
+        }
+    }
+
+    /// The body is down after a restart was asked for: it starts again.
+    pub(super) fn restart(&mut self, node: NodeId) {
+        let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
+        let state = self.run.nodes.at_mut(node.index());
+        state.after = After::Nothing;
+        state.body_ended = None;
+        for index in 0..watches.len() as u32 {
+            let number = self.plan.watch_number(node, index);
+            self.rearm(number);
+        }
+        self.enter_region(*body);
+        self.mark_all(node, watches.len() as u32);
+    }
+
+    /// A watch counts its condition's time from now on.
+    pub(super) fn rearm(&mut self, number: u32) {
+        let state = self.run.watches.at_mut(number as usize);
+        state.true_since = None;
+        state.open_since = None;
+        self.run.timers.clear(number);
+    }
+
+    /// Ends everything in a monitor, and then the monitor in a failure.
+    pub(super) fn monitor_fails(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: Cause) {
+        let exit = Exit { ending: NodeEnding::Failure(failure), cause, origin: node };
+        self.stop_within(node, After::Exit(exit));
+    }
+
+    /// Stops everything in a monitor; what is to happen then follows once all is down.
+    pub(super) fn stop_within(&mut self, node: NodeId, after: After) {
+        let NodeKind::Monitor { watches, .. } = &self.plan.node(node).kind else { return };
+        for index in 0..watches.len() as u32 {
+            self.stop_pausing(self.plan.watch_number(node, index));
+        }
+        let state = self.run.nodes.at_mut(node.index());
+        state.after = after;
+        state.count = 0;
+        state.resuming = None;
+        self.run.clearing.retain(|clearing| *clearing != node);
+        for region in self.plan.owned(node) {
+            self.stop(*region, Cause::Monitor);
+        }
+        // Everything may be down already: the body ended while a block was about to run.
+        if self.is_down(node) && self.run.nodes.at(node.index()).phase == Phase::Inside {
+            match after {
+                After::Exit(exit) => self.exit(node, exit),
+                After::Restart => self.restart(node),
+                After::Nothing => {}
+            }
+        }
+    }
+
+    /// The body ended by itself.
+    pub(super) fn body_ended(&mut self, node: NodeId, exit: Exit) {
+        let state = self.run.nodes.at_mut(node.index());
+        if state.resuming.is_some() {
+            state.body_ended = Some(exit);
+            self.check_clearing();
+        } else {
+            self.exit(node, exit);
+        }
+    }
+
+    /// Interrupts the body to run a block.
+    pub(super) fn begin_block(&mut self, node: NodeId, number: u32) {
+        let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { return };
+        self.suspend(*body, Wish::Suspend);
+        self.run.nodes.at_mut(node.index()).resuming = Some(number);
+        self.run.clearing.push(node);
+        self.check_clearing();
+    }
+
+    /// Runs the blocks of monitors whose bodies are down by now.
+    pub(super) fn check_clearing(&mut self) {
+        if self.run.clearing.is_empty() {
+            return;
+        }
+        for node in self.run.clearing.clone() {
+            let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { continue };
+            if !self.has_goals(*body) {
+                self.run.clearing.retain(|clearing| *clearing != node);
+                if let Some(block) = self.running_part(node) {
+                    self.enter_region(block);
+                }
+            }
+        }
+    }
+
+    /// A block is over: the body goes on.
+    pub(super) fn block_ended(&mut self, node: NodeId, exit: Exit) {
+        let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
+        let state = self.run.nodes.at_mut(node.index());
+        let number = state.resuming.take();
+        if let Some(body_exit) = state.body_ended.take() {
+            let worse = if exit.ending == NodeEnding::Success { body_exit } else { exit };
+            self.exit(node, if body_exit.ending == NodeEnding::Success { worse } else { body_exit });
+            return;
+        }
+        if exit.ending != NodeEnding::Success {
+            self.stop_within(node, After::Exit(exit));
+            return;
+        }
+        let pauses = state.count;
+        // Pauses that held the block hold the body now.
+        (0..pauses).for_each(|_| self.suspend(*body, Wish::Hold));
+        self.go_on(*body);
+        if let Some((_, watch, _)) = number.and_then(|number| self.plan.watch(number)) {
+            self.report(Happening::WentOn { node, watch });
+        }
+        if let Some(number) = number {
+            self.rearm(number);
+        }
+        self.mark_all(node, watches.len() as u32);
+    }
+}

@@ -1,0 +1,167 @@
+//! Control: entering regions and steps, and what follows when they end.
+
+use super::Turn;
+use crate::record::{Cause, Happening, NodeEnding};
+use crate::state::{After, Exit, Micro, Phase};
+use motet_graph::{NodeId, NodeKind, RegionId};
+
+impl Turn<'_> {
+    /// Starts a region from its first step.
+    pub(super) fn enter_region(&mut self, region: RegionId) {
+        let plan = self.plan;
+        let suspended = plan.region(region).owner.map_or(0, |owner| {
+            self.run.regions.at(self.region_of(owner).index()).suspended + self.imposed(owner, region)
+        });
+        let entry = plan.region(region).entry;
+        let state = self.run.regions.at_mut(region.index());
+        state.active = true;
+        state.stopping = None;
+        state.suspended = suspended;
+        state.current = entry;
+        match entry {
+            Some(node) => self.to_enter(node),
+            None => {
+                let origin = plan.region(region).owner.unwrap_or(NodeId(0));
+                let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin };
+                self.push(Micro::RegionEnded(region, exit));
+            }
+        }
+    }
+
+    /// The work list shall enter a step.
+    pub(super) fn to_enter(&mut self, node: NodeId) {
+        self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
+        self.push(Micro::Enter(node));
+    }
+
+    /// Enters a step.
+    pub(super) fn enter(&mut self, node: NodeId) {
+        let region = self.region_of(node);
+        if let Some(cause) = self.stopping(region) {
+            // It was never entered, so it has no ending of its own.
+            self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
+            self.leave_region(region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+            return;
+        }
+        if self.suspended(region) {
+            self.run.nodes.at_mut(node.index()).phase = Phase::Parked;
+            return;
+        }
+        self.report(Happening::Entered { node });
+        self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
+        match &self.plan.node(node).kind {
+            NodeKind::Call(_) => {
+                self.run.nodes.at_mut(node.index()).count = 1;
+                self.acquire(node);
+            }
+            NodeKind::Wait { condition, within_secs } => self.wait(node, condition, *within_secs),
+            NodeKind::If { .. } => self.decide(node),
+            NodeKind::End { how, of, why } => {
+                self.succeed(node);
+                self.end_policy(node, *how, *of, why.as_ref(), Cause::ParentEnded);
+            }
+            NodeKind::Monitor { watches, body } => self.enter_monitor(node, watches, *body),
+            NodeKind::Each { item, list, at_most, body } => self.enter_each(node, *item, list, *at_most, *body),
+            NodeKind::Repeat { body, .. } => {
+                self.run.nodes.at_mut(node.index()).count = 1;
+                self.enter_region(*body);
+            }
+            NodeKind::Sequence { body, .. } | NodeKind::Inline { body, .. } | NodeKind::Try { body, .. } => {
+                self.enter_region(*body);
+            }
+            NodeKind::Parallel { branches } if branches.is_empty() => self.succeed(node),
+            NodeKind::Parallel { branches } => branches.iter().for_each(|branch| self.enter_region(*branch)),
+        }
+    }
+
+    /// A step is over: the work list shall see to it.
+    pub(super) fn exit(&mut self, node: NodeId, exit: Exit) {
+        self.run.nodes.at_mut(node.index()).phase = Phase::Ending;
+        self.push(Micro::NodeEnded(node, exit));
+    }
+
+    pub(super) fn succeed(&mut self, node: NodeId) {
+        self.exit(node, Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node });
+    }
+
+    pub(super) fn fail(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: Cause) {
+        self.exit(node, Exit { ending: NodeEnding::Failure(failure), cause, origin: node });
+    }
+
+    /// A step is over: goes on to the next, or ends the region.
+    pub(super) fn node_ended(&mut self, node: NodeId, exit: Exit) {
+        let plan = self.plan;
+        let (region, next) = (plan.node(node).region, plan.node(node).next);
+        self.leave(node);
+        self.report(Happening::Ended { node, ending: exit.ending, cause: exit.cause });
+        if let Some(cause) = self.stopping(region) {
+            self.leave_region(region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+            return;
+        }
+        match (exit.ending, next) {
+            (NodeEnding::Success, Some(next)) => {
+                self.run.regions.at_mut(region.index()).current = Some(next);
+                self.run.nodes.at_mut(next.index()).phase = Phase::Entering;
+                self.enter(next);
+            }
+            (NodeEnding::Success, None) | (NodeEnding::Failure(_) | NodeEnding::Interrupted, _) => {
+                self.leave_region(region, exit);
+            }
+        }
+    }
+
+    /// The region has no step left that runs.
+    pub(super) fn leave_region(&mut self, region: RegionId, exit: Exit) {
+        self.run.regions.at_mut(region.index()).current = None;
+        self.push(Micro::RegionEnded(region, exit));
+    }
+
+    /// A region is over: its owner goes on.
+    pub(super) fn region_ended(&mut self, region: RegionId, exit: Exit) {
+        let state = self.run.regions.at_mut(region.index());
+        state.active = false;
+        state.current = None;
+        state.stopping = None;
+        state.suspended = 0;
+        let Some(owner) = self.plan.region(region).owner else {
+            self.root_ended(exit);
+            return;
+        };
+        if let Some(cause) = self.stopping(self.region_of(owner)) {
+            if self.is_down(owner) {
+                self.exit(owner, Exit { ending: NodeEnding::Interrupted, cause, origin: owner });
+            }
+            return;
+        }
+        match self.run.nodes.at(owner.index()).after {
+            After::Nothing => self.child_ended(owner, region, exit),
+            After::Exit(_) | After::Restart if !self.is_down(owner) => {}
+            After::Exit(exit) => self.exit(owner, exit),
+            After::Restart => self.restart(owner),
+        }
+    }
+
+    /// Whether none of a node's regions runs.
+    pub(super) fn is_down(&self, node: NodeId) -> bool {
+        self.plan.owned(node).iter().all(|region| !self.run.regions.at(region.index()).active)
+    }
+
+    /// Forgets what a step kept while it ran.
+    fn leave(&mut self, node: NodeId) {
+        match &self.plan.node(node).kind {
+            NodeKind::Monitor { watches, .. } => self.leave_monitor(node, watches.len() as u32),
+            NodeKind::Each { .. } => {
+                if let Some(place) = self.run.lists.iter().rposition(|(loop_node, _)| *loop_node == node) {
+                    self.run.lists.remove(place);
+                }
+            }
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {}
+            NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
+            NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
+        }
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = Phase::Idle;
+        state.after = After::Nothing;
+        state.count = 0;
+    }
+}

@@ -1,0 +1,125 @@
+//! Suspending a region so that it can go on later: structure, counters and bindings stay, goals hold or end.
+
+use super::Turn;
+use crate::effect::Effect;
+use crate::state::{Micro, Phase, Wish};
+use motet_graph::{NodeId, NodeKind, RegionId};
+
+impl Turn<'_> {
+    /// Suspends a region once more. Its goals hold, or with [`Wish::Suspend`] end early to start again later.
+    pub(super) fn suspend(&mut self, region: RegionId, wish: Wish) {
+        self.walk_down(region, |turn, node, count| {
+            *count += 1;
+            turn.suspend_node(node, wish);
+        });
+    }
+
+    /// Undoes one [`Turn::suspend`].
+    pub(super) fn go_on(&mut self, region: RegionId) {
+        self.walk_down(region, |turn, node, count| {
+            *count = count.saturating_sub(1);
+            if *count == 0 {
+                turn.go_on_node(node);
+            }
+        });
+    }
+
+    /// Calls `visit` with each step that runs and its region's count of suspensions, in document order.
+    fn walk_down(&mut self, region: RegionId, visit: impl Fn(&mut Self, Option<NodeId>, &mut u32)) {
+        let mut walk = std::mem::take(&mut self.run.walk);
+        walk.clear();
+        walk.push(region);
+        while let Some(region) = walk.pop() {
+            let state = self.run.regions.at(region.index());
+            if !state.active {
+                continue;
+            }
+            let (node, mut count) = (state.current, state.suspended);
+            let inside = node.filter(|node| self.run.nodes.at(node.index()).phase == Phase::Inside);
+            visit(self, node, &mut count);
+            self.run.regions.at_mut(region.index()).suspended = count;
+            if let Some(node) = inside {
+                walk.extend(self.plan.owned(node).iter().rev());
+            }
+        }
+        self.run.walk = walk;
+    }
+
+    fn suspend_node(&mut self, node: Option<NodeId>, wish: Wish) {
+        let Some(node) = node else { return };
+        let key = self.plan.node_key(node);
+        let now = self.run.now;
+        let state = self.run.nodes.at_mut(node.index());
+        match state.phase {
+            Phase::Starting if wish == Wish::Hold => {
+                if state.wish == Wish::None {
+                    state.wish = Wish::Hold;
+                    state.left = self.run.timers.get(key).map_or(state.left, |at| at.since(now));
+                    self.run.timers.clear(key);
+                }
+            }
+            Phase::Running if wish == Wish::Hold => {
+                state.left = self.run.timers.get(key).map_or(state.left, |at| at.since(now));
+                state.phase = Phase::Held;
+                self.run.timers.clear(key);
+                if let Some(goal) = state.goal {
+                    self.out.push(Effect::Hold { goal });
+                }
+            }
+            Phase::Held if wish == Wish::Hold => {}
+            Phase::Starting | Phase::Running | Phase::Held => self.cancel(node, wish),
+            Phase::Waiting => {
+                // One that is suspended already has no instant.
+                if let Some(at) = self.run.timers.get(key) {
+                    state.left = at.since(now);
+                    self.run.timers.clear(key);
+                }
+            }
+            Phase::Queued | Phase::Checking => {
+                self.let_go(node);
+                self.run.nodes.at_mut(node.index()).phase = Phase::Suspended;
+            }
+            // A test may come out meanwhile: the steps behind it are not entered.
+            Phase::Deciding | Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending => {}
+            Phase::Inside | Phase::Cancelling | Phase::SafeStopping | Phase::Suspended => {}
+        }
+    }
+
+    fn go_on_node(&mut self, node: Option<NodeId>) {
+        let Some(node) = node else { return };
+        let key = self.plan.node_key(node);
+        let now = self.run.now;
+        let state = self.run.nodes.at_mut(node.index());
+        match state.phase {
+            Phase::Parked => self.to_enter(node),
+            Phase::Suspended => {
+                state.phase = Phase::Entering;
+                self.push(Micro::Acquire(node));
+            }
+            Phase::Starting if state.wish == Wish::Hold => {
+                state.wish = Wish::None;
+                self.run.timers.set(key, now.after(state.left));
+            }
+            Phase::Held => {
+                state.phase = Phase::Running;
+                self.run.timers.set(key, now.after(state.left));
+                if let Some(goal) = state.goal {
+                    self.out.push(Effect::Proceed { goal });
+                }
+            }
+            Phase::Waiting => {
+                self.run.timers.set(key, now.after(state.left));
+                self.push_judge(node);
+            }
+            Phase::Inside => {
+                if let NodeKind::Monitor { watches, .. } = &self.plan.node(node).kind {
+                    self.mark_all(node, watches.len() as u32);
+                }
+            }
+            // What is being cancelled starts again once it has ended.
+            Phase::Starting | Phase::Cancelling | Phase::SafeStopping => {}
+            Phase::Idle | Phase::Entering | Phase::Ending | Phase::Deciding => {}
+            Phase::Queued | Phase::Checking | Phase::Running => {}
+        }
+    }
+}
