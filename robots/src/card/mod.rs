@@ -8,6 +8,7 @@ mod errors;
 pub mod model;
 mod quantity;
 mod read;
+mod resources;
 mod shape;
 pub mod wire;
 

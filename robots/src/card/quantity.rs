@@ -35,10 +35,11 @@ impl Numbers {
 
     /// A quantity of a known dimension; 0 where it is wrong.
     pub(super) fn of(&mut self, key: &str, at: &At<Quantity>, dimension: Dimension, sign: Sign) -> f64 {
-        let Some((value, found)) = self.any(key, at) else { return 0.0 };
+        let Some((value, found)) = self.in_one_of(key, at, &units_of(dimension)) else { return 0.0 };
         if let Some(unit) = found.filter(|unit| unit.dimension() != dimension) {
-            let units = Unit::symbols_of(dimension).collect();
-            let mistake = WrongDimension { span: self.span(at), key: key.to_owned(), unit: unit.symbol(), units };
+            let units = units_of(dimension);
+            let mistake =
+                WrongDimension { span: self.span(at), key: key.to_owned(), unit: unit.symbol(), units };
             self.found.push(mistake.into());
             return 0.0;
         }
@@ -47,6 +48,15 @@ impl Numbers {
 
     /// A quantity of any dimension with its unit, in SI units.
     pub(super) fn any(&mut self, key: &str, at: &At<Quantity>) -> Option<(f64, Option<Unit>)> {
+        self.in_one_of(key, at, &["m", "cm", "mm", "rad", "deg", "s", "ms", "kg", "g", "N", "m/s", "%"])
+    }
+
+    fn in_one_of(
+        &mut self,
+        key: &str,
+        at: &At<Quantity>,
+        units: &[&'static str],
+    ) -> Option<(f64, Option<Unit>)> {
         let text = match at.get() {
             Quantity::Number(value) => return Some((*value, None)),
             Quantity::Text(text) => text,
@@ -55,7 +65,7 @@ impl Numbers {
         let (number, symbol) = text.split_at_checked(split).unwrap_or((text, ""));
         let parsed = number.parse::<f64>().ok().zip(Unit::parse(symbol.trim()));
         if parsed.is_none() {
-            let units = ["m", "cm", "mm", "rad", "deg", "s", "ms", "kg", "g", "N", "m/s", "%"].to_vec();
+            let units = units.to_vec();
             let mistake = BadQuantity { span: self.span(at), key: key.to_owned(), text: text.clone(), units };
             self.found.push(mistake.into());
         }
@@ -85,10 +95,11 @@ impl Numbers {
     /// An interval of a known dimension, or of any.
     pub(super) fn range(&mut self, key: &str, at: &wire::Range, dimension: Option<Dimension>) -> Range {
         let before = self.found.len();
-        let dimension = match dimension {
-            Some(dimension) => dimension,
-            None => self.any(key, &at.least).and_then(|(_, unit)| unit).map_or(Dimension::NONE, Unit::dimension),
-        };
+        let mut unit = |at| self.any(key, at).and_then(|(_, unit)| unit);
+        // Of an interval of any dimension the first unit that is written decides; a bare number goes with it.
+        let dimension = dimension.unwrap_or_else(|| {
+            unit(&at.least).or_else(|| unit(&at.greatest)).map_or(Dimension::NONE, Unit::dimension)
+        });
         self.found.truncate(before);
         let least = self.of(&format!("{key}.least"), &at.least, dimension, Sign::Any);
         let greatest = self.of(&format!("{key}.greatest"), &at.greatest, dimension, Sign::Any);
@@ -98,4 +109,9 @@ impl Numbers {
         }
         Range { least, greatest }
     }
+}
+
+/// The units of a dimension; none where it has none of its own.
+fn units_of(dimension: Dimension) -> Vec<&'static str> {
+    Unit::symbols_of(dimension).collect()
 }

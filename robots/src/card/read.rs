@@ -2,27 +2,24 @@
 
 use indexmap::IndexMap;
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
-use rustc_hash::FxHashMap;
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use smol_str::SmolStr;
 use toml::de::DeTable;
 
-use super::errors::{
-    BadName, ListedTwice, NotAResource, NotToml, ResourceCycle, TakenName, TakenNumber, UnknownResource,
-};
+use super::errors::{BadName, ListedTwice, NotToml, TakenNumber};
 use super::model::{Base, Camera, Drive, Hand, Range, Robot};
 use super::quantity::{Numbers, Sign};
-use super::wire::{self, At};
 use super::shape;
+use super::wire::{self, At};
 
 /// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept as it is: the
 /// compiler reads it. There is no robot where there is an error. O(bytes).
 #[must_use]
 pub fn read(toml: &Source, file: FileId, declarations: Option<&str>) -> (Option<Robot>, Vec<Diagnostic>) {
-    let (document, problems) = DeTable::parse_recoverable(&toml.text);
-    if !problems.is_empty() {
-        return (None, problems.iter().map(|problem| not_toml(problem, file)).collect());
-    }
+    let document = match DeTable::parse(&toml.text) {
+        Ok(document) => document,
+        Err(problem) => return (None, vec![not_toml(&problem, file)]),
+    };
     let found = shape::check(&document, file);
     if !found.is_empty() {
         return (None, sorted(found));
@@ -48,8 +45,8 @@ fn not_toml(problem: &toml::de::Error, file: FileId) -> Diagnostic {
     NotToml { span: Span::new(file, span.start, span.end), problem: problem.message().to_owned() }.into()
 }
 
-struct Reader {
-    numbers: Numbers,
+pub(super) struct Reader {
+    pub(super) numbers: Numbers,
 }
 
 impl Reader {
@@ -58,7 +55,8 @@ impl Reader {
         let base = self.base(&card.base);
         let hands: IndexMap<_, _> =
             card.hands.iter().map(|(name, hand)| (SmolStr::new(name), self.hand(name, hand.get()))).collect();
-        let cameras = card.cameras.iter().map(|(name, camera)| (SmolStr::new(name), self.camera(name, camera.get())));
+        let cameras =
+            card.cameras.iter().map(|(name, camera)| (SmolStr::new(name), self.camera(name, camera.get())));
         let cameras = cameras.collect();
         let resources = self.resources(card);
         let numbers = self.named_numbers(card, &base, hands.values().next());
@@ -80,7 +78,7 @@ impl Reader {
         }
     }
 
-    fn name(&mut self, name: &str, span: Span) {
+    pub(super) fn name(&mut self, name: &str, span: Span) {
         let mut letters = name.chars();
         let starts = letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
         if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
@@ -124,7 +122,7 @@ impl Reader {
     }
 
     fn observes(&mut self, listed: &[At<String>]) -> Vec<SmolStr> {
-        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        let mut first: IndexMap<&str, Span> = IndexMap::new();
         for name in listed {
             let span = self.numbers.span(name);
             self.name(name.get(), span);
@@ -134,9 +132,7 @@ impl Reader {
                 first.insert(name.get(), span);
             }
         }
-        let mut names: Vec<SmolStr> = Vec::new();
-        names.extend(listed.iter().filter(|name| first.get(name.get().as_str()) == Some(&self.numbers.span(name))).map(|name| SmolStr::new(name.get())));
-        names
+        first.keys().map(SmolStr::new).collect()
     }
 
     fn primitives(&mut self, card: &wire::Card) -> IndexMap<SmolStr, IndexMap<SmolStr, Range>> {
@@ -183,70 +179,10 @@ impl Reader {
             }
             let Some((value, unit)) = self.numbers.any(&format!("numbers.{name}"), number) else { continue };
             let value = self.numbers.checked(&format!("numbers.{name}"), span, value, Sign::Any);
-            let ty = unit.map_or(Some("Number"), |unit: Unit| unit.dimension().type_name()).unwrap_or("Number");
+            let ty =
+                unit.map_or(Some("Number"), |unit: Unit| unit.dimension().type_name()).unwrap_or("Number");
             numbers.insert(name.into(), (value, SmolStr::new_static(ty)));
         }
         numbers
-    }
-
-    fn resources(&mut self, card: &wire::Card) -> IndexMap<SmolStr, Vec<SmolStr>> {
-        let mut resources = IndexMap::new();
-        for (name, contains) in &card.resources {
-            self.name(name, self.numbers.span(contains));
-            for inner in contains.get().iter().filter(|inner| !card.resources.contains_key(inner.get())) {
-                let near = suggest::closest(inner.get(), card.resources.keys().map(String::as_str));
-                let (span, near) = (self.numbers.span(inner), near.map(str::to_owned));
-                self.numbers.found.push(UnknownResource { span, resource: inner.get().clone(), near }.into());
-            }
-            let contains = contains.get().iter().map(|inner| SmolStr::new(inner.get())).collect();
-            resources.insert(SmolStr::new(name), contains);
-        }
-        for (name, span) in card.hands.iter().map(|(name, hand)| (name, self.numbers.span(hand))).collect::<Vec<_>>() {
-            self.is_resource(card, "hand", name, span);
-            if card.cameras.contains_key(name) {
-                self.numbers.found.push(TakenName { span, name: name.clone() }.into());
-            }
-        }
-        for (name, camera) in &card.cameras {
-            self.is_resource(card, "camera", name, self.numbers.span(camera));
-        }
-        if let Some(chain) = cycle(&resources) {
-            let first = chain.first().and_then(|name| card.resources.get(name.as_str()));
-            let span = first.map(|contains| self.numbers.span(contains)).unwrap_or_default();
-            let chain = chain.iter().map(ToString::to_string).collect();
-            self.numbers.found.push(ResourceCycle { span, chain }.into());
-        }
-        resources
-    }
-
-    fn is_resource(&mut self, card: &wire::Card, what: &'static str, name: &str, span: Span) {
-        if !card.resources.contains_key(name) {
-            self.numbers.found.push(NotAResource { span, what, name: name.to_owned() }.into());
-        }
-    }
-}
-
-/// A chain of resources that ends where it begins. Takes away, again and again, what contains nothing that is left.
-fn cycle(resources: &IndexMap<SmolStr, Vec<SmolStr>>) -> Option<Vec<SmolStr>> {
-    let mut left = resources.clone();
-    loop {
-        let before = left.len();
-        let names: Vec<SmolStr> = left.keys().cloned().collect();
-        left.retain(|_, contains| contains.iter().any(|inner| names.contains(inner)));
-        if left.len() == before {
-            break;
-        }
-    }
-    // From here every resource contains one that is left, so following the first such must come back.
-    let mut chain = vec![left.keys().next()?.clone()];
-    loop {
-        let last = left.get(chain.last()?)?;
-        let next = last.iter().find(|inner| left.contains_key(*inner))?.clone();
-        if let Some(at) = chain.iter().position(|seen| *seen == next) {
-            let mut chain = chain.split_off(at);
-            chain.push(next);
-            return Some(chain);
-        }
-        chain.push(next);
     }
 }

@@ -40,7 +40,8 @@ impl<'s> Walk<'s> {
                 let known = || properties.into_iter().flatten().map(|(known, _)| known.as_str());
                 let near = suggest::closest(name, known()).map(str::to_owned);
                 let known = known().filter(|known| table.get(*known).is_none()).map(str::to_owned).collect();
-                self.found.push(UnknownKey { span: self.span(key), key: name.to_owned(), near, known }.into());
+                self.found
+                    .push(UnknownKey { span: self.span(key), key: name.to_owned(), near, known }.into());
                 continue;
             };
             let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
@@ -63,7 +64,8 @@ impl<'s> Walk<'s> {
         if !kinds.iter().any(|wanted| *wanted == name || *wanted == "number" && name == "integer") {
             let wanted: Vec<&str> = kinds.iter().map(|kind| told(kind)).collect();
             let key = path.to_owned();
-            self.found.push(WrongType { span, key, found: found.to_owned(), wanted: wanted.join(" or ") }.into());
+            self.found
+                .push(WrongType { span, key, found: found.to_owned(), wanted: wanted.join(" or ") }.into());
             return;
         }
         match value.get_ref() {
@@ -74,7 +76,11 @@ impl<'s> Walk<'s> {
                     self.value(item, inner, path);
                 }
             }
-            DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_) | DeValue::Datetime(_) => {}
+            DeValue::String(_)
+            | DeValue::Integer(_)
+            | DeValue::Float(_)
+            | DeValue::Boolean(_)
+            | DeValue::Datetime(_) => {}
         }
     }
 
@@ -103,7 +109,9 @@ impl<'s> Walk<'s> {
         match (schema.get("type"), schema.get("anyOf").and_then(Json::as_array)) {
             (Some(Json::String(kind)), _) => vec![kind],
             (Some(Json::Array(kinds)), _) => kinds.iter().filter_map(Json::as_str).collect(),
-            (_, Some(options)) => options.iter().flat_map(|option| self.kinds(self.resolved(option))).collect(),
+            (_, Some(options)) => {
+                options.iter().flat_map(|option| self.kinds(self.resolved(option))).collect()
+            }
             (_, None) => Vec::new(),
         }
     }

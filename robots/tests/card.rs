@@ -1,0 +1,254 @@
+//! Robot cards: the built-in ones are right, every mistake is told at its place, and no text makes the reader panic.
+
+use motet_robots::card::{self, Robot};
+use motet_syntax::{Diagnostic, FileId, Source};
+use proptest::prelude::*;
+
+/// A card without a mistake.
+const GOOD: &str = r#"
+name = "cart"
+title = "Cart"
+observe_within = 0.2
+observes = ["holding"]
+
+[base]
+drive = "differential"
+speed = "0.5 m/s"
+turn = 1.0
+radius = "30 cm"
+
+[hands.hand]
+payload = "500 g"
+opening = 0.08
+reach = "60 cm"
+heights = { least = "0 m", greatest = "1 m" }
+
+[cameras.eye]
+range = 3
+view = "90 deg"
+
+[resources]
+base = []
+arm = ["hand", "eye"]
+hand = []
+eye = []
+
+[numbers]
+tray = "2 kg"
+
+[primitives]
+go = {}
+lift.by = { least = 0, greatest = "40 cm" }
+"#;
+
+fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>, Source) {
+    let source = Source::new("robot.toml", text);
+    let (robot, found) = card::read(&source, FileId(0), None);
+    (robot, found, source)
+}
+
+/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message / help`.
+fn check(from: &str, to: &str, expected: &[&str]) {
+    assert_eq!(GOOD.matches(from).count(), 1, "`{from}` must stand once in the card");
+    let (robot, found, source) = read(&GOOD.replacen(from, to, 1));
+    let told: Vec<String> = found.iter().map(|found| told(found, &source)).collect();
+    assert_eq!(told, expected);
+    assert_eq!(robot.is_some(), !told.iter().any(|line| !line.starts_with("M0425")));
+}
+
+fn told(found: &Diagnostic, source: &Source) -> String {
+    let under = source.slice(found.span);
+    let help = found.help.as_ref().map(|help| format!(" / {help}")).unwrap_or_default();
+    format!("{} [{under}] {}{help}", found.code, found.message)
+}
+
+#[test]
+fn a_good_card_is_read() {
+    let (robot, found, _) = read(GOOD);
+    assert_eq!(found, []);
+    let robot = robot.unwrap();
+    let hand = &robot.hands["hand"];
+    assert_eq!((hand.payload_kg, hand.opening_m, hand.reach_m), (0.5, 0.08, 0.6));
+    assert_eq!(robot.cameras["eye"].view_rad, std::f64::consts::FRAC_PI_2);
+    assert_eq!(robot.primitives["lift"]["by"].greatest, 0.4);
+    assert_eq!(robot.numbers["tray"], (2.0, "Mass".into()));
+    assert_eq!(robot.numbers["payload"], (0.5, "Mass".into()));
+    assert_eq!(robot.resources["arm"], ["hand", "eye"]);
+}
+
+#[test]
+fn built_in_cards_are_right() {
+    for (name, toml, declarations) in card::embedded() {
+        let (robot, found) = card::read(&Source::new(*name, *toml), FileId(0), *declarations);
+        assert_eq!(found, [], "{name}");
+        assert_eq!(robot.unwrap().name, *name);
+    }
+}
+
+#[test]
+fn what_is_no_toml_is_told() {
+    check(
+        "turn = 1.0",
+        "turn = = 1.0",
+        &[
+            "M0411 [=] this is not TOML: extra `=`, expected nothing / a card is a TOML document: `key = value` lines under `[section]` headers",
+        ],
+    );
+    check(
+        "turn = 1.0",
+        "turn = 1.0\nturn = 2.0",
+        &[
+            "M0411 [turn] this is not TOML: duplicate key / a card is a TOML document: `key = value` lines under `[section]` headers",
+        ],
+    );
+}
+
+#[test]
+fn wrong_keys_are_told_all_at_once() {
+    check(
+        "turn = 1.0",
+        "trun = 1.0",
+        &[
+            "M0413 [[base]] `base` has no `turn` / add `turn = …` under `[base]`",
+            "M0412 [trun] unknown key `trun` / did you mean `turn`?",
+        ],
+    );
+    check(
+        "title = \"Cart\"",
+        "colour = 3",
+        &[
+            "M0413 [] the card has no `title` / add `title = …` at the top of the card",
+            "M0412 [colour] unknown key `colour` / possible here: `title` or `initially`",
+        ],
+    );
+}
+
+#[test]
+fn wrong_types_are_told() {
+    check("turn = 1.0", "turn = \"fast\"", &["M0414 [\"fast\"] `base.turn` is a text, and must be a number"]);
+    check(
+        "arm = [\"hand\", \"eye\"]",
+        "arm = \"hand\"",
+        &["M0414 [\"hand\"] `resources.arm` is a text, and must be a list"],
+    );
+    check("[\"holding\"]", "[7]", &["M0414 [7] `observes` is a whole number, and must be a text"]);
+    check(
+        "\"differential\"",
+        "\"diferential\"",
+        &["M0415 [\"diferential\"] unknown word `diferential` / did you mean `differential`?"],
+    );
+}
+
+#[test]
+fn impossible_numbers_are_told() {
+    check("turn = 1.0", "turn = nan", &["M0416 [nan] `base.turn` is NaN, and must be a finite number"]);
+    check("range = 3", "range = 0", &["M0416 [0] `cameras.eye.range` is 0, and must be above zero"]);
+    check(
+        "\"500 g\"",
+        "\"-1 kg\"",
+        &["M0416 [\"-1 kg\"] `hands.hand.payload` is -1, and must be above zero"],
+    );
+    check(
+        "\"60 cm\"",
+        "1e9",
+        &["M0416 [1e9] `hands.hand.reach` is 1000000000, and must be at most a million"],
+    );
+}
+
+#[test]
+fn wrong_units_are_told() {
+    let help = "write a number and one of `m`, `cm`, `mm` or `km`, such as \"2 m\"";
+    check(
+        "\"60 cm\"",
+        "\"2 feet\"",
+        &[&format!(
+            "M0417 [\"2 feet\"] `hands.hand.reach` is `2 feet`, which is no number with a unit / {help}"
+        )],
+    );
+    check(
+        "\"60 cm\"",
+        "\"60 kg\"",
+        &[
+            "M0418 [\"60 kg\"] `hands.hand.reach` is not measured in `kg` / write it in `m`, `cm`, `mm` or `km`",
+        ],
+    );
+    check(
+        "least = 0,",
+        "least = \"0 s\",",
+        &[
+            "M0418 [\"40 cm\"] `lift.by.greatest` is not measured in `cm` / write it in `s`, `ms`, `min` or `h`",
+        ],
+    );
+}
+
+#[test]
+fn wrong_resources_are_told() {
+    check(
+        "[\"hand\", \"eye\"]",
+        "[\"hnad\"]",
+        &["M0419 [\"hnad\"] there is no resource `hnad` / did you mean `hand`?"],
+    );
+    check(
+        "hand = []",
+        "hand = [\"arm\"]",
+        &[
+            "M0420 [[\"hand\", \"eye\"]] a resource contains itself: `arm` contains `hand` contains `arm` / let the larger part contain the smaller, and not the other way round",
+        ],
+    );
+    check(
+        "[cameras.eye]",
+        "[cameras.nose]",
+        &[
+            "M0421 [[cameras.nose]] the camera `nose` is not listed as a resource / add `nose = []` under `[resources]`",
+        ],
+    );
+}
+
+#[test]
+fn wrong_names_and_ranges_are_told() {
+    check(
+        "greatest = \"40 cm\"",
+        "greatest = -1",
+        &["M0422 [0] the least `lift.by` is 0, more than the greatest, -1"],
+    );
+    check(
+        "\"cart\"",
+        "\"my cart\"",
+        &[
+            "M0423 [\"my cart\"] `my cart` is no name / a name is a letter or `_`, then letters, digits or `_`",
+        ],
+    );
+    check(
+        "tray =",
+        "payload =",
+        &["M0424 [\"2 kg\"] `robot.payload` is given by `hands` already / give this number another name"],
+    );
+    check("[\"holding\"]", "[\"at\", \"at\"]", &["M0425 [\"at\"] `at` is listed twice / remove one"]);
+    check(
+        "[cameras.eye]",
+        "[cameras.hand]",
+        &[
+            "M0426 [[hands.hand]] `hand` is both a hand and a camera / name one of them differently: both are resources",
+        ],
+    );
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_it_panic(text in "\\PC*") {
+        let _ = read(&text);
+    }
+
+    /// A card with a piece replaced by noise: most of it is still a card.
+    #[test]
+    fn no_damage_makes_it_panic(at in 0usize..900, length in 0usize..40, noise in "[\\[\\]{}=\"a-z0-9.\\- \n]{0,12}") {
+        let start = at.min(GOOD.len());
+        let end = (start + length).min(GOOD.len());
+        let text = format!("{}{noise}{}", &GOOD[..start], &GOOD[end..]);
+        let (robot, found, source) = read(&text);
+        prop_assert!(robot.is_some() || !found.is_empty());
+        for found in found {
+            prop_assert!(found.span.end as usize <= source.text.len());
+        }
+    }
+}
