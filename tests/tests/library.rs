@@ -1,0 +1,30 @@
+//! The standard library, the robots' own declarations and the embedded scenes fit together without a word.
+
+use motet_syntax::{Diagnostic, Sources};
+use motet_tests::setup;
+
+fn check(robot: Option<&str>, scene: Option<&str>) {
+    let mut sources = Sources::default();
+    let robot = robot.map(setup::robot);
+    let scene = scene.map(setup::scene);
+    let (_, said) = setup::session(robot.as_ref(), scene.as_ref(), &mut sources);
+    let show = |said: &Diagnostic| {
+        let place = sources.get(said.span.file).map(|source| (source.name.clone(), source.line_column(said.span.start)));
+        format!("{} {} at {place:?}", said.code, said.message)
+    };
+    assert!(said.is_empty(), "{:#?}", said.iter().map(show).collect::<Vec<_>>());
+}
+
+#[test]
+fn the_standard_library_alone() {
+    check(None, None);
+}
+
+#[test]
+fn every_robot_in_every_scene() {
+    for robot in ["hsr", "anymal_z1"] {
+        for scene in [None, Some("kitchen"), Some("living_room"), Some("lab")] {
+            check(Some(robot), scene);
+        }
+    }
+}
