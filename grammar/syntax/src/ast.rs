@@ -3,6 +3,10 @@
 //! Nothing here is resolved: a name is text, a call may not exist. Invariant: a tree made by a front end is at most
 //! [`MAX_NESTING`] blocks and expressions deep, so recursion over it is safe.
 
+mod equal;
+
+pub use equal::same;
+
 use smol_str::SmolStr;
 
 use crate::source::Span;

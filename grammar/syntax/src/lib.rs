@@ -8,6 +8,7 @@ pub mod diagnostic;
 pub mod errors;
 pub mod json;
 pub mod path;
+pub mod print;
 mod read;
 pub mod render;
 mod reply;

@@ -206,7 +206,7 @@ impl Converter {
 
     pub(super) fn name(&mut self, name: Spanned<smol_str::SmolStr>) -> Name {
         let Spanned { value, span } = name;
-        if !text::is_name(&value) || value.starts_with('$') {
+        if !text::is_name(&value) {
             self.found.push(BadName { span, name: value.clone() }.into());
         }
         Name { text: value, span }

@@ -24,6 +24,9 @@ impl Converter {
     fn condition_at(&mut self, condition: Condition, level: usize) -> Expr {
         let Spanned { value, span } = condition.0;
         let Term::Text(text) = value else { return self.term(Spanned { value, span }, level) };
+        if text.strip_prefix('$').is_some_and(text::is_name) {
+            return self.term(Spanned { value: Term::Text(text), span }, level);
+        }
         // A string without escapes is as long as it looks.
         let is_plain = (span.end - span.start) as usize == text.len() + 2;
         let origin = if is_plain { Origin::At(self.file, span.start + 1) } else { Origin::Within(span) };

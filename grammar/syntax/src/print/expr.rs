@@ -1,0 +1,221 @@
+//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a reader.
+
+use smol_str::SmolStr;
+
+use crate::ast::{ArithOp, Call, CompareOp, Expr, ExprKind, Name};
+use crate::json::quantity;
+use crate::text::is_bare_name;
+use crate::unit::Unit;
+
+/// How tightly an expression holds together; the order is that of the grammar.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Or,
+    And,
+    Not,
+    Compare,
+    Sum,
+    Product,
+    Atom,
+}
+
+/// Appends an expression.
+pub(super) fn write(text: &mut String, expr: &Expr) {
+    at(text, expr, Level::Or);
+}
+
+fn level(expr: &Expr) -> Level {
+    match &expr.kind {
+        ExprKind::AnyOf(members) if members.len() > 1 => Level::Or,
+        ExprKind::All(members) if members.len() > 1 => Level::And,
+        // A group of one is written as its member, an empty one as what it means.
+        ExprKind::AnyOf(members) | ExprKind::All(members) => members.first().map_or(Level::Atom, level),
+        ExprKind::Not(_) => Level::Not,
+        ExprKind::Compare(..) => Level::Compare,
+        ExprKind::Arith(ArithOp::Add | ArithOp::Subtract, ..) => Level::Sum,
+        ExprKind::Arith(ArithOp::Multiply | ArithOp::Divide, ..) => Level::Product,
+        ExprKind::Bool(_)
+        | ExprKind::Number(_)
+        | ExprKind::Quantity(..)
+        | ExprKind::Text(_)
+        | ExprKind::Name(_)
+        | ExprKind::Binding(_)
+        | ExprKind::Plain(_)
+        | ExprKind::Any
+        | ExprKind::List(_)
+        | ExprKind::Call(_)
+        | ExprKind::Field(..) => Level::Atom,
+    }
+}
+
+/// Appends an expression, in parentheses unless it holds together at least as tightly as `least`.
+fn at(text: &mut String, expr: &Expr, least: Level) {
+    let in_parentheses = level(expr) < least;
+    if in_parentheses {
+        text.push('(');
+    }
+    bare(text, expr);
+    if in_parentheses {
+        text.push(')');
+    }
+}
+
+fn bare(text: &mut String, expr: &Expr) {
+    match &expr.kind {
+        ExprKind::Bool(value) => text.push_str(if *value { "true" } else { "false" }),
+        ExprKind::Number(value) => number(text, *value),
+        ExprKind::Quantity(value, unit) => measure(text, *value, *unit),
+        ExprKind::Text(value) => literal(text, value),
+        ExprKind::Name(value) | ExprKind::Binding(value) => name(text, value),
+        ExprKind::Plain(value) => plain(text, value),
+        ExprKind::Any => text.push_str("any"),
+        ExprKind::List(members) => {
+            text.push('[');
+            joined(text, members, ", ", Level::Or);
+            text.push(']');
+        }
+        ExprKind::Call(value) => call(text, value),
+        ExprKind::Field(inner, field) => {
+            let is_number =
+                matches!(inner.kind, ExprKind::Number(_) | ExprKind::Quantity(..) | ExprKind::Plain(_));
+            if is_number {
+                text.push('(');
+            }
+            at(text, inner, Level::Atom);
+            if is_number {
+                text.push(')');
+            }
+            text.push('.');
+            name(text, &field.text);
+        }
+        ExprKind::Not(inner) => {
+            text.push_str("not ");
+            // `not a < b` means the same as `not (a < b)`, but not to everyone.
+            let least = if level(inner) == Level::Not { Level::Not } else { Level::Atom };
+            at(text, inner, least);
+        }
+        ExprKind::All(members) if members.is_empty() => text.push_str("true"),
+        ExprKind::AnyOf(members) if members.is_empty() => text.push_str("false"),
+        ExprKind::All(members) if members.len() > 1 => joined(text, members, " and ", Level::Not),
+        ExprKind::AnyOf(members) if members.len() > 1 => joined(text, members, " or ", Level::And),
+        ExprKind::All(members) | ExprKind::AnyOf(members) => joined(text, members, "", Level::Or),
+        ExprKind::Compare(op, left, right) => {
+            at(text, left, Level::Sum);
+            text.push_str(compare_mark(*op));
+            at(text, right, Level::Sum);
+        }
+        ExprKind::Arith(op, left, right) => {
+            let (mark, left_least, right_least) = match op {
+                ArithOp::Add => (" + ", Level::Sum, Level::Product),
+                ArithOp::Subtract => (" - ", Level::Sum, Level::Product),
+                ArithOp::Multiply => (" * ", Level::Product, Level::Atom),
+                ArithOp::Divide => (" / ", Level::Product, Level::Atom),
+            };
+            at(text, left, left_least);
+            text.push_str(mark);
+            at(text, right, right_least);
+        }
+    }
+}
+
+fn joined(text: &mut String, members: &[Expr], separator: &str, least: Level) {
+    for (index, member) in members.iter().enumerate() {
+        if index > 0 {
+            text.push_str(separator);
+        }
+        at(text, member, least);
+    }
+}
+
+fn compare_mark(op: CompareOp) -> &'static str {
+    match op {
+        CompareOp::Equal => " == ",
+        CompareOp::Unequal => " != ",
+        CompareOp::Less => " < ",
+        CompareOp::AtMost => " <= ",
+        CompareOp::More => " > ",
+        CompareOp::AtLeast => " >= ",
+    }
+}
+
+/// Appends `pick(mug, from: top)`.
+pub(super) fn call(text: &mut String, call: &Call) {
+    name(text, &call.name.text);
+    text.push('(');
+    for (index, arg) in call.args.iter().enumerate() {
+        if index > 0 {
+            text.push_str(", ");
+        }
+        if let Some(key) = &arg.name {
+            name(text, &key.text);
+            text.push_str(": ");
+        }
+        write(text, &arg.value);
+    }
+    text.push(')');
+}
+
+/// Appends a name, in back-quotes where it needs them.
+pub(super) fn name(text: &mut String, value: &str) {
+    if is_bare_name(value) {
+        text.push_str(value);
+    } else {
+        text.push('`');
+        text.push_str(value);
+        text.push('`');
+    }
+}
+
+/// Appends names with commas.
+pub(super) fn names(text: &mut String, values: &[Name]) {
+    for (index, value) in values.iter().enumerate() {
+        if index > 0 {
+            text.push_str(", ");
+        }
+        name(text, &value.text);
+    }
+}
+
+/// A string of JSON whose meaning no one has settled: a quantity or an id if it looks like one, a text otherwise.
+fn plain(text: &mut String, value: &SmolStr) {
+    let is_id = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    if let Some((number, unit)) = quantity(value) {
+        measure(text, number, unit);
+    } else if !value.is_empty() && value.chars().all(is_id) {
+        name(text, value);
+    } else {
+        literal(text, value);
+    }
+}
+
+fn measure(text: &mut String, value: f64, unit: Unit) {
+    number(text, value);
+    text.push(' ');
+    text.push_str(unit.symbol());
+}
+
+/// The shortest digits that read back as the same number.
+fn number(text: &mut String, value: f64) {
+    let size = value.abs();
+    let is_plain = size == 0.0 || (1e-5..1e16).contains(&size);
+    text.push_str(&if is_plain { format!("{value}") } else { format!("{value:e}") });
+}
+
+/// Appends a text in quotes.
+fn literal(text: &mut String, value: &str) {
+    text.push('"');
+    for character in value.chars() {
+        match character {
+            '"' => text.push_str("\\\""),
+            '\\' => text.push_str("\\\\"),
+            '\n' => text.push_str("\\n"),
+            '\t' => text.push_str("\\t"),
+            '\r' => text.push_str("\\r"),
+            control if control.is_ascii_control() => {
+                text.push_str(&format!("\\u{{{:x}}}", u32::from(control)))
+            }
+            other => text.push(other),
+        }
+    }
+    text.push('"');
+}

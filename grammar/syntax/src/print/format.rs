@@ -1,0 +1,41 @@
+//! `fmt`: a document in its own form, canonically laid out, with its comments.
+
+use super::comment::Comments;
+use super::writer::Writer;
+use crate::ast::Item;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::read::read;
+use crate::source::{FileId, Form, Source};
+
+/// The document as the canonical printer writes it. In the text form comments stay where they are, on lines of their own
+/// or behind what they follow, and so do single blank lines. Formatting twice is formatting once.
+///
+/// # Errors
+/// All diagnostics, where one of them is an error: what cannot be read is not formatted.
+pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
+    let parsed = read(source, FileId(0));
+    if parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
+        return Err(parsed.diagnostics);
+    }
+    Ok(match parsed.form {
+        Form::Text => {
+            // A reply is prose with a document in it: what is ignored there has no comments to keep.
+            let text: &str = if parsed.diagnostics.is_empty() { &source.text } else { "" };
+            let mut writer = Writer::new(Comments::of(text));
+            writer.file(&parsed.file);
+            writer.finish()
+        }
+        Form::Json => parsed.file.items.iter().fold(String::new(), |text, item| match item {
+            Item::Policy(policy) => text + &super::policy_json(policy),
+            Item::Kind(_)
+            | Item::Fluent(_)
+            | Item::Measure(_)
+            | Item::Failure(_)
+            | Item::Enum(_)
+            | Item::Primitive(_)
+            | Item::Entities(_)
+            | Item::Initially(_)
+            | Item::ClosedWorld(_) => text,
+        }),
+    })
+}

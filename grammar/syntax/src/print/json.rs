@@ -1,0 +1,300 @@
+//! The JSON form of a policy: the tree to the wire types, and those to text.
+//!
+//! A name that a `let`, an `each` or a parameter binds is written `"$name"`, any other as it is. A quantity in an SI unit
+//! is written as a number, any other as a string with its unit. An argument without a name is written under `arg1`,
+//! `arg2`, … by its position: the compiler names arguments before it prints.
+
+use smol_str::{SmolStr, format_smolstr};
+
+use super::layout;
+use crate::ast::{
+    Block, Call, Catch, CatchOn, CompareOp, Do, End, EndKind, Expr, ExprKind, Name, Policy, Reaction, Step,
+    StepKind, When,
+};
+use crate::json::term::{Args, Condition, Count, Duration, Field, Form, Get, Is, Term};
+use crate::json::{Lenient, Spanned, wire};
+use crate::unit::{Dimension, Unit};
+
+/// A policy in the JSON form, indented by two, short values on one line. It ends with a line break.
+#[must_use]
+pub fn policy_json(policy: &Policy) -> String {
+    // The wire types are maps, lists, strings and finite numbers: all of them have a JSON form.
+    let value = serde_json::to_value(policy_wire(policy)).unwrap_or_default();
+    layout::pretty(&value)
+}
+
+/// A policy as the wire types of the JSON form. Spans are left empty.
+#[must_use]
+pub fn policy_wire(policy: &Policy) -> wire::Document {
+    let mut lowering =
+        Lowering { scope: policy.params.iter().map(|param| param.name.text.clone()).collect() };
+    wire::Document {
+        motet: 1.into(),
+        policy: name(&policy.name),
+        robot: policy.robot.as_ref().map(name),
+        achieves: policy.achieves.as_ref().map(|goal| lowering.condition(goal)),
+        steps: lowering.block(&policy.body),
+    }
+}
+
+fn name(name: &Name) -> Spanned<SmolStr> {
+    name.text.clone().into()
+}
+
+/// What is bound where the lowering is.
+struct Lowering {
+    scope: Vec<SmolStr>,
+}
+
+impl Lowering {
+    /// What is bound in a block ends with it.
+    fn block(&mut self, block: &Block) -> wire::Steps {
+        let outer = self.scope.len();
+        let steps: Vec<_> =
+            block.steps.iter().map(|step| Lenient::from(Spanned::from(self.step(step)))).collect();
+        self.scope.truncate(outer);
+        steps.into()
+    }
+
+    fn step(&mut self, step: &Step) -> wire::Step {
+        match &step.kind {
+            StepKind::Do(step) => wire::Step::Do(self.call_step(step)),
+            StepKind::Sequence { name: group, body } => {
+                wire::Step::Sequence(wire::Sequence { sequence: name(group), steps: self.block(body) })
+            }
+            StepKind::If { condition, then, otherwise } => wire::Step::If(wire::If {
+                r#if: self.condition(condition),
+                then: self.block(then),
+                r#else: otherwise.as_ref().map(|block| self.block(block)),
+            }),
+            StepKind::Wait { condition, within } => wire::Step::Wait(wire::Wait {
+                wait: self.condition(condition),
+                within: within.as_ref().map(|within| self.duration(within)),
+            }),
+            StepKind::Monitor { whens, body } => {
+                let whens: Vec<_> =
+                    whens.iter().map(|when| Lenient::from(Spanned::from(self.when(when)))).collect();
+                wire::Step::Monitor(wire::Monitor { monitor: whens.into(), during: self.block(body) })
+            }
+            StepKind::Try { body, catches } => {
+                let r#try = self.block(body);
+                let catch: Vec<_> =
+                    catches.iter().map(|catch| Lenient::from(Spanned::from(self.catch(catch)))).collect();
+                wire::Step::Try(wire::Try { r#try, catch: catch.into() })
+            }
+            StepKind::Repeat { times, body, until } => wire::Step::Repeat(wire::Repeat {
+                repeat: self.count(times),
+                steps: self.block(body),
+                until: until.as_ref().map(|until| self.condition(until)),
+            }),
+            StepKind::Each { item, list, at_most, body } => {
+                let (r#in, at_most) = (self.term(list).into(), self.count(at_most));
+                self.scope.push(item.text.clone());
+                let steps = self.block(body);
+                self.scope.pop();
+                wire::Step::Each(wire::Each { each: name(item), r#in, at_most, steps })
+            }
+            StepKind::Parallel { branches } => {
+                let branches: Vec<_> = branches.iter().map(|branch| self.block(branch)).collect();
+                wire::Step::Parallel(wire::Parallel { parallel: branches.into() })
+            }
+            StepKind::End(end) => wire::Step::End(self.end(end)),
+        }
+    }
+
+    fn call_step(&mut self, step: &Do) -> wire::Do {
+        let lowered = wire::Do {
+            r#do: name(&step.call.name),
+            args: self.args(&step.call),
+            within: step.within.as_ref().map(|within| self.duration(within)),
+            retry: step.retry.as_ref().map(|retry| self.count(retry)),
+            r#as: step.bind.as_ref().map(name),
+        };
+        self.scope.extend(step.bind.as_ref().map(|bind| bind.text.clone()));
+        lowered
+    }
+
+    fn when(&mut self, when: &When) -> wire::When {
+        wire::When {
+            when: self.condition(&when.condition),
+            r#for: when.hold.as_ref().map(|hold| self.duration(hold)),
+            then: self.reaction(&when.reaction).into(),
+        }
+    }
+
+    fn reaction(&mut self, reaction: &Reaction) -> wire::Reaction {
+        let react = |kind: wire::ReactKind| wire::React {
+            react: kind.into(),
+            within: None,
+            at_most: None,
+            steps: None,
+        };
+        wire::Reaction::React(match reaction {
+            Reaction::Pause { within, .. } => {
+                let within = within.as_ref().map(|within| self.duration(within));
+                wire::React { within, ..react(wire::ReactKind::Pause) }
+            }
+            Reaction::Restart { at_most, .. } => {
+                wire::React { at_most: Some(self.count(at_most)), ..react(wire::ReactKind::Restart) }
+            }
+            Reaction::Resume { at_most, body, .. } => wire::React {
+                at_most: Some(self.count(at_most)),
+                steps: Some(self.block(body)),
+                ..react(wire::ReactKind::Resume)
+            },
+            Reaction::End(end) => return wire::Reaction::End(self.end(end)),
+        })
+    }
+
+    fn catch(&mut self, catch: &Catch) -> wire::Catch {
+        let on: Vec<Spanned<SmolStr>> = match &catch.on {
+            CatchOn::Any(_) => vec![SmolStr::new("any").into()],
+            CatchOn::Kinds(kinds) => kinds.iter().map(name).collect(),
+        };
+        wire::Catch { on: on.into(), steps: self.block(&catch.body) }
+    }
+
+    fn end(&mut self, end: &End) -> wire::End {
+        let kind = match end.kind {
+            EndKind::Done => wire::EndKind::Done,
+            EndKind::Fail => wire::EndKind::Fail,
+            EndKind::Replan => wire::EndKind::Replan,
+        };
+        wire::End { end: kind.into(), why: end.why.as_ref().map(|why| self.term(why).into()) }
+    }
+
+    /// A condition. What has no form of its own is written as a string in the text form.
+    fn condition(&mut self, expr: &Expr) -> Condition {
+        let term = match &expr.kind {
+            ExprKind::Bool(value) => Term::Bool(*value),
+            ExprKind::Binding(bound) => binding(bound),
+            ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
+            ExprKind::Call(_)
+            | ExprKind::Field(..)
+            | ExprKind::Not(_)
+            | ExprKind::All(_)
+            | ExprKind::AnyOf(_)
+            | ExprKind::Compare(..)
+            | ExprKind::Arith(..) => self.form(expr, Kind::Condition),
+            ExprKind::Number(_)
+            | ExprKind::Quantity(..)
+            | ExprKind::Text(_)
+            | ExprKind::Name(_)
+            | ExprKind::Plain(_)
+            | ExprKind::Any
+            | ExprKind::List(_) => Term::Text(super::expression(expr).into()),
+        };
+        Condition(term.into())
+    }
+
+    /// A duration: in seconds as a number, in any other unit as a string.
+    fn duration(&mut self, expr: &Expr) -> Duration {
+        Duration(self.term(expr).into())
+    }
+
+    fn count(&mut self, expr: &Expr) -> Count {
+        Count(self.term(expr).into())
+    }
+
+    fn term(&mut self, expr: &Expr) -> Term {
+        match &expr.kind {
+            ExprKind::Bool(value) => Term::Bool(*value),
+            ExprKind::Number(value) => Term::Number(*value),
+            ExprKind::Quantity(value, unit) => {
+                let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(*unit);
+                if is_si { Term::Number(*value) } else { Term::Text(super::expression(expr).into()) }
+            }
+            ExprKind::Text(text) | ExprKind::Plain(text) => Term::Text(escaped(text)),
+            ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
+            ExprKind::Name(plain) => Term::Text(plain.clone()),
+            ExprKind::Binding(bound) => binding(bound),
+            ExprKind::Any => Term::Text("any".into()),
+            ExprKind::List(members) => {
+                Term::List(members.iter().map(|member| self.term(member).into()).collect())
+            }
+            ExprKind::Call(_)
+            | ExprKind::Field(..)
+            | ExprKind::Not(_)
+            | ExprKind::All(_)
+            | ExprKind::AnyOf(_)
+            | ExprKind::Compare(..)
+            | ExprKind::Arith(..) => self.form(expr, Kind::Term),
+        }
+    }
+
+    /// An expression that is an object in JSON; a literal is [`Self::term`]'s.
+    fn form(&mut self, expr: &Expr, kind: Kind) -> Term {
+        let form = match &expr.kind {
+            ExprKind::Call(call) => {
+                let (head, args) = (name(&call.name), self.args(call));
+                match kind {
+                    Kind::Condition => Form::Is(Is { is: head, args }),
+                    Kind::Term => Form::Get(Get { get: head, args }),
+                }
+            }
+            ExprKind::Field(of, field) => Form::Field(Field { field: name(field), of: self.term(of).into() }),
+            ExprKind::Not(inner) => Form::Not(self.condition(inner)),
+            ExprKind::All(members) => Form::All(self.conditions(members)),
+            ExprKind::AnyOf(members) => Form::Any(self.conditions(members)),
+            ExprKind::Compare(op, left, right) => {
+                let pair = [self.term(left).into(), self.term(right).into()];
+                match op {
+                    CompareOp::Equal => Form::Equal(pair),
+                    CompareOp::Unequal => Form::Unequal(pair),
+                    CompareOp::Less => Form::Less(pair),
+                    CompareOp::AtMost => Form::AtMost(pair),
+                    CompareOp::More => Form::More(pair),
+                    CompareOp::AtLeast => Form::AtLeast(pair),
+                }
+            }
+            ExprKind::Arith(op, left, right) => {
+                let pair = [self.term(left).into(), self.term(right).into()];
+                match op {
+                    crate::ast::ArithOp::Add => Form::Add(pair),
+                    crate::ast::ArithOp::Subtract => Form::Subtract(pair),
+                    crate::ast::ArithOp::Multiply => Form::Multiply(pair),
+                    crate::ast::ArithOp::Divide => Form::Divide(pair),
+                }
+            }
+            ExprKind::Bool(_)
+            | ExprKind::Number(_)
+            | ExprKind::Quantity(..)
+            | ExprKind::Text(_)
+            | ExprKind::Name(_)
+            | ExprKind::Binding(_)
+            | ExprKind::Plain(_)
+            | ExprKind::Any
+            | ExprKind::List(_) => return self.term(expr),
+        };
+        Term::Form(Box::new(form))
+    }
+
+    fn conditions(&mut self, members: &[Expr]) -> Vec<Condition> {
+        members.iter().map(|member| self.condition(member)).collect()
+    }
+
+    fn args(&mut self, call: &Call) -> Args {
+        let args = call.args.iter().enumerate().map(|(index, arg)| {
+            let key =
+                arg.name.as_ref().map_or_else(|| format_smolstr!("arg{}", index + 1), |key| key.text.clone());
+            (Spanned::from(key), Spanned::from(self.term(&arg.value)))
+        });
+        Args(args.collect())
+    }
+}
+
+/// Where an expression stands: a call is a fluent in one place and a measure in the other.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Condition,
+    Term,
+}
+
+fn binding(bound: &SmolStr) -> Term {
+    Term::Text(format_smolstr!("${bound}"))
+}
+
+/// A text that begins with `$` is written with two.
+fn escaped(text: &SmolStr) -> SmolStr {
+    if text.starts_with('$') { format_smolstr!("${text}") } else { text.clone() }
+}

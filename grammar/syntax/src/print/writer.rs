@@ -1,0 +1,125 @@
+//! Lines of the text form: indentation, comments, blank lines. What stands on them is in [`super::declaration`],
+//! [`super::step`] and [`super::expr`].
+
+use super::comment::Comments;
+
+/// The printer of a file.
+pub(super) struct Writer<'s> {
+    pub(super) text: String,
+    indent: usize,
+    comments: Comments<'s>,
+    /// Whether the line to come is the first of its block.
+    is_first: bool,
+}
+
+impl<'s> Writer<'s> {
+    pub(super) fn new(comments: Comments<'s>) -> Self {
+        Self { text: String::new(), indent: 0, comments, is_first: true }
+    }
+
+    /// The whole text, with the comments that are left.
+    pub(super) fn finish(mut self) -> String {
+        self.leading(u32::MAX, Blank::AsWritten);
+        self.text
+    }
+
+    /// Begins the line of something that stands at `offset`: the comments before it, each on its line, and a blank line
+    /// where there was one.
+    pub(super) fn begin(&mut self, offset: u32, blank: Blank) {
+        self.leading(offset, blank);
+        self.is_first = false;
+        self.start_line();
+    }
+
+    /// Ends a line whose last thing ends at `offset`, with the comment that follows it there.
+    pub(super) fn end(&mut self, offset: u32) {
+        if let Some(comment) = self.comments.trailing(offset) {
+            self.text.push_str("  ");
+            self.text.push_str(comment);
+        }
+        self.comments.pass(offset);
+        self.text.push('\n');
+    }
+
+    /// Opens a block on this line; what is in it begins at `offset`.
+    pub(super) fn open(&mut self, offset: u32) {
+        self.text.push('{');
+        self.end(offset);
+        self.indent += 1;
+        self.is_first = true;
+    }
+
+    /// Closes a block whose closing brace is at `offset`. The line is left open.
+    pub(super) fn close(&mut self, offset: u32) {
+        while let Some((comment, is_apart)) = self.comments.before(offset) {
+            self.comment(comment, is_apart);
+        }
+        self.indent = self.indent.saturating_sub(1);
+        self.is_first = false;
+        self.comments.pass(offset + 1);
+        self.start_line();
+        self.text.push('}');
+    }
+
+    /// Whether a comment stands before `offset`.
+    pub(super) fn has_comment_before(&mut self, offset: u32) -> bool {
+        self.comments.is_next_before(offset)
+    }
+
+    /// Columns that are used on the current line.
+    pub(super) fn column(&self) -> usize {
+        let line = self.text.rsplit('\n').next().unwrap_or("");
+        line.chars().count()
+    }
+
+    /// Spaces of the current indentation.
+    pub(super) fn start_line(&mut self) {
+        for _ in 0..self.indent {
+            self.text.push_str("    ");
+        }
+    }
+
+    /// Clauses are indented under their declaration.
+    pub(super) fn indented(&mut self, inside: impl FnOnce(&mut Self)) {
+        self.indent += 1;
+        inside(self);
+        self.indent = self.indent.saturating_sub(1);
+    }
+
+    fn leading(&mut self, offset: u32, blank: Blank) {
+        let mut is_forced = blank == Blank::Always;
+        while let Some((comment, is_apart)) = self.comments.before(offset) {
+            self.comment(comment, is_apart || is_forced);
+            is_forced = false;
+        }
+        if offset != u32::MAX && (self.comments.passes_blank(offset) || is_forced) {
+            self.blank_line();
+        }
+    }
+
+    fn comment(&mut self, comment: &str, is_apart: bool) {
+        if is_apart {
+            self.blank_line();
+        }
+        self.is_first = false;
+        self.start_line();
+        self.text.push_str(comment);
+        self.text.push('\n');
+    }
+
+    /// A blank line, but never at the beginning of a block or of the file.
+    fn blank_line(&mut self) {
+        if !self.is_first {
+            self.text.push('\n');
+        }
+    }
+}
+
+/// Whether something stands apart from what is before it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Blank {
+    /// As it does in the text.
+    AsWritten,
+    /// In any case.
+    Always,
+}
