@@ -68,12 +68,9 @@ impl Quantity {
     fn has_to_be_positive(self) -> bool {
         match self {
             Self::Size | Self::Mass | Self::Opening | Self::Scale | Self::FocalLength => true,
-            Self::Coordinate
-            | Self::Angle
-            | Self::Pixel
-            | Self::Joint
-            | Self::Direction
-            | Self::Field => false,
+            Self::Coordinate | Self::Angle | Self::Pixel | Self::Joint | Self::Direction | Self::Field => {
+                false
+            }
         }
     }
 

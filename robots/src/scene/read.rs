@@ -40,7 +40,8 @@ pub fn read(source: &Source, file: FileId) -> (Option<Scene>, Vec<Diagnostic>) {
     if let Some(first) = document.entities.iter().skip(MAX_ENTITIES).find_map(|entity| entity.0.as_ref()) {
         numbers.found.push(TooManyEntities { span: first.id.span, count }.into());
     }
-    let wires: Vec<_> = document.entities.into_iter().take(MAX_ENTITIES).filter_map(|entity| entity.0).collect();
+    let wires: Vec<_> =
+        document.entities.into_iter().take(MAX_ENTITIES).filter_map(|entity| entity.0).collect();
     let robot = document.robot.0.unwrap_or_default();
     let mut scene = Scene {
         entities: entities(&wires, &mut numbers),

@@ -80,7 +80,8 @@ impl Relations<'_> {
 
     /// Finds rings, and opens each. Every entity has at most two supports; each is walked once. O(entities).
     fn cycles(&mut self, wires: &[Spanned<wire::Entity>]) {
-        let places: HashMap<&SmolStr, Span> = wires.iter().rev().map(|wire| (&wire.id.value, where_said(wire))).collect();
+        let places: HashMap<&SmolStr, Span> =
+            wires.iter().rev().map(|wire| (&wire.id.value, where_said(wire))).collect();
         let mut done: HashSet<SmolStr> = HashSet::new();
         let roots: Vec<SmolStr> = self.scene.entities.keys().cloned().collect();
         for root in roots {
