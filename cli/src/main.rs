@@ -4,7 +4,7 @@ mod args;
 mod command;
 mod document;
 mod exit;
-// TMP mod form;
+mod form;
 mod graph;
 mod input;
 mod out;
@@ -42,9 +42,9 @@ fn main() -> ExitCode {
 fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
     match command {
         Command::Check(args) => command::check::run(args, colors),
-        Command::Fmt(_) => Ok(Exit::Clean), // TMP
-        Command::Compile(_) => Ok(Exit::Clean), // TMP
-        Command::Run(_) => Ok(Exit::Clean), // TMP
+        Command::Fmt(args) => command::fmt::run(args, colors),
+        Command::Compile(args) => command::compile::run(args, colors),
+        Command::Run(args) => command::run::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),
         Command::Schema(args) => command::schema::run(args),

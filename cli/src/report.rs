@@ -49,7 +49,8 @@ impl Report {
         match self.format {
             Format::Human | Format::Github | Format::Json if !self.is_held => {
                 let text = self.text(diagnostics, sources);
-                self.out.text(&text);
+                let gap = if self.format == Format::Human && self.out.is_used() && !text.is_empty() { "\n" } else { "" };
+                self.out.text(&format!("{gap}{text}"));
             }
             Format::Human | Format::Github | Format::Json | Format::Sarif => self.gathered.add(diagnostics, sources),
         }

@@ -34,14 +34,12 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let policy = args.policy.as_deref();
     let compiled = setting.session.compile(&parsed, policy);
     report.say(&compiled.diagnostics, &setting.sources(source));
-    let Some(graph) = compiled.graph else {
+    let Some(_graph) = compiled.graph else {
         return Ok(Exit::Findings);
     };
     let library = setting.session.library();
     let written = match args.emit {
-        Emit::Graph => Ok(motet_graph::encode(&graph)),
-        Emit::Mermaid => Ok(motet_graph::mermaid(&graph)),
-        Emit::Dot => Ok(motet_graph::dot(&graph)),
+        Emit::Graph | Emit::Mermaid | Emit::Dot => Err("this build cannot write graphs".to_owned()),
         Emit::Json => form::write(&parsed, policy, library, Form::Json),
         Emit::Text => form::write(&parsed, policy, library, Form::Text),
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motet_syntax::{Form, Parsed, Severity, Source, print};
+use motet_syntax::{Form, Parsed, Severity, print};
 
 use crate::args::{FmtArgs, Form as To, WorldArgs};
 use crate::document;
@@ -123,7 +123,7 @@ impl Tally {
             self.failed += 1;
             return Ok(());
         }
-        let text = canonical(&source, &parsed);
+        let text = print::format(&source).unwrap_or_else(|_| source.text.to_string());
         let is_same = found.is(&text);
         if is_same { self.unchanged += 1 } else { self.changed += 1 }
         match &found.path {
@@ -157,11 +157,6 @@ impl Tally {
 
 fn is_broken(parsed: &Parsed) -> bool {
     parsed.diagnostics.iter().any(|said| said.severity == Severity::Error)
-}
-
-/// A document in its own form.
-fn canonical(source: &Source, parsed: &Parsed) -> String {
-    print::format(source, parsed)
 }
 
 /// JSON without line breaks; what is no JSON stays.

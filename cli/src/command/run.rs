@@ -1,0 +1,106 @@
+//! `motet run`: checks a policy and runs it in simulation.
+
+mod branch;
+mod events;
+mod label;
+mod lines;
+mod pace;
+mod screen;
+mod tree;
+mod view;
+mod world;
+
+use std::io::{self, IsTerminal};
+use std::sync::Arc;
+
+use motet_graph::Graph;
+use motet_runtime::{Engine, RunEnd, StartState, Time};
+use motet_syntax::Severity;
+
+use crate::args::{Format, RunArgs, RunFormat};
+use crate::document;
+use crate::exit::{Exit, Trouble};
+use crate::input::one_document;
+use crate::out::{Colors, note};
+use crate::report::Report;
+use crate::workbench::{Setting, Workbench, wanted_robot};
+use pace::Pace;
+use view::View;
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// The file cannot be read, or what it runs against cannot be used.
+pub fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let format = match args.format {
+        RunFormat::Human => Format::Human,
+        RunFormat::Json => Format::Json,
+    };
+    let mut report = Report::new(format, colors);
+    let result = check_and_run(args, colors, &mut report);
+    report.close(result)
+}
+
+fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
+    let (source, parsed) = document::read(&one_document(&args.file)?);
+    let mut bench = Workbench::open(&args.world, report)?;
+    let setting = bench.setting(&parsed.file, report)?;
+    let compiled = setting.session.compile(&parsed, args.policy.as_deref());
+    report.say(&compiled.diagnostics, &setting.sources(source));
+    let Some(graph) = compiled.graph else {
+        let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error).count();
+        note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
+        return Ok(Exit::Findings);
+    };
+    if setting.robot.is_none() {
+        return Err(no_robot(wanted_robot(&parsed.file)));
+    }
+    let end = simulate(args, colors, setting, graph)?;
+    Ok(match end {
+        RunEnd::Done { .. } => Exit::Clean,
+        RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
+        RunEnd::Interrupted => Exit::Interrupted,
+    })
+}
+
+fn simulate(args: &RunArgs, colors: Colors, setting: &Setting, graph: Graph) -> Result<RunEnd, Trouble> {
+    let mut driver = world::driver(args, setting)?;
+    let mut engine = Engine::new(graph.clone(), &start(setting)).map_err(|wrong| {
+        let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
+        Trouble::Other(format!("the compiled graph is not valid{first}"))
+    })?;
+    let graph = Arc::new(graph);
+    let view: Box<dyn View> = match args.format {
+        RunFormat::Json => Box::new(events::Events::new(graph)),
+        RunFormat::Human if io::stdout().is_terminal() => Box::new(screen::Screen::new(graph, colors.stdout)),
+        RunFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout)),
+    };
+    pace::catch_interrupts()?;
+    let mut pace = Pace::new(view, args.speed);
+    let end = motet_runtime::run(&mut engine, driver.as_mut(), &mut pace, Time::ZERO);
+    pace.finish(&end);
+    Ok(end)
+}
+
+/// What is known at the start beside what stands in the graph: which entities there are.
+fn start(setting: &Setting) -> StartState {
+    let entities = setting.scene.iter().flat_map(|scene| &scene.entities);
+    StartState {
+        facts: Vec::new(),
+        entities: entities.map(|(id, entity)| (id.clone(), entity.kind.clone())).collect(),
+    }
+}
+
+fn no_robot(wanted: Option<String>) -> Trouble {
+    match wanted {
+        Some(name) => Trouble::Unknown {
+            what: "built-in robot",
+            name,
+            help: "give the folder of its card with --robot FOLDER".to_owned(),
+        },
+        None => Trouble::Other(
+            "a robot is needed to run a policy: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
+        ),
+    }
+}

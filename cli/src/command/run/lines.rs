@@ -1,0 +1,78 @@
+//! A run line by line: for pipes, files and continuous integration.
+
+use std::sync::Arc;
+
+use motet_graph::{Graph, NodeId, NodeKind};
+use motet_runtime::{Effect, Happening, NodeEnding, Record, RunEnd, Time};
+
+use super::tree::{Row, Tree};
+use super::view::{self, View, duration, mark, paint};
+use crate::out::Out;
+
+/// Writes a line whenever a step begins or ends.
+pub(super) struct Lines {
+    graph: Arc<Graph>,
+    tree: Tree,
+    out: Out,
+    is_colored: bool,
+}
+
+impl Lines {
+    pub(super) fn new(graph: Arc<Graph>, is_colored: bool) -> Self {
+        Self { tree: Tree::new(Arc::clone(&graph)), graph, out: Out::default(), is_colored }
+    }
+
+    fn record(&mut self, record: &Record) {
+        let Some(node) = self.tree.take(record) else { return };
+        let is_told = match &record.what {
+            // A call is told of when its goal starts, after its guards.
+            Happening::Entered { node } => !self.is_call(*node),
+            Happening::Started { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => true,
+            Happening::GoalEnded { .. } | Happening::Tested { .. } => true,
+            Happening::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
+            Happening::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
+            Happening::Bound { .. } => false,
+        };
+        if let (true, Some(row)) = (is_told, self.tree.row(node)) {
+            let line = self.line(row, record.at);
+            self.out.line(&line);
+        }
+    }
+
+    fn line(&self, row: &Row, at: Time) -> String {
+        let indent = "  ".repeat(row.depth.min(20));
+        let mark = paint(mark(row.status), row.status, self.is_colored);
+        let note = if row.note.is_empty() { String::new() } else { format!("  {}", row.note) };
+        let took = row.took.filter(|took| *took > Time::ZERO).map_or_else(String::new, |took| {
+            format!("  ({})", duration(took))
+        });
+        format!("{:>9}  {indent}{mark} {}{note}{took}", duration(at), row.label)
+    }
+
+    fn kind(&self, node: NodeId) -> Option<&NodeKind> {
+        self.graph.nodes.get(node.index()).map(|node| &node.kind)
+    }
+
+    fn is_call(&self, node: NodeId) -> bool {
+        matches!(self.kind(node), Some(NodeKind::Call(_)))
+    }
+
+    fn is_leaf(&self, node: NodeId) -> bool {
+        self.is_call(node) || matches!(self.kind(node), Some(NodeKind::Wait { .. }))
+    }
+}
+
+impl View for Lines {
+    fn effect(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            self.record(record);
+        }
+    }
+
+    fn reached(&mut self, _now: Time) {}
+
+    fn finish(&mut self, now: Time, end: &RunEnd) {
+        let summary = view::summary(&self.graph, &self.tree, now, end, self.is_colored);
+        self.out.line(&format!("\n{summary}"));
+    }
+}

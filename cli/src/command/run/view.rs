@@ -1,0 +1,74 @@
+//! What a run looks like: a trait for its three shapes, and what they say alike.
+
+use motet_graph::Graph;
+use motet_runtime::{Effect, RunEnd, Time};
+
+use super::label;
+use super::tree::{Status, Tree};
+
+/// Shows a run.
+pub(super) trait View {
+    /// An effect is about to be carried out.
+    fn effect(&mut self, now: Time, effect: &Effect);
+    /// Time has passed.
+    fn reached(&mut self, now: Time);
+    /// The run is over.
+    fn finish(&mut self, now: Time, end: &RunEnd);
+}
+
+/// The mark of a status.
+pub(super) fn mark(status: Status) -> &'static str {
+    match status {
+        Status::Pending => "·",
+        Status::Running => "▶",
+        Status::Done => "✓",
+        Status::Failed => "✗",
+        Status::Interrupted => "■",
+    }
+}
+
+/// A text in the colour of a status.
+pub(super) fn paint(text: &str, status: Status, is_colored: bool) -> String {
+    let color = match status {
+        Status::Pending => "2",
+        Status::Running => "1;36",
+        Status::Done => "32",
+        Status::Failed => "1;31",
+        Status::Interrupted => "33",
+    };
+    if is_colored { format!("\u{1b}[{color}m{text}\u{1b}[0m") } else { text.to_owned() }
+}
+
+/// `12.3 s`, `2 min 5.0 s`.
+pub(super) fn duration(span: Time) -> String {
+    let secs = span.secs();
+    if secs < 60.0 {
+        return format!("{secs:.1} s");
+    }
+    let minutes = (secs / 60.0).floor();
+    format!("{minutes:.0} min {:.1} s", secs - minutes * 60.0)
+}
+
+/// The last words: outcome, reason, duration, steps.
+pub(super) fn summary(graph: &Graph, tree: &Tree, now: Time, end: &RunEnd, is_colored: bool) -> String {
+    let (status, what, why) = match end {
+        RunEnd::Done { why } => (Status::Done, "done".to_owned(), why.clone()),
+        RunEnd::Failed { kind, why, node } => {
+            let place = graph.nodes.get(node.index());
+            let at = place.map_or_else(String::new, |node| {
+                format!(" in `{}` ({})", label::node(graph, node), node.path)
+            });
+            (Status::Failed, format!("failed with `{kind}`{at}"), why.clone())
+        }
+        RunEnd::Replan { why } => (Status::Failed, "asks for a new plan".to_owned(), why.clone()),
+        RunEnd::Interrupted => (Status::Interrupted, "interrupted".to_owned(), None),
+        RunEnd::Fault(fault) => (Status::Failed, "could not go on".to_owned(), Some(fault.to_string())),
+    };
+    let mut text = paint(&format!("{} {}: {what}", mark(status), graph.policy), status, is_colored);
+    if let Some(why) = why {
+        text.push_str(&format!("\n  why: {why}"));
+    }
+    let steps = crate::out::count(tree.done, "step");
+    text.push_str(&format!("\n  {} of simulated time, {steps} done, {} failed", duration(now), tree.failed));
+    text
+}
