@@ -11,6 +11,12 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 /// The sections of a page that hold examples, in order.
 const SECTIONS: [&str; 3] = ["Wrong", "Right", "Near miss"];
 
+/// Errors that another one brings with it, which their page need not avoid.
+const FOLLOW_UPS: [(&str, &str); 2] = [("M0117", "M0204"), ("M0445", "M0221")];
+
+/// Codes that guard against what an earlier stage refuses, and the code with which it does.
+const GUARDS: [(&str, &str); 1] = [("M0440", "M0107")];
+
 /// One fenced example: the words after the fence, and its text.
 #[derive(Debug)]
 struct Fence<'a> {
@@ -21,26 +27,28 @@ struct Fence<'a> {
 /// The examples under a heading.
 fn fences<'a>(page: &'a str, section: &str) -> Vec<Fence<'a>> {
     let mut heading = "";
-    let mut open = false;
+    // The back-quotes that opened the fence; a longer fence may hold a shorter one.
+    let mut open: Option<&str> = None;
     let mut found: Vec<Fence<'a>> = Vec::new();
     for line in page.lines() {
-        match (open, line.strip_prefix("```"), line.strip_prefix("## ")) {
-            (false, Some(info), _) => {
-                open = true;
-                if heading == section {
-                    found.push(Fence { info: info.split_whitespace().collect(), text: String::new() });
-                }
-            }
-            (true, Some(_), _) => open = false,
-            (false, None, Some(words)) => heading = words,
-            (false, None, None) => {}
-            (true, None, _) if heading == section => {
+        let info = line.trim_start_matches('`');
+        let quotes = line.strip_suffix(info).unwrap_or_default();
+        match open {
+            Some(opened) if opened == line => open = None,
+            Some(_) if heading == section => {
                 if let Some(fence) = found.last_mut() {
                     fence.text.push_str(line);
                     fence.text.push('\n');
                 }
             }
-            (true, None, _) => {}
+            Some(_) => {}
+            None if quotes.len() >= 3 => {
+                open = Some(quotes);
+                if heading == section {
+                    found.push(Fence { info: info.split_whitespace().collect(), text: String::new() });
+                }
+            }
+            None => heading = line.strip_prefix("## ").unwrap_or(heading),
         }
     }
     found
@@ -65,12 +73,17 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
         ["spaces", n] => Some(format!("policy short {{ done }}\n{}", " ".repeat(count(n)?)).into_bytes()),
         ["nested", n] => {
             let n = count(n)?;
-            Some(format!("policy deep {{ {} done {} }}\n", "sequence s {".repeat(n), "}".repeat(n)).into_bytes())
+            Some(
+                format!("policy deep {{ {} done {} }}\n", "sequence s {".repeat(n), "}".repeat(n))
+                    .into_bytes(),
+            )
         }
         ["latin1"] => Some(b"policy cafe { go(caf\xe9) }\n".to_vec()),
         ["scene", n] => {
-            let things: Vec<_> = (0..count(n)?).map(|n| format!(r#"{{"id":"e{n}","kind":"Object"}}"#)).collect();
-            Some(format!(r#"{{"motet_scene":1,"entities":[{}]}}"#, things.join(",")).into_bytes())
+            let things: Vec<_> =
+                (0..count(n)?).map(|n| format!(r#"{{"id":"s{n}","kind":"Object"}}"#)).collect();
+            let things = things.join(",");
+            Some(format!(r#"{{"motet_scene":1,"entities":[{things}]}}"#).into_bytes())
         }
         _ => None,
     }
@@ -124,7 +137,8 @@ impl Case {
             let (facts, said) = json::read::<indexmap::IndexMap<Spanned<String>, bool>>(&source, file);
             self.said.extend(said);
             let facts = facts.unwrap_or_default().into_iter();
-            self.state = Some(State { facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() });
+            self.state =
+                Some(State { facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() });
         }
     }
 
@@ -151,9 +165,6 @@ impl Case {
                     None if word == "generated" => {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
-                        if rest.first() == Some(&"scene") {
-                            role = "scene";
-                        }
                     }
                     None if ["card", "scene", "state", "domain"].contains(&word) => role = word,
                     Some(_) | None => return Err(format!("what is `{word}`?")),
@@ -208,12 +219,16 @@ fn faults(page: &codes::Page) -> Vec<String> {
         };
         let raised: BTreeSet<_> = said.iter().map(|said| said.code.0).collect();
         let wrong = section == "Wrong";
-        if raised.contains(page.code) != wrong {
+        let code =
+            GUARDS.iter().find(|(guard, _)| *guard == page.code).map_or(page.code, |(_, earlier)| *earlier);
+        if raised.contains(code) != wrong {
             faults.push(format!("`{section}` raises {raised:?}"));
         }
         let allowed = |said: &&Diagnostic| {
             // Policies in a document that only shows declarations are not chosen to run.
-            said.severity == Severity::Error && (wrong && page.code == said.code.0 || said.code.0 == "M0405")
+            let follows = FOLLOW_UPS.contains(&(page.code, said.code.0));
+            said.severity == Severity::Error
+                && (wrong && (follows || code == said.code.0) || said.code.0 == "M0405")
         };
         for said in said.iter().filter(|said| said.severity == Severity::Error && !allowed(said)) {
             faults.push(format!("`{section}` raises {}: {}", said.code, said.message));
