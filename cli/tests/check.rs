@@ -1,0 +1,176 @@
+//! `motet check` from outside: inputs, formats, exit codes.
+
+mod support;
+
+use serde_json::Value;
+use support::{BAD, GOOD, GOOD_JSON, Place};
+
+fn place(name: &str) -> Place {
+    Place::new(name)
+        .file("good.motet", GOOD)
+        .file("good.json", GOOD_JSON)
+        .file("bad.motet", BAD)
+        .file("deep/er/also.json", GOOD_JSON)
+        .file("deep/room.json", r#"{"motet_scene": 1, "entities": []}"#)
+        .file("deep/readme.md", "nothing")
+        .file("broken.json", "{\"motet\": 1,")
+        .file("latin.motet", b"policy caf\xe9 {}")
+        .file("state.json", r#"{"holding(mug_1)": true, "free(hand)": false}"#)
+        .file("odd_state.json", r#"{"holding(": true}"#)
+        .file("domain.motet", "kind Block: Object\nfluent stacked(a: Block)\n")
+        .file("odd_domain.motet", "fluent (")
+        .file("robot/readme.md", "no card")
+        .file("odd_robot/robot.toml", "name = ")
+        .file("lines.jsonl", {
+            let line = GOOD_JSON.replace('\n', " ");
+            format!("{line}\n\n{}\n", line.replace("\"pick\"", "\"pik\""))
+        })
+}
+
+#[test]
+fn ends_with_the_right_code() {
+    let place = place("check_codes");
+    let scene = "--scene kitchen";
+    for (line, code, texts) in [
+        (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors", "err:not checked geometrically"][..]),
+        (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),
+        (format!("check good.motet good.json {scene}"), 0, &["err:checked 2 documents"]),
+        (format!("check good.motet good.motet {scene}"), 0, &["err:checked 1 document"]),
+        (format!("check bad.motet {scene}"), 1, &["out:M0201", "out:goo", "err:1 error"]),
+        (format!("check deep {scene}"), 0, &["err:checked 1 document", "err:skipped 1 JSON file"]),
+        (format!("check lines.jsonl {scene}"), 1, &["out:lines.jsonl:3", "err:checked 2 documents: 1 error"]),
+        (format!("check good.motet {scene} --state state.json"), 0, &[]),
+        (format!("check good.motet {scene} --domain domain.motet"), 0, &[]),
+        (format!("check good.motet {scene} --max-duration 1s"), 1, &["out:M08"]),
+        ("check broken.json".to_owned(), 1, &["out:broken.json"]),
+        ("check latin.motet".to_owned(), 1, &["out:latin.motet"]),
+        ("check good.motet --scene kitchn".to_owned(), 2, &["err:no scene `kitchn`", "err:did you mean `kitchen`?"]),
+        ("check good.motet --robot hsrr".to_owned(), 2, &["err:no robot `hsrr`", "err:did you mean `hsr`?"]),
+        ("check good.motet --robot robot".to_owned(), 2, &["err:no robot.toml"]),
+        ("check good.motet --robot odd_robot".to_owned(), 2, &["out:odd_robot/robot.toml"]),
+        ("check good.motet --scene broken.json".to_owned(), 2, &["out:broken.json"]),
+        ("check good.motet --scene absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
+        ("check good.motet --state absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
+        (format!("check good.motet {scene} --state odd_state.json"), 2, &["out:M0224"]),
+        (format!("check good.motet {scene} --domain odd_domain.motet"), 2, &["out:odd_domain.motet"]),
+        ("check absent.motet".to_owned(), 2, &["err:cannot read `absent.motet`: there is no such file"]),
+        ("check".to_owned(), 2, &["err:Usage"]),
+        ("check good.motet --colour".to_owned(), 2, &["err:--color"]),
+        ("check good.motet --max-duration 10".to_owned(), 2, &["err:a unit is missing"]),
+        ("chek good.motet".to_owned(), 2, &["err:check"]),
+        ("--help".to_owned(), 0, &["out:Exit codes"]),
+        ("check --help".to_owned(), 0, &["out:Examples"]),
+        ("--version".to_owned(), 0, &["out:motet 0"]),
+    ] {
+        println!("motet {line}");
+        place.run(&line).check(code, texts);
+    }
+}
+
+#[test]
+fn reads_standard_input() {
+    let place = place("check_stdin");
+    let scene = "check - --scene kitchen";
+    for (input, code, text) in [
+        (GOOD.as_bytes(), 0, "err:no errors"),
+        (GOOD_JSON.as_bytes(), 0, "err:no errors"),
+        (BAD.as_bytes(), 1, "out:-:2:5"),
+        (b"", 1, "out:the document is empty"),
+        (b"\xff\xfe", 1, "out:UTF-8"),
+        (b"Sure! Here it is:\n```json\n{}\n```\n", 1, "out:```"),
+    ] {
+        println!("{}", String::from_utf8_lossy(input));
+        place.run_with(scene, input, &[]).check(code, &[text]);
+    }
+}
+
+#[test]
+fn refuses_what_is_too_large() {
+    let large = vec![b' '; 16 * 1024 * 1024 + 1];
+    let place = Place::new("check_large").file("large.motet", &large).file("lines.jsonl", &large);
+    for line in ["check large.motet", "check lines.jsonl"] {
+        place.run(line).check(1, &["out:M0112", "out:at most 16 MiB"]);
+    }
+    place.run("check --scene large.motet large.motet").check(2, &["err:larger than 16 MiB"]);
+}
+
+#[test]
+fn prints_every_format() {
+    let place = place("check_formats");
+    let run = |format: &str| place.run(&format!("check bad.motet --scene kitchen --format {format}"));
+
+    let json = run("json");
+    let first: Value = serde_json::from_str(json.check(1, &[]).stdout.lines().next().unwrap()).unwrap();
+    for key in ["code", "severity", "message", "file", "path", "span"] {
+        assert!(!first[key].is_null(), "{key} in {first}");
+    }
+    assert_eq!(first["span"]["line"], 2);
+
+    let sarif: Value = serde_json::from_str(&run("sarif").check(1, &[]).stdout).unwrap();
+    assert_eq!(sarif["version"], "2.1.0");
+    let run_of = &sarif["runs"][0];
+    assert_eq!(run_of["tool"]["driver"]["name"], "motet");
+    let result = &run_of["results"][0];
+    assert!(result["message"]["text"].is_string());
+    assert_eq!(result["ruleId"], first["code"]);
+    let location = &result["locations"][0]["physicalLocation"];
+    assert_eq!(location["artifactLocation"]["uri"], "bad.motet");
+    assert_eq!(location["region"]["startLine"], 2);
+
+    run("github").check(1, &["out:::error file=bad.motet,line=2"]);
+    run("human").check(1, &["out:bad.motet:2:5"]);
+
+    let clean = |format: &str| place.run(&format!("check good.motet --scene kitchen --format {format}"));
+    assert_eq!(clean("json").check(0, &[]).stdout, "");
+    let sarif: Value = serde_json::from_str(&clean("sarif").check(0, &[]).stdout).unwrap();
+    assert_eq!(sarif["runs"][0]["results"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn merges_the_sources_of_a_batch() {
+    let place = place("check_merge").file("worse.motet", "// one\n\npolicy other for anymal_z1 {\n    goo(user)\n}\n");
+    let ran = place.run("check bad.motet worse.motet lines.jsonl --scene kitchen --format sarif");
+    let sarif: Value = serde_json::from_str(&ran.check(1, &[]).stdout).unwrap();
+    let results = sarif["runs"][0]["results"].as_array().unwrap();
+    let place_of = |name: &str| {
+        let location = |result: &Value| result["locations"][0]["physicalLocation"].clone();
+        results.iter().map(location).find(|found| found["artifactLocation"]["uri"] == name).unwrap()
+    };
+    assert_eq!(place_of("bad.motet")["region"]["startLine"], 2);
+    assert_eq!(place_of("worse.motet")["region"]["startLine"], 4);
+}
+
+#[test]
+fn colours_only_when_asked() {
+    let place = place("check_colors");
+    let is_colored = |line: &str, variables: &[(&str, &str)]| {
+        place.run_with(&format!("check bad.motet {line}"), b"", variables).stdout.contains('\u{1b}')
+    };
+    assert!(!is_colored("", &[]), "a pipe is no terminal");
+    assert!(is_colored("--color always", &[]));
+    assert!(!is_colored("--color never", &[]));
+    assert!(!is_colored("--color auto", &[("NO_COLOR", "1")]));
+    assert!(is_colored("--color always", &[("NO_COLOR", "1")]), "the flag is nearer than the variable");
+}
+
+#[test]
+fn outlives_a_reader_that_goes_away() {
+    use std::process::{Command, Stdio};
+    let mut line = String::new();
+    for _ in 0..2000 {
+        line.push_str(&GOOD_JSON.replace('\n', " ").replace("\"pick\"", "\"pik\""));
+        line.push('\n');
+    }
+    std::fs::write(std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("many.jsonl"), line).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
+        .args(["check", "many.jsonl"])
+        .current_dir(env!("CARGO_TARGET_TMPDIR"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"));
+}

@@ -1,0 +1,99 @@
+//! Runs the built command as a user would, in a folder of its own.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// What a run of the command left behind.
+#[derive(Debug)]
+pub struct Ran {
+    /// The exit code.
+    pub code: Option<i32>,
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+}
+
+/// A folder with files, and the command run in it.
+pub struct Place {
+    folder: PathBuf,
+}
+
+impl Place {
+    /// An empty folder; the name is the test's.
+    pub fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).expect("the folder can be made");
+        Self { folder }
+    }
+
+    /// Writes a file, with the folders above it.
+    pub fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        let path = self.folder.join(name);
+        std::fs::create_dir_all(path.parent().expect("a file is in a folder")).expect("folders can be made");
+        std::fs::write(path, content).expect("the file can be written");
+        self
+    }
+
+    /// Reads a file.
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.folder.join(name)).expect("the file is there")
+    }
+
+    /// Runs the command with a command line, split at blanks.
+    pub fn run(&self, line: &str) -> Ran {
+        self.run_with(line, b"", &[])
+    }
+
+    /// Runs the command with a standard input and variables.
+    pub fn run_with(&self, line: &str, stdin: &[u8], variables: &[(&str, &str)]) -> Ran {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
+            .args(line.split_whitespace())
+            .current_dir(&self.folder)
+            .env_remove("NO_COLOR")
+            .envs(variables.iter().copied())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        // The command may end without reading its input.
+        let _ = child.stdin.take().expect("a pipe was asked for").write_all(stdin);
+        let output = child.wait_with_output().expect("the command ends");
+        Ran {
+            code: output.status.code(),
+            stdout: String::from_utf8(output.stdout).expect("output is UTF-8"),
+            stderr: String::from_utf8(output.stderr).expect("output is UTF-8"),
+        }
+    }
+}
+
+impl Ran {
+    /// Asserts the exit code, and that each text is in standard output or standard error: `out:…` or `err:…`.
+    pub fn check(&self, code: i32, texts: &[&str]) -> &Self {
+        assert_eq!(self.code, Some(code), "{self:#?}");
+        for text in texts {
+            let (from, text) = text.split_once(':').expect("`out:` or `err:`");
+            let stream = if from == "out" { &self.stdout } else { &self.stderr };
+            assert!(stream.contains(text), "{text:?} is not in {from}: {self:#?}");
+        }
+        self
+    }
+}
+
+/// A policy that is right.
+pub const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(user)\n    handover(mug, user)\n}\n";
+
+/// The same in JSON.
+pub const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "steps": [
+  {"do": "go", "to": "kitchen_table"},
+  {"do": "detect", "what": "red mug", "as": "mug"},
+  {"do": "pick", "object": "$mug"},
+  {"do": "go", "to": "user"},
+  {"do": "handover", "object": "$mug", "to": "user"}]}
+"#;
+
+/// A policy with a misspelled primitive.
+pub const BAD: &str = "policy tidy for hsr {\n    goo(kitchen_table)\n}\n";
