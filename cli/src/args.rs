@@ -4,8 +4,8 @@ mod duration;
 mod input;
 mod run;
 
-pub use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
-pub use run::{RunArgs, RunFormat, Speed};
+pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
+pub(crate) use run::{RunArgs, RunFormat, Speed};
 
 use std::path::PathBuf;
 
@@ -21,18 +21,18 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
     after_help = "Exit codes: 0 clean, 1 errors found (or a file would be reformatted), 2 could not run.\n\
                   `motet run`: 0 done, 1 refused by the check, 3 failed, 130 interrupted."
 )]
-pub struct Cli {
+pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub(crate) command: Command,
     /// Colours: `auto` is on in a terminal, unless NO_COLOR is set
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
-    pub color: ColorChoice,
+    pub(crate) color: ColorChoice,
 }
 
 /// When to colour what is printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub enum ColorChoice {
+pub(crate) enum ColorChoice {
     /// In a terminal, unless `NO_COLOR` is set.
     #[default]
     Auto,
@@ -44,7 +44,7 @@ pub enum ColorChoice {
 
 /// The commands.
 #[derive(Subcommand, Debug)]
-pub enum Command {
+pub(crate) enum Command {
     /// Find what is wrong with policies before a robot moves
     Check(CheckArgs),
     /// Write policies in their canonical layout, or in the other form
@@ -69,16 +69,16 @@ pub enum Command {
     motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
     motet check policies/ --format sarif > findings.sarif\n  \
     cat reply.txt | motet check - --robot hsr")]
-pub struct CheckArgs {
+pub(crate) struct CheckArgs {
     /// What to check.
     #[command(flatten)]
-    pub documents: DocumentArgs,
+    pub(crate) documents: DocumentArgs,
     /// Against what.
     #[command(flatten)]
-    pub world: WorldArgs,
+    pub(crate) world: WorldArgs,
     /// How to say it.
     #[command(flatten)]
-    pub format: FormatArgs,
+    pub(crate) format: FormatArgs,
 }
 
 /// `motet fmt`
@@ -88,30 +88,30 @@ pub struct CheckArgs {
     motet fmt --check .               only list what would change, exit 1 if anything would\n  \
     motet fmt --to json a.motet       print the JSON form\n  \
     motet fmt --to text reply.json    print the text form")]
-pub struct FmtArgs {
+pub(crate) struct FmtArgs {
     /// What to format.
     #[command(flatten)]
-    pub documents: DocumentArgs,
+    pub(crate) documents: DocumentArgs,
     /// Only list the files that would change
     #[arg(long)]
-    pub check: bool,
+    pub(crate) check: bool,
     /// Print the other form on standard output instead of rewriting the file
     #[arg(long, value_enum, value_name = "FORM", conflicts_with = "check")]
-    pub to: Option<Form>,
+    pub(crate) to: Option<Form>,
     /// Robot whose primitives name and order arguments: a built-in name, or a folder with a robot.toml
     #[arg(long, value_name = "NAME|FOLDER")]
-    pub robot: Option<String>,
+    pub(crate) robot: Option<String>,
     /// File of further declarations; may be repeated
     #[arg(long, value_name = "FILE")]
-    pub domain: Vec<PathBuf>,
+    pub(crate) domain: Vec<PathBuf>,
     /// How to say what is wrong.
     #[command(flatten)]
-    pub format: FormatArgs,
+    pub(crate) format: FormatArgs,
 }
 
 /// A surface form.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub enum Form {
+pub(crate) enum Form {
     /// `.motet`
     Text,
     /// `.json`
@@ -124,30 +124,30 @@ pub enum Form {
     motet compile fetch_mug.motet --robot hsr -o fetch_mug.graph.json\n  \
     motet compile fetch_mug.json --emit text\n  \
     motet compile fetch_mug.motet --emit dot | dot -Tsvg > fetch_mug.svg")]
-pub struct CompileArgs {
+pub(crate) struct CompileArgs {
     /// The policy: a file, or `-` for standard input
     #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// What to write
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
-    pub emit: Emit,
+    pub(crate) emit: Emit,
     /// Where to write it; standard output where not given
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
     /// Which policy of the file; needed where it has several
     #[arg(long, value_name = "NAME")]
-    pub policy: Option<String>,
+    pub(crate) policy: Option<String>,
     /// Against what.
     #[command(flatten)]
-    pub world: WorldArgs,
+    pub(crate) world: WorldArgs,
     /// How to say what is wrong.
     #[command(flatten)]
-    pub format: FormatArgs,
+    pub(crate) format: FormatArgs,
 }
 
 /// What `compile` writes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub enum Emit {
+pub(crate) enum Emit {
     /// The execution graph, in its versioned JSON encoding
     #[default]
     Graph,
@@ -163,15 +163,15 @@ pub enum Emit {
 
 /// `motet robots`
 #[derive(Args, Debug)]
-pub struct RobotsArgs {
+pub(crate) struct RobotsArgs {
     /// What to show; `list` where not given.
     #[command(subcommand)]
-    pub command: Option<RobotsCommand>,
+    pub(crate) command: Option<RobotsCommand>,
 }
 
 /// What `robots` shows.
 #[derive(Subcommand, Debug)]
-pub enum RobotsCommand {
+pub(crate) enum RobotsCommand {
     /// List the robots that are built in
     List,
     /// Show a robot: its body, what it observes, the signature of every primitive
@@ -185,24 +185,24 @@ pub enum RobotsCommand {
 /// `motet explain`
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  motet explain M0501")]
-pub struct ExplainArgs {
+pub(crate) struct ExplainArgs {
     /// A code such as M0501; every code is listed where none is given
     #[arg(value_name = "CODE")]
-    pub code: Option<String>,
+    pub(crate) code: Option<String>,
 }
 
 /// `motet schema`
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  motet schema policy > policy.schema.json")]
-pub struct SchemaArgs {
+pub(crate) struct SchemaArgs {
     /// Which format
     #[arg(value_enum, value_name = "FORMAT")]
-    pub of: SchemaOf,
+    pub(crate) of: SchemaOf,
 }
 
 /// The file formats with a schema.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub enum SchemaOf {
+pub(crate) enum SchemaOf {
     /// A policy in its JSON form
     Policy,
     /// A scene
@@ -216,8 +216,8 @@ pub enum SchemaOf {
 /// `motet completions`
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  motet completions bash > ~/.local/share/bash-completion/completions/motet")]
-pub struct CompletionsArgs {
+pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
-    pub shell: clap_complete::Shell,
+    pub(crate) shell: clap_complete::Shell,
 }

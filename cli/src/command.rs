@@ -1,10 +1,10 @@
 //! The commands, one file each.
 
-pub mod check;
-pub mod compile;
-pub mod completions;
-pub mod explain;
-pub mod fmt;
-pub mod robots;
-pub mod run;
-pub mod schema;
+pub(crate) mod check;
+pub(crate) mod compile;
+pub(crate) mod completions;
+pub(crate) mod explain;
+pub(crate) mod fmt;
+pub(crate) mod robots;
+pub(crate) mod run;
+pub(crate) mod schema;

@@ -9,7 +9,7 @@ use crate::workbench::DOCUMENT;
 
 /// Turns bytes into a source, with what is wrong with them as text.
 #[must_use]
-pub fn decode(name: &str, bytes: &[u8], file: FileId) -> (Source, Vec<Diagnostic>) {
+pub(crate) fn decode(name: &str, bytes: &[u8], file: FileId) -> (Source, Vec<Diagnostic>) {
     match motet_syntax::decode(bytes, file) {
         Ok(text) => (Source::new(name, text), Vec::new()),
         Err(said) => (Source::new(name, String::from_utf8_lossy(bytes)), vec![*said]),
@@ -18,7 +18,7 @@ pub fn decode(name: &str, bytes: &[u8], file: FileId) -> (Source, Vec<Diagnostic
 
 /// Reads a document.
 #[must_use]
-pub fn read(document: &Document) -> (Source, Parsed) {
+pub(crate) fn read(document: &Document) -> (Source, Parsed) {
     match &document.bytes {
         Bytes::All(bytes) => {
             let (source, said) = decode(&document.name, bytes, DOCUMENT);

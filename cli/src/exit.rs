@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// The exit codes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Exit {
+pub(crate) enum Exit {
     /// Nothing to say against it.
     Clean,
     /// Errors were found, or a file would be reformatted.
@@ -35,7 +35,7 @@ impl From<Exit> for ExitCode {
 
 /// Why the command could not run; ends in [`Exit::CouldNotRun`].
 #[derive(Error, Debug)]
-pub enum Trouble {
+pub(crate) enum Trouble {
     /// A file or folder cannot be read.
     #[error("cannot read `{}`: {}", path.display(), reason(source))]
     Read {
@@ -91,7 +91,7 @@ pub enum Trouble {
 impl Trouble {
     /// What to do about it, where that is known.
     #[must_use]
-    pub fn help(&self) -> Option<&str> {
+    pub(crate) fn help(&self) -> Option<&str> {
         match self {
             Self::Unknown { help, .. } => Some(help),
             Self::NoCard { .. } => Some("a robot's folder holds robot.toml, and primitives.motet where its signatures differ"),

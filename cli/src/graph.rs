@@ -4,7 +4,7 @@ use motet_graph::{Graph, NodeKind, Verdict};
 
 /// How many motions nobody has found a solution for yet.
 #[must_use]
-pub fn deferred_motions(graph: &Graph) -> usize {
+pub(crate) fn deferred_motions(graph: &Graph) -> usize {
     let is_deferred = |kind: &NodeKind| match kind {
         NodeKind::Call(call) => call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred),
         NodeKind::Sequence { .. }

@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 
 use crate::exit::Trouble;
 
-pub use bytes::{Bytes, read_file, read_small};
+pub(crate) use bytes::{Bytes, read_file, read_small};
 
 /// Where documents come from.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Input {
+pub(crate) enum Input {
     /// `-`
     Stdin,
     /// A file with one document.
@@ -26,24 +26,24 @@ pub enum Input {
 
 /// A document as it was found.
 #[derive(Debug)]
-pub struct Document {
+pub(crate) struct Document {
     /// The name by which diagnostics call it: a path, `-`, or `file.jsonl:LINE`.
-    pub name: String,
+    pub(crate) name: String,
     /// Its file, where it is all of that file.
-    pub path: Option<PathBuf>,
+    pub(crate) path: Option<PathBuf>,
     /// Its bytes, or how many they are where those are too many.
-    pub bytes: Bytes,
+    pub(crate) bytes: Bytes,
 }
 
 /// All inputs.
 #[derive(Debug)]
-pub struct Inputs {
+pub(crate) struct Inputs {
     /// In the order of the arguments; within a folder sorted by path.
-    pub inputs: Vec<Input>,
+    pub(crate) inputs: Vec<Input>,
     /// The sum of their sizes where known, for a progress bar.
-    pub size: u64,
+    pub(crate) size: u64,
     /// Scenes and other JSON files in folders that are no policies.
-    pub skipped: usize,
+    pub(crate) skipped: usize,
 }
 
 /// Finds the inputs that paths stand for.
@@ -51,7 +51,7 @@ pub struct Inputs {
 /// # Errors
 ///
 /// A path that does not exist or cannot be listed.
-pub fn collect(paths: &[PathBuf]) -> Result<Inputs, Trouble> {
+pub(crate) fn collect(paths: &[PathBuf]) -> Result<Inputs, Trouble> {
     let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: 0 };
     for path in paths {
         if path.as_os_str() == "-" {
@@ -88,7 +88,7 @@ impl Input {
     /// # Errors
     ///
     /// The input cannot be read.
-    pub fn documents(&self, each: &mut dyn FnMut(Document) -> Result<Flow, Trouble>) -> Result<Flow, Trouble> {
+    pub(crate) fn documents(&self, each: &mut dyn FnMut(Document) -> Result<Flow, Trouble>) -> Result<Flow, Trouble> {
         match self {
             Self::Stdin => {
                 let bytes = bytes::read(std::io::stdin().lock(), None)
@@ -124,7 +124,7 @@ impl Input {
 /// # Errors
 ///
 /// It is a folder, or it cannot be read.
-pub fn one_document(path: &Path) -> Result<Document, Trouble> {
+pub(crate) fn one_document(path: &Path) -> Result<Document, Trouble> {
     let input = if path.as_os_str() == "-" { Input::Stdin } else { Input::File(path.to_owned()) };
     let mut found = None;
     input.documents(&mut |document| {
@@ -137,14 +137,14 @@ pub fn one_document(path: &Path) -> Result<Document, Trouble> {
 impl Document {
     /// Whether it is, byte for byte, this text.
     #[must_use]
-    pub fn is(&self, text: &str) -> bool {
+    pub(crate) fn is(&self, text: &str) -> bool {
         matches!(&self.bytes, Bytes::All(bytes) if bytes == text.as_bytes())
     }
 }
 
 /// Whether reading goes on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Flow {
+pub(crate) enum Flow {
     /// With the next document.
     GoOn,
     /// It does not: nobody reads what is said.

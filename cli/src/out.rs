@@ -6,17 +6,17 @@ use crate::args::ColorChoice;
 
 /// Whether what is written is coloured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Colors {
+pub(crate) struct Colors {
     /// On standard output.
-    pub stdout: bool,
+    pub(crate) stdout: bool,
     /// On standard error.
-    pub stderr: bool,
+    pub(crate) stderr: bool,
 }
 
 impl Colors {
     /// Decides from the flag, the environment and the terminals.
     #[must_use]
-    pub fn new(choice: ColorChoice) -> Self {
+    pub(crate) fn new(choice: ColorChoice) -> Self {
         let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
             || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let decide = |is_terminal: bool| match choice {
@@ -30,7 +30,7 @@ impl Colors {
 
 /// Standard output.
 #[derive(Debug, Default)]
-pub struct Out {
+pub(crate) struct Out {
     is_used: bool,
     is_closed: bool,
     error: Option<io::Error>,
@@ -38,7 +38,7 @@ pub struct Out {
 
 impl Out {
     /// Writes a text and flushes it.
-    pub fn text(&mut self, text: &str) {
+    pub(crate) fn text(&mut self, text: &str) {
         if self.is_closed || text.is_empty() {
             return;
         }
@@ -53,35 +53,35 @@ impl Out {
     }
 
     /// Writes a text and a line break.
-    pub fn line(&mut self, text: &str) {
+    pub(crate) fn line(&mut self, text: &str) {
         self.text(&format!("{text}\n"));
     }
 
     /// Whether anything was written.
     #[must_use]
-    pub fn is_used(&self) -> bool {
+    pub(crate) fn is_used(&self) -> bool {
         self.is_used
     }
 
     /// Whether nobody reads any more.
     #[must_use]
-    pub fn is_closed(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         self.is_closed
     }
 
     /// Why writing failed, other than by a reader that went away.
-    pub fn take_error(&mut self) -> Option<io::Error> {
+    pub(crate) fn take_error(&mut self) -> Option<io::Error> {
         self.error.take()
     }
 }
 
 /// Writes a line to standard error; nothing can be done where that fails.
-pub fn note(text: &str) {
+pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
 /// `1 error`, `2 errors`.
 #[must_use]
-pub fn count(number: usize, one: &str) -> String {
+pub(crate) fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
 }

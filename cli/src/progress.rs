@@ -9,14 +9,14 @@ const BATCH: usize = 8;
 
 /// A bar over the bytes of the inputs; nothing where there are few, or where nobody looks.
 #[derive(Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
     /// A bar for so many inputs of so many bytes in all.
     #[must_use]
-    pub fn new(inputs: usize, bytes: u64, verb: &'static str) -> Self {
+    pub(crate) fn new(inputs: usize, bytes: u64, verb: &'static str) -> Self {
         let is_batch = inputs > BATCH || bytes > 1 << 20;
         // On a terminal that also shows the findings the bar would tear them apart.
         if !is_batch || !io::stderr().is_terminal() || io::stdout().is_terminal() && inputs <= BATCH {
@@ -32,12 +32,12 @@ impl Progress {
     }
 
     /// So many bytes more are done.
-    pub fn advance(&self, bytes: usize) {
+    pub(crate) fn advance(&self, bytes: usize) {
         self.bar.inc(bytes as u64);
     }
 
     /// Takes the bar away while something is printed.
-    pub fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
+    pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
         self.bar.suspend(print)
     }
 }

@@ -13,11 +13,11 @@ use gather::Gathered;
 
 /// Prints and counts diagnostics.
 #[derive(Debug)]
-pub struct Report {
+pub(crate) struct Report {
     format: Format,
     colors: Colors,
     /// Standard output.
-    pub out: Out,
+    pub(crate) out: Out,
     gathered: Gathered,
     is_held: bool,
     errors: usize,
@@ -27,18 +27,18 @@ pub struct Report {
 impl Report {
     /// A report in a format.
     #[must_use]
-    pub fn new(format: Format, colors: Colors) -> Self {
+    pub(crate) fn new(format: Format, colors: Colors) -> Self {
         Self { format, colors, out: Out::default(), gathered: Gathered::default(), is_held: false, errors: 0, warnings: 0 }
     }
 
     /// Keeps what is said until the end: then it goes to standard output, or to standard error where something else was
     /// written to standard output.
-    pub fn hold(&mut self) {
+    pub(crate) fn hold(&mut self) {
         self.is_held = true;
     }
 
     /// Says diagnostics: at once for people, at the end where the format is one document.
-    pub fn say(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
+    pub(crate) fn say(&mut self, diagnostics: &[Diagnostic], sources: &Sources) {
         for said in diagnostics {
             match said.severity {
                 Severity::Error => self.errors += 1,
@@ -75,7 +75,7 @@ impl Report {
     /// # Errors
     ///
     /// There is an error in it.
-    pub fn usable(&mut self, what: &'static str, said: &[Diagnostic], sources: &Sources) -> Result<(), Trouble> {
+    pub(crate) fn usable(&mut self, what: &'static str, said: &[Diagnostic], sources: &Sources) -> Result<(), Trouble> {
         self.say(said, sources);
         let is_broken = said.iter().any(|said| said.severity == Severity::Error);
         if is_broken { Err(Trouble::Diagnosed(what)) } else { Ok(()) }
@@ -83,13 +83,13 @@ impl Report {
 
     /// How many errors there were.
     #[must_use]
-    pub fn errors(&self) -> usize {
+    pub(crate) fn errors(&self) -> usize {
         self.errors
     }
 
     /// `2 errors, 1 warning`, or `no errors`.
     #[must_use]
-    pub fn tally(&self) -> String {
+    pub(crate) fn tally(&self) -> String {
         match (self.errors, self.warnings) {
             (0, 0) => "no errors".to_owned(),
             (errors, 0) => count(errors, "error"),
@@ -103,7 +103,7 @@ impl Report {
     /// # Errors
     ///
     /// What the command came to, and a standard output that cannot be written.
-    pub fn close(mut self, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
+    pub(crate) fn close(mut self, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
         if self.is_held || self.format == Format::Sarif {
             let text = self.text(&self.gathered.diagnostics, &self.gathered.sources);
             if self.is_held && self.out.is_used() {
@@ -129,7 +129,7 @@ fn width() -> usize {
 /// # Errors
 ///
 /// Those of the result, and a standard output that cannot be written.
-pub fn close(out: &mut Out, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
+pub(crate) fn close(out: &mut Out, result: Result<Exit, Trouble>) -> Result<Exit, Trouble> {
     match out.take_error() {
         Some(source) => Err(Trouble::Write { path: PathBuf::from("standard output"), source }),
         None => result,

@@ -18,14 +18,14 @@ use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
 
-pub use cards::{Card, robot_names};
+pub(crate) use cards::{Card, robot_names};
 
 /// The id of the document in the sources of its setting. The files of the setting come after it.
-pub const DOCUMENT: FileId = FileId(0);
+pub(crate) const DOCUMENT: FileId = FileId(0);
 
 /// What all documents have in common.
 #[derive(Debug)]
-pub struct Workbench {
+pub(crate) struct Workbench {
     robot: Option<Robot>,
     domains: Vec<File>,
     scene: Option<Scene>,
@@ -38,13 +38,13 @@ pub struct Workbench {
 
 /// A session with the sources of its files.
 #[derive(Debug)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// The session.
-    pub session: Session,
+    pub(crate) session: Session,
     /// The robot, if any.
-    pub robot: Option<Robot>,
+    pub(crate) robot: Option<Robot>,
     /// The scene, if any.
-    pub scene: Option<Scene>,
+    pub(crate) scene: Option<Scene>,
     sources: Sources,
 }
 
@@ -54,7 +54,7 @@ impl Workbench {
     /// # Errors
     ///
     /// A file cannot be read, or what it says cannot be used.
-    pub fn open(args: &WorldArgs, report: &mut Report) -> Result<Self, Trouble> {
+    pub(crate) fn open(args: &WorldArgs, report: &mut Report) -> Result<Self, Trouble> {
         let mut sources = Sources::default();
         sources.add(Source::new("", ""));
         let robot = match &args.robot {
@@ -85,7 +85,7 @@ impl Workbench {
     /// # Errors
     ///
     /// The state, the scene or a domain does not fit the robot.
-    pub fn setting(&mut self, document: &File, report: &mut Report) -> Result<&Setting, Trouble> {
+    pub(crate) fn setting(&mut self, document: &File, report: &mut Report) -> Result<&Setting, Trouble> {
         let wanted = match &self.robot {
             Some(robot) => robot.name.to_string(),
             None => wanted_robot(document).filter(|name| cards::embedded(name).is_some()).unwrap_or_default(),
@@ -103,7 +103,7 @@ impl Workbench {
 
     /// Whether a scene was given.
     #[must_use]
-    pub fn has_scene(&self) -> bool {
+    pub(crate) fn has_scene(&self) -> bool {
         self.scene.is_some()
     }
 
@@ -125,7 +125,7 @@ impl Workbench {
 impl Setting {
     /// The sources with a document in its place.
     #[must_use]
-    pub fn sources(&self, document: Source) -> Sources {
+    pub(crate) fn sources(&self, document: Source) -> Sources {
         let mut all = Sources::default();
         all.add(document);
         for index in 1..self.sources.len() {
@@ -156,7 +156,7 @@ fn next_id(sources: &Sources) -> FileId {
 
 /// The robot that a document names first.
 #[must_use]
-pub fn wanted_robot(document: &File) -> Option<String> {
+pub(crate) fn wanted_robot(document: &File) -> Option<String> {
     document.items.iter().find_map(|item| match item {
         Item::Policy(policy) => policy.robot.as_ref().map(|name| name.text.to_string()),
         Item::Kind(_)

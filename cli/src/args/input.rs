@@ -8,44 +8,44 @@ use super::duration::duration;
 
 /// The documents.
 #[derive(Args, Debug)]
-pub struct DocumentArgs {
+pub(crate) struct DocumentArgs {
     /// Files, folders (every .motet and .json file below), .jsonl files with a policy a line, or `-` for standard input
     #[arg(value_name = "PATH", required = true)]
-    pub paths: Vec<PathBuf>,
+    pub(crate) paths: Vec<PathBuf>,
 }
 
 /// The robot, the room and what else is known.
 #[derive(Args, Debug, Default)]
-pub struct WorldArgs {
+pub(crate) struct WorldArgs {
     /// Robot: a built-in name (`motet robots`), or a folder with a robot.toml. Where not given, the policy's own
     /// `for NAME` decides
     #[arg(long, value_name = "NAME|FOLDER")]
-    pub robot: Option<String>,
+    pub(crate) robot: Option<String>,
     /// Scene: a built-in name, or a JSON file
     #[arg(long, value_name = "NAME|FILE")]
-    pub scene: Option<String>,
+    pub(crate) scene: Option<String>,
     /// What is known at the start: a JSON file such as {"holding(mug_1)": true, "free(hand)": false}
     #[arg(long, value_name = "FILE")]
-    pub state: Option<PathBuf>,
+    pub(crate) state: Option<PathBuf>,
     /// File of further declarations; may be repeated
     #[arg(long, value_name = "FILE")]
-    pub domain: Vec<PathBuf>,
+    pub(crate) domain: Vec<PathBuf>,
     /// The longest that a policy may take, such as 90s or 10min
     #[arg(long, value_name = "TIME", value_parser = duration)]
-    pub max_duration: Option<f64>,
+    pub(crate) max_duration: Option<f64>,
 }
 
 /// The form of diagnostics.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct FormatArgs {
+pub(crate) struct FormatArgs {
     /// How to print diagnostics
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub format: Format,
+    pub(crate) format: Format,
 }
 
 /// How diagnostics are printed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub enum Format {
+pub(crate) enum Format {
     /// With the source and colours, for people
     #[default]
     Human,

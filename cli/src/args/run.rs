@@ -12,36 +12,36 @@ use super::input::WorldArgs;
 #[command(after_help = "Examples:\n  \
     motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
     motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json")]
-pub struct RunArgs {
+pub(crate) struct RunArgs {
     /// The policy: a file, or `-` for standard input
     #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// Which policy of the file; needed where it has several
     #[arg(long, value_name = "NAME")]
-    pub policy: Option<String>,
+    pub(crate) policy: Option<String>,
     /// In which world.
     #[command(flatten)]
-    pub world: WorldArgs,
+    pub(crate) world: WorldArgs,
     /// How much faster than real time: a factor, or `max` for as fast as it can be computed
     #[arg(long, default_value = "1", value_name = "max|FACTOR")]
-    pub speed: Speed,
+    pub(crate) speed: Speed,
     /// Seed of everything random in the simulated world
     #[arg(long, default_value_t = 0, value_name = "NUMBER")]
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Faults to inject: a JSON file
     #[arg(long, value_name = "FILE")]
-    pub faults: Option<PathBuf>,
+    pub(crate) faults: Option<PathBuf>,
     /// What the simulated person answers: a JSON file
     #[arg(long, value_name = "FILE")]
-    pub answers: Option<PathBuf>,
+    pub(crate) answers: Option<PathBuf>,
     /// How to show the run
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub format: RunFormat,
+    pub(crate) format: RunFormat,
 }
 
 /// How a run is shown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub enum RunFormat {
+pub(crate) enum RunFormat {
     /// The plan as a tree, with the state of every step
     #[default]
     Human,
@@ -51,7 +51,7 @@ pub enum RunFormat {
 
 /// How fast simulated time goes.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Speed {
+pub(crate) enum Speed {
     /// As fast as it can be computed.
     Max,
     /// So many times real time.

@@ -16,7 +16,7 @@ use crate::workbench::{Workbench, wanted_robot};
 /// # Errors
 ///
 /// An input cannot be read, or what it is checked against cannot be used.
-pub fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut report = Report::new(args.format.format, colors);
     let result = check(args, &mut report);
     report.close(result)

@@ -18,7 +18,7 @@ use crate::workbench::Workbench;
 /// # Errors
 ///
 /// The file cannot be read, or what it is compiled against cannot be used.
-pub fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &CompileArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut report = Report::new(args.format.format, colors);
     if args.output.is_none() {
         report.hold();

@@ -12,7 +12,7 @@ use crate::report;
 /// # Errors
 ///
 /// Standard output cannot be written.
-pub fn run(args: &CompletionsArgs) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &CompletionsArgs) -> Result<Exit, Trouble> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "motet", &mut script);
     let mut out = Out::default();

@@ -13,7 +13,7 @@ use crate::report;
 /// # Errors
 ///
 /// There is no such code.
-pub fn run(args: &ExplainArgs) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &ExplainArgs) -> Result<Exit, Trouble> {
     let mut out = Out::default();
     let result = match &args.code {
         Some(code) => explain(code, &mut out),

@@ -18,7 +18,7 @@ use crate::workbench::Workbench;
 /// # Errors
 ///
 /// A file cannot be read or written.
-pub fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut report = Report::new(args.format.format, colors);
     // The documents themselves take standard output where they go there.
     if args.to.is_some() || args.documents.paths.iter().any(|path| path.as_os_str() == "-") {

@@ -15,7 +15,7 @@ use crate::workbench::{Card, robot_names};
 /// # Errors
 ///
 /// There is no such robot, or its card has a mistake.
-pub fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut report = Report::new(Format::Human, colors);
     let result = match &args.command {
         None | Some(RobotsCommand::List) => list(&mut report),

@@ -32,7 +32,7 @@ use view::View;
 /// # Errors
 ///
 /// The file cannot be read, or what it runs against cannot be used.
-pub fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
     let format = match args.format {
         RunFormat::Human => Format::Human,
         RunFormat::Json => Format::Json,

@@ -10,7 +10,7 @@ use crate::report;
 /// # Errors
 ///
 /// Standard output cannot be written.
-pub fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
+pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
     let schema = match args.of {
         SchemaOf::Policy => schemars::schema_for!(motet_syntax::json::wire::Document),
         SchemaOf::Scene => motet_robots::scene::schema(),

@@ -10,7 +10,7 @@ use crate::exit::Trouble;
 
 /// The bytes of a document.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Bytes {
+pub(crate) enum Bytes {
     /// All of them.
     All(Vec<u8>),
     /// There are more than [`MAX_BYTES`]: so many, as far as is known.
@@ -22,7 +22,7 @@ pub enum Bytes {
 /// # Errors
 ///
 /// It cannot be read.
-pub fn read_file(path: &Path) -> Result<Bytes, Trouble> {
+pub(crate) fn read_file(path: &Path) -> Result<Bytes, Trouble> {
     let fail = |source| Trouble::Read { path: path.to_owned(), source };
     let file = File::open(path).map_err(fail)?;
     let metadata = file.metadata().map_err(fail)?;
@@ -37,7 +37,7 @@ pub fn read_file(path: &Path) -> Result<Bytes, Trouble> {
 /// # Errors
 ///
 /// It cannot be read, or is too large.
-pub fn read_small(path: &Path) -> Result<Vec<u8>, Trouble> {
+pub(crate) fn read_small(path: &Path) -> Result<Vec<u8>, Trouble> {
     match read_file(path)? {
         Bytes::All(bytes) => Ok(bytes),
         Bytes::TooMany(_) => Err(Trouble::TooLarge { path: path.to_owned() }),

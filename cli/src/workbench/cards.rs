@@ -12,7 +12,7 @@ use crate::report::Report;
 
 /// The text of a card.
 #[derive(Clone, Debug)]
-pub struct Card {
+pub(crate) struct Card {
     /// Its name in diagnostics.
     name: String,
     toml: Vec<u8>,
@@ -20,7 +20,7 @@ pub struct Card {
 }
 
 /// The names of the robots that are built in.
-pub fn robot_names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn robot_names() -> impl Iterator<Item = &'static str> {
     card::embedded().iter().map(|(name, _, _)| *name)
 }
 
@@ -39,7 +39,7 @@ impl Card {
     /// # Errors
     ///
     /// There is none, or its files cannot be read.
-    pub fn find(name: &str) -> Result<Self, Trouble> {
+    pub(crate) fn find(name: &str) -> Result<Self, Trouble> {
         if let Some(card) = embedded(name) {
             return Ok(card);
         }
@@ -79,7 +79,7 @@ impl Card {
     /// # Errors
     ///
     /// It has a mistake.
-    pub fn read(&self, sources: &mut Sources, report: &mut Report) -> Result<Robot, Trouble> {
+    pub(crate) fn read(&self, sources: &mut Sources, report: &mut Report) -> Result<Robot, Trouble> {
         let file = next_id(sources);
         let (source, mut said) = crate::document::decode(&self.name, &self.toml, file);
         sources.add(source.clone());

@@ -1,0 +1,91 @@
+//! `motet run` from outside: outcomes, exit codes, the shapes of what is shown.
+
+mod support;
+
+use serde_json::Value;
+use support::{BAD, GOOD, Place};
+
+fn place(name: &str) -> Place {
+    Place::new(name)
+        .file("good.motet", GOOD)
+        .file("bad.motet", BAD)
+        .file("gives_up.motet", "policy gives_up for hsr {\n    go(kitchen_table)\n    fail \"no mug\"\n}\n")
+        .file("replans.motet", "policy replans for hsr {\n    replan \"too hard\"\n}\n")
+        .file("no_robot.motet", "policy anyone {\n    go(user)\n}\n")
+        .file("stranger.motet", "policy anyone for nobody {\n    go(user)\n}\n")
+        .file("long.motet", "policy waits for hsr {\n    wait until not free(hand) within 1000 s\n}\n")
+        .file("asks.motet", "policy asks for hsr {\n    let answer = ask(\"Which one?\")\n    fail answer\n}\n")
+        .file("answers.json", r#"["the red one"]"#)
+        .file("faults.json", r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
+        .file("odd_faults.json", r#"{"calls": [{"primitve": "pick"}]}"#)
+        .file("odd_answers.json", r#"{"answers": 3}"#)
+}
+
+#[test]
+fn ends_with_the_right_code() {
+    let place = place("run_codes");
+    let max = "--scene kitchen --speed max";
+    for (line, code, texts) in [
+        (format!("run good.motet {max}"), 0, &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug)"][..]),
+        (format!("run good.motet {max} --seed 7"), 0, &["out:✓ handover(mug, user)"]),
+        (format!("run bad.motet {max}"), 1, &["out:M0201", "err:refused: 1 error"]),
+        (format!("run gives_up.motet {max}"), 3, &["out:✗ gives_up: failed with `failed`", "out:why: no mug"]),
+        (format!("run replans.motet {max}"), 3, &["out:asks for a new plan", "out:why: too hard"]),
+        (format!("run good.motet {max} --faults faults.json"), 3, &["out:failed with `slipped`", "out:pick(mug)"]),
+        (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
+        (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
+        (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
+        (format!("run stranger.motet {max}"), 2, &["err:no built-in robot `nobody`"]),
+        (format!("run good.motet {max} --faults absent.json"), 2, &["err:no such file"]),
+        (format!("run good.motet {max} --faults odd_faults.json"), 2, &["err:odd_faults.json", "err:primitve"]),
+        (format!("run good.motet {max} --answers odd_answers.json"), 2, &["err:odd_answers.json"]),
+        ("run good.motet --speed fast".to_owned(), 2, &["err:write `max`, or a factor"]),
+        ("run good.motet --speed 0".to_owned(), 2, &["err:write `max`, or a factor"]),
+        ("run absent.motet".to_owned(), 2, &["err:no such file"]),
+        ("run .".to_owned(), 2, &["err:folder"]),
+    ] {
+        println!("motet {line}");
+        place.run(&line).check(code, texts);
+    }
+}
+
+#[test]
+fn prints_events_a_line() {
+    let place = place("run_events");
+    let line = "run good.motet --scene kitchen --speed max --format json";
+    let ran = place.run(line);
+    let events: Vec<Value> =
+        ran.check(0, &[]).stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(events.iter().filter(|event| event["event"].is_string()).count() > 10);
+    let last = events.last().unwrap();
+    assert_eq!((&last["event"], &last["outcome"]), (&Value::from("finished"), &Value::from("done")));
+    let times: Vec<f64> = events.iter().filter_map(|event| event["at"].as_f64()).collect();
+    assert!(times.is_sorted(), "time never runs backwards");
+    assert!(events.iter().any(|event| event["event"] == "command" && event["args"]["object"] == "mug_1"));
+    assert_eq!(place.run(line).stdout, ran.stdout, "the same seed gives the same run");
+}
+
+#[cfg(unix)]
+#[test]
+fn stops_on_interrupt() {
+    use std::io::{BufRead, BufReader};
+    use std::process::{Command, Stdio};
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("run_codes_interrupt");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("long.motet"), "policy waits for hsr {\n    go(kitchen_table)\n}\n").unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
+        .args(["run", "long.motet", "--scene", "kitchen", "--speed", "0.01"])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    let mut stdout = BufReader::new(child.stdout.take().unwrap());
+    stdout.read_line(&mut first).unwrap();
+    assert!(first.contains("go(kitchen_table)"), "{first}");
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let rest: Vec<_> = stdout.lines().map_while(Result::ok).collect();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(rest.join("\n").contains("interrupted"), "{rest:?}");
+}
