@@ -1,14 +1,16 @@
 //! The execution graph: what the compiler makes of a policy, and all that a robot needs to run it.
 //!
 //! [`model`] is the graph in memory. It knows neither text nor compiler, and it trusts nothing: a graph that comes from
-//! elsewhere is decoded and validated before an engine takes it.
+//! elsewhere is decoded ([`decode`]) and validated ([`validate()`]) before an engine takes it. [`draw`] shows it to people.
 
+#[cfg(feature = "arbitrary")]
+pub mod arbitrary;
 mod display;
-pub mod model;
-
-pub use model::*;
-
+pub mod encode;
 mod fit;
+pub mod model;
 pub mod validate;
 
-pub use validate::{Invalid, validate};
+pub use encode::{DecodeError, decode, encode, hash};
+pub use model::*;
+pub use validate::{Invalid, Reason, validate};

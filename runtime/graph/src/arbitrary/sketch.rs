@@ -1,0 +1,127 @@
+//! Steps as a tree, easier to write down and to draw at random than an arena.
+
+use super::vocabulary as v;
+use crate::model::{BindingId, Condition, Ending, FailureId, PrimitiveId, Term, Verdict};
+
+/// A step.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// A call.
+    Call(Call),
+    /// A named group.
+    Sequence(Vec<Step>),
+    /// A sub-policy.
+    Inline(Vec<Step>),
+    /// A branch.
+    If(Condition, Vec<Step>, Option<Vec<Step>>),
+    /// A wait, with its deadline in seconds.
+    Wait(Condition, f64),
+    /// A monitor.
+    Monitor(Vec<When>, Vec<Step>),
+    /// A body and its handlers.
+    Try(Vec<Step>, Vec<(Option<Vec<FailureId>>, Vec<Step>)>),
+    /// A loop with its bound and its test.
+    Repeat(u32, Vec<Step>, Option<Condition>),
+    /// A loop over a list of objects, with its bound.
+    Each(Term, u32, Vec<Step>),
+    /// Branches.
+    Parallel(Vec<Vec<Step>>),
+    /// Ends the sub-policy around it, or the policy where there is none, or where it says `replan`.
+    End(Ending),
+}
+
+/// A call of a primitive of the vocabulary.
+#[derive(Clone, Debug)]
+pub struct Call {
+    /// Which.
+    pub primitive: PrimitiveId,
+    /// Its arguments; [`Call::NEAREST`] stands for the object that was bound last, or `mug` where none was.
+    pub args: Vec<Term>,
+    /// The deadline in seconds.
+    pub deadline_secs: f64,
+    /// The retries.
+    pub retries: u32,
+    /// The verdict on its needs.
+    pub verdict: Verdict,
+}
+
+/// A watched condition.
+#[derive(Clone, Debug)]
+pub struct When {
+    /// The condition.
+    pub condition: Condition,
+    /// Seconds for which it must hold.
+    pub hold_secs: f64,
+    /// What then happens.
+    pub react: React,
+}
+
+/// A reaction.
+#[derive(Clone, Debug)]
+pub enum React {
+    /// Hold for at most so many seconds.
+    Pause(f64),
+    /// Start again at most so often.
+    Restart(u32),
+    /// Interrupt, run steps, go on, at most so often.
+    Resume(u32, Vec<Step>),
+    /// End, as [`Step::End`] does.
+    End(Ending),
+}
+
+impl Call {
+    /// The object that was bound last.
+    pub const NEAREST: Term = Term::Binding(BindingId(u32::MAX));
+
+    /// A call with a deadline of 10 s, no retries and its needs deferred.
+    #[must_use]
+    pub fn new(primitive: PrimitiveId, args: Vec<Term>) -> Self {
+        Self { primitive, args, deadline_secs: 10.0, retries: 0, verdict: Verdict::Deferred }
+    }
+
+    /// With retries.
+    #[must_use]
+    pub fn retry(self, retries: u32) -> Self {
+        Self { retries, ..self }
+    }
+
+    /// With its needs proven.
+    #[must_use]
+    pub fn proven(self) -> Self {
+        Self { verdict: Verdict::Proven, ..self }
+    }
+}
+
+impl Step {
+    /// `go(to)`
+    #[must_use]
+    pub fn go(to: &str) -> Self {
+        Self::Call(Call::new(v::GO, vec![v::entity(to)]))
+    }
+
+    /// `say(text)`
+    #[must_use]
+    pub fn say(text: &str) -> Self {
+        Self::Call(Call::new(v::SAY, vec![v::text(text)]))
+    }
+
+    /// `pick(object)`
+    #[must_use]
+    pub fn pick(object: &str) -> Self {
+        Self::Call(Call::new(v::PICK, vec![v::entity(object)]))
+    }
+
+    /// `let it = detect(what)`
+    #[must_use]
+    pub fn detect(what: &str) -> Self {
+        Self::Call(Call::new(v::DETECT, vec![v::text(what)]))
+    }
+}
+
+impl When {
+    /// A watch without a debounce.
+    #[must_use]
+    pub fn new(condition: Condition, react: React) -> Self {
+        Self { condition, hold_secs: 0.0, react }
+    }
+}

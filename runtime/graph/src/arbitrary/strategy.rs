@@ -1,0 +1,112 @@
+//! Sketches drawn at random.
+
+use super::layout;
+use super::sketch::{Call, React, Step, When};
+use super::vocabulary::{self as v, entity, fact};
+use crate::model::{Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, Value, Verdict};
+use proptest::collection::vec;
+use proptest::option;
+use proptest::prelude::*;
+use smol_str::SmolStr;
+
+/// Valid graphs of every node kind and every reaction, up to about a hundred nodes.
+pub fn graphs() -> impl Strategy<Value = Graph> {
+    steps().prop_map(|steps| layout::graph(&steps))
+}
+
+/// The steps of a policy.
+pub fn steps() -> impl Strategy<Value = Vec<Step>> {
+    let step = leaf().prop_recursive(4, 40, 4, |inner| {
+        let body = vec(inner, 0..4);
+        let handlers = vec((option::of(vec(failure(), 0..3)), body.clone()), 0..3);
+        prop_oneof![
+            2 => body.clone().prop_map(Step::Sequence),
+            2 => body.clone().prop_map(Step::Inline),
+            2 => (conditions(), body.clone(), option::of(body.clone())).prop_map(|(c, t, e)| Step::If(c, t, e)),
+            5 => (vec(when(body.clone()), 1..4), body.clone()).prop_map(|(whens, body)| Step::Monitor(whens, body)),
+            3 => (body.clone(), handlers).prop_map(|(body, handlers)| Step::Try(body, handlers)),
+            2 => (1..4_u32, body.clone(), option::of(conditions())).prop_map(|(n, b, u)| Step::Repeat(n, b, u)),
+            2 => (list(), 0..4_u32, body.clone()).prop_map(|(list, n, body)| Step::Each(list, n, body)),
+            3 => vec(body, 0..4).prop_map(Step::Parallel),
+        ]
+    });
+    vec(step, 0..6)
+}
+
+/// Conditions over the vocabulary.
+pub fn conditions() -> impl Strategy<Value = Condition> {
+    let leaf = prop_oneof![
+        1 => any::<bool>().prop_map(Condition::Literal),
+        3 => object().prop_map(|object| Condition::Fact(fact(v::HOLDING, vec![object]))),
+        1 => Just(Condition::Fact(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] })),
+        2 => place().prop_map(|place| Condition::Fact(fact(v::AT, vec![entity("robot"), place]))),
+        1 => object().prop_map(|object| Condition::Fact(fact(v::TRUSTED, vec![object]))),
+        3 => Just(v::nearer("user", 0.5)),
+        1 => Just(Condition::Compare(
+            Comparison::More,
+            Term::Field(Box::new(entity("mug")), SmolStr::new_static("mass")),
+            Term::Literal(Value::Number(0.2)),
+        )),
+        1 => object().prop_map(|object| Condition::Compare(Comparison::Equal, object, entity("mug"))),
+    ];
+    leaf.prop_recursive(2, 6, 3, |inner| {
+        prop_oneof![
+            inner.clone().prop_map(|inner| Condition::Not(Box::new(inner))),
+            vec(inner.clone(), 0..3).prop_map(Condition::All),
+            vec(inner, 0..3).prop_map(Condition::AnyOf),
+        ]
+    })
+}
+
+fn leaf() -> impl Strategy<Value = Step> {
+    let ending = prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)];
+    prop_oneof![
+        12 => call().prop_map(Step::Call),
+        2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| Step::Wait(condition, within)),
+        1 => ending.prop_map(Step::End),
+    ]
+}
+
+fn call() -> impl Strategy<Value = Call> {
+    let what = || prop_oneof![Just(v::text("mug")), Just(v::text("cup"))];
+    let primitive = prop_oneof![
+        3 => place().prop_map(|to| (v::GO, vec![to])),
+        3 => object().prop_map(|object| (v::PICK, vec![object])),
+        3 => (object(), place()).prop_map(|(object, on)| (v::PLACE, vec![object, on])),
+        3 => what().prop_map(|what| (v::DETECT, vec![what])),
+        1 => what().prop_map(|what| (v::DETECT_ALL, vec![what])),
+        2 => what().prop_map(|text| (v::SAY, vec![text])),
+    ];
+    (primitive, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(|((primitive, args), deadline_secs, retries, proven)| {
+        let verdict = if proven { Verdict::Proven } else { Verdict::Deferred };
+        let _: PrimitiveId = primitive;
+        Call { primitive, args, deadline_secs, retries, verdict }
+    })
+}
+
+fn when(body: impl Strategy<Value = Vec<Step>> + 'static) -> impl Strategy<Value = When> {
+    let react = prop_oneof![
+        3 => (0.0..3.0).prop_map(React::Pause),
+        2 => (0..3_u32).prop_map(React::Restart),
+        3 => (0..3_u32, body).prop_map(|(at_most, steps)| React::Resume(at_most, steps)),
+        1 => prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)].prop_map(React::End),
+    ];
+    let hold = prop_oneof![Just(0.0), 0.0..1.0];
+    (conditions(), hold, react).prop_map(|(condition, hold_secs, react)| When { condition, hold_secs, react })
+}
+
+fn object() -> impl Strategy<Value = Term> {
+    prop_oneof![Just(entity("mug")), Just(entity("cup")), Just(Call::NEAREST)]
+}
+
+fn place() -> impl Strategy<Value = Term> {
+    prop_oneof![Just(entity("table")), Just(entity("shelf")), Just(entity("user"))]
+}
+
+fn list() -> impl Strategy<Value = Term> {
+    vec(object(), 0..4).prop_map(Term::List)
+}
+
+fn failure() -> impl Strategy<Value = crate::model::FailureId> {
+    prop_oneof![Just(v::TIMEOUT), Just(v::FAILED), Just(v::EXHAUSTED), Just(v::UNREACHABLE), Just(v::NOT_FOUND)]
+}

@@ -1,0 +1,140 @@
+//! Why a graph is refused.
+
+use smol_str::SmolStr;
+use thiserror::Error;
+
+/// One reason for which a graph cannot be run.
+#[derive(Clone, PartialEq, Debug, Error)]
+#[error("{at}: {reason}")]
+pub struct Invalid {
+    /// The path of the node, or the table and the index in it.
+    pub at: SmolStr,
+    /// What is wrong there.
+    pub reason: Reason,
+}
+
+/// What is wrong.
+#[derive(Clone, PartialEq, Debug, Error)]
+pub enum Reason {
+    /// A table or the nesting is larger than a limit.
+    #[error("{count} {what} are more than the limit of {limit}")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// How many may be.
+        limit: usize,
+    },
+    /// An id names nothing.
+    #[error("{what} {id} does not exist")]
+    NoSuch {
+        /// What kind of thing.
+        what: &'static str,
+        /// The id.
+        id: u32,
+    },
+    /// The first failure is not `timeout`.
+    #[error("the first failure must be `timeout`")]
+    NoTimeout,
+    /// A kind's parent does not come before it.
+    #[error("the kind `{0}` must come after its parent")]
+    KindOrder(SmolStr),
+    /// There is no root region, or it has an owner, or another has none.
+    #[error("region {0} must have {expected}", expected = if *.0 == 0 { "no owner" } else { "an owner" })]
+    Owner(u32),
+    /// A region is named by no node, by several, or by one that is not its owner.
+    #[error("region {0} must be named exactly once, by the node that owns it")]
+    Ownership(u32),
+    /// An edge leads to a node of another region.
+    #[error("the edge to node {0} leaves the region")]
+    EdgeLeavesRegion(u32),
+    /// An edge leads back: nodes stand in document order, so that there is no cycle.
+    #[error("the edge to node {0} leads back")]
+    EdgeLeadsBack(u32),
+    /// A node comes before the node that it lies in.
+    #[error("the node stands before the one that it lies in")]
+    BeforeOwner,
+    /// Two edges lead to one node.
+    #[error("more than one edge leads to the node")]
+    TwoEdges,
+    /// No edge leads to a node.
+    #[error("no edge leads to the node")]
+    Unreachable,
+    /// An ending names a node that is no sub-policy around it.
+    #[error("the ending names node {0}, which is no sub-policy around it")]
+    NotEnclosing(u32),
+    /// A new plan is asked for on behalf of a sub-policy.
+    #[error("`replan` ends the whole policy, not a sub-policy")]
+    ReplanOfPart,
+    /// A number is not finite or out of its range.
+    #[error("{what} is {value}, which is no finite number of at least 0")]
+    Number {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A least duration above the greatest.
+    #[error("the least duration {least} s is above the greatest {greatest} s")]
+    Bounds {
+        /// The least.
+        least: f64,
+        /// The greatest.
+        greatest: f64,
+    },
+    /// A loop that never runs.
+    #[error("a loop must run at least once")]
+    NoRuns,
+    /// Something has the wrong number of arguments.
+    #[error("`{of}` takes {expected} arguments, not {given}")]
+    Arity {
+        /// What takes them.
+        of: SmolStr,
+        /// How many it takes.
+        expected: usize,
+        /// How many there are.
+        given: usize,
+    },
+    /// An argument has the wrong type.
+    #[error("argument {index} of `{of}` has the wrong type", index = .index + 1)]
+    Argument {
+        /// What takes it.
+        of: SmolStr,
+        /// Its place, from 0.
+        index: usize,
+    },
+    /// The two sides of a comparison cannot be compared.
+    #[error("the two sides of a comparison do not fit each other")]
+    Comparison,
+    /// Arithmetic on something that is no number.
+    #[error("arithmetic needs numbers")]
+    Arithmetic,
+    /// A field of something that is no entity.
+    #[error("only an entity has the field `{0}`")]
+    FieldOf(SmolStr),
+    /// An argument that would have to be observed before the query around it can be asked.
+    #[error("an argument of a fluent, a measure or a field must be known without observing")]
+    Nested,
+    /// The variable of a quantified entry in a place where there is none.
+    #[error("the variable of `for each` is used where nothing is quantified")]
+    Each,
+    /// A quantified entry without its kind.
+    #[error("a loop needs a list")]
+    NotAList,
+    /// A call whose result goes nowhere, or that binds without having a result.
+    #[error("the call of `{0}` must bind its result, and only its result")]
+    Result(SmolStr),
+    /// A name of one type is bound to a value of another.
+    #[error("`{0}` cannot hold what is bound to it")]
+    BindingType(SmolStr),
+    /// A name is used where no path has bound it.
+    #[error("`{0}` is used before it is bound")]
+    Unbound(SmolStr),
+    /// Two branches that run at once need the same resource.
+    #[error("two branches need `{0}` at the same time")]
+    Conflict(SmolStr),
+    /// An initial fact that is not ground.
+    #[error("what is known at the start must be made of literals")]
+    NotGround,
+}

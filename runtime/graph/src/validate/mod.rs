@@ -1,0 +1,64 @@
+//! Whether a graph can be run: everything that an engine relies on is checked here, once.
+//!
+//! In three passes: [`structure`] (tables, regions, edges), then, where that is sound, [`types`] (arguments and
+//! conditions), [`bound`] (names before they are bound) and [`resources`] (what runs at once).
+
+mod bound;
+mod invalid;
+mod limits;
+mod numbers;
+mod resources;
+mod structure;
+mod tables;
+mod types;
+
+pub use invalid::{Invalid, Reason};
+pub use limits::{MAX_DEPTH, MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
+
+use crate::model::{Graph, Node};
+use smol_str::SmolStr;
+
+/// Checks a graph. Costs its size.
+///
+/// # Errors
+///
+/// Everything that was found, in document order within each pass. A graph whose structure is unsound is not looked at
+/// further.
+pub fn validate(graph: &Graph) -> Result<(), Vec<Invalid>> {
+    let mut findings = Findings::default();
+    tables::check(graph, &mut findings);
+    structure::check(graph, &mut findings);
+    if !findings.list.is_empty() {
+        return Err(findings.list);
+    }
+    numbers::check(graph, &mut findings);
+    types::check(graph, &mut findings);
+    bound::check(graph, &mut findings);
+    resources::check(graph, &mut findings);
+    if findings.list.is_empty() { Ok(()) } else { Err(findings.list) }
+}
+
+/// What was found so far.
+#[derive(Debug, Default)]
+struct Findings {
+    list: Vec<Invalid>,
+}
+
+impl Findings {
+    /// A finding about a table.
+    fn table(&mut self, table: &str, index: usize, reason: Reason) {
+        self.add(SmolStr::from(format!("{table} {index}")), reason);
+    }
+
+    /// A finding about a node.
+    fn node(&mut self, node: &Node, reason: Reason) {
+        self.add(node.path.clone(), reason);
+    }
+
+    /// A graph with many mistakes does not give a list without end.
+    fn add(&mut self, at: SmolStr, reason: Reason) {
+        if self.list.len() < limits::MAX_FINDINGS {
+            self.list.push(Invalid { at, reason });
+        }
+    }
+}

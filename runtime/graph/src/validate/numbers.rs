@@ -1,0 +1,57 @@
+//! Durations, deadlines and bounds.
+
+use super::{Findings, Reason};
+use crate::model::{Bounds, Graph, Node, NodeKind, Reaction};
+use smol_str::SmolStr;
+
+pub(super) fn check(graph: &Graph, findings: &mut Findings) {
+    let whole = SmolStr::new_static("policy");
+    if !is_span(graph.observe_within_secs) {
+        let reason = Reason::Number { what: "the time for an observation", value: graph.observe_within_secs };
+        findings.add(whole.clone(), reason);
+    }
+    if let Some(reason) = bad_bounds(graph.duration) {
+        findings.add(whole, reason);
+    }
+    for node in &graph.nodes {
+        if let Some(reason) = bad_bounds(node.duration) {
+            findings.node(node, reason);
+        }
+        match &node.kind {
+            NodeKind::Call(call) => span(findings, node, "the deadline", call.deadline_secs),
+            NodeKind::Wait { within_secs, .. } => span(findings, node, "the deadline", *within_secs),
+            NodeKind::Repeat { times: 0, .. } => findings.node(node, Reason::NoRuns),
+            NodeKind::Monitor { watches, .. } => {
+                for watch in watches {
+                    span(findings, node, "the time that a condition must hold", watch.hold_secs);
+                    if let Reaction::Pause { within_secs } = &watch.reaction {
+                        span(findings, node, "the longest pause", *within_secs);
+                    }
+                }
+            }
+            NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } | NodeKind::Try { .. } => {}
+            NodeKind::Repeat { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
+            NodeKind::End { .. } => {}
+        }
+    }
+}
+
+fn span(findings: &mut Findings, node: &Node, what: &'static str, value: f64) {
+    if !is_span(value) {
+        findings.node(node, Reason::Number { what, value });
+    }
+}
+
+fn is_span(secs: f64) -> bool {
+    secs.is_finite() && secs >= 0.0
+}
+
+fn bad_bounds(bounds: Bounds) -> Option<Reason> {
+    let Bounds { least_secs, greatest_secs } = bounds;
+    for (what, value) in [("the least duration", least_secs), ("the greatest duration", greatest_secs)] {
+        if !is_span(value) {
+            return Some(Reason::Number { what, value });
+        }
+    }
+    (least_secs > greatest_secs).then_some(Reason::Bounds { least: least_secs, greatest: greatest_secs })
+}

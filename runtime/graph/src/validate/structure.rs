@@ -1,0 +1,162 @@
+//! Regions and edges: that they form a tree in document order, each node in its one place.
+
+use super::limits::MAX_DEPTH;
+use super::{Findings, Reason};
+use crate::model::{Ending, Graph, Node, NodeId, NodeKind, ROOT, Reaction, RegionId};
+
+pub(super) fn check(graph: &Graph, findings: &mut Findings) {
+    owners(graph, findings);
+    edges(graph, findings);
+    if findings.list.is_empty() {
+        depth(graph, findings);
+        endings(graph, findings);
+    }
+}
+
+/// The regions that a node names, in document order.
+pub(crate) fn owned(node: &Node) -> Vec<RegionId> {
+    match &node.kind {
+        NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => Vec::new(),
+        NodeKind::Sequence { body, .. }
+        | NodeKind::Inline { body, .. }
+        | NodeKind::Repeat { body, .. }
+        | NodeKind::Each { body, .. } => vec![*body],
+        NodeKind::If { then, otherwise, .. } => std::iter::once(*then).chain(*otherwise).collect(),
+        NodeKind::Monitor { watches, body } => {
+            let blocks = watches.iter().filter_map(|watch| match &watch.reaction {
+                Reaction::Resume { body, .. } => Some(*body),
+                Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => None,
+            });
+            std::iter::once(*body).chain(blocks).collect()
+        }
+        NodeKind::Try { body, handlers } => {
+            std::iter::once(*body).chain(handlers.iter().map(|handler| handler.body)).collect()
+        }
+        NodeKind::Parallel { branches } => branches.clone(),
+    }
+}
+
+fn owners(graph: &Graph, findings: &mut Findings) {
+    let mut named = vec![0_u32; graph.regions.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        for region in owned(node) {
+            match graph.regions.get(region.index()) {
+                None => findings.node(node, Reason::NoSuch { what: "region", id: region.0 }),
+                Some(own) if own.owner != Some(NodeId(index as u32)) => {
+                    findings.node(node, Reason::Ownership(region.0));
+                }
+                Some(_) => {
+                    if let Some(count) = named.get_mut(region.index()) {
+                        *count += 1;
+                    }
+                }
+            }
+        }
+    }
+    if graph.regions.is_empty() {
+        findings.table("region", 0, Reason::NoSuch { what: "region", id: ROOT.0 });
+    }
+    for (index, (region, named)) in graph.regions.iter().zip(named).enumerate() {
+        let id = index as u32;
+        if region.owner.is_some() == (index == ROOT.index()) {
+            findings.table("region", index, Reason::Owner(id));
+        } else if named != u32::from(index != ROOT.index()) {
+            findings.table("region", index, Reason::Ownership(id));
+        }
+    }
+}
+
+fn edges(graph: &Graph, findings: &mut Findings) {
+    let mut led_to = vec![0_u32; graph.nodes.len()];
+    for (index, region) in graph.regions.iter().enumerate() {
+        let Some(entry) = region.entry else { continue };
+        match graph.nodes.get(entry.index()) {
+            None => findings.table("region", index, Reason::NoSuch { what: "node", id: entry.0 }),
+            Some(node) if node.region.index() != index => {
+                findings.table("region", index, Reason::EdgeLeavesRegion(entry.0));
+            }
+            Some(_) => count(&mut led_to, entry),
+        }
+    }
+    for (index, node) in graph.nodes.iter().enumerate() {
+        match graph.regions.get(node.region.index()) {
+            None => findings.node(node, Reason::NoSuch { what: "region", id: node.region.0 }),
+            Some(region) if region.owner.is_some_and(|owner| owner.index() >= index) => {
+                findings.node(node, Reason::BeforeOwner);
+            }
+            Some(_) => {}
+        }
+        let Some(next) = node.next else { continue };
+        match graph.nodes.get(next.index()) {
+            None => findings.node(node, Reason::NoSuch { what: "node", id: next.0 }),
+            Some(_) if next.index() <= index => findings.node(node, Reason::EdgeLeadsBack(next.0)),
+            Some(other) if other.region != node.region => findings.node(node, Reason::EdgeLeavesRegion(next.0)),
+            Some(_) => count(&mut led_to, next),
+        }
+    }
+    for (node, led_to) in graph.nodes.iter().zip(led_to) {
+        match led_to {
+            0 => findings.node(node, Reason::Unreachable),
+            1 => {}
+            _ => findings.node(node, Reason::TwoEdges),
+        }
+    }
+}
+
+fn count(led_to: &mut [u32], id: NodeId) {
+    if let Some(count) = led_to.get_mut(id.index()) {
+        *count += 1;
+    }
+}
+
+fn depth(graph: &Graph, findings: &mut Findings) {
+    // An owner stands before what lies in it, so its own depth is known by then.
+    let mut depths = vec![0_usize; graph.nodes.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let owner = graph.regions.get(node.region.index()).and_then(|region| region.owner);
+        let depth = owner.and_then(|owner| depths.get(owner.index())).map_or(0, |depth| depth + 1);
+        if let Some(own) = depths.get_mut(index) {
+            *own = depth;
+        }
+        if depth > MAX_DEPTH {
+            findings.node(node, Reason::TooMany { what: "levels of steps", count: depth, limit: MAX_DEPTH });
+            return;
+        }
+    }
+}
+
+fn endings(graph: &Graph, findings: &mut Findings) {
+    for node in &graph.nodes {
+        match &node.kind {
+            NodeKind::End { how, of, .. } => ending(graph, node, *how, *of, findings),
+            NodeKind::Monitor { watches, .. } => {
+                for watch in watches {
+                    if let Reaction::End { how, of, .. } = &watch.reaction {
+                        ending(graph, node, *how, *of, findings);
+                    }
+                }
+            }
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {}
+            NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
+            NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
+        }
+    }
+}
+
+fn ending(graph: &Graph, node: &Node, how: Ending, of: Option<NodeId>, findings: &mut Findings) {
+    let Some(of) = of else { return };
+    if how == Ending::Replan {
+        findings.node(node, Reason::ReplanOfPart);
+    }
+    let mut owner = graph.regions.get(node.region.index()).and_then(|region| region.owner);
+    while let Some(here) = owner {
+        let around = graph.nodes.get(here.index());
+        if here == of && around.is_some_and(|node| matches!(node.kind, NodeKind::Inline { .. })) {
+            return;
+        }
+        // Owners stand before what lies in them.
+        let region = around.and_then(|node| graph.regions.get(node.region.index()));
+        owner = region.and_then(|region| region.owner);
+    }
+    findings.node(node, Reason::NotEnclosing(of.0));
+}
