@@ -37,7 +37,12 @@ impl Engine {
         let plan = Plan::new(Arc::new(graph));
         let beliefs = believe(&plan.graph, start);
         let run = Run::new(&plan, beliefs);
-        Ok(Self { plan: Arc::new(plan), run, settings: Settings::default(), verifier: Arc::new(LeaveToDriver) })
+        Ok(Self {
+            plan: Arc::new(plan),
+            run,
+            settings: Settings::default(),
+            verifier: Arc::new(LeaveToDriver),
+        })
     }
 
     /// With other settings.
@@ -118,13 +123,20 @@ fn believe(graph: &Graph, start: &StartState) -> Beliefs {
             FactArg::Term(_) => None,
         });
         let Some(args) = args.collect::<Option<Vec<_>>>() else { continue };
-        let change = Change { fluent: fluent.name.clone(), args, value: Truth::from(*value), sure: true, rest: false };
+        let change =
+            Change { fluent: fluent.name.clone(), args, value: Truth::from(*value), sure: true, rest: false };
         beliefs.apply(&change, Time::ZERO);
     }
     for (query, value) in &start.facts {
         let Query::Fact { fluent, args } = query else { continue };
         if beliefs.fluents.contains_key(fluent) {
-            let change = Change { fluent: fluent.clone(), args: args.clone(), value: Truth::from(*value), sure: true, rest: false };
+            let change = Change {
+                fluent: fluent.clone(),
+                args: args.clone(),
+                value: Truth::from(*value),
+                sure: true,
+                rest: false,
+            };
             beliefs.apply(&change, Time::ZERO);
         }
     }

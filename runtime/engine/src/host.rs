@@ -76,7 +76,12 @@ pub fn run(engine: &mut Engine, driver: &mut dyn Driver, onlooker: &mut dyn Onlo
     }
 }
 
-fn carry_out(driver: &mut dyn Driver, onlooker: &mut dyn Onlooker, now: Time, out: &mut Vec<Effect>) -> Option<RunEnd> {
+fn carry_out(
+    driver: &mut dyn Driver,
+    onlooker: &mut dyn Onlooker,
+    now: Time,
+    out: &mut Vec<Effect>,
+) -> Option<RunEnd> {
     let mut end = None;
     for effect in out.drain(..) {
         onlooker.effect(now, &effect);

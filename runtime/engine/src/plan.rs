@@ -2,8 +2,8 @@
 
 use crate::effect::Command;
 use motet_graph::{
-    CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId, Term,
-    Value, Watch,
+    CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
+    Term, Value, Watch,
 };
 use smol_str::SmolStr;
 use std::sync::Arc;
@@ -148,8 +148,13 @@ impl Plan {
         let (monitor, index) = self.watches.get(number as usize).copied()?;
         match &self.node(monitor).kind {
             NodeKind::Monitor { watches, .. } => Some((monitor, index, watches.get(index as usize)?)),
-            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => None,
-            NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } | NodeKind::Each { .. } => None,
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
+                None
+            }
+            NodeKind::Wait { .. }
+            | NodeKind::Try { .. }
+            | NodeKind::Repeat { .. }
+            | NodeKind::Each { .. } => None,
             NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
         }
     }
@@ -199,7 +204,8 @@ pub(crate) fn command(graph: &Graph, call: &CallNode, args: Vec<Value>) -> Optio
 }
 
 fn literal_command(graph: &Graph, call: &CallNode) -> Option<Arc<Command>> {
-    let literals = call.args.iter().map(|arg| if let Term::Literal(value) = arg { Some(value.clone()) } else { None });
+    let literals =
+        call.args.iter().map(|arg| if let Term::Literal(value) = arg { Some(value.clone()) } else { None });
     command(graph, call, literals.collect::<Option<_>>()?).map(Arc::new)
 }
 

@@ -56,7 +56,9 @@ impl Phase {
     pub(crate) const fn has_goal(self) -> bool {
         match self {
             Self::Starting | Self::Running | Self::Held | Self::Cancelling | Self::SafeStopping => true,
-            Self::Idle | Self::Entering | Self::Parked | Self::Ending | Self::Inside | Self::Deciding => false,
+            Self::Idle | Self::Entering | Self::Parked | Self::Ending | Self::Inside | Self::Deciding => {
+                false
+            }
             Self::Waiting | Self::Queued | Self::Checking | Self::Suspended => false,
         }
     }

@@ -6,6 +6,7 @@
 #[cfg(feature = "arbitrary")]
 pub mod arbitrary;
 mod display;
+pub mod draw;
 pub mod encode;
 mod fit;
 pub mod model;

@@ -82,9 +82,10 @@ impl Beliefs {
 
     /// The cell of a fact, if somebody asked for it.
     pub(crate) fn find_fact(&self, fluent: &str, args: &[Pattern]) -> Option<CellId> {
-        self.find(fact_hash(fluent, args), |query| {
-            matches!(query, Query::Fact { fluent: f, args: a } if f == fluent && a == args)
-        })
+        self.find(
+            fact_hash(fluent, args),
+            |query| matches!(query, Query::Fact { fluent: f, args: a } if f == fluent && a == args),
+        )
     }
 
     /// The cell of a query, if somebody asked for it.
@@ -111,7 +112,17 @@ impl Beliefs {
         let next = self.index.insert(query_hash(&query), id);
         let query = Arc::new(query);
         let dependents = Vec::new();
-        self.cells.push(Cell { query, answer, at, dependents, watchers: 0, live: false, observable, pattern, next });
+        self.cells.push(Cell {
+            query,
+            answer,
+            at,
+            dependents,
+            watchers: 0,
+            live: false,
+            observable,
+            pattern,
+            next,
+        });
         id
     }
 

@@ -71,7 +71,9 @@ impl Judge<'_> {
                 let query = self.query_of(term)?;
                 self.reading(query)
             }
-            Term::List(items) => items.iter().map(|item| self.term(item)).collect::<Option<Vec<_>>>().map(Value::List),
+            Term::List(items) => {
+                items.iter().map(|item| self.term(item)).collect::<Option<Vec<_>>>().map(Value::List)
+            }
             Term::Arith(operation, left, right) => {
                 let (left, right) = (self.term(left), self.term(right));
                 arithmetic(*operation, &left?, &right?)
@@ -93,7 +95,9 @@ impl Judge<'_> {
         match condition {
             Condition::Literal(_) => {}
             Condition::Fact(fact) => {
-                if let (Some(args), Some(fluent)) = (self.patterns(fact), self.graph.fluents.get(fact.fluent.index())) {
+                if let (Some(args), Some(fluent)) =
+                    (self.patterns(fact), self.graph.fluents.get(fact.fluent.index()))
+                {
                     found.push(self.beliefs.intern(Query::Fact { fluent: fluent.name.clone(), args }));
                 }
             }
@@ -150,7 +154,9 @@ impl Judge<'_> {
         let lasting = matches!(query, Query::Field { .. });
         let (Freshness::Readings(since) | Freshness::Refusals(since)) = self.fresh;
         let cell = self.beliefs.find_query(&query).and_then(|id| self.beliefs.cell(id));
-        let value = cell.filter(|cell| lasting || cell.live || cell.at >= since).and_then(|cell| match &cell.answer {
+        let value = cell.filter(|cell| lasting || cell.live || cell.at >= since).and_then(|cell| match &cell
+            .answer
+        {
             Answer::Value(value) if is_finite(value) => Some(value.clone()),
             Answer::Value(_) | Answer::Unknown | Answer::Truth(_) => None,
         });
@@ -219,7 +225,12 @@ fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Int(value) => Some(*value as f64),
         Value::Number(value) => Some(*value),
-        Value::Bool(_) | Value::Text(_) | Value::Entity(_) | Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+        Value::Bool(_)
+        | Value::Text(_)
+        | Value::Entity(_)
+        | Value::Case(_)
+        | Value::Pose(_)
+        | Value::List(_) => None,
     }
 }
 

@@ -59,7 +59,8 @@ impl Beliefs {
         let query = cell.query.clone();
         if let crate::query::Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
-            let change = Change { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
+            let change =
+                Change { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
             // That none fits says something of each; that some does, or that it is not known, says nothing of any.
             if args.contains(&Pattern::Any) && value != Truth::False {
                 self.set(id, answer, now);
@@ -99,7 +100,9 @@ impl Beliefs {
     /// When a fact was last known true that fits a pattern.
     fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<Time> {
         let mut covered = self.covered(fluent, args);
-        covered.find_map(|id| self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.at))
+        covered.find_map(|id| {
+            self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.at)
+        })
     }
 
     /// The cells of single facts that fit a pattern.
@@ -203,11 +206,11 @@ fn answer_of(truth: Truth) -> Answer {
 
 /// Whether every fact of `other` is one of `wide`.
 fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
-    wide.len() == other.len() && wide.iter().zip(other).all(|(wide, other)| *wide == Pattern::Any || wide == other)
+    wide.len() == other.len()
+        && wide.iter().zip(other).all(|(wide, other)| *wide == Pattern::Any || wide == other)
 }
 
 /// Whether some fact is one of both.
 fn overlaps(a: &[Pattern], b: &[Pattern]) -> bool {
-    a.len() == b.len()
-        && a.iter().zip(b).all(|(a, b)| *a == Pattern::Any || *b == Pattern::Any || a == b)
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| *a == Pattern::Any || *b == Pattern::Any || a == b)
 }

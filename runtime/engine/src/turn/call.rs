@@ -132,7 +132,9 @@ impl Turn<'_> {
             return Look::Go(command);
         };
         let now = self.run.now;
-        let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else { return Look::Go(command) };
+        let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else {
+            return Look::Go(command);
+        };
         match self.verifier.motion(&motion.query, &args) {
             Verification::Accepted => Look::Go(command),
             Verification::Refuted { failure } => Look::Refused(Refusal::Motion(self.failure_id(&failure))),

@@ -113,7 +113,13 @@ impl Turn<'_> {
         }
     }
 
-    fn expand_for(&mut self, entry: Entry<'_>, each: Option<Value>, of_kind: OfKind, changes: &mut Vec<Change>) {
+    fn expand_for(
+        &mut self,
+        entry: Entry<'_>,
+        each: Option<Value>,
+        of_kind: OfKind,
+        changes: &mut Vec<Change>,
+    ) {
         let now = self.run.now;
         let mut judge = self.judge(Freshness::Readings(now));
         judge.each = each;
@@ -141,6 +147,12 @@ impl Turn<'_> {
         let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
         // Some of them may be of another kind, so it is never sure.
-        changes.push(Change { fluent: fluent.name.clone(), args, value: entry.value, sure: false, rest: true });
+        changes.push(Change {
+            fluent: fluent.name.clone(),
+            args,
+            value: entry.value,
+            sure: false,
+            rest: true,
+        });
     }
 }

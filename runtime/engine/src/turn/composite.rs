@@ -11,7 +11,9 @@ impl Turn<'_> {
     /// A region ended that nobody stopped.
     pub(super) fn child_ended(&mut self, owner: NodeId, region: RegionId, exit: Exit) {
         match &self.plan.node(owner).kind {
-            NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => self.exit(owner, exit),
+            NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
+                self.exit(owner, exit)
+            }
             NodeKind::Try { body, handlers } if *body == region => self.handle_failure(owner, handlers, exit),
             NodeKind::Try { .. } => self.exit(owner, exit),
             NodeKind::Repeat { times, body, until } => match exit.ending {
@@ -54,7 +56,14 @@ impl Turn<'_> {
         }
     }
 
-    pub(super) fn enter_each(&mut self, node: NodeId, item: BindingId, list: &Term, at_most: u32, body: RegionId) {
+    pub(super) fn enter_each(
+        &mut self,
+        node: NodeId,
+        item: BindingId,
+        list: &Term,
+        at_most: u32,
+        body: RegionId,
+    ) {
         let now = self.run.now;
         match self.judge(crate::belief::Freshness::Readings(now)).term(list) {
             Some(Value::List(items)) if items.len() > at_most as usize => {
@@ -105,10 +114,19 @@ impl Turn<'_> {
     }
 
     /// Ends the policy, or the inlined policy `of`.
-    pub(super) fn end_policy(&mut self, node: NodeId, how: Ending, of: Option<NodeId>, why: Option<&Term>, cause: Cause) {
+    pub(super) fn end_policy(
+        &mut self,
+        node: NodeId,
+        how: Ending,
+        of: Option<NodeId>,
+        why: Option<&Term>,
+        cause: Cause,
+    ) {
         let inline = of.filter(|_| how != Ending::Replan).and_then(|of| match &self.plan.node(of).kind {
             NodeKind::Inline { body, .. } => Some((of, *body)),
-            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => None,
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => {
+                None
+            }
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => None,
             NodeKind::Each { .. } | NodeKind::Parallel { .. } | NodeKind::End { .. } => None,
         });

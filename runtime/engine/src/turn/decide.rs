@@ -38,7 +38,9 @@ impl Turn<'_> {
             NodeKind::If { condition, .. } | NodeKind::Repeat { until: Some(condition), .. } => {
                 self.judge_missing(Freshness::Readings(since)).condition(condition)
             }
-            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => Truth::Unknown,
+            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => {
+                Truth::Unknown
+            }
             NodeKind::Inline { .. } | NodeKind::Wait { .. } | NodeKind::Monitor { .. } => Truth::Unknown,
             NodeKind::Try { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => Truth::Unknown,
             NodeKind::End { .. } => Truth::Unknown,
@@ -63,7 +65,10 @@ impl Turn<'_> {
                     self.again(node, *times, *body);
                 }
             }
-            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Wait { .. } => {}
+            NodeKind::Call(_)
+            | NodeKind::Sequence { .. }
+            | NodeKind::Inline { .. }
+            | NodeKind::Wait { .. } => {}
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Each { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }

@@ -177,7 +177,9 @@ impl Turn<'_> {
                 self.hear(&query);
                 Some(self.run.beliefs.intern(query))
             }
-            Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => self.run.beliefs.find_query(&query),
+            Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => {
+                self.run.beliefs.find_query(&query)
+            }
         };
         let Some(id) = known else { return };
         self.run.beliefs.observe(id, answer, self.run.now);
@@ -197,7 +199,8 @@ impl Turn<'_> {
     fn hear(&mut self, query: &Query) {
         let Query::Fact { fluent, args } = query else { return };
         let graph = &self.plan.graph;
-        let params = graph.fluents.iter().find(|known| known.name == *fluent).map_or(&[][..], |known| &known.params);
+        let params =
+            graph.fluents.iter().find(|known| known.name == *fluent).map_or(&[][..], |known| &known.params);
         for (arg, ty) in args.iter().zip(params) {
             if let crate::query::Pattern::Is(value) = arg {
                 self.run.beliefs.entities.hear_value(graph, value, Some(ty));

@@ -166,7 +166,9 @@ impl<'a> Turn<'a> {
 
     fn push(&mut self, micro: Micro) {
         let place = match micro {
-            Micro::Enter(node) | Micro::Acquire(node) | Micro::Judge(node) | Micro::NodeEnded(node, _) => node.0,
+            Micro::Enter(node) | Micro::Acquire(node) | Micro::Judge(node) | Micro::NodeEnded(node, _) => {
+                node.0
+            }
             Micro::RegionEnded(region, _) => self.plan.region(region).owner.map_or(0, |owner| owner.0),
         };
         self.run.order += 1;

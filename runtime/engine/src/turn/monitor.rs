@@ -60,7 +60,9 @@ impl Turn<'_> {
         let (_, index, _) = self.plan.watch(number)?;
         match watches.get(index as usize).map(|watch| &watch.reaction) {
             Some(Reaction::Resume { body, .. }) => Some(*body),
-            Some(Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. }) | None => Some(*body),
+            Some(Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. }) | None => {
+                Some(*body)
+            }
         }
     }
 

@@ -61,7 +61,9 @@ impl Turn<'_> {
                 self.end_policy(node, *how, *of, why.as_ref(), Cause::ParentEnded);
             }
             NodeKind::Monitor { watches, body } => self.enter_monitor(node, watches, *body),
-            NodeKind::Each { item, list, at_most, body } => self.enter_each(node, *item, list, *at_most, *body),
+            NodeKind::Each { item, list, at_most, body } => {
+                self.enter_each(node, *item, list, *at_most, *body)
+            }
             NodeKind::Repeat { body, .. } => {
                 self.run.nodes.at_mut(node.index()).count = 1;
                 self.enter_region(*body);
@@ -155,7 +157,8 @@ impl Turn<'_> {
                     self.run.lists.remove(place);
                 }
             }
-            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {}
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
+            }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }

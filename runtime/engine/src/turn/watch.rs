@@ -74,7 +74,9 @@ impl Turn<'_> {
         }
         match &watch.reaction {
             Reaction::Resume { .. } => state.resuming.is_none() && state.count == 0,
-            Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => state.resuming != Some(number),
+            Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => {
+                state.resuming != Some(number)
+            }
         }
     }
 

@@ -3,8 +3,8 @@
 use super::sketch::{Call, React, Step, When};
 use super::vocabulary::{self as v, SAY};
 use crate::model::{
-    Binding, BindingId, Bounds, CallNode, Condition, Ending, Fact, FactArg, Graph, Handler, Node, NodeId, NodeKind,
-    ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,
+    Binding, BindingId, Bounds, CallNode, Condition, Ending, Fact, FactArg, Graph, Handler, Node, NodeId,
+    NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,
 };
 use smol_str::SmolStr;
 
@@ -12,7 +12,8 @@ use smol_str::SmolStr;
 /// becomes a `say`.
 #[must_use]
 pub fn graph(steps: &[Step]) -> Graph {
-    let mut layout = Layout { graph: v::declarations(), objects: Vec::new(), taken: Vec::new(), inline: None };
+    let mut layout =
+        Layout { graph: v::declarations(), objects: Vec::new(), taken: Vec::new(), inline: None };
     layout.graph.regions.push(Region { owner: None, entry: None });
     layout.fill(ROOT, steps, "/steps");
     layout.graph
@@ -93,7 +94,11 @@ impl Layout {
             }
             Step::Repeat(times, steps, until) => {
                 let body = self.region(id, steps, &format!("{path}/steps"));
-                NodeKind::Repeat { times: *times, body, until: until.as_ref().map(|until| self.condition(until)) }
+                NodeKind::Repeat {
+                    times: *times,
+                    body,
+                    until: until.as_ref().map(|until| self.condition(until)),
+                }
             }
             Step::Each(list, at_most, steps) => {
                 let list = self.term(list);
@@ -114,10 +119,12 @@ impl Layout {
         let declared = self.graph.primitives.get(call.primitive.index());
         let clashes = |id: &ResourceId| self.taken.iter().any(|taken| self.conflict(*taken, *id));
         let free = declared.is_some_and(|primitive| !primitive.uses.iter().any(clashes));
-        let (primitive, args) = if free { (call.primitive, call.args.clone()) } else { (SAY, vec![v::text("busy")]) };
+        let (primitive, args) =
+            if free { (call.primitive, call.args.clone()) } else { (SAY, vec![v::text("busy")]) };
         let args: Vec<Term> = args.iter().map(|arg| self.term(arg)).collect();
         let contract = v::contract(primitive, &args, call.verdict);
-        let result = self.graph.primitives.get(primitive.index()).and_then(|primitive| primitive.result.clone());
+        let result =
+            self.graph.primitives.get(primitive.index()).and_then(|primitive| primitive.result.clone());
         let binds = result.map(|ty| {
             let object = matches!(ty, Type::Entity(_));
             let binding = self.binding("it", ty);

@@ -77,11 +77,13 @@ fn call() -> impl Strategy<Value = Call> {
         1 => what().prop_map(|what| (v::DETECT_ALL, vec![what])),
         2 => what().prop_map(|text| (v::SAY, vec![text])),
     ];
-    (primitive, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(|((primitive, args), deadline_secs, retries, proven)| {
-        let verdict = if proven { Verdict::Proven } else { Verdict::Deferred };
-        let _: PrimitiveId = primitive;
-        Call { primitive, args, deadline_secs, retries, verdict }
-    })
+    (primitive, 0.0..5.0, 0..3_u32, any::<bool>()).prop_map(
+        |((primitive, args), deadline_secs, retries, proven)| {
+            let verdict = if proven { Verdict::Proven } else { Verdict::Deferred };
+            let _: PrimitiveId = primitive;
+            Call { primitive, args, deadline_secs, retries, verdict }
+        },
+    )
 }
 
 fn when(body: impl Strategy<Value = Vec<Step>> + 'static) -> impl Strategy<Value = When> {
@@ -108,5 +110,11 @@ fn list() -> impl Strategy<Value = Term> {
 }
 
 fn failure() -> impl Strategy<Value = crate::model::FailureId> {
-    prop_oneof![Just(v::TIMEOUT), Just(v::FAILED), Just(v::EXHAUSTED), Just(v::UNREACHABLE), Just(v::NOT_FOUND)]
+    prop_oneof![
+        Just(v::TIMEOUT),
+        Just(v::FAILED),
+        Just(v::EXHAUSTED),
+        Just(v::UNREACHABLE),
+        Just(v::NOT_FOUND)
+    ]
 }

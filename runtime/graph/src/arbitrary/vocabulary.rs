@@ -1,8 +1,9 @@
 //! The declarations that sketched graphs use.
 
 use crate::model::{
-    Binding, Bounds, Comparison, Condition, Effect, Fact, FactArg, FailureId, Fluent, FluentId, Graph, Kind, KindId,
-    Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type, Unsettled, Value, Verdict,
+    Binding, Bounds, Comparison, Condition, Effect, Fact, FactArg, FailureId, Fluent, FluentId, Graph, Kind,
+    KindId, Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type, Unsettled,
+    Value, Verdict,
 };
 use smol_str::SmolStr;
 
@@ -53,7 +54,12 @@ pub fn declarations() -> Graph {
     let name = SmolStr::new_static;
     let kind = |text, parent| Kind { name: name(text), parent };
     let fluent = |text, params, observable| Fluent { name: name(text), params, observable };
-    let primitive = |text, params: Vec<(&'static str, Type)>, result: Option<Type>, perceives, uses: &[u32], fails: &[u32]| {
+    let primitive = |text,
+                     params: Vec<(&'static str, Type)>,
+                     result: Option<Type>,
+                     perceives,
+                     uses: &[u32],
+                     fails: &[u32]| {
         Primitive {
             name: name(text),
             params: params.into_iter().map(|(param, ty)| (name(param), ty)).collect(),
@@ -78,10 +84,24 @@ pub fn declarations() -> Graph {
         primitives: vec![
             primitive("go", vec![("to", entity.clone())], None, false, &[0], &[0, 3]),
             primitive("pick", vec![("object", object.clone())], None, false, &[0, 1, 2], &[0, 3, 4]),
-            primitive("place", vec![("object", object.clone()), ("on", entity)], None, false, &[0, 1, 2], &[0, 3]),
+            primitive(
+                "place",
+                vec![("object", object.clone()), ("on", entity)],
+                None,
+                false,
+                &[0, 1, 2],
+                &[0, 3],
+            ),
             primitive("detect", vec![("what", Type::Text)], Some(object.clone()), true, &[3], &[0, 4]),
             primitive("say", vec![("text", Type::Text)], None, false, &[], &[0]),
-            primitive("detect_all", vec![("what", Type::Text)], Some(Type::List(Box::new(object))), true, &[3], &[0]),
+            primitive(
+                "detect_all",
+                vec![("what", Type::Text)],
+                Some(Type::List(Box::new(object))),
+                true,
+                &[3],
+                &[0],
+            ),
         ],
         failures: ["timeout", "failed", "exhausted", "unreachable", "not_found"].map(name).to_vec(),
         resources: vec![
@@ -148,10 +168,11 @@ pub(super) fn contract(primitive: PrimitiveId, args: &[Term], verdict: Verdict) 
         },
         PLACE => Contract {
             needs: vec![need(Condition::Fact(held()), UNREACHABLE)],
-            effects: vec![effect(held(), false), effect(fact(AT, vec![arg(0), arg(1)]), true), effect(
-                fact(TRUSTED, vec![arg(0)]),
-                true,
-            )],
+            effects: vec![
+                effect(held(), false),
+                effect(fact(AT, vec![arg(0), arg(1)]), true),
+                effect(fact(TRUSTED, vec![arg(0)]), true),
+            ],
             unsettles: Vec::new(),
         },
         PrimitiveId(_) => Contract::default(),

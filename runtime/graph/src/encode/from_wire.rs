@@ -9,7 +9,10 @@ pub(super) fn graph(document: w::Document) -> m::Graph {
     m::Graph {
         policy: SmolStr::new(document.policy),
         robot: SmolStr::new(document.robot),
-        kinds: list(document.kinds, |kind| m::Kind { name: text(kind.name), parent: kind.parent.map(m::KindId) }),
+        kinds: list(document.kinds, |kind| m::Kind {
+            name: text(kind.name),
+            parent: kind.parent.map(m::KindId),
+        }),
         fluents: list(document.fluents, |fluent| m::Fluent {
             name: text(fluent.name),
             params: list(fluent.params, ty),
@@ -33,7 +36,10 @@ pub(super) fn graph(document: w::Document) -> m::Graph {
             name: text(resource.name),
             contains: list(resource.contains, m::ResourceId),
         }),
-        bindings: list(document.bindings, |binding| m::Binding { name: text(binding.name), ty: ty(binding.ty) }),
+        bindings: list(document.bindings, |binding| m::Binding {
+            name: text(binding.name),
+            ty: ty(binding.ty),
+        }),
         regions: list(document.regions, |region| m::Region {
             owner: region.owner.map(m::NodeId),
             entry: region.entry.map(m::NodeId),
@@ -97,8 +103,12 @@ fn node(node: w::Node) -> m::Node {
 fn kind(kind: w::NodeKind) -> m::NodeKind {
     match kind {
         w::NodeKind::Call(of) => m::NodeKind::Call(call(*of)),
-        w::NodeKind::Sequence { name, body } => m::NodeKind::Sequence { name: text(name), body: m::RegionId(body) },
-        w::NodeKind::Inline { policy, body } => m::NodeKind::Inline { policy: text(policy), body: m::RegionId(body) },
+        w::NodeKind::Sequence { name, body } => {
+            m::NodeKind::Sequence { name: text(name), body: m::RegionId(body) }
+        }
+        w::NodeKind::Inline { policy, body } => {
+            m::NodeKind::Inline { policy: text(policy), body: m::RegionId(body) }
+        }
         w::NodeKind::If { condition: test, then, otherwise } => m::NodeKind::If {
             condition: condition(test),
             then: m::RegionId(then),

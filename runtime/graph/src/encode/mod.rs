@@ -74,7 +74,10 @@ struct Version {
 /// Over the document with an empty hash, without white space.
 fn hash_of(document: &Document) -> String {
     let digest = Sha256::digest(json(document).as_bytes());
-    let hex = digest.iter().flat_map(|byte| [byte >> 4, byte & 15]).filter_map(|digit| char::from_digit(digit.into(), 16));
+    let hex = digest
+        .iter()
+        .flat_map(|byte| [byte >> 4, byte & 15])
+        .filter_map(|digit| char::from_digit(digit.into(), 16));
     std::iter::once("sha256:".to_owned()).chain(hex.map(String::from)).collect()
 }
 

@@ -11,7 +11,10 @@ pub(super) fn document(graph: &m::Graph) -> w::Document {
         hash: String::new(),
         policy: graph.policy.to_string(),
         robot: graph.robot.to_string(),
-        kinds: list(&graph.kinds, |kind| w::Kind { name: text(&kind.name), parent: kind.parent.map(|id| id.0) }),
+        kinds: list(&graph.kinds, |kind| w::Kind {
+            name: text(&kind.name),
+            parent: kind.parent.map(|id| id.0),
+        }),
         fluents: list(&graph.fluents, |fluent| w::Fluent {
             name: text(&fluent.name),
             params: list(&fluent.params, ty),
@@ -35,7 +38,10 @@ pub(super) fn document(graph: &m::Graph) -> w::Document {
             name: text(&resource.name),
             contains: list(&resource.contains, |id| id.0),
         }),
-        bindings: list(&graph.bindings, |binding| w::Binding { name: text(&binding.name), ty: ty(&binding.ty) }),
+        bindings: list(&graph.bindings, |binding| w::Binding {
+            name: text(&binding.name),
+            ty: ty(&binding.ty),
+        }),
         regions: list(&graph.regions, |region| w::Region {
             owner: region.owner.map(|id| id.0),
             entry: region.entry.map(|id| id.0),
@@ -101,11 +107,9 @@ fn kind(kind: &m::NodeKind) -> w::NodeKind {
         m::NodeKind::Call(of) => w::NodeKind::Call(Box::new(call(of))),
         m::NodeKind::Sequence { name, body } => w::NodeKind::Sequence { name: text(name), body: body.0 },
         m::NodeKind::Inline { policy, body } => w::NodeKind::Inline { policy: text(policy), body: body.0 },
-        m::NodeKind::If { condition: test, then, otherwise } => w::NodeKind::If {
-            condition: condition(test),
-            then: then.0,
-            otherwise: otherwise.map(|id| id.0),
-        },
+        m::NodeKind::If { condition: test, then, otherwise } => {
+            w::NodeKind::If { condition: condition(test), then: then.0, otherwise: otherwise.map(|id| id.0) }
+        }
         m::NodeKind::Wait { condition: test, within_secs } => {
             w::NodeKind::Wait { condition: condition(test), within: *within_secs }
         }

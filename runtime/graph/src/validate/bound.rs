@@ -84,7 +84,9 @@ impl<'a> Walk<'a> {
     fn node(&mut self, id: NodeId, node: &'a Node) {
         match &node.kind {
             NodeKind::Call(call) => self.call(node, call),
-            NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => self.condition(node, condition),
+            NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => {
+                self.condition(node, condition)
+            }
             NodeKind::Monitor { watches, .. } => {
                 for watch in watches {
                     self.condition(node, &watch.condition);
@@ -101,7 +103,9 @@ impl<'a> Walk<'a> {
         let (item, until) = match &node.kind {
             NodeKind::Each { item, .. } => (Some(*item), None),
             NodeKind::Repeat { until: Some(_), .. } => (None, Some(id)),
-            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => (None, None),
+            NodeKind::Repeat { until: None, .. } | NodeKind::Call(_) | NodeKind::Sequence { .. } => {
+                (None, None)
+            }
             NodeKind::Inline { .. } | NodeKind::If { .. } | NodeKind::Wait { .. } => (None, None),
             NodeKind::Monitor { .. } | NodeKind::Try { .. } | NodeKind::Parallel { .. } => (None, None),
             NodeKind::End { .. } => (None, None),
@@ -122,9 +126,11 @@ impl<'a> Walk<'a> {
         motion.filter(known).for_each(|arg| self.term(node, arg));
         for unsettled in &call.unsettles {
             // So may what it unsettles: before the step nothing is known of the result.
-            let result = unsettled.fact.args.iter().any(|arg| {
-                matches!(arg, FactArg::Term(Term::Binding(id)) if Some(*id) == call.binds)
-            });
+            let result = unsettled
+                .fact
+                .args
+                .iter()
+                .any(|arg| matches!(arg, FactArg::Term(Term::Binding(id)) if Some(*id) == call.binds));
             if !result {
                 unsettled.when.iter().for_each(|when| self.condition(node, when));
                 self.fact(node, &unsettled.fact);

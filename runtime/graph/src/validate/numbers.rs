@@ -29,7 +29,10 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
                     }
                 }
             }
-            NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } | NodeKind::Try { .. } => {}
+            NodeKind::Sequence { .. }
+            | NodeKind::Inline { .. }
+            | NodeKind::If { .. }
+            | NodeKind::Try { .. } => {}
             NodeKind::Repeat { .. } | NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
             NodeKind::End { .. } => {}
         }

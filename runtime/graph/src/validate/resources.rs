@@ -10,7 +10,8 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
         let mut own = 0;
         if let NodeKind::Call(call) = &node.kind {
             let primitive = graph.primitives.get(call.primitive.index());
-            own = primitive.map_or(0, |primitive| primitive.uses.iter().fold(0, |bits, id| bits | bit(id.index())));
+            own = primitive
+                .map_or(0, |primitive| primitive.uses.iter().fold(0, |bits, id| bits | bit(id.index())));
         }
         for region in super::structure::owned(node) {
             own |= bits(&used, region);
@@ -27,7 +28,10 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
             let clash = taken & bits;
             if clash != 0 {
                 let resource = graph.resources.get(clash.trailing_zeros() as usize);
-                findings.node(node, Reason::Conflict(resource.map(|resource| resource.name.clone()).unwrap_or_default()));
+                findings.node(
+                    node,
+                    Reason::Conflict(resource.map(|resource| resource.name.clone()).unwrap_or_default()),
+                );
                 break;
             }
             taken |= with_conflicts(graph, bits);

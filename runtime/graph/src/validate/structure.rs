@@ -90,7 +90,9 @@ fn edges(graph: &Graph, findings: &mut Findings) {
         match graph.nodes.get(next.index()) {
             None => findings.node(node, Reason::NoSuch { what: "node", id: next.0 }),
             Some(_) if next.index() <= index => findings.node(node, Reason::EdgeLeadsBack(next.0)),
-            Some(other) if other.region != node.region => findings.node(node, Reason::EdgeLeavesRegion(next.0)),
+            Some(other) if other.region != node.region => {
+                findings.node(node, Reason::EdgeLeavesRegion(next.0))
+            }
             Some(_) => count(&mut led_to, next),
         }
     }
@@ -136,7 +138,8 @@ fn endings(graph: &Graph, findings: &mut Findings) {
                     }
                 }
             }
-            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {}
+            NodeKind::Call(_) | NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
+            }
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Each { .. } | NodeKind::Parallel { .. } => {}
         }

@@ -3,8 +3,8 @@
 use super::limits::MAX_TERM_DEPTH;
 use super::{Findings, Reason};
 use crate::model::{
-    BindingId, CallNode, Comparison, Condition, Fact, FactArg, FailureId, Graph, KindId, Node, NodeKind, Reaction,
-    Term, Type, Value,
+    BindingId, CallNode, Comparison, Condition, Fact, FactArg, FailureId, Graph, KindId, Node, NodeKind,
+    Reaction, Term, Type, Value,
 };
 use smol_str::SmolStr;
 
@@ -315,12 +315,16 @@ impl Types<'_> {
     fn fits(&self, term: &Term, ty: &Type) -> bool {
         match term {
             Term::Literal(value) => value.fits(ty),
-            Term::Binding(id) => self.graph.bindings.get(id.index()).is_none_or(|b| is_subtype(self.graph, &b.ty, ty)),
+            Term::Binding(id) => {
+                self.graph.bindings.get(id.index()).is_none_or(|b| is_subtype(self.graph, &b.ty, ty))
+            }
             Term::Each => self.each.is_none_or(|kind| is_subtype(self.graph, &Type::Entity(kind), ty)),
             Term::Field(..) => true,
-            Term::Measure(id, _) => {
-                self.graph.measures.get(id.index()).is_none_or(|measure| is_subtype(self.graph, &measure.result, ty))
-            }
+            Term::Measure(id, _) => self
+                .graph
+                .measures
+                .get(id.index())
+                .is_none_or(|measure| is_subtype(self.graph, &measure.result, ty)),
             Term::List(items) => match ty {
                 Type::List(inner) => items.iter().all(|item| self.fits(item, inner)),
                 Type::Bool | Type::Int | Type::Number | Type::Quantity(_) | Type::Text => false,
@@ -370,7 +374,11 @@ fn is_subtype(graph: &Graph, ty: &Type, expected: &Type) -> bool {
                     return true;
                 }
                 // Parents come before children, so this ends.
-                current = graph.kinds.get(here.index()).and_then(|kind| kind.parent).filter(|parent| *parent < here);
+                current = graph
+                    .kinds
+                    .get(here.index())
+                    .and_then(|kind| kind.parent)
+                    .filter(|parent| *parent < here);
             }
             false
         }

@@ -1,0 +1,193 @@
+//! Conditions, terms and steps in words, with the names that a graph's tables give.
+
+use crate::model::{
+    Arithmetic, BindingId, CallNode, Comparison, Condition, Effect, Ending, Fact, FactArg, FailureId, Graph,
+    Handler, KindId, Motion, Need, NodeKind, Reaction, Term, Unsettled, Watch,
+};
+
+/// Names things by a graph's tables.
+pub(super) struct Names<'a>(pub(super) &'a Graph);
+
+/// Where a table has no such entry.
+const NOBODY: &str = "?";
+
+impl Names<'_> {
+    /// A step in one line.
+    pub(super) fn step(&self, kind: &NodeKind) -> String {
+        match kind {
+            NodeKind::Call(call) => self.call(call),
+            NodeKind::Sequence { name, .. } => format!("sequence {name}"),
+            NodeKind::Inline { policy, .. } => format!("policy {policy}"),
+            NodeKind::If { condition, .. } => format!("if {}", self.condition(condition)),
+            NodeKind::Wait { condition, within_secs } => {
+                format!("wait until {} within {within_secs} s", self.condition(condition))
+            }
+            NodeKind::Monitor { .. } => "monitor".to_owned(),
+            NodeKind::Try { .. } => "try".to_owned(),
+            NodeKind::Repeat { times, until: None, .. } => format!("repeat {times}"),
+            NodeKind::Repeat { times, until: Some(until), .. } => {
+                format!("repeat {times} until {}", self.condition(until))
+            }
+            NodeKind::Each { item, list, at_most, .. } => {
+                format!("each {} in {} at most {at_most}", self.binding(*item), self.term(list))
+            }
+            NodeKind::Parallel { .. } => "parallel".to_owned(),
+            NodeKind::End { how, of, why } => self.ending(*how, of.is_some(), why.as_ref()),
+        }
+    }
+
+    fn call(&self, call: &CallNode) -> String {
+        let primitive = self.0.primitives.get(call.primitive.index());
+        let args = call.args.iter().enumerate().map(|(index, arg)| {
+            let name =
+                primitive.and_then(|primitive| primitive.params.get(index)).map(|(name, _)| name.as_str());
+            format!("{}: {}", name.unwrap_or(NOBODY), self.term(arg))
+        });
+        let args = args.collect::<Vec<_>>().join(", ");
+        let name = primitive.map_or(NOBODY, |primitive| &primitive.name);
+        let binds = call.binds.map_or_else(String::new, |id| format!("let {} = ", self.binding(id)));
+        let retry = if call.retries > 0 { format!(" retry {}", call.retries) } else { String::new() };
+        format!("{binds}{name}({args}) within {} s{retry}", call.deadline_secs)
+    }
+
+    fn ending(&self, how: Ending, part: bool, why: Option<&Term>) -> String {
+        let how = match how {
+            Ending::Done => "done",
+            Ending::Fail => "fail",
+            Ending::Replan => "replan",
+        };
+        let part = if part { " the sub-policy" } else { "" };
+        why.map_or_else(|| format!("{how}{part}"), |why| format!("{how}{part} {}", self.term(why)))
+    }
+
+    /// A need with its quantifier and its failure.
+    pub(super) fn need(&self, need: &Need) -> String {
+        let condition = self.quantified(self.condition(&need.condition), need.each, need.when.as_ref());
+        format!("{condition}, else {}", self.failure(need.failure))
+    }
+
+    pub(super) fn motion(&self, motion: &Motion) -> String {
+        format!("{}({})", motion.query, self.terms(&motion.args))
+    }
+
+    pub(super) fn effect(&self, effect: &Effect) -> String {
+        let not = if effect.value { "" } else { "not " };
+        self.quantified(format!("{not}{}", self.fact(&effect.fact)), effect.each, effect.when.as_ref())
+    }
+
+    pub(super) fn unsettled(&self, unsettled: &Unsettled) -> String {
+        self.quantified(self.fact(&unsettled.fact), unsettled.each, unsettled.when.as_ref())
+    }
+
+    fn quantified(&self, mut text: String, each: Option<KindId>, when: Option<&Condition>) -> String {
+        if let Some(kind) = each {
+            let kind = self.0.kinds.get(kind.index()).map_or(NOBODY, |kind| &kind.name);
+            text.push_str(&format!(" for each e: {kind}"));
+        }
+        if let Some(when) = when {
+            text.push_str(&format!(" when {}", self.condition(when)));
+        }
+        text
+    }
+
+    /// A watch with its reaction.
+    pub(super) fn watch(&self, watch: &Watch) -> String {
+        let hold = if watch.hold_secs > 0.0 { format!(" for {} s", watch.hold_secs) } else { String::new() };
+        let reaction = match &watch.reaction {
+            Reaction::Pause { within_secs } => format!("pause within {within_secs} s"),
+            Reaction::Restart { at_most } => format!("restart at most {at_most}"),
+            Reaction::Resume { at_most, .. } => format!("resume at most {at_most}"),
+            Reaction::End { how, of, why } => self.ending(*how, of.is_some(), why.as_ref()),
+        };
+        format!("when {}{hold} then {reaction}", self.condition(&watch.condition))
+    }
+
+    pub(super) fn handler(&self, handler: &Handler) -> String {
+        let on = handler.on.as_ref().map_or_else(
+            || "any".to_owned(),
+            |on| on.iter().map(|failure| self.failure(*failure)).collect::<Vec<_>>().join(", "),
+        );
+        format!("catch {on}")
+    }
+
+    fn failure(&self, failure: FailureId) -> &str {
+        self.0.failures.get(failure.index()).map_or(NOBODY, |name| name)
+    }
+
+    fn binding(&self, binding: BindingId) -> &str {
+        self.0.bindings.get(binding.index()).map_or(NOBODY, |binding| &binding.name)
+    }
+
+    fn fact(&self, fact: &Fact) -> String {
+        let name = self.0.fluents.get(fact.fluent.index()).map_or(NOBODY, |fluent| &fluent.name);
+        let args = fact.args.iter().map(|arg| match arg {
+            FactArg::Term(term) => self.term(term),
+            FactArg::Any => "any".to_owned(),
+        });
+        format!("{name}({})", args.collect::<Vec<_>>().join(", "))
+    }
+
+    pub(super) fn condition(&self, condition: &Condition) -> String {
+        match condition {
+            Condition::Literal(value) => value.to_string(),
+            Condition::Fact(fact) => self.fact(fact),
+            Condition::Compare(comparison, left, right) => {
+                let sign = match comparison {
+                    Comparison::Equal => "==",
+                    Comparison::Unequal => "!=",
+                    Comparison::Less => "<",
+                    Comparison::AtMost => "<=",
+                    Comparison::More => ">",
+                    Comparison::AtLeast => ">=",
+                };
+                format!("{} {sign} {}", self.term(left), self.term(right))
+            }
+            Condition::Not(inner) => format!("not {}", self.inner(inner)),
+            Condition::All(parts) => self.joined(parts, " and ", "true"),
+            Condition::AnyOf(parts) => self.joined(parts, " or ", "false"),
+        }
+    }
+
+    fn joined(&self, parts: &[Condition], sign: &str, none: &str) -> String {
+        if parts.is_empty() {
+            return none.to_owned();
+        }
+        parts.iter().map(|part| self.inner(part)).collect::<Vec<_>>().join(sign)
+    }
+
+    /// In parentheses where it has parts of its own.
+    fn inner(&self, condition: &Condition) -> String {
+        let text = self.condition(condition);
+        match condition {
+            Condition::Literal(_) | Condition::Fact(_) | Condition::Not(_) => text,
+            Condition::Compare(..) | Condition::All(_) | Condition::AnyOf(_) => format!("({text})"),
+        }
+    }
+
+    fn terms(&self, terms: &[Term]) -> String {
+        terms.iter().map(|term| self.term(term)).collect::<Vec<_>>().join(", ")
+    }
+
+    fn term(&self, term: &Term) -> String {
+        match term {
+            Term::Literal(value) => value.to_string(),
+            Term::Binding(id) => self.binding(*id).to_owned(),
+            Term::Each => "e".to_owned(),
+            Term::Field(of, field) => format!("{}.{field}", self.term(of)),
+            Term::Measure(id, args) => {
+                let name = self.0.measures.get(id.index()).map_or(NOBODY, |measure| &measure.name);
+                format!("{name}({})", self.terms(args))
+            }
+            Term::List(items) => format!("[{}]", self.terms(items)),
+            Term::Arith(operation, left, right) => {
+                let sign = match operation {
+                    Arithmetic::Add => '+',
+                    Arithmetic::Subtract => '-',
+                    Arithmetic::Multiply => '*',
+                    Arithmetic::Divide => '/',
+                };
+                format!("({} {sign} {})", self.term(left), self.term(right))
+            }
+        }
+    }
+}
