@@ -155,6 +155,8 @@ pub(crate) enum Emit {
     Json,
     /// The policy's text form
     Text,
+    /// The graph as an indented tree, with guards, effects and durations
+    Tree,
     /// A Mermaid flowchart of the graph
     Mermaid,
     /// A Graphviz drawing of the graph

@@ -45,6 +45,8 @@ pub(crate) struct Setting {
     pub(crate) robot: Option<Robot>,
     /// The scene, if any.
     pub(crate) scene: Option<Scene>,
+    /// The domains on top of the library.
+    pub(crate) domains: Vec<File>,
     sources: Sources,
 }
 
@@ -118,7 +120,7 @@ impl Workbench {
         let (session, said) =
             Session::new(robot.as_ref(), &self.domains, scene, state, self.options, &mut sources);
         report.usable("robot, scene, state or domain", &said, &sources)?;
-        Ok(Setting { session, robot, scene: self.scene.clone(), sources })
+        Ok(Setting { session, robot, scene: self.scene.clone(), domains: self.domains.clone(), sources })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use motet_graph::draw;
 use motet_syntax::Form;
 
 use crate::args::{CompileArgs, Emit};
@@ -34,12 +35,15 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let policy = args.policy.as_deref();
     let compiled = setting.session.compile(&parsed, policy);
     report.say(&compiled.diagnostics, &setting.sources(source));
-    let Some(_graph) = compiled.graph else {
+    let Some(graph) = compiled.graph else {
         return Ok(Exit::Findings);
     };
     let library = setting.session.library();
     let written = match args.emit {
-        Emit::Graph | Emit::Mermaid | Emit::Dot => Err("this build cannot write graphs".to_owned()),
+        Emit::Graph => Ok(motet_graph::encode(&graph)),
+        Emit::Tree => Ok(draw::text(&graph)),
+        Emit::Mermaid => Ok(draw::mermaid(&graph)),
+        Emit::Dot => Ok(draw::dot(&graph)),
         Emit::Json => form::write(&parsed, policy, library, Form::Json),
         Emit::Text => form::write(&parsed, policy, library, Form::Text),
     };

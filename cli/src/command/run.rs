@@ -14,7 +14,9 @@ use std::io::{self, IsTerminal};
 use std::sync::Arc;
 
 use motet_graph::Graph;
+use motet_robots::scene::Scene;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
+use motet_sim::Sim;
 use motet_syntax::Severity;
 
 use crate::args::{Format, RunArgs, RunFormat};
@@ -23,9 +25,10 @@ use crate::exit::{Exit, Trouble};
 use crate::input::one_document;
 use crate::out::{Colors, note};
 use crate::report::Report;
-use crate::workbench::{Setting, Workbench, wanted_robot};
+use crate::workbench::{Workbench, wanted_robot};
 use pace::Pace;
 use view::View;
+use world::Choices;
 
 /// Runs the command.
 ///
@@ -46,6 +49,7 @@ fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<
     let (source, parsed) = document::read(&one_document(&args.file)?);
     let mut bench = Workbench::open(&args.world, report)?;
     let setting = bench.setting(&parsed.file, report)?;
+    let choices = Choices::read(args, report)?;
     let compiled = setting.session.compile(&parsed, args.policy.as_deref());
     report.say(&compiled.diagnostics, &setting.sources(source));
     let Some(graph) = compiled.graph else {
@@ -53,10 +57,13 @@ fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<
         note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
         return Ok(Exit::Findings);
     };
-    if setting.robot.is_none() {
+    let Some(robot) = &setting.robot else {
         return Err(no_robot(wanted_robot(&parsed.file)));
-    }
-    let end = simulate(args, colors, setting, graph)?;
+    };
+    let scene = setting.scene.as_ref();
+    let files: Vec<_> = setting.domains.iter().chain([&parsed.file]).collect();
+    let simulator = choices.simulator(robot, scene, &graph, &files);
+    let end = simulate(args, colors, graph, scene, simulator)?;
     Ok(match end {
         RunEnd::Done { .. } => Exit::Clean,
         RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
@@ -64,9 +71,14 @@ fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<
     })
 }
 
-fn simulate(args: &RunArgs, colors: Colors, setting: &Setting, graph: Graph) -> Result<RunEnd, Trouble> {
-    let mut driver = world::driver(args, setting)?;
-    let mut engine = Engine::new(graph.clone(), &start(setting)).map_err(|wrong| {
+fn simulate(
+    args: &RunArgs,
+    colors: Colors,
+    graph: Graph,
+    scene: Option<&Scene>,
+    mut simulator: Sim,
+) -> Result<RunEnd, Trouble> {
+    let mut engine = Engine::new(graph.clone(), &start(scene)).map_err(|wrong| {
         let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
         Trouble::Other(format!("the compiled graph is not valid{first}"))
     })?;
@@ -78,14 +90,14 @@ fn simulate(args: &RunArgs, colors: Colors, setting: &Setting, graph: Graph) -> 
     };
     pace::catch_interrupts()?;
     let mut pace = Pace::new(view, args.speed);
-    let end = motet_runtime::run(&mut engine, driver.as_mut(), &mut pace, Time::ZERO);
+    let end = motet_runtime::run(&mut engine, &mut simulator, &mut pace, Time::ZERO);
     pace.finish(&end);
     Ok(end)
 }
 
 /// What is known at the start beside what stands in the graph: which entities there are.
-fn start(setting: &Setting) -> StartState {
-    let entities = setting.scene.iter().flat_map(|scene| &scene.entities);
+fn start(scene: Option<&Scene>) -> StartState {
+    let entities = scene.iter().flat_map(|scene| &scene.entities);
     StartState {
         facts: Vec::new(),
         entities: entities.map(|(id, entity)| (id.clone(), entity.kind.clone())).collect(),

@@ -1,12 +1,103 @@
-//! The world that a run moves in.
+//! The world that a run moves in: the simulator, with what the flags say of it.
 
-use motet_runtime::Driver;
+use std::path::Path;
+
+use motet_graph::{FactArg, Graph, Term, Value};
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_sim::{Faults, Options, Script, Sim};
+use motet_syntax::ast::{File, Item};
+use motet_syntax::json;
+use motet_syntax::{FileId, Sources};
+use serde::de::DeserializeOwned;
+use smol_str::SmolStr;
 
 use crate::args::RunArgs;
+use crate::document;
 use crate::exit::Trouble;
-use crate::workbench::Setting;
+use crate::input::read_small;
+use crate::report::Report;
 
-/// The simulated world of a setting.
-pub(super) fn driver(_args: &RunArgs, _setting: &Setting) -> Result<Box<dyn Driver>, Trouble> {
-    Err(Trouble::Other("this build has no simulator".to_owned()))
+/// What the flags say of the world.
+#[derive(Debug)]
+pub(super) struct Choices {
+    faults: Faults,
+    answers: Vec<Option<String>>,
+    seed: u64,
+}
+
+impl Choices {
+    /// Reads the files that the flags name.
+    ///
+    /// # Errors
+    ///
+    /// One of them cannot be read or has a mistake.
+    pub(super) fn read(args: &RunArgs, report: &mut Report) -> Result<Self, Trouble> {
+        let faults = match &args.faults {
+            Some(path) => faults(path, report)?,
+            None => Faults::default(),
+        };
+        let answers = match &args.answers {
+            Some(path) => read(path, "file of answers", report)?.0,
+            None => Vec::new(),
+        };
+        Ok(Self { faults, answers, seed: args.seed })
+    }
+
+    /// The simulated world. `files` are the document and the domains, whose entities have a place in it too.
+    pub(super) fn simulator(self, robot: &Robot, scene: Option<&Scene>, graph: &Graph, files: &[&File]) -> Sim {
+        let nothing = Scene::default();
+        let parent = |kind: &motet_graph::Kind| {
+            let parent = graph.kinds.get(kind.parent?.index())?;
+            Some((kind.name.clone(), parent.name.clone()))
+        };
+        let options = Options {
+            seed: self.seed,
+            faults: self.faults,
+            script: Script { answers: self.answers },
+            kinds: graph.kinds.iter().filter_map(parent).collect(),
+            entities: files.iter().flat_map(|file| entities(file)).collect(),
+            told: graph.initial.iter().filter_map(|(fact, value)| Some((told(graph, fact)?, *value))).collect(),
+        };
+        Sim::new(robot, scene.unwrap_or(&nothing), options)
+    }
+}
+
+fn faults(path: &Path, report: &mut Report) -> Result<Faults, Trouble> {
+    let (_, text) = read::<Faults>(path, "file of faults", report)?;
+    // The shape is right; what is left is whether numbers are in range.
+    Faults::from_json(&text).map_err(|error| Trouble::Other(format!("`{}`: {error}", path.display())))
+}
+
+/// Reads a JSON file that is not about a policy; its diagnostics go to the report.
+fn read<T: DeserializeOwned>(path: &Path, what: &'static str, report: &mut Report) -> Result<(T, String), Trouble> {
+    let mut sources = Sources::default();
+    let (source, mut said) = document::decode(&path.display().to_string(), &read_small(path)?, FileId(0));
+    sources.add(source.clone());
+    let (value, more) = json::read::<T>(&source, FileId(0));
+    said.extend(more);
+    report.usable(what, &said, &sources)?;
+    let value = value.ok_or(Trouble::Diagnosed(what))?;
+    Ok((value, source.text.to_string()))
+}
+
+/// The entities that a file declares, with their kind.
+fn entities(file: &File) -> Vec<(SmolStr, SmolStr)> {
+    let mut found = Vec::new();
+    for item in &file.items {
+        if let Item::Entities(decl) = item {
+            found.extend(decl.names.iter().map(|name| (name.text.clone(), decl.kind.text.clone())));
+        }
+    }
+    found
+}
+
+/// A fact that the compiler was told of, as the simulator wants it.
+fn told(graph: &Graph, fact: &motet_graph::Fact) -> Option<(SmolStr, Vec<SmolStr>)> {
+    let name = graph.fluents.get(fact.fluent.index())?.name.clone();
+    let args = fact.args.iter().map(|arg| match arg {
+        FactArg::Term(Term::Literal(Value::Entity(id) | Value::Case(id))) => Some(id.clone()),
+        FactArg::Term(_) | FactArg::Any => None,
+    });
+    Some((name, args.collect::<Option<Vec<_>>>()?))
 }

@@ -6,23 +6,23 @@ use std::process::{Command, Stdio};
 
 /// What a run of the command left behind.
 #[derive(Debug)]
-pub struct Ran {
+pub(crate) struct Ran {
     /// The exit code.
-    pub code: Option<i32>,
+    pub(crate) code: Option<i32>,
     /// Standard output.
-    pub stdout: String,
+    pub(crate) stdout: String,
     /// Standard error.
-    pub stderr: String,
+    pub(crate) stderr: String,
 }
 
 /// A folder with files, and the command run in it.
-pub struct Place {
+pub(crate) struct Place {
     folder: PathBuf,
 }
 
 impl Place {
     /// An empty folder; the name is the test's.
-    pub fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         let _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).expect("the folder can be made");
@@ -30,7 +30,7 @@ impl Place {
     }
 
     /// Writes a file, with the folders above it.
-    pub fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+    pub(crate) fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
         let path = self.folder.join(name);
         std::fs::create_dir_all(path.parent().expect("a file is in a folder")).expect("folders can be made");
         std::fs::write(path, content).expect("the file can be written");
@@ -38,17 +38,17 @@ impl Place {
     }
 
     /// Reads a file.
-    pub fn read(&self, name: &str) -> String {
+    pub(crate) fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.folder.join(name)).expect("the file is there")
     }
 
     /// Runs the command with a command line, split at blanks.
-    pub fn run(&self, line: &str) -> Ran {
+    pub(crate) fn run(&self, line: &str) -> Ran {
         self.run_with(line, b"", &[])
     }
 
     /// Runs the command with a standard input and variables.
-    pub fn run_with(&self, line: &str, stdin: &[u8], variables: &[(&str, &str)]) -> Ran {
+    pub(crate) fn run_with(&self, line: &str, stdin: &[u8], variables: &[(&str, &str)]) -> Ran {
         let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
             .args(line.split_whitespace())
             .current_dir(&self.folder)
@@ -72,7 +72,7 @@ impl Place {
 
 impl Ran {
     /// Asserts the exit code, and that each text is in standard output or standard error: `out:…` or `err:…`.
-    pub fn check(&self, code: i32, texts: &[&str]) -> &Self {
+    pub(crate) fn check(&self, code: i32, texts: &[&str]) -> &Self {
         assert_eq!(self.code, Some(code), "{self:#?}");
         for text in texts {
             let (from, text) = text.split_once(':').expect("`out:` or `err:`");
@@ -84,10 +84,10 @@ impl Ran {
 }
 
 /// A policy that is right.
-pub const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(user)\n    handover(mug, user)\n}\n";
+pub(crate) const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(user)\n    handover(mug, user)\n}\n";
 
 /// The same in JSON.
-pub const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "steps": [
+pub(crate) const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "steps": [
   {"do": "go", "to": "kitchen_table"},
   {"do": "detect", "what": "red mug", "as": "mug"},
   {"do": "pick", "object": "$mug"},
@@ -96,4 +96,4 @@ pub const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "s
 "#;
 
 /// A policy with a misspelled primitive.
-pub const BAD: &str = "policy tidy for hsr {\n    goo(kitchen_table)\n}\n";
+pub(crate) const BAD: &str = "policy tidy for hsr {\n    goo(kitchen_table)\n}\n";

@@ -1,8 +1,6 @@
 //! `motet fmt` and `motet compile` from outside.
 
-mod support;
-
-use support::{BAD, GOOD, GOOD_JSON, Place};
+use crate::support::{BAD, GOOD, GOOD_JSON, Place};
 
 const LOOSE: &str = "// A comment that stays.\npolicy   tidy for hsr {\n go( kitchen_table )\n}\n";
 const TIGHT: &str = "// A comment that stays.\npolicy tidy for hsr {\n    go(kitchen_table)\n}\n";

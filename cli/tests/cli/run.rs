@@ -1,9 +1,7 @@
 //! `motet run` from outside: outcomes, exit codes, the shapes of what is shown.
 
-mod support;
-
 use serde_json::Value;
-use support::{BAD, GOOD, Place};
+use crate::support::{BAD, GOOD, Place};
 
 fn place(name: &str) -> Place {
     Place::new(name)

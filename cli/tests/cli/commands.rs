@@ -1,9 +1,7 @@
 //! The small commands from outside: `robots`, `explain`, `schema`, `completions`.
 
-mod support;
-
 use serde_json::Value;
-use support::Place;
+use crate::support::Place;
 
 #[test]
 fn answers() {

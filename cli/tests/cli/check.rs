@@ -1,9 +1,7 @@
 //! `motet check` from outside: inputs, formats, exit codes.
 
-mod support;
-
 use serde_json::Value;
-use support::{BAD, GOOD, GOOD_JSON, Place};
+use crate::support::{BAD, GOOD, GOOD_JSON, Place};
 
 fn place(name: &str) -> Place {
     Place::new(name)
@@ -16,6 +14,7 @@ fn place(name: &str) -> Place {
         .file("broken.json", "{\"motet\": 1,")
         .file("latin.motet", b"policy caf\xe9 {}")
         .file("state.json", r#"{"holding(mug_1)": true, "free(hand)": false}"#)
+        .file("open.json", r#"{"open(drawer_1)": true}"#)
         .file("odd_state.json", r#"{"holding(": true}"#)
         .file("domain.motet", "kind Block: Object\nfluent stacked(a: Block)\n")
         .file("odd_domain.motet", "fluent (")
@@ -39,7 +38,8 @@ fn ends_with_the_right_code() {
         (format!("check bad.motet {scene}"), 1, &["out:M0201", "out:goo", "err:1 error"]),
         (format!("check deep {scene}"), 0, &["err:checked 1 document", "err:skipped 1 JSON file"]),
         (format!("check lines.jsonl {scene}"), 1, &["out:lines.jsonl:3", "err:checked 2 documents: 1 error"]),
-        (format!("check good.motet {scene} --state state.json"), 0, &[]),
+        (format!("check good.motet {scene} --state open.json"), 0, &[]),
+        (format!("check good.motet {scene} --state state.json"), 1, &["out:M0501", "out:free(hand)"]),
         (format!("check good.motet {scene} --domain domain.motet"), 0, &[]),
         (format!("check good.motet {scene} --max-duration 1s"), 1, &["out:M08"]),
         ("check broken.json".to_owned(), 1, &["out:broken.json"]),

@@ -1,0 +1,7 @@
+//! The command from outside: the built binary is run as a user runs it. One program, so that it is linked once.
+
+mod check;
+mod commands;
+mod fmt;
+mod run;
+mod support;
