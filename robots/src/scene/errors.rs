@@ -67,8 +67,12 @@ mistakes! {
         match m.ring.as_slice() {
             [alone] => format!("`{alone}` is on or in itself"),
             ring => {
-                let names: Vec<_> = ring.iter().chain(ring.first()).map(|id| format!("`{id}`")).collect();
-                format!("things stand on or in each other: {}", names.join(" on "))
+                let mut names: Vec<_> = ring.iter().take(8).map(|id| format!("`{id}`")).collect();
+                if ring.len() > names.len() {
+                    names.push(format!("{} more", ring.len() - names.len()));
+                }
+                names.extend(ring.first().map(|id| format!("`{id}`")));
+                format!("things stand on or in each other in a ring: {}", names.join(", "))
             }
         }
     }

@@ -10,6 +10,9 @@ use super::errors::{HeldElsewhere, SupportCycle, UnknownEntity};
 use super::model::Scene;
 use super::wire;
 
+/// For how many mistakes a close name is looked for, and how many things of a ring are shown.
+const SHOWN: usize = 8;
+
 /// Takes relations out of the scene that cannot be, and says why.
 pub(super) fn settle(
     scene: &mut Scene,
@@ -36,12 +39,13 @@ struct Relations<'s> {
 }
 
 impl Relations<'_> {
-    /// Says that a name is not known; the right one, where one is close.
+    /// Whether a name is not known; then it is told, with the right one where one is close.
     fn unknown(&mut self, key: &'static str, name: &Spanned<SmolStr>) -> bool {
         if self.scene.entities.contains_key(&name.value) {
             return false;
         }
-        let known = self.scene.entities.keys().map(SmolStr::as_str);
+        // Looking for a close name takes as long as there are names: it is worth it for the first mistakes.
+        let known = self.scene.entities.keys().map(SmolStr::as_str).filter(|_| self.found.len() < SHOWN);
         let near = suggest::closest(&name.value, known).map(SmolStr::new);
         self.found.push(UnknownEntity { span: name.span, key, name: name.value.clone(), near }.into());
         true
@@ -80,36 +84,43 @@ impl Relations<'_> {
 
     /// Finds rings, and opens each. Every entity has at most two supports; each is walked once. O(entities).
     fn cycles(&mut self, wires: &[Spanned<wire::Entity>]) {
-        let places: HashMap<&SmolStr, Span> =
-            wires.iter().rev().map(|wire| (&wire.id.value, where_said(wire))).collect();
+        // Of entities with one id the first counts.
+        let places = wires.iter().rev().map(|wire| (&wire.id.value, where_said(wire)));
+        let places: HashMap<&SmolStr, Span> = places.collect();
         let mut done: HashSet<SmolStr> = HashSet::new();
         let roots: Vec<SmolStr> = self.scene.entities.keys().cloned().collect();
         for root in roots {
-            // A walk keeps the way that it came, and how many of the two supports of each it has seen.
-            let mut way: Vec<(SmolStr, usize)> = vec![(root, 0)];
-            while let Some((id, next)) = way.pop() {
-                let support = (!done.contains(&id)).then(|| self.support(&id, next)).flatten();
-                let Some(support) = support else {
-                    if next >= 2 || done.contains(&id) {
+            // The way that the walk came, each with how many of its two supports were seen, and the same as a set.
+            let mut way: Vec<(SmolStr, u8)> = Vec::new();
+            let mut on_way: HashSet<SmolStr> = HashSet::new();
+            let mut next = Some(root);
+            loop {
+                if let Some(id) = next.take().filter(|id| !done.contains(id)) {
+                    on_way.insert(id.clone());
+                    way.push((id, 0));
+                }
+                let Some((id, seen)) = way.last_mut() else { break };
+                let (id, which) = (id.clone(), *seen);
+                *seen += 1;
+                match self.support(&id, which) {
+                    Some(support) if on_way.contains(&support) => {
+                        let ring = way.iter().map(|(id, _)| id).skip_while(|id| **id != support).cloned();
+                        self.ring(ring.collect(), &id, which, &places);
+                    }
+                    Some(support) => next = Some(support),
+                    None if which >= 2 => {
+                        way.pop();
+                        on_way.remove(&id);
                         done.insert(id);
-                    } else {
-                        way.push((id, next + 1));
                     }
-                    continue;
-                };
-                way.push((id.clone(), next + 1));
-                match way.iter().position(|(on_way, _)| *on_way == support) {
-                    Some(first) => {
-                        let ring: Vec<SmolStr> = way.iter().skip(first).map(|(id, _)| id.clone()).collect();
-                        self.ring(ring, &id, next, &places);
-                    }
-                    None => way.push((support, 0)),
+                    None => {}
                 }
             }
         }
     }
 
-    fn support(&self, id: &SmolStr, which: usize) -> Option<SmolStr> {
+    /// What carries an entity: first what it is on, then what it is in.
+    fn support(&self, id: &SmolStr, which: u8) -> Option<SmolStr> {
         let entity = self.scene.entities.get(id)?;
         match which {
             0 => entity.on.clone(),
@@ -118,10 +129,11 @@ impl Relations<'_> {
         }
     }
 
-    fn ring(&mut self, ring: Vec<SmolStr>, last: &SmolStr, which: usize, places: &HashMap<&SmolStr, Span>) {
-        let span_of = |id: &SmolStr| places.get(id).copied().unwrap_or_default();
-        let others = ring.iter().filter(|id| *id != last).map(|id| (id.clone(), span_of(id))).collect();
-        self.found.push(SupportCycle { span: span_of(last), ring, others }.into());
+    fn ring(&mut self, ring: Vec<SmolStr>, last: &SmolStr, which: u8, places: &HashMap<&SmolStr, Span>) {
+        let span_of = |id: &SmolStr| places.get(id).copied();
+        let others = ring.iter().filter(|id| *id != last);
+        let others = others.filter_map(|id| Some((id.clone(), span_of(id)?))).take(SHOWN).collect();
+        self.found.push(SupportCycle { span: span_of(last).unwrap_or_default(), ring, others }.into());
         if let Some(entity) = self.scene.entities.get_mut(last) {
             match which {
                 0 => entity.on = None,

@@ -88,7 +88,7 @@ pub(super) struct Entity {
     /// What it belongs to: `drinkware`.
     #[serde(default)]
     pub(super) categories: Vec<SmolStr>,
-    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`.
+    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`; of what opens, the pose when closed.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
     pub(super) pose: Lenient<Pose>,
     /// Its shape.
