@@ -191,20 +191,12 @@ fn place(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
             diagnostic.fix = None;
         }
     }
-    diagnostic.path = pointer(program, diagnostic.span);
+    diagnostic.path = motet_syntax::path::pointer(policy, diagnostic.span);
     for related in &mut diagnostic.related {
         if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {
-            related.path = pointer(program, span);
+            related.path = motet_syntax::path::pointer(policy, span);
         }
     }
-}
-
-fn pointer(program: &Program, span: Span) -> String {
-    let within = program.steps.iter().enumerate().filter(|(_, step)| step.span.contains(span));
-    let innermost = within.last().and_then(|(index, _)| u32::try_from(index).ok());
-    innermost
-        .map(|index| crate::lower::pointer(program, crate::ir::StepId(index)).to_string())
-        .unwrap_or_default()
 }
 
 /// The call in the document by which a step of another file got here.

@@ -37,7 +37,8 @@ impl Settler<'_> {
     fn step(&self, step: &mut StepKind) {
         match step {
             StepKind::Do(call) => {
-                self.call(&mut call.call);
+                let params = self.called(&call.call.name.text);
+                self.call(&mut call.call, params);
                 self.optional(call.within.as_mut(), Ty::DURATION);
                 self.optional(call.retry.as_mut(), Ty::INT);
             }
@@ -100,8 +101,8 @@ impl Settler<'_> {
         }
     }
 
-    /// The parameters of whatever has this name, with those that have a default.
-    fn params(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
+    /// The parameters of the primitive or the policy of this name, with those that have a default.
+    fn called(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
         if let Some(def) = names.primitives.get(name).and_then(|id| self.library.primitive(*id)) {
             return Some(def.params.iter().map(|param| (param.name.clone(), param.ty)).collect());
@@ -112,9 +113,10 @@ impl Settler<'_> {
                 params.map(|param| (param.name.text.clone(), self.library.written_type(&param.ty))).collect(),
             );
         }
-        self.observed(name)
+        None
     }
 
+    /// The parameters of the fluent or the measure of this name.
     fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
         let fluent =
@@ -124,8 +126,9 @@ impl Settler<'_> {
         })
     }
 
-    fn call(&self, call: &mut Call) {
-        match self.params(&call.name.text) {
+    /// A call of what has these parameters; `open` is both a primitive and a fluent, so the caller says which.
+    fn call(&self, call: &mut Call, params: Option<Vec<(SmolStr, Ty)>>) {
+        match params {
             Some(params) => self.arguments(&mut call.args, &params),
             None => call.args.iter_mut().for_each(|arg| self.term(&mut arg.value, None)),
         }
@@ -171,7 +174,7 @@ impl Settler<'_> {
                     }
                 }
             }
-            ExprKind::Call(call) => self.call(call),
+            ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
             ExprKind::Binding(name) => expr.kind = ExprKind::Name(name.clone()),
             ExprKind::Bool(_)
             | ExprKind::Number(_)
@@ -199,7 +202,7 @@ impl Settler<'_> {
                 let element = ty.and_then(Ty::element);
                 items.iter_mut().for_each(|item| self.term(item, element));
             }
-            ExprKind::Call(call) => self.call(call),
+            ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
             ExprKind::Field(of, _) => self.term(of, None),
             ExprKind::Arith(_, left, right) => {
                 let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));

@@ -22,7 +22,8 @@ fn check(session: &Session, text: &str) -> usize {
 fn twenty_steps(c: &mut Criterion) {
     let session = session();
     let text = generate::policy_of(20);
-    let schema = serde_json::to_value(motet_syntax::json::policy_schema()).expect("a schema is JSON");
+    let schema = serde_json::to_value(schemars::schema_for!(motet_syntax::json::wire::Document))
+        .expect("a schema is JSON");
     let validator = jsonschema::validator_for(&schema).expect("the schema is valid");
     let document: serde_json::Value = serde_json::from_str(&text).expect("the policy is JSON");
     assert!(validator.is_valid(&document), "the exported schema takes the policy");
@@ -30,10 +31,13 @@ fn twenty_steps(c: &mut Criterion) {
 
     let mut group = c.benchmark_group("policy of 20 steps");
     group.throughput(Throughput::Elements(20));
-    group.bench_function("motet: read, resolve, check, prove", |b| b.iter(|| check(&session, black_box(&text))));
+    group.bench_function("motet: read, resolve, check, prove", |b| {
+        b.iter(|| check(&session, black_box(&text)))
+    });
     group.bench_function("serde_json + jsonschema: validate only", |b| {
         b.iter(|| {
-            let document: serde_json::Value = serde_json::from_str(black_box(&text)).expect("the policy is JSON");
+            let document: serde_json::Value =
+                serde_json::from_str(black_box(&text)).expect("the policy is JSON");
             validator.is_valid(&document)
         });
     });
@@ -46,7 +50,9 @@ fn growth(c: &mut Criterion) {
     for steps in [100, 1_000, 10_000] {
         let text = generate::policy_of(steps);
         group.throughput(Throughput::Elements(steps as u64));
-        group.bench_with_input(BenchmarkId::from_parameter(steps), &text, |b, text| b.iter(|| check(&session, text)));
+        group.bench_with_input(BenchmarkId::from_parameter(steps), &text, |b, text| {
+            b.iter(|| check(&session, text))
+        });
     }
     group.finish();
 }

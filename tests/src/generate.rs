@@ -12,7 +12,8 @@ pub fn policy_of(steps: usize) -> String {
     while left > 0 {
         let mug = format!("mug{round}");
         let bound = format!("${mug}");
-        let (home, away) = if round % 2 == 0 { ("kitchen_table", "counter") } else { ("counter", "kitchen_table") };
+        let (home, away) =
+            if round % 2 == 0 { ("kitchen_table", "counter") } else { ("counter", "kitchen_table") };
         // Each entry with the number of steps that it counts for.
         let lap = [
             (1, json!({"do": "go", "to": home})),

@@ -32,8 +32,12 @@ struct Op {
 }
 
 /// Where the places of these rows stand: the centre of a box of 0.8 m × 0.6 m.
-const PLACES: &[(&str, [f64; 2])] =
-    &[("table", [2.5, 0.0]), ("close_counter", [0.0, -2.5]), ("far_counter", [3.5, 3.5]), ("trash", [-2.5, 1.0])];
+const PLACES: &[(&str, [f64; 2])] = &[
+    ("table", [2.5, 0.0]),
+    ("close_counter", [0.0, -2.5]),
+    ("far_counter", [3.5, 3.5]),
+    ("trash", [-2.5, 1.0]),
+];
 const HEIGHT_M: f64 = 0.7;
 const USER: [f64; 2] = [-1.5, -2.0];
 
@@ -69,7 +73,8 @@ impl Row {
         }
         let goal: Vec<_> = self.goal.iter().map(goal).collect();
         let name = self.id.replace('-', "_");
-        json!({"motet": 1, "policy": name, "robot": "hsr", "achieves": {"all": goal}, "steps": steps}).to_string()
+        json!({"motet": 1, "policy": name, "robot": "hsr", "achieves": {"all": goal}, "steps": steps})
+            .to_string()
     }
 
     /// The room as a scene document.

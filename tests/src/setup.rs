@@ -9,7 +9,8 @@ use motet_syntax::{Diagnostic, Source, Sources};
 #[must_use]
 #[expect(clippy::panic, reason = "a test that names a robot which is not there cannot go on")]
 pub fn robot(name: &str) -> Robot {
-    let Some((name, toml, declarations)) = motet_robots::card::embedded().iter().find(|row| row.0 == name) else {
+    let Some((name, toml, declarations)) = motet_robots::card::embedded().iter().find(|row| row.0 == name)
+    else {
         panic!("no robot `{name}`");
     };
     let mut sources = Sources::default();
@@ -42,6 +43,10 @@ pub fn scene_from(name: &str, json: &str) -> Scene {
 
 /// A session of a robot in a scene, with what is wrong with them.
 #[must_use]
-pub fn session(robot: Option<&Robot>, scene: Option<&Scene>, sources: &mut Sources) -> (Session, Vec<Diagnostic>) {
+pub fn session(
+    robot: Option<&Robot>,
+    scene: Option<&Scene>,
+    sources: &mut Sources,
+) -> (Session, Vec<Diagnostic>) {
     Session::new(robot, &[], scene, None, Options::default(), sources)
 }

@@ -9,7 +9,9 @@ fn check(robot: Option<&str>, scene: Option<&str>) {
     let scene = scene.map(setup::scene);
     let (_, said) = setup::session(robot.as_ref(), scene.as_ref(), &mut sources);
     let show = |said: &Diagnostic| {
-        let place = sources.get(said.span.file).map(|source| (source.name.clone(), source.line_column(said.span.start)));
+        let place = sources
+            .get(said.span.file)
+            .map(|source| (source.name.clone(), source.line_column(said.span.start)));
         format!("{} {} at {place:?}", said.code, said.message)
     };
     assert!(said.is_empty(), "{:#?}", said.iter().map(show).collect::<Vec<_>>());

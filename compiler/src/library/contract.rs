@@ -69,6 +69,12 @@ pub(super) fn primitives(
         let id = Primitive(u16::try_from(index).unwrap_or(u16::MAX));
         library.names.primitives.insert(def.name.clone(), id);
     }
+    let perceptions = defs.iter().filter(|def| def.lasts.is_some());
+    let mut perceived: Vec<_> =
+        perceptions.flat_map(|def| &def.makes).map(|effect| effect.fact.fluent).collect();
+    perceived.sort_unstable();
+    perceived.dedup();
+    library.perceived = perceived;
     library.primitives = defs;
 }
 

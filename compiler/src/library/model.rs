@@ -34,6 +34,8 @@ pub struct Library {
     /// Seconds that one observation may take.
     pub(crate) observe_within_secs: f64,
     pub(crate) names: Names,
+    /// Fluents that some perception makes and that do not last.
+    pub(crate) perceived: Vec<Fluent>,
 }
 
 /// Name to index, one table a name space.

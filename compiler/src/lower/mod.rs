@@ -1,7 +1,5 @@
 //! Stage 5: from a proved program to an execution graph. What is proven is noted, what is deferred becomes a guard.
 
-pub(crate) use path::pointer;
-
 mod path;
 mod table;
 mod term;
@@ -100,7 +98,7 @@ impl Lowering<'_> {
         let (least_secs, greatest_secs) = source.bounds;
         // The place in the arena is taken first, so that a parent comes before its children.
         self.nodes.push(graph::Node {
-            path: pointer(program, step),
+            path: path::pointer(program, step),
             region,
             next: None,
             duration: graph::Bounds { least_secs, greatest_secs },

@@ -246,7 +246,11 @@ impl Prover<'_> {
         }
         let moved = self.moved(def, frame);
         let mut stale = Vec::new();
-        for (fluent, key, value) in self.facts.all_entries() {
+        let perceived = self.library.perceived.iter().copied().chain([self.fresh]);
+        let entries = perceived.flat_map(|fluent| {
+            self.facts.entries(fluent, Key::ALL).map(move |(key, value)| (fluent, key, value))
+        });
+        for (fluent, key, value) in entries {
             let Some(source) = value.yes.as_step().filter(|source| *source != step) else { continue };
             let Some(lasting) = self.lasting.get(&source) else { continue };
             let used = lasting.resources & def.uses != 0;

@@ -10,8 +10,9 @@ pub(crate) use entities::Entities;
 pub use entities::MAX_ENTITIES;
 pub use state::State;
 
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Scene, normal};
 use motet_syntax::Diagnostic;
+use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use crate::ir::{Entity, Fact, Kind, ROBOT, Term};
@@ -27,6 +28,8 @@ pub struct World {
     entities: Entities,
     /// The scene's entity behind each of ours, from the first that a scene gave.
     scene: Option<Scene>,
+    /// What a description finds.
+    descriptions: FxHashMap<String, Vec<Entity>>,
     pub(crate) facts: Facts,
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
@@ -50,7 +53,8 @@ impl World {
         let closed = Value::no(Cause::NOTHING);
         let default = if library.closed_world { closed } else { Value::NOTHING_KNOWN };
         let facts = Facts::new(library.fluents.len(), default);
-        let mut world = Self { entities, scene: scene.cloned(), facts, given: Vec::new() };
+        let descriptions = seed::descriptions(scene, &entities);
+        let mut world = Self { entities, scene: scene.cloned(), descriptions, facts, given: Vec::new() };
         seed::facts(library, &mut world);
         for (fact, value, _) in &library.initially {
             world.tell(fact.clone(), *value);
@@ -82,20 +86,12 @@ impl World {
         self.given.push((fact, value));
     }
 
-    /// The entities of a kind that a description fits.
+    /// The entities of a kind that a description fits, in the order of the world.
     pub(crate) fn described(&self, library: &Library, description: &str, kind: Kind) -> Vec<Entity> {
-        let fits = |found: &(Entity, Kind)| library.is_kind(found.1, kind);
-        match &self.scene {
-            Some(scene) => {
-                let matches = scene.matches(description).into_iter();
-                matches
-                    .filter_map(|entity| self.entities.find(&entity.id))
-                    .filter(fits)
-                    .map(|found| found.0)
-                    .collect()
-            }
-            None => self.entities.find(description).filter(fits).map(|found| found.0).into_iter().collect(),
-        }
+        let found = self.descriptions.get(&normal(description)).map(Vec::as_slice).unwrap_or_default();
+        let fits =
+            |entity: &Entity| self.entities.kind(*entity).is_some_and(|found| library.is_kind(found, kind));
+        found.iter().copied().filter(fits).collect()
     }
 
     /// A number that an entity of the scene has: `mass`, `width`, or a field of its own, in SI units.

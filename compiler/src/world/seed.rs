@@ -1,8 +1,8 @@
 //! What a scene says, as entities and facts (section 8 of the language page).
 
-use motet_robots::scene::{Entity as Thing, Scene};
+use motet_robots::scene::{Entity as Thing, Scene, normal};
 use motet_syntax::{Diagnostic, Span};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use super::errors::{TakenName, TooManyEntities, UnknownKind};
@@ -39,6 +39,22 @@ pub(super) fn entities(
             diagnostics.push(TakenName { span, entity: thing.id.clone() }.into());
         }
     }
+}
+
+/// What finds each entity: all that a scene calls it, or its name where no scene is given.
+pub(super) fn descriptions(scene: Option<&Scene>, entities: &Entities) -> FxHashMap<String, Vec<Entity>> {
+    let mut found: FxHashMap<String, Vec<Entity>> = FxHashMap::default();
+    for (entity, name, _) in entities.iter() {
+        let thing = scene.and_then(|scene| scene.entities.get(name));
+        let own = scene.is_none().then(|| normal(name));
+        for description in thing.into_iter().flat_map(Thing::descriptions).chain(own) {
+            let list = found.entry(description).or_default();
+            if list.last() != Some(&entity) {
+                list.push(entity);
+            }
+        }
+    }
+    found
 }
 
 /// Names a fluent of the standard library where it is declared with that many parameters.

@@ -1,7 +1,5 @@
 //! Which entities a description means, and how wide a thing is.
 
-use smol_str::SmolStr;
-
 use super::model::{Entity, Scene, Shape};
 
 impl Scene {
@@ -15,7 +13,7 @@ impl Scene {
         if wanted.is_empty() {
             return Vec::new();
         }
-        self.entities.values().filter(|entity| entity.is_called(&wanted)).collect()
+        self.entities.values().filter(|entity| entity.descriptions().any(|name| name == wanted)).collect()
     }
 }
 
@@ -36,15 +34,16 @@ impl Entity {
         }
     }
 
-    /// Whether a description in normal form fits.
-    fn is_called(&self, wanted: &str) -> bool {
+    /// Everything that it is called, as [`normal`] writes it; the same may come twice.
+    pub fn descriptions(&self) -> impl Iterator<Item = String> {
         let names = [&self.id, &self.class].into_iter().chain(&self.names).chain(&self.categories);
-        names.map(SmolStr::as_str).any(|name| normal(name) == wanted)
+        names.map(|name| normal(name)).filter(|name| !name.is_empty())
     }
 }
 
 /// A description as it is compared: words in lower case with single spaces between them, without leading articles.
-fn normal(text: &str) -> String {
+#[must_use]
+pub fn normal(text: &str) -> String {
     let is_gap = |letter: char| letter.is_whitespace() || matches!(letter, '_' | '-');
     let words = text.split(is_gap).filter(|word| !word.is_empty()).map(str::to_lowercase);
     let words: Vec<_> = words.skip_while(|word| matches!(word.as_str(), "a" | "an" | "the")).collect();

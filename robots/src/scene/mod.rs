@@ -22,6 +22,7 @@ mod wire;
 
 pub use embedded::embedded;
 pub use errors::CODES;
+pub use matching::normal;
 pub use model::*;
 pub use read::{MAX_ENTITIES, read};
 pub use wire::schema;

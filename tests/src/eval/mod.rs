@@ -54,7 +54,12 @@ impl Judged {
     pub fn disagreement(&self) -> Option<String> {
         let word = |error: bool| if error { "error" } else { "ok" };
         if self.expected_error != self.found_error {
-            return Some(format!("{}: expected {}, found {}", self.id, word(self.expected_error), word(self.found_error)));
+            return Some(format!(
+                "{}: expected {}, found {}",
+                self.id,
+                word(self.expected_error),
+                word(self.found_error)
+            ));
         }
         let differs = |name: &str, pair: &Option<(String, String)>| {
             let (expected, found) = pair.as_ref().filter(|(expected, found)| expected != found)?;

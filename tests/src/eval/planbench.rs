@@ -70,7 +70,9 @@ impl Row {
         let mut facts = vec!["hand_empty()".to_owned()];
         for block in &self.objects {
             match self.init_support.get(block) {
-                Some(below) if below != TABLE => facts.push(format!("stands_on({}, {})", name(block), name(below))),
+                Some(below) if below != TABLE => {
+                    facts.push(format!("stands_on({}, {})", name(block), name(below)))
+                }
                 Some(_) => facts.push(format!("on_table({})", name(block))),
                 None => {}
             }
