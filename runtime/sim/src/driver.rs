@@ -1,0 +1,169 @@
+//! The simulator as a driver: goals become tasks, and time goes from one thing that happens to the next.
+
+use crate::deed::Deed;
+use crate::motion::Motion;
+use crate::sim::Sim;
+use crate::task::{Next, Stage, Stageplay, Task};
+use motet_runtime::{Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+use smol_str::SmolStr;
+
+impl Driver for Sim {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.pass(now);
+        let jitter = self.random.between(0.9, 1.1);
+        let fault = self.faults.of_call(&command.primitive);
+        if let Some(failure) = fault.refuses {
+            self.report(DriverEvent::Refused { goal, failure });
+            return;
+        }
+        self.report(DriverEvent::Acknowledged { goal });
+        let deed = Deed::of(command);
+        let share = if fault.fails.is_some() { deed.share().max(0.05) } else { deed.share() };
+        let task = Task {
+            goal,
+            uses: command.uses.clone(),
+            work_secs: command.deadline_secs * share * jitter,
+            deed,
+            slower: fault.slower,
+            fails: fault.fails,
+            stage: Stage::Working(Time::NEVER),
+            step: 0,
+            found: None,
+        };
+        if fault.hangs {
+            self.tasks.push(task);
+        } else {
+            self.go_on(task);
+        }
+        self.look();
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.pass(now);
+        if self.drop_task(goal) {
+            self.report(DriverEvent::Ended { goal, outcome: Outcome::Interrupted });
+        }
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.pass(now);
+        let motion = self.world.motion;
+        let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
+        task.stage = match (&task.stage, motion) {
+            (Stage::Driving(_), Some(motion)) => {
+                self.world.motion = None;
+                Stage::HeldDriving(motion)
+            }
+            (Stage::Driving(until) | Stage::Working(until), _) => {
+                Stage::HeldWorking(until_after(*until, now))
+            }
+            (held @ (Stage::HeldDriving(_) | Stage::HeldWorking(_)), _) => held.clone(),
+        };
+        if let Stage::HeldDriving(motion) = &mut task.stage {
+            *motion = motion.rest(now, now);
+        }
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.pass(now);
+        let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
+        task.stage = match task.stage.clone() {
+            Stage::HeldDriving(motion) => {
+                let motion = motion.begun(now);
+                self.world.motion = Some(motion);
+                Stage::Driving(motion.end())
+            }
+            Stage::HeldWorking(left) => Stage::Working(now.after(left)),
+            running @ (Stage::Driving(_) | Stage::Working(_)) => running,
+        };
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.pass(now);
+        self.drop_task(goal);
+        self.report(DriverEvent::Stopped { goal });
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.pass(now);
+        let answer = self.read(query);
+        self.report(DriverEvent::Observed { query: query.clone(), answer });
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.pass(now);
+        if self.watches.iter().any(|(watched, _)| watched == query) {
+            return;
+        }
+        let answer = self.read(query);
+        self.watches.push((query.clone(), answer.clone()));
+        self.report(DriverEvent::Observed { query: query.clone(), answer });
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.pass(now);
+        self.watches.retain(|(watched, _)| watched != query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        loop {
+            if let Some(report) = self.outbox.pop_front() {
+                return Some(report);
+            }
+            let next = self.next_time();
+            if next > until || next == Time::NEVER {
+                if until != Time::NEVER {
+                    self.reach(until);
+                }
+                return self.outbox.pop_front();
+            }
+            self.reach(next);
+        }
+    }
+}
+
+/// The span from `now` until a time; never where that is never.
+const fn until_after(until: Time, now: Time) -> Time {
+    if until.nanos() == Time::NEVER.nanos() { until } else { until.since(now) }
+}
+
+impl Sim {
+    /// Takes a task to its next stage, or ends it.
+    pub(crate) fn go_on(&mut self, mut task: Task) {
+        let now = self.world.now;
+        let mut play = Stageplay { world: &mut self.world, people: &mut self.people, scene: &self.scene };
+        let next = play.next(&mut task);
+        let motion = match next {
+            Next::Drive(to) => Motion::new(&self.world.drive, self.world.base, to, now),
+            Next::Turn(by) => Some(Motion::turn(&self.world.drive, self.world.base, by, now)),
+            Next::Work => {
+                task.stage = Stage::Working(now.after(Time::from_secs(task.work_secs * task.slower)));
+                self.tasks.push(task);
+                return;
+            }
+            Next::End(outcome) => {
+                self.report(DriverEvent::Ended { goal: task.goal, outcome });
+                return;
+            }
+        };
+        if let Some(motion) = motion {
+            let motion = motion.slowed(task.slower);
+            self.world.motion = Some(motion);
+            task.stage = Stage::Driving(motion.end());
+            self.tasks.push(task);
+        } else {
+            let failure = SmolStr::new_static("unreachable");
+            self.report(DriverEvent::Ended { goal: task.goal, outcome: Outcome::Failure(failure) });
+        }
+    }
+
+    /// Forgets a goal; the base stops where it is. Whether it was live.
+    fn drop_task(&mut self, goal: GoalId) -> bool {
+        let Some(place) = self.tasks.iter().position(|task| task.goal == goal) else { return false };
+        let task = self.tasks.remove(place);
+        if matches!(task.stage, Stage::Driving(_)) {
+            self.world.motion = None;
+        }
+        true
+    }
+}

@@ -1,0 +1,205 @@
+//! What goes wrong, and what the world does of its own accord: a JSON file that a test or a user writes.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
+/// A file of faults. Everything in it is optional.
+///
+/// ```
+/// let text = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}],
+///                "world": [{"at": 4.5, "what": {"moves": {"object": "mug_1", "to": {"surface": "counter"}}}}],
+///                "answers": ["the red one", null]}"#;
+/// let faults = motet_sim::Faults::from_json(text).unwrap();
+/// assert_eq!(faults.calls.len(), 1);
+/// ```
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Faults {
+    /// What happens to calls of primitives.
+    pub calls: Vec<CallFault>,
+    /// What happens in the world, in any order; of two at one time the earlier in the file happens first.
+    pub world: Vec<WorldChange>,
+    /// What people answer to `ask` and `choose`, in order, after the answers of the script; `null` refuses.
+    pub answers: Vec<Option<String>>,
+}
+
+/// What happens to one call.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CallFault {
+    /// The primitive.
+    #[schemars(with = "String")]
+    pub primitive: SmolStr,
+    /// Which call of that primitive in the run, from 1; retries count. Without it, every call.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub nth: Option<u32>,
+    /// What happens.
+    pub then: CallEnd,
+}
+
+/// How a call goes wrong.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum CallEnd {
+    /// It takes its time, changes nothing, and ends in this failure.
+    Fails(#[schemars(with = "String")] SmolStr),
+    /// It is not accepted, for this failure.
+    Refuses(#[schemars(with = "String")] SmolStr),
+    /// It takes that many times as long.
+    Slower(#[schemars(range(min = 0.0))] f64),
+    /// It never ends by itself.
+    Hangs,
+}
+
+/// A change of the world.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorldChange {
+    /// When, in seconds from the beginning.
+    #[schemars(range(min = 0.0))]
+    pub at: f64,
+    /// What changes.
+    pub what: Change,
+}
+
+/// What changes.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Change {
+    /// Somebody moves a thing.
+    Moves {
+        /// The thing.
+        #[schemars(with = "String")]
+        object: SmolStr,
+        /// Where it comes to be.
+        to: Destination,
+    },
+    /// A person walks along a straight line.
+    Walks {
+        /// The person.
+        #[schemars(with = "String")]
+        person: SmolStr,
+        /// From here, in m; without it from where they are.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from: Option<[f64; 2]>,
+        /// To here, in m.
+        to: [f64; 2],
+        /// In m/s.
+        #[schemars(range(min = 0.001))]
+        speed: f64,
+    },
+    /// What the hand holds slips out of it; nothing happens where it does not hold it.
+    Slips(#[schemars(with = "String")] SmolStr),
+    /// Somebody opens a container.
+    Opens(#[schemars(with = "String")] SmolStr),
+    /// Somebody closes a container.
+    Closes(#[schemars(with = "String")] SmolStr),
+    /// Somebody locks a container.
+    Locks(#[schemars(with = "String")] SmolStr),
+    /// Somebody unlocks a container.
+    Unlocks(#[schemars(with = "String")] SmolStr),
+    /// The battery reads this charge from now on, between 0 and 1.
+    Battery(#[schemars(range(min = 0.0, max = 1.0))] f64),
+}
+
+/// Where a thing comes to be.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Destination {
+    /// A free spot of a surface.
+    Surface(#[schemars(with = "String")] SmolStr),
+    /// Into a container.
+    Container(#[schemars(with = "String")] SmolStr),
+    /// A point, in m, that its centre comes to.
+    Point([f64; 3]),
+}
+
+/// A file of faults that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct FaultsError {
+    message: String,
+}
+
+impl Faults {
+    /// Reads a file's text.
+    ///
+    /// # Errors
+    ///
+    /// Where it is not JSON of this form, or a number is out of range; with line and column where the text is at fault.
+    pub fn from_json(text: &str) -> Result<Self, FaultsError> {
+        let faults: Self =
+            serde_json::from_str(text).map_err(|error| FaultsError { message: error.to_string() })?;
+        faults.ranges().map_or(Ok(()), |message| Err(FaultsError { message }))?;
+        Ok(faults)
+    }
+
+    /// The file's JSON Schema.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+
+    fn ranges(&self) -> Option<String> {
+        let wrong_call = self.calls.iter().find_map(|fault| match (&fault.then, fault.nth) {
+            (_, Some(0)) => Some("`nth` counts from 1".to_owned()),
+            (CallEnd::Slower(factor), _) if *factor < 0.0 => {
+                Some(format!("`slower` is {factor}, least is 0"))
+            }
+            (CallEnd::Slower(_) | CallEnd::Fails(_) | CallEnd::Refuses(_) | CallEnd::Hangs, _) => None,
+        });
+        let wrong_change = || self.world.iter().find_map(WorldChange::ranges);
+        wrong_call.or_else(wrong_change)
+    }
+}
+
+impl WorldChange {
+    fn ranges(&self) -> Option<String> {
+        if self.at < 0.0 {
+            return Some(format!("`at` is {} s, least is 0 s", self.at));
+        }
+        match &self.what {
+            Change::Walks { speed, .. } if *speed < 1e-3 => {
+                Some(format!("`speed` is {speed} m/s, least is 0.001 m/s"))
+            }
+            Change::Battery(charge) if !(0.0..=1.0).contains(charge) => {
+                Some(format!("`battery` is {charge}, which is not between 0 and 1"))
+            }
+            Change::Walks { .. } | Change::Battery(_) | Change::Moves { .. } | Change::Slips(_) => None,
+            Change::Opens(_) | Change::Closes(_) | Change::Locks(_) | Change::Unlocks(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refused(text: &str, why: &str) {
+        let error = Faults::from_json(text).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        refused(r#"{"call": []}"#, "unknown field `call`");
+        refused(r#"{"calls": [{"primitive": "go", "nth": 0, "then": "hangs"}]}"#, "counts from 1");
+        refused(r#"{"world": [{"at": -1, "what": {"slips": "mug"}}]}"#, "-1 s");
+        refused(r#"{"world": [{"at": 1, "what": {"battery": 2}}]}"#, "not between 0 and 1");
+        refused(
+            r#"{"world": [{"at": 1, "what": {"walks": {"person": "user", "to": [0, 0], "speed": 0}}}]}"#,
+            "0 m/s",
+        );
+    }
+
+    #[test]
+    fn writing_and_reading_gives_the_same() {
+        let text = r#"{"calls":[{"primitive":"go","then":{"slower":2.0}}],"world":[{"at":1.0,"what":{"walks":{"person":"user","to":[1.0,2.0],"speed":0.5}}},{"at":2.0,"what":{"moves":{"object":"cup","to":{"point":[1.0,0.0,0.5]}}}}],"answers":["yes",null]}"#;
+        let faults = Faults::from_json(text).unwrap();
+        assert_eq!(serde_json::to_string(&faults).unwrap(), text);
+        assert_eq!(Faults::schema().get("additionalProperties"), Some(&serde_json::Value::Bool(false)));
+    }
+}

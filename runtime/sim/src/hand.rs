@@ -1,0 +1,283 @@
+//! What hands do to the world, and why they cannot.
+
+use crate::body::Stance;
+use crate::motion::standing_place;
+use crate::thing::{Rest, Role};
+use crate::world::World;
+use smol_str::SmolStr;
+
+/// A failure kind of the standard library.
+pub(crate) type Failure = &'static str;
+
+/// How far the base may shuffle along what it stands at, in m, while the hand is used.
+const SHUFFLE_M: f64 = 1.5;
+/// How far `push` pushes, in m.
+const PUSH_M: f64 = 0.1;
+/// Between the base's rim and what it stands at, in m.
+const MARGIN_M: f64 = 0.03;
+/// Between the base's rim and a person, in m: people do not like a robot closer.
+const PERSON_MARGIN_M: f64 = 0.6;
+/// How far a person reaches out for what they are handed, in m.
+const PERSON_REACH_M: f64 = 0.5;
+/// How much of its reach a robot gives away to the room that its base takes. One with a long body stands sideways.
+const BASE_SHARE: f64 = 0.4;
+
+impl World {
+    /// Whether a hand reaches a point from a stance: distance in the plane and height.
+    fn serves(&self, stance: Stance, xyz: [f64; 3]) -> bool {
+        let [x, y, z] = xyz;
+        let near = stance.distance_to(x, y) <= self.reach() + 1e-6;
+        let level = |grip: &crate::world::Grip| {
+            (grip.hand.heights_m.least..=grip.hand.heights_m.greatest).contains(&z)
+        };
+        near && self.hands.values().any(level)
+    }
+
+    /// Where the base stands to serve an entity: for an object in or on something, at the edge of that.
+    pub(crate) fn place_for(&self, id: &str) -> Option<Stance> {
+        let root = self.root(id).to_owned();
+        let (thing, target) = (self.thing(id)?, self.thing(&root)?);
+        if target.role == Role::Place && root == id {
+            let [x, y, heading] = [target.body.x(), target.body.y(), target.body.yaw];
+            return Some(Stance { x, y, heading });
+        }
+        let radius = self.drive.radius_m;
+        let clearance = match target.role {
+            Role::Person => (radius + PERSON_MARGIN_M).min(self.serving_gap(Role::Person)),
+            Role::Surface | Role::Container | Role::Object | Role::Place => {
+                radius.min(BASE_SHARE * self.reach()) + MARGIN_M
+            }
+        };
+        let wanted: Vec<[f64; 2]> = if root == id {
+            self.resting(id).map(|(_, thing)| [thing.body.x(), thing.body.y()]).collect()
+        } else {
+            vec![[thing.body.x(), thing.body.y()]]
+        };
+        let others = self.obstacles(&root);
+        let mut stance =
+            standing_place(&target.body, clearance, self.reach(), self.base, &wanted, &others, radius)?;
+        if root != id {
+            stance.heading += stance.bearing_of(thing.body.x(), thing.body.y());
+        }
+        Some(stance)
+    }
+
+    /// The stance from which a hand reaches a thing without going elsewhere: here, or a shuffle along what it stands at.
+    pub(crate) fn stance_for_hand(&self, id: &str) -> Option<Stance> {
+        let thing = self.thing(id)?;
+        if self.serves(self.base, thing.body.xyz) {
+            return Some(self.base);
+        }
+        let root = self.root(id);
+        if root == id || !self.stands_at(root) {
+            return None;
+        }
+        let stance = self.place_for(id)?;
+        let close = stance.distance_to(self.base.x, self.base.y) <= SHUFFLE_M;
+        (close && self.serves(stance, thing.body.xyz)).then_some(stance)
+    }
+
+    /// Whether the robot stands so that it serves an entity.
+    pub(crate) fn stands_at(&self, id: &str) -> bool {
+        if self.served_at_start.as_deref() == Some(id) {
+            return true;
+        }
+        let Some(thing) = self.thing(id) else { return false };
+        if self.is_lifted(id) {
+            return false;
+        }
+        thing.body.gap(self.base.x, self.base.y) <= self.serving_gap(thing.role) + 1e-6
+    }
+
+    /// The greatest distance in m from the base's axis to the outline of what it serves.
+    fn serving_gap(&self, role: Role) -> f64 {
+        match role {
+            Role::Place => 0.3,
+            Role::Person => self.reach() + PERSON_REACH_M,
+            Role::Surface | Role::Container | Role::Object => self.reach(),
+        }
+    }
+
+    /// Why a hand cannot take a thing where it is, if so; `wide` failures have no kind of their own.
+    fn cannot_take(&self, id: &str) -> Option<Failure> {
+        let Some(thing) = self.thing(id) else { return Some("not_found") };
+        let lightest = |grip: &&crate::world::Grip| thing.mass_kg <= grip.hand.payload_kg;
+        if self.shut_in(id).is_some() {
+            Some("blocked")
+        } else if self.stance_for_hand(id).is_none() {
+            let moved = thing.seen_at.is_some_and(|seen| seen != thing.body.xyz);
+            Some(if moved { "not_found" } else { "unreachable" })
+        } else if thing.fixed || !self.hands.values().any(|grip| lightest(&grip)) {
+            Some("too_heavy")
+        } else if !self.hands.values().any(|grip| thing.width_m <= grip.hand.opening_m) {
+            Some("unreachable")
+        } else {
+            None
+        }
+    }
+
+    /// Whether a motion that grasps a thing from here exists.
+    pub(crate) fn is_reachable(&self, id: &str) -> bool {
+        self.holder(id).is_none() && self.cannot_take(id).is_none()
+    }
+
+    /// Closes a free hand of `uses` around a thing.
+    pub(crate) fn grasp(&mut self, id: &str, uses: &[SmolStr]) -> Result<(), Failure> {
+        let used =
+            |name: &SmolStr| !uses.iter().any(|used| self.hands.contains_key(used)) || uses.contains(name);
+        if self.holder(id).is_some() {
+            return Err("failed");
+        }
+        let free = self.hands.iter().find(|(name, grip)| grip.holds.is_none() && used(name));
+        let Some(hand) = free.map(|(name, _)| name.clone()) else { return Err("failed") };
+        self.cannot_take(id).map_or(Ok(()), Err)?;
+        if let Some(grip) = self.hands.get_mut(&hand) {
+            grip.holds = Some(id.into());
+            grip.lifted = false;
+        }
+        self.saw(id);
+        Ok(())
+    }
+
+    /// Lifts what the hands hold.
+    pub(crate) fn lift(&mut self) -> Result<(), Failure> {
+        let held: Vec<_> = self.hands.values().filter_map(|grip| grip.holds.clone()).collect();
+        if held.is_empty() {
+            return Err("slipped");
+        }
+        for id in held {
+            if let Some(thing) = self.things.get_mut(&id) {
+                thing.rest = Rest::Free;
+            }
+        }
+        for grip in self.hands.values_mut() {
+            grip.lifted = grip.holds.is_some();
+        }
+        self.carry();
+        Ok(())
+    }
+
+    /// Opens the hand that holds a thing.
+    fn release(&mut self, id: &str) {
+        for grip in self.hands.values_mut() {
+            if grip.holds.as_deref() == Some(id) {
+                grip.holds = None;
+                grip.lifted = false;
+            }
+        }
+    }
+
+    /// Puts a held thing down.
+    pub(crate) fn place(&mut self, id: &str, on: &str) -> Result<(), Failure> {
+        if self.holder(id).is_none() {
+            return Err("slipped");
+        }
+        let target = self.thing(on).ok_or("unreachable")?;
+        if on == id {
+            return Err("blocked");
+        }
+        if !self.stands_at(on) {
+            return Err("unreachable");
+        }
+        let (body, role) = (target.body, target.role);
+        let stance = self.base;
+        let (rest, bottom) = match role {
+            Role::Container if !target.is_open() || self.shut_in(on).is_some() => return Err("blocked"),
+            Role::Container => (Rest::In(on.into()), body.bottom() + 0.01),
+            Role::Surface | Role::Object => (Rest::On(on.into()), body.top()),
+            Role::Place => (Rest::Free, 0.0),
+            Role::Person => return Err("blocked"),
+        };
+        let centre = [body.x(), body.y()];
+        let spot = match role {
+            Role::Surface => {
+                let ahead = 0.8 * self.reach();
+                let from = [stance.x + ahead * stance.heading.cos(), stance.y + ahead * stance.heading.sin()];
+                let spot = self.free_spot(id, on, from, |x, y| self.serves(stance, [x, y, body.top()]));
+                spot.ok_or("blocked")?
+            }
+            Role::Container | Role::Object | Role::Place | Role::Person => centre,
+        };
+        self.release(id);
+        self.put(id, spot, bottom, rest);
+        self.saw(id);
+        Ok(())
+    }
+
+    /// Hands a held thing to a person.
+    pub(crate) fn hand_over(&mut self, id: &str, to: &str) -> Result<(), Failure> {
+        if self.holder(id).is_none() {
+            return Err("slipped");
+        }
+        let person = self.thing(to).ok_or("unreachable")?.body;
+        if !self.stands_at(to) {
+            return Err("unreachable");
+        }
+        self.release(id);
+        self.put(id, [person.x(), person.y()], person.bottom() + 1.0, Rest::With(to.into()));
+        self.saw(id);
+        Ok(())
+    }
+
+    /// What a hand holds slips out of it and falls to the floor.
+    pub(crate) fn slip(&mut self, id: &str) {
+        if self.holder(id).is_none() {
+            return;
+        }
+        let lifted = self.is_lifted(id);
+        self.release(id);
+        if lifted && let Some(body) = self.thing(id).map(|thing| thing.body) {
+            self.put(id, [body.x(), body.y()], 0.0, Rest::Free);
+        }
+    }
+
+    /// The hand opens or closes a container.
+    pub(crate) fn work_door(&mut self, id: &str, open: bool) -> Result<(), Failure> {
+        let thing = self.thing(id).ok_or("unreachable")?;
+        if !self.stands_at(id) {
+            return Err("unreachable");
+        }
+        if self.hands.values().all(|grip| grip.holds.is_some()) {
+            return Err("blocked");
+        }
+        match thing.door {
+            None if open => return Ok(()),
+            None => return Err("blocked"),
+            Some(door) if open && door.locked && !door.open => return Err("refused"),
+            Some(_) => {}
+        }
+        self.set_open(id, open);
+        Ok(())
+    }
+
+    /// A container opens or closes, whoever does it.
+    pub(crate) fn set_open(&mut self, id: &str, open: bool) {
+        let Some(thing) = self.things.get_mut(id) else { return };
+        let slide = thing.slide();
+        let Some(door) = thing.door.as_mut().filter(|door| door.open != open) else { return };
+        door.open = open;
+        self.shift(id, if open { slide } else { slide.map(|part| -part) });
+    }
+
+    /// The hand pushes a thing away from the robot. On its support it goes no further than the edge.
+    pub(crate) fn push(&mut self, id: &str) -> Result<(), Failure> {
+        let thing = self.thing(id).ok_or("unreachable")?;
+        if !self.stands_at(id) && self.stance_for_hand(id).is_none() {
+            return Err("unreachable");
+        }
+        if thing.fixed || self.hands.values().all(|grip| grip.holds.is_some()) {
+            return Err("blocked");
+        }
+        let (dx, dy) = (thing.body.x() - self.base.x, thing.body.y() - self.base.y);
+        let length = dx.hypot(dy).max(1e-6);
+        let by = [PUSH_M * dx / length, PUSH_M * dy / length, 0.0];
+        let stays =
+            thing.rest.support().and_then(|support| self.thing(support)).is_none_or(|support| {
+                support.body.gap(thing.body.x() + by[0], thing.body.y() + by[1]) <= 0.0
+            });
+        if stays {
+            self.shift(id, by);
+        }
+        Ok(())
+    }
+}

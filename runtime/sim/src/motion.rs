@@ -1,0 +1,164 @@
+//! How the base and people move: along straight lines at a steady speed.
+
+use crate::body::{Body, Stance, turned};
+use motet_robots::card::{Base, Drive};
+use motet_runtime::Time;
+
+/// A motion of the base.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Motion {
+    from: Stance,
+    to: Stance,
+    start: Time,
+    span: Time,
+}
+
+impl Motion {
+    /// A motion to a stance, or nothing where the base is bolted down and would have to move.
+    pub(crate) fn new(base: &Base, from: Stance, to: Stance, start: Time) -> Option<Self> {
+        let (distance, angle) = (from.distance_to(to.x, to.y), turned(to.heading - from.heading).abs());
+        let driving = distance / base.speed_m_per_s.max(1e-3);
+        let turning = angle / base.turn_rad_per_s.max(1e-3);
+        let secs = match base.drive {
+            Drive::Fixed if distance > 1e-6 || angle > 1e-6 => return None,
+            Drive::Fixed => 0.0,
+            Drive::Omnidirectional | Drive::Legged => driving.max(turning),
+            // It turns to its way, drives, and turns to its goal: at least as long as the two turns in one.
+            Drive::Differential => driving + turning,
+        };
+        Some(Self { from, to, start, span: Time::from_secs(secs) })
+    }
+
+    /// A turn on the spot by any angle.
+    pub(crate) fn turn(base: &Base, from: Stance, by: f64, start: Time) -> Self {
+        let to = Stance { heading: from.heading + by, ..from };
+        Self { from, to, start, span: Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3)) }
+    }
+
+    /// When it is over.
+    pub(crate) fn end(&self) -> Time {
+        self.start.after(self.span)
+    }
+
+    /// The motion with a span that many times as long.
+    pub(crate) fn slowed(self, factor: f64) -> Self {
+        Self { span: Time::from_secs(self.span.secs() * factor), ..self }
+    }
+
+    /// Where the base is at a time.
+    pub(crate) fn at(&self, now: Time) -> Stance {
+        let stance = self.wound(now);
+        Stance { heading: turned(stance.heading), ..stance }
+    }
+
+    /// The same, with a heading that tells how often it has turned round.
+    fn wound(&self, now: Time) -> Stance {
+        if now >= self.end() {
+            return self.to;
+        }
+        let done = now.since(self.start).secs() / self.span.secs();
+        // A turn may be longer than half a circle; a drive takes the shorter way round.
+        let is_turn = self.from.distance_to(self.to.x, self.to.y) < 1e-9;
+        let turn = self.to.heading - self.from.heading;
+        let turn = if is_turn { turn } else { turned(turn) };
+        Stance {
+            x: self.from.x + done * (self.to.x - self.from.x),
+            y: self.from.y + done * (self.to.y - self.from.y),
+            heading: self.from.heading + done * turn,
+        }
+    }
+
+    /// The same motion from another time on.
+    pub(crate) const fn begun(self, start: Time) -> Self {
+        Self { start, ..self }
+    }
+
+    /// What is left of it, to begin at `start`.
+    pub(crate) fn rest(&self, now: Time, start: Time) -> Self {
+        Self { from: self.wound(now), to: self.to, start, span: self.end().since(now) }
+    }
+}
+
+/// A walk of a person.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Walk {
+    from: [f64; 2],
+    to: [f64; 2],
+    start: Time,
+    speed: f64,
+}
+
+impl Walk {
+    pub(crate) const fn new(from: [f64; 2], to: [f64; 2], start: Time, speed: f64) -> Self {
+        Self { from, to, start, speed }
+    }
+
+    fn length(&self) -> f64 {
+        (self.to[0] - self.from[0]).hypot(self.to[1] - self.from[1])
+    }
+
+    pub(crate) fn end(&self) -> Time {
+        self.start.after(Time::from_secs(self.length() / self.speed.max(1e-3)))
+    }
+
+    /// Where the person is at a time.
+    pub(crate) fn at(&self, now: Time) -> [f64; 2] {
+        let (length, gone) = (self.length(), now.since(self.start).secs() * self.speed.max(1e-3));
+        let done = if now >= self.end() || length < 1e-9 { 1.0 } else { gone / length };
+        [self.from[0] + done * (self.to[0] - self.from[0]), self.from[1] + done * (self.to[1] - self.from[1])]
+    }
+}
+
+/// Of stances about a thing, the best: one that is free of `others`, then one that serves most of `wanted` within
+/// `reach`, then the nearest.
+pub(crate) fn standing_place(
+    target: &Body,
+    clearance: f64,
+    reach: f64,
+    from: Stance,
+    wanted: &[[f64; 2]],
+    others: &[Body],
+    radius: f64,
+) -> Option<Stance> {
+    let cost = |stance: &Stance| {
+        let hits = others.iter().filter(|other| other.gap(stance.x, stance.y) < radius).count();
+        let missed = wanted.iter().filter(|[x, y]| stance.distance_to(*x, *y) > reach).count();
+        hits as f64 * 1e6 + missed as f64 * 1e3 + stance.distance_to(from.x, from.y)
+    };
+    let stances = target.stances(clearance).into_iter();
+    stances.map(|stance| (cost(&stance), stance)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stance)| stance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BASE: Base =
+        Base { drive: Drive::Omnidirectional, speed_m_per_s: 0.5, turn_rad_per_s: 1.0, radius_m: 0.2 };
+
+    #[test]
+    fn the_base_keeps_its_speed() {
+        let to = Stance { x: 2.0, y: 0.0, heading: 1.0 };
+        let motion = Motion::new(&BASE, Stance::default(), to, Time::from_secs(1.0)).unwrap();
+        assert_eq!(motion.end(), Time::from_secs(5.0));
+        assert_eq!(motion.at(Time::from_secs(3.0)), Stance { x: 1.0, y: 0.0, heading: 0.5 });
+        assert_eq!(motion.rest(Time::from_secs(3.0), Time::from_secs(9.0)).end(), Time::from_secs(11.0));
+        let fixed = Base { drive: Drive::Fixed, ..BASE };
+        assert_eq!(Motion::new(&fixed, Stance::default(), to, Time::ZERO), None);
+    }
+
+    #[test]
+    fn a_turn_may_go_all_round() {
+        let turn = Motion::turn(&BASE, Stance::default(), std::f64::consts::TAU, Time::ZERO);
+        assert!((turn.end().secs() - std::f64::consts::TAU).abs() < 1e-6);
+        assert!((turn.at(Time::from_secs(2.0)).heading - 2.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_person_walks_and_stops() {
+        let walk = Walk::new([0.0, 0.0], [3.0, 4.0], Time::from_secs(2.0), 1.0);
+        assert_eq!(walk.at(Time::ZERO), [0.0, 0.0]);
+        assert_eq!(walk.at(Time::from_secs(4.5)), [1.5, 2.0]);
+        assert_eq!(walk.at(Time::from_secs(60.0)), [3.0, 4.0]);
+    }
+}

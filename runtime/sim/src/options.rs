@@ -1,0 +1,33 @@
+//! What a host chooses about a simulated world.
+
+use crate::faults::Faults;
+use indexmap::IndexMap;
+use smol_str::SmolStr;
+
+/// Choices about a simulated world. The default: seed 0, nothing goes wrong, people answer as it pleases the robot.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Options {
+    /// Decides how long things take, within a tenth. Same seed, same run.
+    pub seed: u64,
+    /// What goes wrong.
+    pub faults: Faults,
+    /// What people say.
+    pub script: Script,
+    /// The parent of each kind that the policy's library declares, so that a `Tray: Surface` counts as a surface. Kinds of
+    /// the standard library need not be in it.
+    pub kinds: IndexMap<SmolStr, SmolStr>,
+    /// Entities beside the scene's, with their kind, that shall have a place in the world all the same. One of a scene with
+    /// the same name counts before it.
+    pub entities: Vec<(SmolStr, SmolStr)>,
+    /// Facts that the world knows beside its own, by fluent and arguments: answers to observations of fluents that it does
+    /// not simulate.
+    pub told: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
+}
+
+/// What people say.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Script {
+    /// Answers to `ask` and `choose`, in order; `None` refuses. Where they have run out, people say "yes" and take the
+    /// first thing that they are offered.
+    pub answers: Vec<Option<String>>,
+}

@@ -1,0 +1,161 @@
+//! The simulator: a world, the goals that run in it, and who watches it.
+
+use crate::body::Stance;
+use crate::fate::Fate;
+use crate::observe::Told;
+use crate::options::Options;
+use crate::people::People;
+use crate::random::Random;
+use crate::task::Task;
+use crate::world::World;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_runtime::{Answer, DriverEvent, Query, Time};
+use smol_str::SmolStr;
+use std::collections::VecDeque;
+
+/// While something moves, watches are looked at that often, in ns.
+const SAMPLE_NANOS: u64 = 50_000_000;
+
+/// A robot in a room. It implements [`motet_runtime::Driver`]; its time is virtual and goes as the host advances it.
+///
+/// The same robot, scene and options and the same calls at the same times give the same reports, byte for byte.
+#[derive(Clone, Debug)]
+pub struct Sim {
+    pub(crate) world: World,
+    pub(crate) people: People,
+    pub(crate) scene: Scene,
+    pub(crate) faults: Fate,
+    pub(crate) random: Random,
+    pub(crate) tasks: Vec<Task>,
+    pub(crate) watches: Vec<(Query, Answer)>,
+    pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
+    observes: Vec<SmolStr>,
+    told: Told,
+}
+
+impl Sim {
+    /// A world at time 0. What the scene leaves open is filled in: a thing without a pose gets a place of its own, an
+    /// object without mass or width is light and slim; `start` and `user` always exist.
+    #[must_use]
+    pub fn new(robot: &Robot, scene: &Scene, options: Options) -> Self {
+        let answers = options.script.answers.iter().chain(&options.faults.answers).cloned();
+        Self {
+            world: World::new(robot, scene, &options),
+            people: People::new(answers),
+            scene: scene.clone(),
+            faults: Fate::new(&options.faults),
+            random: Random::new(options.seed),
+            tasks: Vec::new(),
+            watches: Vec::new(),
+            outbox: VecDeque::new(),
+            observes: robot.observes.clone(),
+            told: options.told,
+        }
+    }
+
+    /// Where the base is now.
+    #[must_use]
+    pub const fn base(&self) -> Stance {
+        self.world.base
+    }
+
+    /// The present time of the world.
+    #[must_use]
+    pub const fn now(&self) -> Time {
+        self.world.now
+    }
+
+    /// What a hand holds; of several things that of the first hand.
+    #[must_use]
+    pub fn held(&self) -> Option<&SmolStr> {
+        self.world.hands.values().find_map(|grip| grip.holds.as_ref())
+    }
+
+    /// The position of an entity's pose in the frame `map`, in m.
+    #[must_use]
+    pub fn position(&self, entity: &str) -> Option<[f64; 3]> {
+        self.world.thing(entity).map(|thing| thing.body.xyz)
+    }
+
+    /// Whether a fact holds in the world, whatever the robot can observe; nothing where the world does not know.
+    ///
+    /// Arguments are names of entities and hands.
+    #[must_use]
+    pub fn holds(&self, fluent: &str, args: &[&str]) -> Option<bool> {
+        self.world.fact(fluent, args, &self.told)
+    }
+
+    /// What the robot has said aloud, with the time at which it had said it.
+    #[must_use]
+    pub fn said(&self) -> &[(Time, SmolStr)] {
+        &self.people.heard
+    }
+
+    pub(crate) fn report(&mut self, event: DriverEvent) {
+        self.outbox.push_back((self.world.now, event));
+    }
+
+    /// What the robot reads. A fluent or measure that its card does not list it cannot observe.
+    pub(crate) fn read(&self, query: &Query) -> Answer {
+        let observable = match query {
+            Query::Fact { fluent: name, .. } | Query::Measure { measure: name, .. } => {
+                self.observes.contains(name)
+            }
+            Query::Field { .. } => true,
+        };
+        if observable { self.world.answer(query, &self.told) } else { Answer::Unknown }
+    }
+
+    /// When something happens next.
+    pub(crate) fn next_time(&self) -> Time {
+        let now = self.world.now;
+        let tasks = self.tasks.iter().map(|task| task.stage.due()).min().unwrap_or(Time::NEVER);
+        let sampled = if self.world.is_moving() && !self.watches.is_empty() {
+            Time::from_nanos((now.nanos() / SAMPLE_NANOS + 1).saturating_mul(SAMPLE_NANOS))
+        } else {
+            Time::NEVER
+        };
+        tasks.min(self.faults.next_time()).min(sampled)
+    }
+
+    /// The host's time has come to `now`: everything until then happens.
+    pub(crate) fn pass(&mut self, now: Time) {
+        loop {
+            let next = self.next_time();
+            if next >= now {
+                break;
+            }
+            self.reach(next);
+        }
+        if now > self.world.now {
+            self.world.advance(now);
+        }
+    }
+
+    /// Time comes to `now`: changes that are due happen, then stages end, then watchers look.
+    pub(crate) fn reach(&mut self, now: Time) {
+        self.world.advance(now.max(self.world.now));
+        while let Some(change) = self.faults.take(now) {
+            self.world.happen(&change);
+        }
+        while let Some(place) = self.tasks.iter().position(|task| task.stage.due() <= now) {
+            let task = self.tasks.remove(place);
+            self.go_on(task);
+        }
+        self.look();
+    }
+
+    /// Tells watchers what has changed.
+    pub(crate) fn look(&mut self) {
+        let mut watches = std::mem::take(&mut self.watches);
+        for (query, last) in &mut watches {
+            let answer = self.read(query);
+            if answer != *last {
+                last.clone_from(&answer);
+                self.report(DriverEvent::Observed { query: query.clone(), answer });
+            }
+        }
+        self.watches = watches;
+    }
+}

@@ -1,0 +1,248 @@
+//! What is the case in the simulated world: where everything is, what rests on what, what the hands hold.
+//!
+//! It knows nothing of goals and events. Positions are those of its present time; [`World::advance`] moves on.
+
+use crate::body::{Body, Stance};
+use crate::motion::{Motion, Walk};
+use crate::thing::{Rest, Role, Thing};
+use indexmap::IndexMap;
+use motet_robots::card::{Base, Camera, Hand};
+use motet_runtime::Time;
+use smol_str::SmolStr;
+use std::collections::BTreeSet;
+
+/// The share of the battery that a metre of driving takes.
+const DRAIN_PER_M: f64 = 0.001;
+
+/// The whole world.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct World {
+    pub(crate) now: Time,
+    pub(crate) base: Stance,
+    pub(crate) motion: Option<Motion>,
+    pub(crate) drive: Base,
+    pub(crate) hands: IndexMap<SmolStr, Grip>,
+    pub(crate) cameras: Vec<Camera>,
+    pub(crate) things: IndexMap<SmolStr, Thing>,
+    pub(crate) arm: Arm,
+    pub(crate) standing: bool,
+    pub(crate) battery: f64,
+    /// The base has not moved since the beginning.
+    pub(crate) unmoved: bool,
+    /// What the scene says that the robot stands at, until it moves.
+    pub(crate) served_at_start: Option<SmolStr>,
+    pub(crate) visited: BTreeSet<SmolStr>,
+}
+
+/// A hand and what it holds.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Grip {
+    pub(crate) hand: Hand,
+    pub(crate) holds: Option<SmolStr>,
+    pub(crate) lifted: bool,
+}
+
+/// The posture of the arm.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Arm {
+    /// Folded.
+    Home,
+    /// Raised to look.
+    Ready,
+    /// Close to the body with what it holds.
+    Carry,
+    /// Stretched out from the last use of the hand.
+    Out,
+}
+
+impl World {
+    pub(crate) fn thing(&self, id: &str) -> Option<&Thing> {
+        self.things.get(id)
+    }
+
+    /// Something moves while time passes.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.motion.is_some() || self.things.values().any(|thing| thing.walk.is_some())
+    }
+
+    /// Lets time pass.
+    pub(crate) fn advance(&mut self, now: Time) {
+        self.now = now;
+        if let Some(motion) = self.motion {
+            let before = self.base;
+            self.base = motion.at(now);
+            let driven = before.distance_to(self.base.x, self.base.y);
+            self.battery = (self.battery - driven * DRAIN_PER_M).max(0.0);
+            if before != self.base {
+                self.unmoved = false;
+                self.served_at_start = None;
+            }
+            if now >= motion.end() {
+                self.motion = None;
+            }
+        }
+        for index in 0..self.things.len() {
+            self.walk_on(index);
+        }
+        self.carry();
+    }
+
+    fn walk_on(&mut self, index: usize) {
+        let now = self.now;
+        let Some((id, thing)) = self.things.get_index_mut(index) else { return };
+        let Some(walk) = thing.walk else { return };
+        if now >= walk.end() {
+            thing.walk = None;
+        }
+        let ([x, y], id) = (walk.at(now), id.clone());
+        let delta = [x - thing.body.x(), y - thing.body.y(), 0.0];
+        self.shift(&id, delta);
+    }
+
+    /// What a hand has lifted goes with it.
+    pub(crate) fn carry(&mut self) {
+        let lifted = self.hands.values().filter(|grip| grip.lifted);
+        let carried: Vec<_> =
+            lifted.filter_map(|grip| Some((grip.holds.clone()?, grip.hand.reach_m))).collect();
+        for (id, reach) in carried {
+            let ahead = 0.5 * reach;
+            let (x, y) = (
+                self.base.x + ahead * self.base.heading.cos(),
+                self.base.y + ahead * self.base.heading.sin(),
+            );
+            if let Some(body) = self.thing(&id).map(|thing| thing.body) {
+                self.shift(&id, [x - body.x(), y - body.y(), 0.8 - body.z()]);
+            }
+        }
+    }
+
+    /// Moves a thing, and everything that rests on or in it or is held by it.
+    pub(crate) fn shift(&mut self, id: &str, delta: [f64; 3]) {
+        let mut moved = vec![SmolStr::from(id)];
+        let mut next = 0;
+        while let Some(support) = moved.get(next).cloned() {
+            next += 1;
+            if let Some(thing) = self.things.get_mut(&support) {
+                thing.moved = true;
+                for (coordinate, by) in thing.body.xyz.iter_mut().zip(delta) {
+                    *coordinate += by;
+                }
+            }
+            for (id, _) in self.resting(&support) {
+                if !moved.contains(id) {
+                    moved.push(id.clone());
+                }
+            }
+        }
+    }
+
+    /// Things that are directly on, in or with an entity, but not those that a hand has lifted.
+    pub(crate) fn resting<'w>(
+        &'w self,
+        support: &'w str,
+    ) -> impl Iterator<Item = (&'w SmolStr, &'w Thing)> + 'w {
+        self.things.iter().filter(move |(_, thing)| thing.rest.support().is_some_and(|id| id == support))
+    }
+
+    /// What a thing rests on in the end: the entity that one drives to.
+    pub(crate) fn root<'w>(&'w self, id: &'w str) -> &'w str {
+        let mut root = id;
+        // No chain is longer than there are things.
+        for _ in 0..self.things.len() {
+            match self.thing(root).and_then(|thing| thing.rest.support()) {
+                Some(support) if self.things.contains_key(support.as_str()) => root = support,
+                Some(_) | None => break,
+            }
+        }
+        root
+    }
+
+    /// The closed container that a thing is in, directly or not.
+    pub(crate) fn shut_in(&self, id: &str) -> Option<&SmolStr> {
+        let mut inner = id;
+        for _ in 0..self.things.len() {
+            let thing = self.thing(inner)?;
+            if let Rest::In(container) = &thing.rest
+                && self.thing(container).is_some_and(|container| !container.is_open())
+            {
+                return Some(container);
+            }
+            inner = thing.rest.support()?;
+        }
+        None
+    }
+
+    /// The name of the hand that holds a thing.
+    pub(crate) fn holder(&self, id: &str) -> Option<&SmolStr> {
+        self.hands.iter().find(|(_, grip)| grip.holds.as_deref() == Some(id)).map(|(name, _)| name)
+    }
+
+    /// Whether a hand has lifted a thing.
+    pub(crate) fn is_lifted(&self, id: &str) -> bool {
+        self.hands.values().any(|grip| grip.lifted && grip.holds.as_deref() == Some(id))
+    }
+
+    /// The greatest distance in the plane at which a hand serves a thing.
+    pub(crate) fn reach(&self) -> f64 {
+        let reach = self.hands.values().map(|grip| grip.hand.reach_m).fold(0.0, f64::max);
+        if self.hands.is_empty() { self.drive.radius_m + 0.5 } else { reach }
+    }
+
+    /// Bodies that the base has to keep out of, but for one.
+    pub(crate) fn obstacles(&self, but: &str) -> Vec<Body> {
+        let stands_there = |thing: &Thing| match thing.role {
+            Role::Surface | Role::Container | Role::Person => thing.body.bottom() < 1.0,
+            Role::Object | Role::Place => false,
+        };
+        let others = self.things.iter().filter(|(id, thing)| *id != but && stands_there(thing));
+        others.map(|(_, thing)| thing.body).collect()
+    }
+
+    /// A free spot for a thing on a support, the one nearest to `from` of those that `fits` takes: its x and y.
+    pub(crate) fn free_spot(
+        &self,
+        id: &str,
+        support: &str,
+        from: [f64; 2],
+        fits: impl Fn(f64, f64) -> bool,
+    ) -> Option<[f64; 2]> {
+        let (thing, target) = (self.thing(id)?, self.thing(support)?.body);
+        let radius = thing.body.radius();
+        let taken: Vec<Body> =
+            self.resting(support).filter(|(other, _)| *other != id).map(|(_, other)| other.body).collect();
+        let is_free = |[x, y]: &[f64; 2]| {
+            target.holds_disc(*x, *y, radius.min(0.9 * target.radius() / std::f64::consts::SQRT_2))
+                && taken.iter().all(|other| other.gap(*x, *y) >= radius)
+                && fits(*x, *y)
+        };
+        let away = |[x, y]: &[f64; 2]| (x - from[0]).hypot(y - from[1]);
+        target.grid(0.05).into_iter().filter(is_free).min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+
+    /// Puts a thing down on a spot: its bottom comes to a height.
+    pub(crate) fn put(&mut self, id: &str, at: [f64; 2], bottom: f64, rest: Rest) {
+        let Some(thing) = self.things.get_mut(id) else { return };
+        let before = thing.body.xyz;
+        thing.rest = rest;
+        let mut after = thing.body;
+        after.put(at[0], at[1], bottom);
+        let [x, y, z] = after.xyz;
+        self.shift(id, [x - before[0], y - before[1], z - before[2]]);
+    }
+
+    /// Notes that the robot knows where a thing is.
+    pub(crate) fn saw(&mut self, id: &str) {
+        if let Some(thing) = self.things.get_mut(id) {
+            thing.seen_at = Some(thing.body.xyz);
+        }
+    }
+
+    /// A person begins to walk.
+    pub(crate) fn start_walk(&mut self, id: &str, from: Option<[f64; 2]>, to: [f64; 2], speed: f64) {
+        let now = self.now;
+        if let Some(thing) = self.things.get_mut(id) {
+            let from = from.unwrap_or([thing.body.x(), thing.body.y()]);
+            thing.walk = Some(Walk::new(from, to, now, speed));
+        }
+    }
+}
