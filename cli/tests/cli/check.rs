@@ -56,7 +56,7 @@ fn ends_with_the_right_code() {
         ("check absent.motet".to_owned(), 2, &["err:cannot read `absent.motet`: there is no such file"]),
         ("check".to_owned(), 2, &["err:Usage"]),
         ("check good.motet --colour".to_owned(), 2, &["err:--color"]),
-        ("check good.motet --max-duration 10".to_owned(), 2, &["err:a unit is missing"]),
+        ("check good.motet --max-duration 10".to_owned(), 2, &["err:write a number with ms, s, min or h"]),
         ("chek good.motet".to_owned(), 2, &["err:check"]),
         ("--help".to_owned(), 0, &["out:Exit codes"]),
         ("check --help".to_owned(), 0, &["out:Examples"]),

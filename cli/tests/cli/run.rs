@@ -24,19 +24,19 @@ fn ends_with_the_right_code() {
     let place = place("run_codes");
     let max = "--scene kitchen --speed max";
     for (line, code, texts) in [
-        (format!("run good.motet {max}"), 0, &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug)"][..]),
+        (format!("run good.motet {max}"), 0, &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug"][..]),
         (format!("run good.motet {max} --seed 7"), 0, &["out:✓ handover(mug, user)"]),
         (format!("run bad.motet {max}"), 1, &["out:M0201", "err:refused: 1 error"]),
         (format!("run gives_up.motet {max}"), 3, &["out:✗ gives_up: failed with `failed`", "out:why: no mug"]),
         (format!("run replans.motet {max}"), 3, &["out:asks for a new plan", "out:why: too hard"]),
-        (format!("run good.motet {max} --faults faults.json"), 3, &["out:failed with `slipped`", "out:pick(mug)"]),
+        (format!("run good.motet {max} --faults faults.json"), 3, &["out:failed with `slipped`", "out:pick(mug"]),
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
         (format!("run stranger.motet {max}"), 2, &["err:no built-in robot `nobody`"]),
         (format!("run good.motet {max} --faults absent.json"), 2, &["err:no such file"]),
-        (format!("run good.motet {max} --faults odd_faults.json"), 2, &["err:odd_faults.json", "err:primitve"]),
-        (format!("run good.motet {max} --answers odd_answers.json"), 2, &["err:odd_answers.json"]),
+        (format!("run good.motet {max} --faults odd_faults.json"), 2, &["out:odd_faults.json", "out:primitve"]),
+        (format!("run good.motet {max} --answers odd_answers.json"), 2, &["out:odd_answers.json"]),
         ("run good.motet --speed fast".to_owned(), 2, &["err:write `max`, or a factor"]),
         ("run good.motet --speed 0".to_owned(), 2, &["err:write `max`, or a factor"]),
         ("run absent.motet".to_owned(), 2, &["err:no such file"]),

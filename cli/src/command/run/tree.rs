@@ -116,8 +116,8 @@ impl Tree {
                 (*node, why(&graph, *ending))
             }
             Happening::GoalEnded { node, ending, .. } => {
-                let again = |kind| format!("{kind}, once more");
-                (*node, why(&graph, *ending).map(again))
+                let again = if matches!(ending, NodeEnding::Failure(_)) { ", once more" } else { "" };
+                (*node, why(&graph, *ending).map(|why| why + again))
             }
             Happening::Guard { node, need, truth } => {
                 let need = needed(&graph, *node, *need);
