@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 use crate::mistake::mistakes;
 
 fn culprit(span: Option<Span>) -> Option<Related> {
-    span.map(|span| Related::new("made otherwise here", span))
+    span.map(|span| Related::new("changed here", span))
 }
 
 mistakes! {

@@ -253,8 +253,14 @@ impl Builder {
         SmolStr::new(pair.as_str().trim_matches('`'))
     }
 
+    /// From the first token to the last: what a rule takes of the space behind it is left out.
     pub(super) fn span(&self, pair: &Pair<'_>) -> Span {
-        let span = pair.as_span();
-        self.origin.place(span.start(), span.end())
+        let mut last = pair.clone();
+        // A text ends with a quote that is no token of its own.
+        while last.as_rule() != Rule::text {
+            let Some(inner) = last.clone().into_inner().next_back() else { break };
+            last = inner;
+        }
+        self.origin.place(pair.as_span().start(), last.as_span().end())
     }
 }
