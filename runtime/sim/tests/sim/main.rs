@@ -1,0 +1,105 @@
+//! The simulator from outside: primitives one by one in the built-in rooms, faults, watches, and graphs through the engine.
+
+mod driver;
+mod engine;
+mod faults;
+mod primitives;
+
+use motet_graph::Value;
+use motet_robots::{card, scene};
+use motet_runtime::{Command, Driver, DriverEvent, GoalId, Outcome, Time};
+use motet_sim::{Options, Sim};
+use motet_syntax::{FileId, Source};
+
+/// A simulator with the host's part of the driver protocol.
+struct Bench {
+    sim: Sim,
+    now: Time,
+    goals: u64,
+    /// Everything that was reported, as text.
+    log: Vec<String>,
+}
+
+fn sim(robot: &str, room: &str, options: Options) -> Sim {
+    let (_, toml, declarations) = card::embedded().iter().find(|(name, ..)| *name == robot).unwrap();
+    let (robot, _) = card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations);
+    let (_, text) = scene::embedded().iter().find(|(name, _)| *name == room).unwrap();
+    let (scene, _) = scene::read(&Source::new("scene.json", *text), FileId(0));
+    Sim::new(&robot.unwrap(), &scene.unwrap(), options)
+}
+
+impl Bench {
+    fn kitchen() -> Self {
+        Self::with(Options::default())
+    }
+
+    fn with(options: Options) -> Self {
+        Self { sim: sim("hsr", "kitchen", options), now: Time::ZERO, goals: 0, log: Vec::new() }
+    }
+
+    /// Faults from their JSON text.
+    fn faulty(text: &str) -> Self {
+        Self::with(Options { faults: motet_sim::Faults::from_json(text).unwrap(), ..Options::default() })
+    }
+
+    /// Starts a primitive with a deadline of 20 s for what is not driven.
+    fn start(&mut self, primitive: &str, args: &[(&str, Value)]) -> GoalId {
+        self.goals += 1;
+        let goal = GoalId::from_number(self.goals);
+        let command = Command {
+            primitive: primitive.into(),
+            args: args.iter().map(|(name, value)| ((*name).into(), value.clone())).collect(),
+            uses: vec!["hand".into()],
+            deadline_secs: 20.0,
+        };
+        self.sim.start(self.now, goal, &command);
+        goal
+    }
+
+    /// The next report, at most so many seconds from now.
+    fn next(&mut self, secs: f64) -> Option<DriverEvent> {
+        let until = self.now.after(Time::from_secs(secs));
+        let report = self.sim.advance(until);
+        self.now = report.as_ref().map_or(until, |(at, _)| *at);
+        let event = report.map(|(_, event)| event)?;
+        self.log.push(format!("{} {event}", self.now.nanos()));
+        Some(event)
+    }
+
+    /// Runs a primitive to its end.
+    fn call(&mut self, primitive: &str, args: &[(&str, Value)]) -> Outcome {
+        let started = self.start(primitive, args);
+        while let Some(event) = self.next(600.0) {
+            if let DriverEvent::Ended { goal, outcome } = event
+                && goal == started
+            {
+                return outcome;
+            }
+        }
+        panic!("{primitive} does not end");
+    }
+
+    #[track_caller]
+    fn does(&mut self, primitive: &str, args: &[(&str, Value)]) {
+        let outcome = self.call(primitive, args);
+        assert!(matches!(outcome, Outcome::Success(_)), "{primitive} {args:?}: {outcome}");
+    }
+
+    #[track_caller]
+    fn fails(&mut self, primitive: &str, args: &[(&str, Value)], kind: &str) {
+        assert_eq!(self.call(primitive, args), Outcome::Failure(kind.into()), "{primitive} {args:?}");
+    }
+
+    #[track_caller]
+    fn is(&self, fluent: &str, args: &[&str], expected: bool) {
+        assert_eq!(self.sim.holds(fluent, args), Some(expected), "{fluent}{args:?}");
+    }
+}
+
+fn entity(id: &str) -> Value {
+    Value::Entity(id.into())
+}
+
+fn text(text: &str) -> Value {
+    Value::Text(text.into())
+}

@@ -1,0 +1,136 @@
+//! Each standard primitive, where it can and where it cannot.
+
+use crate::{Bench, entity, text};
+use motet_graph::Value;
+use motet_runtime::{Outcome, Time};
+use motet_sim::{Options, Script};
+
+#[test]
+fn it_fetches_a_mug() {
+    let mut bench = Bench::kitchen();
+    bench.does("go", &[("to", entity("kitchen_table"))]);
+    // 1.8 m to the table's edge at 0.22 m/s, less the room that the base needs.
+    assert!((Time::from_secs(5.0)..Time::from_secs(12.0)).contains(&bench.now), "{}", bench.now);
+    bench.is("at", &["robot", "kitchen_table"], true);
+    bench.is("near", &["kitchen_table"], true);
+    let found = bench.call("detect", &[("what", text("the Red_mug"))]);
+    assert_eq!(found, Outcome::Success(Some(entity("mug_1"))));
+    bench.is("reachable", &["mug_1"], true);
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    for (fluent, args, holds) in [
+        ("holding", &["mug_1"][..], true),
+        ("lifted", &["mug_1"], true),
+        ("free", &["hand"], false),
+        ("on", &["mug_1", "kitchen_table"], false),
+    ] {
+        bench.is(fluent, args, holds);
+    }
+    bench.does("go", &[("to", entity("user"))]);
+    bench.is("at", &["robot", "user"], true);
+    bench.is("at", &["robot", "kitchen_table"], false);
+    bench.does("handover", &[("object", entity("mug_1")), ("to", entity("user"))]);
+    bench.is("at", &["mug_1", "user"], true);
+    bench.is("free", &["hand"], true);
+    bench.is("visited", &["kitchen_table"], true);
+    bench.is("visited", &["shelf"], false);
+}
+
+#[test]
+fn everything_on_the_furniture_can_be_taken_and_put_elsewhere() {
+    for object in ["mug_1", "apple", "mug_2", "bottle", "coke", "sponge"] {
+        let mut bench = Bench::kitchen();
+        bench.does("go", &[("to", entity(object))]);
+        bench.does("inspect", &[("what", entity(object))]);
+        bench.does("pick", &[("object", entity(object))]);
+        bench.does("go", &[("to", entity("kitchen_table"))]);
+        bench.does("place", &[("object", entity(object)), ("on", entity("kitchen_table"))]);
+        bench.is("on", &[object, "kitchen_table"], true);
+        bench.is("clear", &["kitchen_table"], false);
+        let z = bench.sim.position(object).unwrap()[2];
+        assert!((0.72..0.9).contains(&z), "{object} is at {z} m");
+        // And again from there.
+        bench.does("pick", &[("object", entity(object))]);
+    }
+}
+
+#[test]
+fn a_drawer_opens_and_closes_about_what_lies_in_it() {
+    let mut bench = Bench::kitchen();
+    bench.fails("open", &[("what", entity("drawer_1"))], "unreachable");
+    bench.does("go", &[("to", entity("mug_1"))]);
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    bench.does("go", &[("to", entity("drawer_1"))]);
+    bench.fails("place", &[("object", entity("mug_1")), ("on", entity("drawer_1"))], "blocked");
+    bench.fails("open", &[("what", entity("drawer_1"))], "blocked");
+    bench.does("go", &[("to", entity("kitchen_table"))]);
+    bench.does("place", &[("object", entity("mug_1")), ("on", entity("kitchen_table"))]);
+    bench.does("go", &[("to", entity("drawer_1"))]);
+    bench.does("open", &[("what", entity("drawer_1"))]);
+    bench.is("open", &["drawer_1"], true);
+    bench.does("go", &[("to", entity("mug_1"))]);
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    bench.does("go", &[("to", entity("drawer_1"))]);
+    bench.does("place", &[("object", entity("mug_1")), ("on", entity("drawer_1"))]);
+    bench.does("close", &[("what", entity("drawer_1"))]);
+    bench.is("in", &["mug_1", "drawer_1"], true);
+    bench.is("visible", &["mug_1"], false);
+    bench.is("reachable", &["mug_1"], false);
+    bench.fails("pick", &[("object", entity("mug_1"))], "blocked");
+    bench.fails("inspect", &[("what", entity("mug_1"))], "not_found");
+}
+
+#[test]
+fn failures_tell_the_truth() {
+    let mut bench = Bench::kitchen();
+    bench.fails("pick", &[("object", entity("mug_2"))], "unreachable");
+    bench.fails("pick", &[("object", entity("unicorn"))], "not_found");
+    bench.fails("go", &[("to", entity("unicorn"))], "unreachable");
+    bench.does("go", &[("to", entity("mug_1"))]);
+    bench.fails("detect", &[("what", text("unicorn"))], "not_found");
+    bench.fails("handover", &[("object", entity("mug_1")), ("to", entity("user"))], "slipped");
+    bench.does("pick", &[("object", entity("mug_1"))]);
+    bench.fails("pick", &[("object", entity("apple"))], "failed");
+    bench.fails("place", &[("object", entity("mug_1")), ("on", entity("shelf"))], "unreachable");
+    bench.fails("handover", &[("object", entity("mug_1")), ("to", entity("user"))], "unreachable");
+}
+
+#[test]
+fn it_looks_for_things_where_it_is_told() {
+    let mut bench = Bench::kitchen();
+    let found = bench.call("search", &[("what", text("water bottle")), ("around", entity("counter"))]);
+    assert_eq!(found, Outcome::Success(Some(entity("bottle"))));
+    bench.is("at", &["robot", "bottle"], true);
+    bench.is("at", &["robot", "counter"], true);
+    bench.is("visible", &["bottle"], true);
+    let drinks = bench.call("detect_all", &[("what", text("drink"))]);
+    assert_eq!(drinks, Outcome::Success(Some(Value::List(vec![entity("bottle"), entity("coke")]))));
+    bench.fails("detect", &[("what", text("drink"))], "ambiguous");
+    let place = bench.call("locate", &[("object", entity("bottle"))]);
+    assert!(matches!(place, Outcome::Success(Some(Value::Pose(pose))) if pose.xyz[2] > 0.9));
+}
+
+#[test]
+fn people_answer_from_the_script() {
+    let script = Script { answers: vec![Some("tea".into()), Some("blue mug".into()), None] };
+    let mut bench = Bench::with(Options { script, ..Options::default() });
+    let among = Value::List(vec![entity("mug_1"), entity("mug_2")]);
+    let choose = [("question", text("Which?")), ("among", among)];
+    let ask = [("question", text("What?"))];
+    assert_eq!(bench.call("ask", &ask), Outcome::Success(Some(text("tea"))));
+    assert_eq!(bench.call("choose", &choose), Outcome::Success(Some(entity("mug_2"))));
+    bench.fails("ask", &ask, "refused");
+    assert_eq!(bench.call("choose", &choose), Outcome::Success(Some(entity("mug_1"))));
+    bench.does("say", &[("text", text("Here you are."))]);
+    assert_eq!(bench.sim.said().last().map(|(_, said)| said.as_str()), Some("Here you are."));
+}
+
+#[test]
+fn what_it_does_not_know_succeeds() {
+    let mut bench = Bench::kitchen();
+    assert_eq!(bench.call("stir", &[("what", entity("mug_1"))]), Outcome::Success(None));
+    assert!((9.0..11.0).contains(&bench.now.secs()), "{}", bench.now);
+    // A primitive of another robot that only has the name of a standard one.
+    assert_eq!(bench.call("pick", &[("block", entity("block_a"))]), Outcome::Success(None));
+    assert_eq!(bench.sim.holds("stirred", &["mug_1"]), None);
+    assert_eq!(bench.sim.holds("on", &["block_a", "block_b"]), None);
+}
