@@ -11,7 +11,7 @@ use motet_compiler::{Options, Session, State};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{File, Item};
-use motet_syntax::{FileId, Parsed, Source, Sources};
+use motet_syntax::{FileId, Parsed, Source, Sources, suggest};
 
 use crate::args::WorldArgs;
 use crate::exit::Trouble;
@@ -171,4 +171,12 @@ pub(crate) fn wanted_robot(document: &File) -> Option<String> {
         | Item::Initially(_)
         | Item::ClosedWorld(_) => None,
     })
+}
+
+/// What to say where a document names a robot that is not built in, and none was given.
+#[must_use]
+pub(crate) fn stranger(name: &str) -> String {
+    let near = suggest::closest(name, robot_names())
+        .map_or_else(|| "give its card with --robot FOLDER".to_owned(), |near| format!("did you mean `{near}`?"));
+    format!("warning: there is no robot `{name}`, so nothing was checked against its card: {near}")
 }

@@ -9,7 +9,7 @@ use crate::input::{self, Bytes, Document, Flow};
 use crate::out::{Colors, count, note};
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::workbench::{Workbench, wanted_robot};
+use crate::workbench::{Workbench, stranger, wanted_robot};
 
 /// Runs the command.
 ///
@@ -103,9 +103,7 @@ impl Tally {
             note(&format!("note: skipped {files}"));
         }
         for name in &self.strangers {
-            let near = motet_syntax::suggest::closest(name, crate::workbench::robot_names())
-                .map_or_else(|| "give its card with --robot FOLDER".to_owned(), |near| format!("did you mean `{near}`?"));
-            note(&format!("warning: there is no robot `{name}`, so nothing was checked against its card: {near}"));
+            note(&stranger(name));
         }
         if self.without_robot > 0 {
             note("note: no robot was given, so all that the standard library declares was allowed (--robot NAME)");

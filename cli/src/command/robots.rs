@@ -1,7 +1,8 @@
 //! `motet robots`: the robots that are built in, and what one of them can do.
 
 use motet_robots::card::{Drive, Range, Robot};
-use motet_syntax::ast::{Item, PrimitiveDecl};
+use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
+use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
 use crate::args::{Format, RobotsArgs, RobotsCommand};
@@ -66,7 +67,7 @@ fn body(robot: &Robot, report: &mut Report) {
             hand.payload_kg,
             hand.opening_m,
             hand.reach_m,
-            range(&hand.heights_m, " m"),
+            range(&hand.heights_m, "m"),
         ));
     }
     for (name, camera) in &robot.cameras {
@@ -106,12 +107,22 @@ fn signature(decl: &PrimitiveDecl, text: &str, bounds: &indexmap::IndexMap<smol_
     }
     written.push_str(text.trim_end());
     for (param, bound) in bounds {
-        written.push_str(&format!("\n    // {param}: {}", range(bound, "")));
+        let unit = decl.params.iter().find(|known| known.name.text == *param).map_or("", |known| unit(&known.ty));
+        written.push_str(&format!("\n    // {param}: {}", range(bound, unit)));
     }
     written.push('\n');
     written
 }
 
+/// The SI unit of a quantity type; empty where it has none.
+fn unit(ty: &TypeExpr) -> &'static str {
+    let TypeExpr::Named(name) = ty else { return "" };
+    Dimension::of_type(&name.text).map_or("", Dimension::si_symbol)
+}
+
 fn range(range: &Range, unit: &str) -> String {
-    format!("{} .. {}{unit}", range.least, range.greatest)
+    // Bounds such as a full turn are no round numbers; three decimals are enough to read.
+    let round = |value: f64| (value * 1000.0).round() / 1000.0;
+    let space = if unit.is_empty() { "" } else { " " };
+    format!("{} .. {}{space}{unit}", round(range.least), round(range.greatest))
 }

@@ -51,7 +51,11 @@ fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<
     let setting = bench.setting(&parsed.file, report)?;
     let choices = Choices::read(args, report)?;
     let compiled = setting.session.compile(&parsed, args.policy.as_deref());
-    report.say(&compiled.diagnostics, &setting.sources(source));
+    let sources = setting.sources(source);
+    match args.format {
+        RunFormat::Human => report.say(&compiled.diagnostics, &sources),
+        RunFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
+    }
     let Some(graph) = compiled.graph else {
         let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error).count();
         note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));

@@ -57,10 +57,23 @@ fn prints_events_a_line() {
     assert!(events.iter().filter(|event| event["event"].is_string()).count() > 10);
     let last = events.last().unwrap();
     assert_eq!((&last["event"], &last["outcome"]), (&Value::from("finished"), &Value::from("done")));
+    place.run("run bad.motet --scene kitchen --format json").check(1, &["out:{\"event\":\"diagnostic\",\"code\":\"M0201\""]);
     let times: Vec<f64> = events.iter().filter_map(|event| event["at"].as_f64()).collect();
     assert!(times.is_sorted(), "time never runs backwards");
     assert!(events.iter().any(|event| event["event"] == "command" && event["args"]["object"] == "mug_1"));
     assert_eq!(place.run(line).stdout, ran.stdout, "the same seed gives the same run");
+}
+
+#[cfg(unix)]
+#[test]
+fn stops_where_nobody_reads() {
+    let place = place("run_closed");
+    let line = "run good.motet --scene kitchen --speed 50";
+    // `head` takes the first line and goes.
+    let shell = format!("{} {line} | head -n 1", env!("CARGO_BIN_EXE_motet"));
+    let ran = place.shell(&shell);
+    ran.check(0, &["out:go(kitchen_table)"]);
+    assert!(!ran.stderr.contains("panicked"), "{ran:#?}");
 }
 
 #[cfg(unix)]

@@ -1,8 +1,10 @@
 //! Runs the built command as a user would, in a folder of its own.
 
+#![allow(clippy::expect_used, reason = "a test that cannot be set up has failed")]
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 /// What a run of the command left behind.
 #[derive(Debug)]
@@ -47,6 +49,13 @@ impl Place {
         self.run_with(line, b"", &[])
     }
 
+    /// Runs a line of the shell in the folder.
+    #[cfg(unix)]
+    pub(crate) fn shell(&self, line: &str) -> Ran {
+        let output = Command::new("sh").args(["-c", line]).current_dir(&self.folder).output().expect("a shell runs");
+        Ran::of(output)
+    }
+
     /// Runs the command with a standard input and variables.
     pub(crate) fn run_with(&self, line: &str, stdin: &[u8], variables: &[(&str, &str)]) -> Ran {
         let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
@@ -62,15 +71,19 @@ impl Place {
         // The command may end without reading its input.
         let _ = child.stdin.take().expect("a pipe was asked for").write_all(stdin);
         let output = child.wait_with_output().expect("the command ends");
-        Ran {
+        Ran::of(output)
+    }
+}
+
+impl Ran {
+    fn of(output: Output) -> Self {
+        Self {
             code: output.status.code(),
             stdout: String::from_utf8(output.stdout).expect("output is UTF-8"),
             stderr: String::from_utf8(output.stderr).expect("output is UTF-8"),
         }
     }
-}
 
-impl Ran {
     /// Asserts the exit code, and that each text is in standard output or standard error: `out:…` or `err:…`.
     pub(crate) fn check(&self, code: i32, texts: &[&str]) -> &Self {
         assert_eq!(self.code, Some(code), "{self:#?}");

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, Value};
 use motet_runtime::{Cause, Effect, Happening, NodeEnding, Record, RunEnd, Time, Truth};
+use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
-use super::{label, tree};
 use super::view::View;
+use super::{label, tree};
 use crate::out::Out;
 
 /// Writes events.
@@ -103,6 +104,10 @@ impl View for Events {
 
     fn reached(&mut self, _now: Time) {}
 
+    fn is_closed(&self) -> bool {
+        self.out.is_closed()
+    }
+
     fn finish(&mut self, now: Time, end: &RunEnd) {
         let (outcome, node, more) = match end {
             RunEnd::Done { why } => ("done", None, json!({"why": why})),
@@ -118,6 +123,18 @@ impl View for Events {
             all.extend(more);
         }
         self.write(now, "finished", node, all);
+    }
+}
+
+/// Writes what the check said, as events before the run.
+pub(super) fn diagnostics(said: &[Diagnostic], sources: &Sources, out: &mut Out) {
+    for said in said {
+        let mut line = Map::new();
+        line.insert("event".to_owned(), json!("diagnostic"));
+        if let Ok(serde_json::Value::Object(record)) = serde_json::to_value(render::record(said, sources)) {
+            line.extend(record);
+        }
+        out.line(&serde_json::Value::Object(line).to_string());
     }
 }
 

@@ -71,6 +71,10 @@ impl View for Lines {
 
     fn reached(&mut self, _now: Time) {}
 
+    fn is_closed(&self) -> bool {
+        self.out.is_closed()
+    }
+
     fn finish(&mut self, now: Time, end: &RunEnd) {
         let summary = view::summary(&self.graph, &self.tree, now, end, self.is_colored);
         self.out.line(&format!("\n{summary}"));

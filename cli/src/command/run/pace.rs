@@ -80,7 +80,8 @@ impl Onlooker for Pace {
         self.now = now;
         self.wait(now);
         self.view.reached(now);
-        if is_interrupted() { Control::Stop } else { Control::GoOn }
+        // A run that nobody watches is not left to itself.
+        if is_interrupted() || self.view.is_closed() { Control::Stop } else { Control::GoOn }
     }
 
     fn at_least_every(&self) -> Time {

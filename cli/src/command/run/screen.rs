@@ -106,6 +106,10 @@ impl View for Screen {
         }
     }
 
+    fn is_closed(&self) -> bool {
+        self.out.is_closed()
+    }
+
     fn finish(&mut self, now: Time, end: &RunEnd) {
         self.draw(now);
         let summary = view::summary(&self.graph, &self.tree, now, end, self.is_colored);

@@ -12,6 +12,8 @@ pub(super) trait View {
     fn effect(&mut self, now: Time, effect: &Effect);
     /// Time has passed.
     fn reached(&mut self, now: Time);
+    /// Whether nobody reads what is shown any more.
+    fn is_closed(&self) -> bool;
     /// The run is over.
     fn finish(&mut self, now: Time, end: &RunEnd);
 }
