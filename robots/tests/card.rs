@@ -1,5 +1,7 @@
 //! Robot cards: the built-in ones are right, every mistake is told at its place, and no text makes the reader panic.
 
+#![allow(clippy::unwrap_used, clippy::string_slice, reason = "a test fails by panicking")]
+
 use motet_robots::card::{self, Robot};
 use motet_syntax::{Diagnostic, FileId, Source};
 use proptest::prelude::*;

@@ -1,5 +1,7 @@
 //! The rooms that are built in: nothing stands in anything else, and what stands on something does so.
 
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+
 use motet_robots::scene::{self, Entity, Scene, Shape};
 use motet_syntax::{FileId, Source};
 
@@ -50,9 +52,8 @@ fn nothing_stands_in_anything_else() {
         for (index, (a, [a_least, a_most])) in solid.iter().enumerate() {
             for (b, [b_least, b_most]) in &solid[index + 1..] {
                 let held = |inner: &Entity, outer: &Entity| inner.inside.as_ref() == Some(&outer.id);
-                let meet = (0..3).all(|axis| {
-                    a_least[axis] + SLACK < b_most[axis] && b_least[axis] + SLACK < a_most[axis]
-                });
+                let meet = (0..3)
+                    .all(|axis| a_least[axis] + SLACK < b_most[axis] && b_least[axis] + SLACK < a_most[axis]);
                 assert!(!meet || held(a, b) || held(b, a), "{room}: {} and {} overlap", a.id, b.id);
             }
         }
@@ -81,12 +82,13 @@ fn what_lies_in_something_is_in_it() {
             let around = &scene.entities[container];
             let ([least, most], [from, to]) = (bounds(entity).unwrap(), bounds(around).unwrap());
             let way = match (around.open, around.travel) {
-                (Some(true), Some(scene::Travel::Slide { axis, distance })) => axis.map(|part| part * distance),
+                (Some(true), Some(scene::Travel::Slide { axis, distance })) => {
+                    axis.map(|part| part * distance)
+                }
                 _ => [0.0; 3],
             };
-            let inside = (0..3).all(|axis| {
-                from[axis] + way[axis] <= least[axis] && most[axis] <= to[axis] + way[axis]
-            });
+            let inside = (0..3)
+                .all(|axis| from[axis] + way[axis] <= least[axis] && most[axis] <= to[axis] + way[axis]);
             assert!(inside, "{room}: {} is not in {container}", entity.id);
         }
     }

@@ -87,9 +87,10 @@ mistakes! {
     help(_m) { Some("leave out `on` and `in` of what the robot holds".into()) }
     related(m) { vec![Related::new("it is held here", m.held)] }
 
-    /// A number that is none: infinite or not a number.
-    NotFinite("M0440", Error) { quantity: Quantity }
-    message(m) { format!("{} is not a finite number", m.quantity.words()) }
+    /// A number of its own that has a key of its own, or stands twice.
+    FieldTwice("M0440", Error) { field: SmolStr }
+    message(m) { format!("the field `{}` has a key of its own", m.field) }
+    help(m) { Some(format!("write `\"{}\": …` beside `fields`, not in it", m.field)) }
 
     /// A size, mass or way that is zero or negative.
     NotPositive("M0441", Error) { quantity: Quantity, found: f64 }
@@ -121,11 +122,6 @@ mistakes! {
     EmptyName("M0445", Error) { key: &'static str }
     message(m) { format!("`{}` is empty", m.key) }
     help(_m) { Some("write the name of a kind such as `Object`".into()) }
-
-    /// A number of its own that has a key of its own, or stands twice.
-    FieldTwice("M0446", Error) { field: SmolStr }
-    message(m) { format!("the field `{}` has a key of its own", m.field) }
-    help(m) { Some(format!("write `\"{}\": …` beside `fields`, not in it", m.field)) }
 }
 
 fn quoted(text: &str) -> String {

@@ -3,7 +3,7 @@
 use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 
-use super::errors::{NotFinite, NotPositive, TooFar, ZeroAxis};
+use super::errors::{NotPositive, TooFar, ZeroAxis};
 
 /// The furthest coordinate and the greatest size, in m: a scene is a room or a house.
 pub(super) const FURTHEST: f64 = 1000.0;
@@ -127,10 +127,9 @@ impl Numbers {
         Some(scaled.map(|part| part / length))
     }
 
+    /// The value is finite: JSON has no other, and the reader takes no number that is too large for a float.
     fn value(&mut self, value: f64, span: Span, quantity: Quantity) -> Option<f64> {
-        if !value.is_finite() {
-            self.found.push(NotFinite { span, quantity }.into());
-        } else if quantity.has_to_be_positive() && value <= 0.0 {
+        if quantity.has_to_be_positive() && value <= 0.0 {
             self.found.push(NotPositive { span, quantity, found: value }.into());
         } else if quantity.is_length() && value.abs() > FURTHEST {
             self.found.push(TooFar { span, quantity, found: value }.into());

@@ -61,10 +61,8 @@ impl Relations<'_> {
     }
 
     fn robot(&mut self, robot: &wire::Robot) {
-        if let Some(Some(held)) = &robot.holding {
-            if self.unknown("holding", held) {
-                self.scene.robot.holding = None;
-            }
+        if robot.holding.iter().flatten().any(|held| self.unknown("holding", held)) {
+            self.scene.robot.holding = None;
         }
         if robot.at.as_ref().is_some_and(|at| self.unknown("at", at)) {
             self.scene.robot.at = None;
