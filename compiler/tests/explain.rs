@@ -14,9 +14,6 @@ const SECTIONS: [&str; 3] = ["Wrong", "Right", "Near miss"];
 /// Errors that another one brings with it, which their page need not avoid.
 const FOLLOW_UPS: [(&str, &str); 2] = [("M0117", "M0204"), ("M0445", "M0221")];
 
-/// Codes that guard against what an earlier stage refuses, and the code with which it does.
-const GUARDS: [(&str, &str); 1] = [("M0440", "M0107")];
-
 /// One fenced example: the words after the fence, and its text.
 #[derive(Debug)]
 struct Fence<'a> {
@@ -219,16 +216,14 @@ fn faults(page: &codes::Page) -> Vec<String> {
         };
         let raised: BTreeSet<_> = said.iter().map(|said| said.code.0).collect();
         let wrong = section == "Wrong";
-        let code =
-            GUARDS.iter().find(|(guard, _)| *guard == page.code).map_or(page.code, |(_, earlier)| *earlier);
-        if raised.contains(code) != wrong {
+        if raised.contains(page.code) != wrong {
             faults.push(format!("`{section}` raises {raised:?}"));
         }
         let allowed = |said: &&Diagnostic| {
             // Policies in a document that only shows declarations are not chosen to run.
             let follows = FOLLOW_UPS.contains(&(page.code, said.code.0));
             said.severity == Severity::Error
-                && (wrong && (follows || code == said.code.0) || said.code.0 == "M0405")
+                && (wrong && (follows || page.code == said.code.0) || said.code.0 == "M0405")
         };
         for said in said.iter().filter(|said| said.severity == Severity::Error && !allowed(said)) {
             faults.push(format!("`{section}` raises {}: {}", said.code, said.message));
