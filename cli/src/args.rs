@@ -217,7 +217,9 @@ pub(crate) enum SchemaOf {
 
 /// `motet completions`
 #[derive(Args, Debug)]
-#[command(after_help = "Example:\n  motet completions bash > ~/.local/share/bash-completion/completions/motet")]
+#[command(
+    after_help = "Example:\n  motet completions bash > ~/.local/share/bash-completion/completions/motet"
+)]
 pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]

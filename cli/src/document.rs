@@ -1,7 +1,7 @@
 //! A document on its way in: bytes to text, text to the syntax tree.
 
-use motet_syntax::errors::TooLarge;
 use motet_syntax::ast::File;
+use motet_syntax::errors::TooLarge;
 use motet_syntax::{Diagnostic, FileId, Form, Parsed, Source, Span};
 
 use crate::input::{Bytes, Document};

@@ -94,9 +94,15 @@ impl Trouble {
     pub(crate) fn help(&self) -> Option<&str> {
         match self {
             Self::Unknown { help, .. } => Some(help),
-            Self::NoCard { .. } => Some("a robot's folder holds robot.toml, and primitives.motet where its signatures differ"),
+            Self::NoCard { .. } => {
+                Some("a robot's folder holds robot.toml, and primitives.motet where its signatures differ")
+            }
             Self::TooLarge { .. } => Some("split it into several files"),
-            Self::Read { .. } | Self::Write { .. } | Self::Folder { .. } | Self::Diagnosed(_) | Self::Other(_) => None,
+            Self::Read { .. }
+            | Self::Write { .. }
+            | Self::Folder { .. }
+            | Self::Diagnosed(_)
+            | Self::Other(_) => None,
         }
     }
 }

@@ -9,7 +9,12 @@ use motet_syntax::{Form, Parsed, print};
 /// # Errors
 ///
 /// Why the form cannot say it, as one clause.
-pub(crate) fn write(parsed: &Parsed, policy: Option<&str>, library: &Library, form: Form) -> Result<String, String> {
+pub(crate) fn write(
+    parsed: &Parsed,
+    policy: Option<&str>,
+    library: &Library,
+    form: Form,
+) -> Result<String, String> {
     let mut file = parsed.file.clone();
     if let Some(name) = policy {
         file.items.retain(|item| matches!(item, Item::Policy(policy) if policy.name.text == name));

@@ -6,7 +6,9 @@ use motet_graph::{Graph, NodeKind, Verdict};
 #[must_use]
 pub(crate) fn deferred_motions(graph: &Graph) -> usize {
     let is_deferred = |kind: &NodeKind| match kind {
-        NodeKind::Call(call) => call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred),
+        NodeKind::Call(call) => {
+            call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)
+        }
         NodeKind::Sequence { .. }
         | NodeKind::Inline { .. }
         | NodeKind::If { .. }

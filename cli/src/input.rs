@@ -88,7 +88,10 @@ impl Input {
     /// # Errors
     ///
     /// The input cannot be read.
-    pub(crate) fn documents(&self, each: &mut dyn FnMut(Document) -> Result<Flow, Trouble>) -> Result<Flow, Trouble> {
+    pub(crate) fn documents(
+        &self,
+        each: &mut dyn FnMut(Document) -> Result<Flow, Trouble>,
+    ) -> Result<Flow, Trouble> {
         match self {
             Self::Stdin => {
                 let bytes = bytes::read(std::io::stdin().lock(), None)

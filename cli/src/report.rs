@@ -28,7 +28,15 @@ impl Report {
     /// A report in a format.
     #[must_use]
     pub(crate) fn new(format: Format, colors: Colors) -> Self {
-        Self { format, colors, out: Out::default(), gathered: Gathered::default(), is_held: false, errors: 0, warnings: 0 }
+        Self {
+            format,
+            colors,
+            out: Out::default(),
+            gathered: Gathered::default(),
+            is_held: false,
+            errors: 0,
+            warnings: 0,
+        }
     }
 
     /// Keeps what is said until the end: then it goes to standard output, or to standard error where something else was
@@ -49,10 +57,16 @@ impl Report {
         match self.format {
             Format::Human | Format::Github | Format::Json if !self.is_held => {
                 let text = self.text(diagnostics, sources);
-                let gap = if self.format == Format::Human && self.out.is_used() && !text.is_empty() { "\n" } else { "" };
+                let gap = if self.format == Format::Human && self.out.is_used() && !text.is_empty() {
+                    "\n"
+                } else {
+                    ""
+                };
                 self.out.text(&format!("{gap}{text}"));
             }
-            Format::Human | Format::Github | Format::Json | Format::Sarif => self.gathered.add(diagnostics, sources),
+            Format::Human | Format::Github | Format::Json | Format::Sarif => {
+                self.gathered.add(diagnostics, sources)
+            }
         }
     }
 
@@ -75,7 +89,12 @@ impl Report {
     /// # Errors
     ///
     /// There is an error in it.
-    pub(crate) fn usable(&mut self, what: &'static str, said: &[Diagnostic], sources: &Sources) -> Result<(), Trouble> {
+    pub(crate) fn usable(
+        &mut self,
+        what: &'static str,
+        said: &[Diagnostic],
+        sources: &Sources,
+    ) -> Result<(), Trouble> {
         self.say(said, sources);
         let is_broken = said.iter().any(|said| said.severity == Severity::Error);
         if is_broken { Err(Trouble::Diagnosed(what)) } else { Ok(()) }

@@ -131,7 +131,8 @@ impl Setting {
         let mut all = Sources::default();
         all.add(document);
         for index in 1..self.sources.len() {
-            if let Some(source) = u16::try_from(index).ok().and_then(|index| self.sources.get(FileId(index))) {
+            if let Some(source) = u16::try_from(index).ok().and_then(|index| self.sources.get(FileId(index)))
+            {
                 all.add(source.clone());
             }
         }
@@ -176,7 +177,9 @@ pub(crate) fn wanted_robot(document: &File) -> Option<String> {
 /// What to say where a document names a robot that is not built in, and none was given.
 #[must_use]
 pub(crate) fn stranger(name: &str) -> String {
-    let near = suggest::closest(name, robot_names())
-        .map_or_else(|| "give its card with --robot FOLDER".to_owned(), |near| format!("did you mean `{near}`?"));
+    let near = suggest::closest(name, robot_names()).map_or_else(
+        || "give its card with --robot FOLDER".to_owned(),
+        |near| format!("did you mean `{near}`?"),
+    );
     format!("warning: there is no robot `{name}`, so nothing was checked against its card: {near}")
 }

@@ -12,7 +12,8 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
     let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());
     let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
     let wrong = || "write a number with ms, s, min or h, such as 90s or 10min".to_owned();
-    let unit = Unit::parse(unit.trim()).filter(|unit| unit.dimension() == Dimension::DURATION).ok_or_else(wrong)?;
+    let unit =
+        Unit::parse(unit.trim()).filter(|unit| unit.dimension() == Dimension::DURATION).ok_or_else(wrong)?;
     let secs = unit.to_si(number.parse().map_err(|_| wrong())?);
     if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("it must be longer than nothing".to_owned()) }
 }

@@ -97,7 +97,9 @@ impl Tally {
 
     fn tell(&self, bench: &Workbench, skipped: usize) {
         if skipped > 0 {
-            let files = if skipped == 1 { "1 JSON file that is no policy".to_owned() } else {
+            let files = if skipped == 1 {
+                "1 JSON file that is no policy".to_owned()
+            } else {
                 format!("{skipped} JSON files that are no policies")
             };
             note(&format!("note: skipped {files}"));
@@ -106,7 +108,9 @@ impl Tally {
             note(&stranger(name));
         }
         if self.without_robot > 0 {
-            note("note: no robot was given, so all that the standard library declares was allowed (--robot NAME)");
+            note(
+                "note: no robot was given, so all that the standard library declares was allowed (--robot NAME)",
+            );
         }
         if self.motions > 0 {
             let why = if bench.has_scene() { "" } else { ", because no scene was given (--scene NAME)" };

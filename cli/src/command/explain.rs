@@ -40,7 +40,8 @@ fn list(out: &mut Out) {
     for page in codes::PAGES {
         let title = page.text.lines().find(|line| line.starts_with('#')).unwrap_or_default();
         let title = title.trim_start_matches('#').trim();
-        let title = title.strip_prefix(page.code).unwrap_or(title).trim_start_matches([':', ' ', '—', '-', '·']);
+        let title =
+            title.strip_prefix(page.code).unwrap_or(title).trim_start_matches([':', ' ', '—', '-', '·']);
         out.line(&format!("{}  {title}", page.code));
     }
 }

@@ -125,7 +125,11 @@ impl Tally {
         }
         let text = print::format(&source).unwrap_or_else(|_| source.text.to_string());
         let is_same = found.is(&text);
-        if is_same { self.unchanged += 1 } else { self.changed += 1 }
+        if is_same {
+            self.unchanged += 1
+        } else {
+            self.changed += 1
+        }
         match &found.path {
             _ if only_check => {
                 if !is_same {
@@ -141,7 +145,9 @@ impl Tally {
 
     fn tell(&self, args: &FmtArgs) {
         if self.lines > 0 {
-            note("note: a .jsonl file keeps a policy a line and is left as it is (--to text|json prints its policies)");
+            note(
+                "note: a .jsonl file keeps a policy a line and is left as it is (--to text|json prints its policies)",
+            );
         }
         if args.to.is_none() {
             let verb = if args.check { "would be reformatted" } else { "reformatted" };
@@ -161,7 +167,8 @@ fn is_broken(parsed: &Parsed) -> bool {
 
 /// JSON without line breaks; what is no JSON stays.
 fn one_line(text: &str) -> String {
-    serde_json::from_str::<serde_json::Value>(text).map_or_else(|_| text.to_owned(), |value| value.to_string())
+    serde_json::from_str::<serde_json::Value>(text)
+        .map_or_else(|_| text.to_owned(), |value| value.to_string())
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Trouble> {

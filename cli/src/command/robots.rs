@@ -100,14 +100,19 @@ fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
     found
 }
 
-fn signature(decl: &PrimitiveDecl, text: &str, bounds: &indexmap::IndexMap<smol_str::SmolStr, Range>) -> String {
+fn signature(
+    decl: &PrimitiveDecl,
+    text: &str,
+    bounds: &indexmap::IndexMap<smol_str::SmolStr, Range>,
+) -> String {
     let mut written = String::from("\n");
     for line in decl.doc.lines() {
         written.push_str(&format!("/// {line}\n"));
     }
     written.push_str(text.trim_end());
     for (param, bound) in bounds {
-        let unit = decl.params.iter().find(|known| known.name.text == *param).map_or("", |known| unit(&known.ty));
+        let unit =
+            decl.params.iter().find(|known| known.name.text == *param).map_or("", |known| unit(&known.ty));
         written.push_str(&format!("\n    // {param}: {}", range(bound, unit)));
     }
     written.push('\n');

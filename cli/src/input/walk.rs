@@ -16,7 +16,9 @@ pub(super) fn folder(path: &Path, found: &mut Inputs) -> Result<(), Trouble> {
     for entry in WalkBuilder::new(path).require_git(false).build() {
         let entry = entry.map_err(|error| Trouble::Read {
             path: path.to_owned(),
-            source: error.into_io_error().unwrap_or_else(|| std::io::Error::other("the folder cannot be listed")),
+            source: error
+                .into_io_error()
+                .unwrap_or_else(|| std::io::Error::other("the folder cannot be listed")),
         })?;
         let file = entry.path();
         let is_file = entry.file_type().is_some_and(|kind| kind.is_file());

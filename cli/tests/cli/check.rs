@@ -1,7 +1,7 @@
 //! `motet check` from outside: inputs, formats, exit codes.
 
-use serde_json::Value;
 use crate::support::{BAD, GOOD, GOOD_JSON, Place};
+use serde_json::Value;
 
 fn place(name: &str) -> Place {
     Place::new(name)
@@ -31,7 +31,11 @@ fn ends_with_the_right_code() {
     let place = place("check_codes");
     let scene = "--scene kitchen";
     for (line, code, texts) in [
-        (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors", "err:not checked geometrically"][..]),
+        (
+            format!("check good.motet {scene}"),
+            0,
+            &["err:checked 1 document: no errors", "err:not checked geometrically"][..],
+        ),
         (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),
         (format!("check good.motet good.json {scene}"), 0, &["err:checked 2 documents"]),
         (format!("check good.motet good.motet {scene}"), 0, &["err:checked 1 document"]),
@@ -44,7 +48,11 @@ fn ends_with_the_right_code() {
         (format!("check good.motet {scene} --max-duration 1s"), 1, &["out:M08"]),
         ("check broken.json".to_owned(), 1, &["out:broken.json"]),
         ("check latin.motet".to_owned(), 1, &["out:latin.motet"]),
-        ("check good.motet --scene kitchn".to_owned(), 2, &["err:no scene `kitchn`", "err:did you mean `kitchen`?"]),
+        (
+            "check good.motet --scene kitchn".to_owned(),
+            2,
+            &["err:no scene `kitchn`", "err:did you mean `kitchen`?"],
+        ),
         ("check good.motet --robot hsrr".to_owned(), 2, &["err:no robot `hsrr`", "err:did you mean `hsr`?"]),
         ("check good.motet --robot robot".to_owned(), 2, &["err:no robot.toml"]),
         ("check good.motet --robot odd_robot".to_owned(), 2, &["out:odd_robot/robot.toml"]),
@@ -128,7 +136,8 @@ fn prints_every_format() {
 
 #[test]
 fn merges_the_sources_of_a_batch() {
-    let place = place("check_merge").file("worse.motet", "// one\n\npolicy other for anymal_z1 {\n    goo(user)\n}\n");
+    let place = place("check_merge")
+        .file("worse.motet", "// one\n\npolicy other for anymal_z1 {\n    goo(user)\n}\n");
     let ran = place.run("check bad.motet worse.motet lines.jsonl --scene kitchen --format sarif");
     let sarif: Value = serde_json::from_str(&ran.check(1, &[]).stdout).unwrap();
     let results = sarif["runs"][0]["results"].as_array().unwrap();

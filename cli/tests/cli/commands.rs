@@ -1,7 +1,7 @@
 //! The small commands from outside: `robots`, `explain`, `schema`, `completions`.
 
-use serde_json::Value;
 use crate::support::Place;
+use serde_json::Value;
 
 #[test]
 fn answers() {
@@ -32,7 +32,8 @@ fn answers() {
 fn describes_the_formats() {
     let place = Place::new("schemas");
     for (of, key) in [("policy", "steps"), ("scene", "entities"), ("robot", "name"), ("diagnostic", "code")] {
-        let schema: Value = serde_json::from_str(&place.run(&format!("schema {of}")).check(0, &[]).stdout).unwrap();
+        let schema: Value =
+            serde_json::from_str(&place.run(&format!("schema {of}")).check(0, &[]).stdout).unwrap();
         assert!(schema["$schema"].is_string(), "{of}");
         assert!(schema["properties"][key].is_object(), "{of} has {key}");
     }

@@ -7,7 +7,8 @@ const TIGHT: &str = "// A comment that stays.\npolicy tidy for hsr {\n    go(kit
 
 #[test]
 fn rewrites_only_what_differs() {
-    let place = Place::new("fmt_rewrites").file("a.motet", LOOSE).file("b.motet", GOOD).file("c.motet", "policy {");
+    let place =
+        Place::new("fmt_rewrites").file("a.motet", LOOSE).file("b.motet", GOOD).file("c.motet", "policy {");
     place.run("fmt --check a.motet b.motet").check(1, &["out:would reformat a.motet", "err:1 file would be"]);
     assert_eq!(place.read("a.motet"), LOOSE, "a check writes nothing");
     place.run("fmt a.motet b.motet").check(0, &["err:1 file reformatted, 1 unchanged"]);
@@ -62,12 +63,17 @@ fn says_what_json_cannot() {
 
 #[test]
 fn compiles() {
-    let place = Place::new("compile").file("a.motet", GOOD).file("bad.motet", BAD).file("two.motet", {
-        format!("{GOOD}\npolicy other for hsr {{\n    done\n}}\n")
-    });
+    let place = Place::new("compile")
+        .file("a.motet", GOOD)
+        .file("bad.motet", BAD)
+        .file("two.motet", { format!("{GOOD}\npolicy other for hsr {{\n    done\n}}\n") });
     let graph = place.run("compile a.motet --scene kitchen").check(0, &[]).stdout.clone();
     assert!(serde_json::from_str::<serde_json::Value>(&graph).unwrap().is_object());
-    assert_eq!(place.run("compile a.motet --scene kitchen").stdout, graph, "the same policy gives the same bytes");
+    assert_eq!(
+        place.run("compile a.motet --scene kitchen").stdout,
+        graph,
+        "the same policy gives the same bytes"
+    );
     place.run("compile a.motet --scene kitchen -o out.json").check(0, &[]);
     assert_eq!(place.read("out.json"), graph);
     for (line, code, texts) in [

@@ -1,7 +1,7 @@
 //! `motet run` from outside: outcomes, exit codes, the shapes of what is shown.
 
-use serde_json::Value;
 use crate::support::{BAD, GOOD, Place};
+use serde_json::Value;
 
 fn place(name: &str) -> Place {
     Place::new(name)
@@ -12,7 +12,10 @@ fn place(name: &str) -> Place {
         .file("no_robot.motet", "policy anyone {\n    go(user)\n}\n")
         .file("stranger.motet", "policy anyone for nobody {\n    go(user)\n}\n")
         .file("long.motet", "policy waits for hsr {\n    wait until not free(hand) within 1000 s\n}\n")
-        .file("asks.motet", "policy asks for hsr {\n    let answer = ask(\"Which one?\")\n    fail answer\n}\n")
+        .file(
+            "asks.motet",
+            "policy asks for hsr {\n    let answer = ask(\"Which one?\")\n    fail answer\n}\n",
+        )
         .file("answers.json", r#"["the red one"]"#)
         .file("faults.json", r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
         .file("odd_faults.json", r#"{"calls": [{"primitve": "pick"}]}"#)
@@ -24,18 +27,34 @@ fn ends_with_the_right_code() {
     let place = place("run_codes");
     let max = "--scene kitchen --speed max";
     for (line, code, texts) in [
-        (format!("run good.motet {max}"), 0, &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug"][..]),
+        (
+            format!("run good.motet {max}"),
+            0,
+            &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug"][..],
+        ),
         (format!("run good.motet {max} --seed 7"), 0, &["out:✓ handover(mug, user)"]),
         (format!("run bad.motet {max}"), 1, &["out:M0201", "err:refused: 1 error"]),
-        (format!("run gives_up.motet {max}"), 3, &["out:✗ gives_up: failed with `failed`", "out:why: no mug"]),
+        (
+            format!("run gives_up.motet {max}"),
+            3,
+            &["out:✗ gives_up: failed with `failed`", "out:why: no mug"],
+        ),
         (format!("run replans.motet {max}"), 3, &["out:asks for a new plan", "out:why: too hard"]),
-        (format!("run good.motet {max} --faults faults.json"), 3, &["out:failed with `slipped`", "out:pick(mug"]),
+        (
+            format!("run good.motet {max} --faults faults.json"),
+            3,
+            &["out:failed with `slipped`", "out:pick(mug"],
+        ),
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
         (format!("run stranger.motet {max}"), 2, &["err:no built-in robot `nobody`"]),
         (format!("run good.motet {max} --faults absent.json"), 2, &["err:no such file"]),
-        (format!("run good.motet {max} --faults odd_faults.json"), 2, &["out:odd_faults.json", "out:primitve"]),
+        (
+            format!("run good.motet {max} --faults odd_faults.json"),
+            2,
+            &["out:odd_faults.json", "out:primitve"],
+        ),
         (format!("run good.motet {max} --answers odd_answers.json"), 2, &["out:odd_answers.json"]),
         ("run good.motet --speed fast".to_owned(), 2, &["err:write `max`, or a factor"]),
         ("run good.motet --speed 0".to_owned(), 2, &["err:write `max`, or a factor"]),
@@ -57,7 +76,9 @@ fn prints_events_a_line() {
     assert!(events.iter().filter(|event| event["event"].is_string()).count() > 10);
     let last = events.last().unwrap();
     assert_eq!((&last["event"], &last["outcome"]), (&Value::from("finished"), &Value::from("done")));
-    place.run("run bad.motet --scene kitchen --format json").check(1, &["out:{\"event\":\"diagnostic\",\"code\":\"M0201\""]);
+    place
+        .run("run bad.motet --scene kitchen --format json")
+        .check(1, &["out:{\"event\":\"diagnostic\",\"code\":\"M0201\""]);
     let times: Vec<f64> = events.iter().filter_map(|event| event["at"].as_f64()).collect();
     assert!(times.is_sorted(), "time never runs backwards");
     assert!(events.iter().any(|event| event["event"] == "command" && event["args"]["object"] == "mug_1"));

@@ -52,7 +52,8 @@ impl Place {
     /// Runs a line of the shell in the folder.
     #[cfg(unix)]
     pub(crate) fn shell(&self, line: &str) -> Ran {
-        let output = Command::new("sh").args(["-c", line]).current_dir(&self.folder).output().expect("a shell runs");
+        let output =
+            Command::new("sh").args(["-c", line]).current_dir(&self.folder).output().expect("a shell runs");
         Ran::of(output)
     }
 

@@ -66,7 +66,12 @@ impl Events {
             }
             Happening::Fired { node, watch, truth } => {
                 let when = tree::watched(&graph, *node, *watch);
-                self.write(at, "fired", Some(*node), json!({"watch": watch, "when": when, "truth": word(*truth)}));
+                self.write(
+                    at,
+                    "fired",
+                    Some(*node),
+                    json!({"watch": watch, "when": when, "truth": word(*truth)}),
+                );
             }
             Happening::WentOn { node, watch } => {
                 self.write(at, "went_on", Some(*node), json!({"watch": watch}));
@@ -97,7 +102,9 @@ impl View for Events {
             Effect::Cancel { goal } => self.write(now, "cancel", None, json!({"goal": goal.to_string()})),
             Effect::Hold { goal } => self.write(now, "hold", None, json!({"goal": goal.to_string()})),
             Effect::Proceed { goal } => self.write(now, "proceed", None, json!({"goal": goal.to_string()})),
-            Effect::SafeStop { goal } => self.write(now, "safe_stop", None, json!({"goal": goal.to_string()})),
+            Effect::SafeStop { goal } => {
+                self.write(now, "safe_stop", None, json!({"goal": goal.to_string()}))
+            }
             Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } | Effect::Finished(_) => {}
         }
     }

@@ -1,7 +1,8 @@
 //! Steps as a line of text: what a graph's node looks like to somebody who watches it run.
 
 use motet_graph::{
-    Arithmetic, CallNode, Comparison, Condition, Ending, Fact, FactArg, FailureId, Graph, Node, NodeKind, Term,
+    Arithmetic, CallNode, Comparison, Condition, Ending, Fact, FactArg, FailureId, Graph, Node, NodeKind,
+    Term,
 };
 
 /// A node in one line, as the text form would write it.

@@ -43,9 +43,10 @@ impl Lines {
         let indent = "  ".repeat(row.depth.min(20));
         let mark = paint(mark(row.status), row.status, self.is_colored);
         let note = if row.note.is_empty() { String::new() } else { format!("  {}", row.note) };
-        let took = row.took.filter(|took| *took > Time::ZERO).map_or_else(String::new, |took| {
-            format!("  ({})", duration(took))
-        });
+        let took = row
+            .took
+            .filter(|took| *took > Time::ZERO)
+            .map_or_else(String::new, |took| format!("  ({})", duration(took)));
         format!("{:>9}  {indent}{mark} {}{note}{took}", duration(at), row.label)
     }
 

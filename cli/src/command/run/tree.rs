@@ -121,10 +121,15 @@ impl Tree {
             }
             Happening::Guard { node, need, truth } => {
                 let need = needed(&graph, *node, *need);
-                (*node, (*truth != motet_runtime::Truth::True).then(|| format!("needs {need}, which is {truth}")))
+                (
+                    *node,
+                    (*truth != motet_runtime::Truth::True).then(|| format!("needs {need}, which is {truth}")),
+                )
             }
             Happening::Tested { node, truth } => (*node, Some(truth.to_string())),
-            Happening::Fired { node, watch, .. } => (*node, Some(format!("fired: {}", watched(&graph, *node, *watch)))),
+            Happening::Fired { node, watch, .. } => {
+                (*node, Some(format!("fired: {}", watched(&graph, *node, *watch))))
+            }
             Happening::WentOn { node, .. } => (*node, Some("went on".to_owned())),
             Happening::Bound { binding, value } => {
                 let binds = |kind: &NodeKind| match kind {

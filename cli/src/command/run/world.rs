@@ -45,7 +45,13 @@ impl Choices {
     }
 
     /// The simulated world. `files` are the document and the domains, whose entities have a place in it too.
-    pub(super) fn simulator(self, robot: &Robot, scene: Option<&Scene>, graph: &Graph, files: &[&File]) -> Sim {
+    pub(super) fn simulator(
+        self,
+        robot: &Robot,
+        scene: Option<&Scene>,
+        graph: &Graph,
+        files: &[&File],
+    ) -> Sim {
         let nothing = Scene::default();
         let parent = |kind: &motet_graph::Kind| {
             let parent = graph.kinds.get(kind.parent?.index())?;
@@ -57,7 +63,11 @@ impl Choices {
             script: Script { answers: self.answers },
             kinds: graph.kinds.iter().filter_map(parent).collect(),
             entities: files.iter().flat_map(|file| entities(file)).collect(),
-            told: graph.initial.iter().filter_map(|(fact, value)| Some((told(graph, fact)?, *value))).collect(),
+            told: graph
+                .initial
+                .iter()
+                .filter_map(|(fact, value)| Some((told(graph, fact)?, *value)))
+                .collect(),
         };
         Sim::new(robot, scene.unwrap_or(&nothing), options)
     }
@@ -70,7 +80,11 @@ fn faults(path: &Path, report: &mut Report) -> Result<Faults, Trouble> {
 }
 
 /// Reads a JSON file that is not about a policy; its diagnostics go to the report.
-fn read<T: DeserializeOwned>(path: &Path, what: &'static str, report: &mut Report) -> Result<(T, String), Trouble> {
+fn read<T: DeserializeOwned>(
+    path: &Path,
+    what: &'static str,
+    report: &mut Report,
+) -> Result<(T, String), Trouble> {
     let mut sources = Sources::default();
     let (source, mut said) = document::decode(&path.display().to_string(), &read_small(path)?, FileId(0));
     sources.add(source.clone());
