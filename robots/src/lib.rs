@@ -3,5 +3,4 @@
 //! This crate reads no file: the host hands over the text of a card's folder or of a scene.
 
 pub mod card;
-mod mistake;
 pub mod scene;

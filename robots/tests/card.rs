@@ -88,6 +88,22 @@ fn built_in_cards_are_right() {
 }
 
 #[test]
+fn built_in_declarations_can_be_read() {
+    for (name, toml, declarations) in card::embedded() {
+        let (robot, _) = card::read(&Source::new(*name, *toml), FileId(0), *declarations);
+        let robot = robot.unwrap();
+        // An empty document is a mistake of its own; a card without declarations has an empty text.
+        if !robot.declarations.is_empty() {
+            let file = motet_syntax::read(&Source::new(*name, robot.declarations), FileId(0));
+            assert_eq!(file.diagnostics, [], "{name}");
+        }
+        for fact in &robot.initially {
+            assert!(motet_syntax::text::condition(fact).is_ok(), "{name}: {fact}");
+        }
+    }
+}
+
+#[test]
 fn what_is_no_toml_is_told() {
     check(
         "turn = 1.0",

@@ -3,9 +3,9 @@
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
 
-use crate::mistake::mistakes;
+motet_syntax::mistakes! {
+    pub const CODES;
 
-mistakes! {
     /// The text is not TOML.
     NotToml("M0411", Error) { problem: String }
     message(m) { format!("this is not TOML: {}", m.problem) }

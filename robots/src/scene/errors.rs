@@ -5,9 +5,10 @@ use smol_str::SmolStr;
 
 use super::number::{FURTHEST, Quantity};
 use super::read::MAX_ENTITIES;
-use crate::mistake::mistakes;
 
-mistakes! {
+motet_syntax::mistakes! {
+    pub const CODES;
+
     /// Another version of the format.
     Version("M0431", Error) { found: u32 }
     message(m) { format!("this scene is of version {}, known is version 1", m.found) }
