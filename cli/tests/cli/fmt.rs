@@ -66,7 +66,7 @@ fn compiles() {
     let place = Place::new("compile")
         .file("a.motet", GOOD)
         .file("bad.motet", BAD)
-        .file("two.motet", { format!("{GOOD}\npolicy other for hsr {{\n    done\n}}\n") });
+        .file("two.motet", format!("{GOOD}\npolicy other for hsr {{\n    done\n}}\n"));
     let graph = place.run("compile a.motet --scene kitchen").check(0, &[]).stdout.clone();
     assert!(serde_json::from_str::<serde_json::Value>(&graph).unwrap().is_object());
     assert_eq!(
