@@ -1,1 +1,133 @@
-fn main() {}
+//! What a step costs. The driver succeeds at once, the trace is on: each step is an event, its records and the next start.
+
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use motet_graph::arbitrary::vocabulary as v;
+use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::{Condition, Value};
+use motet_runtime::{
+    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Query, StartState, Time,
+};
+use std::hint::black_box;
+
+/// Runs to the end with a driver that succeeds at once. Returns how many effects went out.
+fn run(engine: &mut Engine, out: &mut Vec<Effect>) -> usize {
+    let mut effects = 0;
+    let mut event = Event::Begin;
+    loop {
+        out.clear();
+        engine.handle(Time::ZERO, event, out);
+        effects += out.len();
+        let Some(goal) = started(out) else { return effects };
+        event = Event::Driver(DriverEvent::Ended { goal, outcome: Outcome::Success(None) });
+    }
+}
+
+fn started(out: &[Effect]) -> Option<GoalId> {
+    out.iter().rev().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    })
+}
+
+fn engine(steps: &[Step]) -> Engine {
+    Engine::new(graph(steps), &StartState::default()).expect("sketches are valid")
+}
+
+/// A sequence of calls that need nothing and change nothing.
+fn calls(c: &mut Criterion) {
+    let mut group = c.benchmark_group("sequence of calls");
+    for count in [10_usize, 100, 1_000, 10_000] {
+        let engine = engine(&vec![Step::say("hello"); count]);
+        let mut out = Vec::with_capacity(64);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::from_parameter(count), |b| {
+            b.iter_batched_ref(
+                || engine.clone(),
+                |engine| black_box(run(engine, &mut out)),
+                BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+/// A sequence of tests that hold, all in one event: transitions without a driver.
+fn tests(c: &mut Criterion) {
+    let mut group = c.benchmark_group("sequence of tests");
+    for count in [10_usize, 1_000, 10_000] {
+        let engine = engine(&vec![Step::If(Condition::Literal(true), vec![], None); count]);
+        let mut out = Vec::with_capacity(8 * count);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::from_parameter(count), |b| {
+            b.iter_batched_ref(
+                || engine.clone(),
+                |engine| black_box(run(engine, &mut out)),
+                BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+/// Groups in groups around one call.
+fn nesting(c: &mut Criterion) {
+    let deep = (0..1_000).fold(Step::say("hello"), |inner, _| Step::Sequence(vec![inner]));
+    let engine = engine(&[deep]);
+    let mut out = Vec::with_capacity(4_000);
+    c.bench_function("nesting 1000", |b| {
+        b.iter_batched_ref(
+            || engine.clone(),
+            |engine| black_box(run(engine, &mut out)),
+            BatchSize::LargeInput,
+        );
+    });
+}
+
+/// A thousand monitors over one call: a tick in which nothing happens, and an observation that one of them depends on.
+fn monitors(c: &mut Criterion) {
+    let deep = (0..1_000).fold(Step::go("table"), |inner, index| {
+        let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity(&format!("mug_{index}"))]));
+        Step::Monitor(vec![When::new(held, React::Pause(60.0))], vec![inner])
+    });
+    let mut engine = engine(&[deep]);
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    c.bench_function("1000 monitors, idle tick", |b| {
+        b.iter(|| {
+            out.clear();
+            engine.handle(Time::from_nanos(1), black_box(Event::Tick), &mut out);
+        });
+    });
+    let args = vec![Pattern::Is(Value::Entity("mug_500".into()))];
+    let query = Query::Fact { fluent: "holding".into(), args };
+    c.bench_function("1000 monitors, one observation", |b| {
+        b.iter(|| {
+            out.clear();
+            let (query, answer) = (query.clone(), Answer::Truth(false));
+            let event = Event::Driver(DriverEvent::Observed { query, answer });
+            engine.handle(Time::from_nanos(1), black_box(event), &mut out);
+        });
+    });
+}
+
+/// A call with a guard that is believed and effects that are written.
+fn contracts(c: &mut Criterion) {
+    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]));
+    let place = Step::Call(Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]));
+    let steps: Vec<Step> = (0..500).flat_map(|_| [pick.clone(), place.clone()]).collect();
+    let engine = engine(&steps);
+    let mut out = Vec::with_capacity(64);
+    let mut group = c.benchmark_group("calls with guards and effects");
+    group.throughput(Throughput::Elements(steps.len() as u64));
+    group.bench_function("1000", |b| {
+        b.iter_batched_ref(
+            || engine.clone(),
+            |engine| black_box(run(engine, &mut out)),
+            BatchSize::LargeInput,
+        );
+    });
+    group.finish();
+}
+
+criterion_group!(benches, calls, tests, nesting, monitors, contracts);
+criterion_main!(benches);

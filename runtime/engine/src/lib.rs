@@ -7,6 +7,7 @@
 //! that one event enables; `belief` is what the engine believes of the world. Only `turn` changes the state.
 
 mod belief;
+mod describe;
 mod driver;
 mod effect;
 mod engine;

@@ -109,6 +109,8 @@ pub(crate) struct NodeRun {
     pub(crate) goal: Option<GoalId>,
     /// When the observations that count began.
     pub(crate) since: Time,
+    /// How many observations had been taken in by then.
+    pub(crate) seen: u64,
     /// What is left of a deadline while the step is suspended.
     pub(crate) left: Time,
     pub(crate) after: After,
@@ -239,6 +241,7 @@ impl Run {
             count: 0,
             goal: None,
             since: Time::ZERO,
+            seen: 0,
             left: Time::ZERO,
             after: After::Nothing,
             resuming: None,

@@ -14,11 +14,6 @@ impl<T: Clone> Table<T> {
     pub(crate) fn new(len: usize, row: T) -> Self {
         Self { rows: vec![row.clone(); len], spare: row }
     }
-
-    /// These rows.
-    pub(crate) fn of(rows: Vec<T>, spare: T) -> Self {
-        Self { rows, spare }
-    }
 }
 
 impl<T> Table<T> {
@@ -28,9 +23,5 @@ impl<T> Table<T> {
 
     pub(crate) fn at_mut(&mut self, index: usize) -> &mut T {
         self.rows.get_mut(index).unwrap_or(&mut self.spare)
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.rows.len()
     }
 }

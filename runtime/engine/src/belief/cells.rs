@@ -20,6 +20,8 @@ pub(crate) struct Cell {
     pub(crate) answer: Answer,
     /// When it was last observed or changed by an effect.
     pub(crate) at: Time,
+    /// The number of the observation that gave the answer; 0 where an effect gave it.
+    pub(crate) seen: u64,
     /// Who is to be judged again when it changes; keys of the run.
     pub(crate) dependents: Vec<u32>,
     /// How many watches and waits need it kept current.
@@ -38,7 +40,7 @@ pub(crate) struct Cell {
 pub(crate) struct Wide {
     pub(crate) args: Vec<Pattern>,
     pub(crate) answer: Answer,
-    pub(crate) at: Time,
+    pub(crate) seen: u64,
 }
 
 /// A fluent's facts.
@@ -57,6 +59,10 @@ pub(crate) struct Beliefs {
     pub(crate) fluents: FxHashMap<SmolStr, Facts>,
     /// Keys of those who depend on something that has changed.
     pub(crate) changed: Vec<u32>,
+    /// How many observations were taken in.
+    pub(crate) observations: u64,
+    /// The number of the observation that is being taken in; 0 where there is none.
+    pub(super) observing: u64,
     cells: Vec<Cell>,
     index: FxHashMap<u64, CellId>,
 }
@@ -99,15 +105,15 @@ impl Beliefs {
             return id;
         }
         let id = CellId(self.cells.len() as u32);
-        let (answer, at, observable, pattern) = match &query {
+        let (answer, seen, observable, pattern) = match &query {
             Query::Fact { fluent, args } => {
                 let pattern = args.contains(&Pattern::Any);
-                let (answer, at) = self.wide_answer(fluent, args);
+                let (answer, seen) = self.wide_answer(fluent, args);
                 let facts = self.fluents.entry(fluent.clone()).or_default();
                 facts.cells.push(id);
-                (answer, at, facts.observable, pattern)
+                (answer, seen, facts.observable, pattern)
             }
-            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, Time::ZERO, true, false),
+            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, 0, true, false),
         };
         let next = self.index.insert(query_hash(&query), id);
         let query = Arc::new(query);
@@ -115,7 +121,8 @@ impl Beliefs {
         self.cells.push(Cell {
             query,
             answer,
-            at,
+            at: Time::ZERO,
+            seen,
             dependents,
             watchers: 0,
             live: false,

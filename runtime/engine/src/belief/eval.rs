@@ -1,7 +1,6 @@
 //! Conditions and terms, judged against what is believed.
 
 use super::cells::{Beliefs, CellId};
-use super::facts::truth_of;
 use crate::query::{Answer, Pattern, Query};
 use crate::time::Time;
 use crate::truth::Truth;
@@ -13,8 +12,8 @@ use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term,
 pub(crate) enum Freshness {
     /// Facts last; a reading counts if it is watched or was taken at or after this time.
     Readings(Time),
-    /// Also a fact that can be observed and did not hold counts only if it was seen at or after this time.
-    Refusals(Time),
+    /// Also a fact that can be observed counts only if it was seen after the observation of this number.
+    Facts(Time, u64),
 }
 
 /// Judges conditions. Cheap to make.
@@ -131,11 +130,10 @@ impl Judge<'_> {
     fn fact(&mut self, fact: &Fact) -> Truth {
         let Some(fluent) = self.graph.fluents.get(fact.fluent.index()) else { return Truth::Unknown };
         let Some(args) = self.patterns(fact) else { return Truth::Unknown };
-        let (mut truth, at) = self.beliefs.fact(&fluent.name, &args);
-        if let Freshness::Refusals(since) = self.fresh
-            && truth == Truth::False
+        let (mut truth, seen) = self.beliefs.fact(&fluent.name, &args);
+        if let Freshness::Facts(_, since) = self.fresh
             && fluent.observable
-            && at < since
+            && seen <= since
         {
             truth = Truth::Unknown;
         }
@@ -152,7 +150,7 @@ impl Judge<'_> {
 
     fn reading(&mut self, query: Query) -> Option<Value> {
         let lasting = matches!(query, Query::Field { .. });
-        let (Freshness::Readings(since) | Freshness::Refusals(since)) = self.fresh;
+        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
         let cell = self.beliefs.find_query(&query).and_then(|id| self.beliefs.cell(id));
         let value = cell.filter(|cell| lasting || cell.live || cell.at >= since).and_then(|cell| match &cell
             .answer
@@ -211,13 +209,6 @@ impl Judge<'_> {
             Comparison::AtLeast => order.map(std::cmp::Ordering::is_ge),
         };
         truth.map_or(Truth::Unknown, Truth::from)
-    }
-}
-
-impl Beliefs {
-    /// What is believed of a cell that is a fact.
-    pub(crate) fn truth(&self, id: CellId) -> Truth {
-        self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer))
     }
 }
 

@@ -23,23 +23,24 @@ pub(crate) struct Change {
 }
 
 impl Beliefs {
-    /// What is believed of a fact; with `any`, whether it holds of some entity.
-    pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, Time) {
+    /// What is believed of a fact, with `any` whether it holds of some entity; and the number of the observation that it
+    /// is believed by, 0 for an effect.
+    pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, u64) {
         let own = self.find_fact(fluent, args).and_then(|id| self.cell(id));
-        let (answer, at) = match own {
-            Some(cell) => (truth_of(&cell.answer), cell.at),
+        let (answer, seen) = match own {
+            Some(cell) => (truth_of(&cell.answer), cell.seen),
             None => {
-                let (answer, at) = self.wide_answer(fluent, args);
-                (truth_of(&answer), at)
+                let (answer, seen) = self.wide_answer(fluent, args);
+                (truth_of(&answer), seen)
             }
         };
         if args.contains(&Pattern::Any)
             && answer != Truth::True
-            && let Some(at) = self.witness(fluent, args)
+            && let Some(seen) = self.witness(fluent, args)
         {
-            return (Truth::True, at);
+            return (Truth::True, seen);
         }
-        (answer, at)
+        (answer, seen)
     }
 
     /// Makes a change. All who depend on what becomes different are noted.
@@ -53,9 +54,15 @@ impl Beliefs {
 
     /// Takes an observation of a cell.
     pub(crate) fn observe(&mut self, id: CellId, answer: Answer, now: Time) {
+        self.observations += 1;
+        self.observing = self.observations;
+        self.take(id, answer, now);
+        self.observing = 0;
+    }
+
+    fn take(&mut self, id: CellId, answer: Answer, now: Time) {
         let Some(cell) = self.cell_mut(id) else { return };
         cell.live = cell.watchers > 0;
-        cell.at = now;
         let query = cell.query.clone();
         if let crate::query::Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
@@ -73,21 +80,19 @@ impl Beliefs {
     }
 
     /// What pattern writes say of a fact or a pattern that has no cell.
-    pub(super) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, Time) {
-        let unknown = (Answer::Unknown, Time::ZERO);
+    pub(super) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, u64) {
+        let unknown = (Answer::Unknown, 0);
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
-        let mut at = Time::ZERO;
         for wide in facts.wides.iter().rev() {
             if covers(&wide.args, args) {
                 let none = wide.answer == Answer::Truth(false) && self.all_false(fluent, args);
                 let pattern = args.contains(&Pattern::Any);
-                return if pattern && !none { unknown } else { (wide.answer.clone(), at.max(wide.at)) };
+                return if pattern && !none { unknown } else { (wide.answer.clone(), wide.seen) };
             }
             // A later write to some of them: only where it says the same does an earlier one stand.
             if overlaps(&wide.args, args) && wide.answer != Answer::Truth(false) {
                 return unknown;
             }
-            at = at.max(wide.at);
         }
         unknown
     }
@@ -97,11 +102,11 @@ impl Beliefs {
         covered.all(|id| self.cell(id).is_none_or(|cell| cell.answer == Answer::Truth(false)))
     }
 
-    /// When a fact was last known true that fits a pattern.
-    fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<Time> {
+    /// Of a fact that is believed true and fits a pattern: the number of the observation.
+    fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<u64> {
         let mut covered = self.covered(fluent, args);
         covered.find_map(|id| {
-            self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.at)
+            self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.seen)
         })
     }
 
@@ -133,9 +138,10 @@ impl Beliefs {
             let new = if change.sure { change.value } else { old.joined(change.value) };
             self.set(id, answer_of(new), now);
         }
+        let seen = self.observing;
         if let Some(facts) = self.fluents.get_mut(&change.fluent) {
             facts.wides.retain(|wide| !covers(&change.args, &wide.args));
-            facts.wides.push(Wide { args: change.args.clone(), answer: answer_of(written), at: now });
+            facts.wides.push(Wide { args: change.args.clone(), answer: answer_of(written), seen });
         }
         self.unsettle_patterns(change, written, now);
     }
@@ -171,8 +177,10 @@ impl Beliefs {
     }
 
     fn set(&mut self, id: CellId, answer: Answer, now: Time) {
+        let seen = self.observing;
         let Some(cell) = self.cell_mut(id) else { return };
         cell.at = now;
+        cell.seen = seen;
         if cell.answer != answer {
             cell.answer = answer;
             self.note(id);

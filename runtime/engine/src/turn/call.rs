@@ -45,8 +45,10 @@ impl Turn<'_> {
         } else if !self.reserve(node) {
             self.enqueue(node);
         } else {
-            let now = self.run.now;
-            self.run.nodes.at_mut(node.index()).since = now;
+            let (now, seen) = (self.run.now, self.run.beliefs.observations);
+            let state = self.run.nodes.at_mut(node.index());
+            state.since = now;
+            state.seen = seen;
             self.run.missing.clear();
             match self.look(node) {
                 Look::Unknown(refusal) => {
@@ -84,18 +86,21 @@ impl Turn<'_> {
     fn look(&mut self, node: NodeId) -> Look {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return Look::Unknown(Refusal::Argument) };
-        let (since, attempt) = {
+        let (since, seen, attempt) = {
             let state = self.run.nodes.at(node.index());
-            (state.since, state.count)
+            (state.since, state.seen, state.count)
         };
-        // A retry looks afresh: what refused it before may have changed.
-        let fresh = if attempt > 1 { Freshness::Refusals(since) } else { Freshness::Readings(since) };
+        let fresh = Freshness::Readings(since);
         let mut unknown = None;
         for (index, need) in call.needs.iter().enumerate() {
             if need.verdict == Verdict::Proven {
                 continue;
             }
-            let truth = self.need(need, fresh);
+            let mut truth = self.need(need, fresh);
+            if truth == Truth::False && attempt > 1 {
+                // A retry looks afresh: what refused it before may have changed.
+                truth = self.need(need, Freshness::Facts(since, seen));
+            }
             let refusal = Refusal::Need(index as u32, need.failure, truth);
             match truth {
                 Truth::True => {}

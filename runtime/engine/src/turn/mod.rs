@@ -21,7 +21,7 @@ use crate::event::Event;
 use crate::plan::{Key, Plan};
 use crate::record::{Cause, Happening, NodeEnding, Record};
 use crate::settings::Settings;
-use crate::state::{Exit, Micro, Run, Work};
+use crate::state::{Exit, Micro, Phase, Run, Work};
 use crate::time::Time;
 use crate::verifier::Verifier;
 use motet_graph::{NodeId, ROOT, RegionId};
@@ -53,12 +53,12 @@ impl<'a> Turn<'a> {
             return;
         }
         let now = now.max(self.run.now);
-        // What was due earlier happened earlier: this event does not change it.
+        self.run.now = now;
+        // What was due earlier happened earlier: this event does not change it. But its effects go out only now.
         while let Some(key) = self.due(|at| at < now) {
             self.wake(key);
             self.settle();
         }
-        self.run.now = now;
         match event {
             Event::Begin if self.run.begun => {}
             Event::Begin => {
@@ -82,16 +82,17 @@ impl<'a> Turn<'a> {
         if self.run.over {
             return;
         }
-        let out = &mut *self.out;
-        out.extend(self.run.goals.live().map(|(goal, _)| Effect::SafeStop { goal }));
+        let run = &*self.run;
+        let told = |node: NodeId| run.nodes.at(node.index()).phase == Phase::SafeStopping;
+        let untold = run.goals.live().filter(|(_, node)| !told(*node));
+        self.out.extend(untold.map(|(goal, _)| Effect::SafeStop { goal }));
         self.finish(RunEnd::Fault(fault));
     }
 
-    /// The next key that is due, with the clock set to its instant.
+    /// The next key that is due.
     fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Key> {
-        let (at, key) = self.run.timers.next().filter(|(at, _)| is_due(*at) && !self.run.over)?;
+        let (_, key) = self.run.timers.next().filter(|(at, _)| is_due(*at) && !self.run.over)?;
         self.run.timers.clear(key);
-        self.run.now = self.run.now.max(at);
         Some(self.plan.of_key(key))
     }
 

@@ -3,7 +3,7 @@
 use super::Turn;
 use crate::record::{Cause, Happening, NodeEnding};
 use crate::state::{After, Exit, Micro, Phase};
-use motet_graph::{NodeId, NodeKind, RegionId};
+use motet_graph::{Ending, NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
     /// Starts a region from its first step.
@@ -57,7 +57,10 @@ impl Turn<'_> {
             NodeKind::Wait { condition, within_secs } => self.wait(node, condition, *within_secs),
             NodeKind::If { .. } => self.decide(node),
             NodeKind::End { how, of, why } => {
-                self.succeed(node);
+                match how {
+                    Ending::Done | Ending::Replan => self.succeed(node),
+                    Ending::Fail => self.fail(node, self.plan.failed, Cause::Failed),
+                }
                 self.end_policy(node, *how, *of, why.as_ref(), Cause::ParentEnded);
             }
             NodeKind::Monitor { watches, body } => self.enter_monitor(node, watches, *body),

@@ -1,0 +1,349 @@
+//! Monitors: when they fire, what each reaction does, and which one wins.
+
+use crate::check;
+use crate::script::Feed::{Ack, Done, Fails, Interrupted, NotHeld, Stop, Tick};
+use crate::script::{distance, holding};
+use motet_graph::arbitrary::vocabulary as v;
+use motet_graph::arbitrary::{Call, React, Step, When};
+use motet_graph::{Condition, Ending};
+
+fn near(limit_m: f64) -> Condition {
+    v::nearer("user", limit_m)
+}
+
+fn when(condition: Condition, react: React) -> When {
+    When::new(condition, react)
+}
+
+fn over(whens: Vec<When>, body: Vec<Step>) -> Vec<Step> {
+    vec![Step::Monitor(whens, body), Step::say("on")]
+}
+
+#[test]
+fn a_monitor_that_never_fires_ends_with_its_body() {
+    check!(
+        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(2.0)), (2.0, Done(1)),]
+    );
+}
+
+#[test]
+fn a_condition_that_holds_on_entry_fires_before_the_body() {
+    let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
+    let not_held = Condition::Not(Box::new(held));
+    check!(over(vec![when(not_held, React::End(Ending::Replan))], vec![Step::go("table")]), []);
+}
+
+#[test]
+fn an_ending_waits_for_what_runs() {
+    check!(
+        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.2, distance(3.0)),
+            (1.5, Interrupted(1)),
+        ]
+    );
+}
+
+#[test]
+fn an_ending_of_a_sub_policy() {
+    let body = over(vec![when(near(0.5), React::End(Ending::Done))], vec![Step::go("table")]);
+    check!(
+        [Step::Inline(body), Step::say("after")],
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1))]
+    );
+}
+
+#[test]
+fn a_condition_must_hold_without_a_break() {
+    let watch = When { condition: near(0.5), hold_secs: 0.2, react: React::End(Ending::Fail) };
+    check!(
+        over(vec![watch], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.0, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.1, distance(0.6)),
+            (2.0, distance(0.3)),
+            (2.1, distance(0.2)),
+            (2.2, Tick),
+        ]
+    );
+}
+
+#[test]
+fn a_condition_that_is_unknown_for_too_long_fires() {
+    check!(
+        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        [(0.0, Ack(1)), (0.5, Tick)]
+    );
+}
+
+#[test]
+fn what_was_unknown_may_have_been_true() {
+    let watch = When { condition: near(0.5), hold_secs: 1.0, react: React::End(Ending::Fail) };
+    check!(over(vec![watch], vec![Step::go("table")]), [(0.0, Ack(1)), (0.9, distance(0.1)), (1.0, Tick)]);
+}
+
+#[test]
+fn a_pause_holds_and_goes_on() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (4.0, distance(0.4)),
+            (6.0, distance(0.9)),
+            (7.0, Done(1)),
+        ]
+    );
+}
+
+#[test]
+fn a_pause_before_the_acknowledgement_holds_after_it() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        [(0.1, distance(0.3)), (0.2, Ack(1)), (0.3, distance(3.0)),]
+    );
+}
+
+#[test]
+fn what_cannot_be_held_is_cancelled_and_started_again() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.1, NotHeld(1)),
+            (1.5, Interrupted(1)),
+            (2.0, distance(3.0)),
+            (3.0, Done(2)),
+        ]
+    );
+}
+
+#[test]
+fn a_pause_that_is_over_before_the_cancel_is_answered() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.1, NotHeld(1)),
+            (1.2, distance(3.0)),
+            (1.5, Interrupted(1)),
+        ]
+    );
+}
+
+#[test]
+fn a_paused_call_that_ends_lets_no_other_start() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table"), Step::say("there")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.1, Done(1)), (2.0, distance(3.0)),]
+    );
+}
+
+#[test]
+fn all_pauses_together_are_bounded() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(2.0))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (2.0, distance(3.0)),
+            (3.0, distance(0.3)),
+            (4.0, Tick),
+            (4.1, Interrupted(1)),
+        ]
+    );
+}
+
+#[test]
+fn a_pause_on_entry_starts_nothing() {
+    let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
+    let not_held = Condition::Not(Box::new(held));
+    check!(
+        over(vec![when(not_held, React::Pause(5.0))], vec![Step::go("table")]),
+        [(1.0, holding("mug", true))]
+    );
+}
+
+#[test]
+fn a_paused_wait_keeps_its_time() {
+    let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::Wait(held, 10.0)]),
+        [(0.0, distance(3.0)), (4.0, distance(0.3)), (14.0, distance(3.0)),]
+    );
+}
+
+#[test]
+fn a_restart_begins_the_body_again() {
+    check!(
+        over(vec![when(near(0.5), React::Restart(1))], vec![Step::say("a"), Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.5, Done(1)),
+            (0.6, Ack(2)),
+            (1.0, distance(0.3)),
+            (1.1, distance(3.0)),
+            (1.2, Interrupted(2)),
+            (2.0, distance(0.3)),
+        ]
+    );
+}
+
+#[test]
+fn a_condition_that_still_holds_exhausts_the_restarts() {
+    check!(
+        over(vec![when(near(0.5), React::Restart(2))], vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.2, Interrupted(1)),]
+    );
+}
+
+#[test]
+fn resume_runs_a_block_and_goes_on() {
+    check!(
+        over(vec![when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))], vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.5, Interrupted(1)),
+            (2.0, distance(3.0)),
+            (3.0, Done(2)),
+            (4.0, Done(3)),
+        ]
+    );
+}
+
+#[test]
+fn resume_after_a_body_that_ended_meanwhile() {
+    check!(
+        over(vec![when(near(0.5), React::Resume(1, vec![Step::say("oh")]))], vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Done(1)), (2.0, Done(2)),]
+    );
+}
+
+#[test]
+fn resume_too_often_is_exhausted() {
+    check!(
+        over(vec![when(near(0.5), React::Resume(1, vec![]))], vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1)),]
+    );
+}
+
+#[test]
+fn a_failing_block_fails_the_monitor() {
+    let body =
+        over(vec![when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))], vec![Step::go("table")]);
+    check!(
+        [Step::Try(body, vec![(Some(vec![v::UNREACHABLE]), vec![Step::say("caught")])])],
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.5, Interrupted(1)),
+            (2.0, Fails(2, "unreachable")),
+        ]
+    );
+}
+
+#[test]
+fn a_pause_covers_the_block_of_another_reaction() {
+    let whens =
+        vec![when(near(0.2), React::Pause(60.0)), when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))];
+    check!(
+        over(whens, vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.5, Interrupted(1)),
+            (1.6, Ack(2)),
+            (2.0, distance(0.1)),
+            (3.0, Done(2)),
+            (4.0, distance(3.0)),
+        ]
+    );
+}
+
+#[test]
+fn an_outer_monitor_wins() {
+    let inner = Step::Monitor(vec![when(near(0.5), React::End(Ending::Replan))], vec![Step::go("table")]);
+    check!(
+        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![inner]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1)),]
+    );
+}
+
+#[test]
+fn an_earlier_watch_wins() {
+    let whens = vec![when(near(0.5), React::Restart(1)), when(near(0.5), React::End(Ending::Fail))];
+    check!(
+        over(whens, vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, distance(2.0))]
+    );
+}
+
+#[test]
+fn an_inner_monitor_is_judged_again_after_an_outer_pause() {
+    let inner = Step::Monitor(vec![when(near(0.8), React::End(Ending::Fail))], vec![Step::go("table")]);
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![inner]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (2.0, distance(0.6)),
+            (2.1, Interrupted(1)),
+        ]
+    );
+}
+
+#[test]
+fn an_ending_during_a_pause() {
+    let whens = vec![when(near(0.5), React::Pause(60.0)), when(near(0.2), React::End(Ending::Fail))];
+    check!(
+        over(whens, vec![Step::go("table")]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (2.0, distance(0.1)),
+            (2.5, Interrupted(1)),
+        ]
+    );
+}
+
+#[test]
+fn a_call_makes_a_monitor_fire_before_the_next_step() {
+    let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
+    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]).proven());
+    check!(over(vec![when(held, React::End(Ending::Done))], vec![pick, Step::go("table")]), [(1.0, Done(1))]);
+}
+
+#[test]
+fn a_person_stops_during_a_pause() {
+    check!(
+        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Stop), (2.5, Interrupted(1)),]
+    );
+}
+
+#[test]
+fn one_watch_serves_all_who_need_it() {
+    let inner = Step::Monitor(vec![when(near(0.2), React::Pause(1.0))], vec![Step::say("a")]);
+    check!(
+        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![inner, Step::say("b")]),
+        [(0.0, distance(3.0)), (1.0, Done(1)), (2.0, Done(2)),]
+    );
+}
