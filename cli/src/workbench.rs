@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use motet_compiler::{Options, Session, State};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_syntax::ast::{File, Item};
+use motet_syntax::ast::File;
 use motet_syntax::{FileId, Parsed, Source, Sources, suggest};
 
 use crate::args::WorldArgs;
@@ -160,18 +160,7 @@ fn next_id(sources: &Sources) -> FileId {
 /// The robot that a document names first.
 #[must_use]
 pub(crate) fn wanted_robot(document: &File) -> Option<String> {
-    document.items.iter().find_map(|item| match item {
-        Item::Policy(policy) => policy.robot.as_ref().map(|name| name.text.to_string()),
-        Item::Kind(_)
-        | Item::Fluent(_)
-        | Item::Measure(_)
-        | Item::Failure(_)
-        | Item::Enum(_)
-        | Item::Primitive(_)
-        | Item::Entities(_)
-        | Item::Initially(_)
-        | Item::ClosedWorld(_) => None,
-    })
+    document.policies().find_map(|policy| policy.robot.as_ref()).map(|name| name.text.to_string())
 }
 
 /// What to say where a document names a robot that is not built in, and none was given.

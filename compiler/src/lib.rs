@@ -9,7 +9,6 @@ pub mod codes;
 mod ir;
 mod library;
 mod lower;
-mod mistake;
 mod place;
 mod prove;
 mod resolve;

@@ -73,7 +73,7 @@ impl Session {
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
         let mut diagnostics = parsed.diagnostics.clone();
         self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
-            for policy in policies(&parsed.file) {
+            for policy in parsed.file.policies() {
                 diagnostics.extend(self.analyse(policy, parsed, library, world).2);
             }
         });
@@ -86,13 +86,13 @@ impl Session {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut graph = None;
         self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
-            let runnable = || policies(&parsed.file).filter(|policy| policy.params.is_empty());
+            let runnable = || parsed.file.runnable();
             let chosen = match name {
                 Some(name) => runnable().find(|policy| policy.name.text == name),
                 None => runnable().next().filter(|_| runnable().count() == 1),
             };
             let Some(policy) = chosen else {
-                let span = parsed.file.items.first().map_or_else(Span::default, item_span);
+                let span = parsed.file.items.first().map_or_else(Span::default, Item::span);
                 let known = runnable().map(|policy| policy.name.text.clone()).collect();
                 if !diagnostics.iter().any(|said| said.severity == Severity::Error) {
                     diagnostics.push(NoPolicy { span, wanted: name.map(Into::into), known }.into());
@@ -121,7 +121,7 @@ impl Session {
         let mut builder = self.builder.clone();
         builder.layer(std::slice::from_ref(&parsed.file));
         let (library, said) = builder.build();
-        let file = parsed.file.items.first().map(|item| item_span(item).file);
+        let file = parsed.file.items.first().map(|item| item.span().file);
         // What is wrong with the layers below was said when they were read.
         diagnostics.extend(said.into_iter().filter(|said| Some(said.span.file) == file));
         let (world, _) = World::new(&library, self.scene.as_ref(), self.state.as_ref());
@@ -149,36 +149,6 @@ impl Session {
             place(diagnostic, policy, &program);
         }
         (program, proof, diagnostics)
-    }
-}
-
-fn policies(file: &File) -> impl Iterator<Item = &Policy> {
-    file.items.iter().filter_map(|item| match item {
-        Item::Policy(policy) => Some(policy),
-        Item::Kind(_)
-        | Item::Fluent(_)
-        | Item::Measure(_)
-        | Item::Failure(_)
-        | Item::Enum(_)
-        | Item::Primitive(_)
-        | Item::Entities(_)
-        | Item::Initially(_)
-        | Item::ClosedWorld(_) => None,
-    })
-}
-
-fn item_span(item: &Item) -> Span {
-    match item {
-        Item::Kind(decl) => decl.span,
-        Item::Fluent(decl) => decl.span,
-        Item::Measure(decl) => decl.span,
-        Item::Failure(decl) => decl.span,
-        Item::Enum(decl) => decl.span,
-        Item::Primitive(decl) => decl.span,
-        Item::Policy(decl) => decl.span,
-        Item::Entities(decl) => decl.span,
-        Item::Initially(decl) => decl.span,
-        Item::ClosedWorld(span) => *span,
     }
 }
 

@@ -1,7 +1,5 @@
 //! `motet check`: what is wrong with policies, before a robot moves.
 
-use motet_syntax::ast::{Item, Policy};
-
 use crate::args::CheckArgs;
 use crate::document;
 use crate::exit::{Exit, Trouble};
@@ -65,8 +63,8 @@ impl Tally {
         self.documents += 1;
         let (source, parsed) = document::read(found);
         let setting = bench.setting(&parsed.file, report)?;
-        let runnable = parsed.file.items.iter().filter_map(runnable);
-        if setting.robot.is_none() && runnable.clone().next().is_some() {
+        let runnable = parsed.file.runnable();
+        if setting.robot.is_none() && parsed.file.runnable().next().is_some() {
             match wanted_robot(&parsed.file) {
                 Some(name) if !self.strangers.contains(&name) => self.strangers.push(name),
                 Some(_) => {}
@@ -74,7 +72,7 @@ impl Tally {
             }
         }
         // A document that is one policy is checked by compiling it, which also tells of its motions.
-        let said = if parsed.file.items.len() == 1 && runnable.clone().count() == 1 {
+        let said = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
             let compiled = setting.session.compile(&parsed, None);
             self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
             compiled.diagnostics
@@ -121,19 +119,4 @@ impl Tally {
 
 fn were(motions: usize) -> String {
     if motions == 1 { "1 motion was".to_owned() } else { format!("{motions} motions were") }
-}
-
-fn runnable(item: &Item) -> Option<&Policy> {
-    match item {
-        Item::Policy(policy) => Some(policy).filter(|policy| policy.params.is_empty()),
-        Item::Kind(_)
-        | Item::Fluent(_)
-        | Item::Measure(_)
-        | Item::Failure(_)
-        | Item::Enum(_)
-        | Item::Primitive(_)
-        | Item::Entities(_)
-        | Item::Initially(_)
-        | Item::ClosedWorld(_) => None,
-    }
 }

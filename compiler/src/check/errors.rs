@@ -3,9 +3,9 @@
 use motet_syntax::{Related, Span};
 use smol_str::SmolStr;
 
-use crate::mistake::mistakes;
+motet_syntax::mistakes! {
+    pub(crate) const CODES;
 
-mistakes! {
     /// The policy is written for another robot.
     OtherRobot("M0401", Error) { written: SmolStr, given: SmolStr }
     message(m) { format!("the policy is for `{}`, and is checked for `{}`", m.written, m.given) }

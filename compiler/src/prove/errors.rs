@@ -3,13 +3,13 @@
 use motet_syntax::{Related, Span};
 use smol_str::SmolStr;
 
-use crate::mistake::mistakes;
-
 fn culprit(span: Option<Span>) -> Option<Related> {
     span.map(|span| Related::new("changed here", span))
 }
 
-mistakes! {
+motet_syntax::mistakes! {
+    pub(crate) const CODES;
+
     /// A step needs what some path makes false.
     Refuted("M0501", Error) {
         callee: SmolStr, needs: String, story: String, culprit: Option<Span>, declared: Span, remedy: Option<String>,

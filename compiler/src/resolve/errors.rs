@@ -4,7 +4,6 @@ use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use super::near::article;
-use crate::mistake::mistakes;
 
 fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -14,7 +13,9 @@ fn write(near: Option<&SmolStr>) -> Option<String> {
     near.map(|near| format!("did you mean `{near}`?"))
 }
 
-mistakes! {
+motet_syntax::mistakes! {
+    pub(crate) const CODES;
+
     /// A step calls what is neither a primitive nor a policy.
     UnknownPrimitive("M0201", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("there is no primitive or policy `{}`", m.name) }

@@ -2,9 +2,9 @@
 
 use smol_str::SmolStr;
 
-use crate::mistake::mistakes;
+motet_syntax::mistakes! {
+    pub(crate) const CODES;
 
-mistakes! {
     /// A scene's entity of a kind that is not declared.
     UnknownKind("M0221", Error) { kind: SmolStr, entity: SmolStr, near: Option<SmolStr> }
     message(m) { format!("`{}` is of the kind `{}`, which is not declared", m.entity, m.kind) }

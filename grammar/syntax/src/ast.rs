@@ -37,6 +37,18 @@ pub struct File {
     pub items: Vec<Item>,
 }
 
+impl File {
+    /// The policies, in order.
+    pub fn policies(&self) -> impl Iterator<Item = &Policy> {
+        self.items.iter().filter_map(Item::policy)
+    }
+
+    /// The policies without parameters: those that can be run.
+    pub fn runnable(&self) -> impl Iterator<Item = &Policy> {
+        self.policies().filter(|policy| policy.params.is_empty())
+    }
+}
+
 /// One declaration.
 #[derive(Clone, Debug)]
 pub enum Item {
@@ -60,6 +72,42 @@ pub enum Item {
     Initially(InitiallyDecl),
     /// `closed world`
     ClosedWorld(Span),
+}
+
+impl Item {
+    /// The policy, where it is one.
+    #[must_use]
+    pub fn policy(&self) -> Option<&Policy> {
+        match self {
+            Self::Policy(policy) => Some(policy),
+            Self::Kind(_)
+            | Self::Fluent(_)
+            | Self::Measure(_)
+            | Self::Failure(_)
+            | Self::Enum(_)
+            | Self::Primitive(_)
+            | Self::Entities(_)
+            | Self::Initially(_)
+            | Self::ClosedWorld(_) => None,
+        }
+    }
+
+    /// The whole declaration.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Kind(decl) => decl.span,
+            Self::Fluent(decl) => decl.span,
+            Self::Measure(decl) => decl.span,
+            Self::Failure(decl) => decl.span,
+            Self::Enum(decl) => decl.span,
+            Self::Primitive(decl) => decl.span,
+            Self::Policy(decl) => decl.span,
+            Self::Entities(decl) => decl.span,
+            Self::Initially(decl) => decl.span,
+            Self::ClosedWorld(span) => *span,
+        }
+    }
 }
 
 /// Text of `///` lines above a declaration, joined by line breaks; empty where there is none.

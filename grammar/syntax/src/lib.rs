@@ -3,10 +3,14 @@
 //! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a name means is
 //! decided by the compiler's resolve stage, which is fed from here.
 
+#[cfg(feature = "arbitrary")]
+#[doc(hidden)]
+pub mod arbitrary;
 pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
+mod mistake;
 pub mod path;
 pub mod print;
 mod read;

@@ -2,7 +2,6 @@
 
 use super::comment::Comments;
 use super::writer::Writer;
-use crate::ast::Item;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::read::read;
 use crate::source::{FileId, Form, Source};
@@ -25,17 +24,6 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
             writer.file(&parsed.file);
             writer.finish()
         }
-        Form::Json => parsed.file.items.iter().fold(String::new(), |text, item| match item {
-            Item::Policy(policy) => text + &super::policy_json(policy),
-            Item::Kind(_)
-            | Item::Fluent(_)
-            | Item::Measure(_)
-            | Item::Failure(_)
-            | Item::Enum(_)
-            | Item::Primitive(_)
-            | Item::Entities(_)
-            | Item::Initially(_)
-            | Item::ClosedWorld(_) => text,
-        }),
+        Form::Json => parsed.file.policies().map(super::policy_json).collect(),
     })
 }
