@@ -1,8 +1,18 @@
 //! The simulator from outside: primitives one by one in the built-in rooms, faults, watches, and graphs through the engine.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::type_complexity,
+    reason = "a test fails by panicking, and its data is nested"
+)]
+
 mod driver;
 mod engine;
 mod faults;
+mod laws;
+mod limits;
 mod primitives;
 
 use motet_graph::Value;
@@ -34,7 +44,11 @@ impl Bench {
     }
 
     fn with(options: Options) -> Self {
-        Self { sim: sim("hsr", "kitchen", options), now: Time::ZERO, goals: 0, log: Vec::new() }
+        Self::of(sim("hsr", "kitchen", options))
+    }
+
+    fn of(sim: Sim) -> Self {
+        Self { sim, now: Time::ZERO, goals: 0, log: Vec::new() }
     }
 
     /// Faults from their JSON text.
