@@ -51,6 +51,7 @@ impl World {
         if let Some(Some(held)) = &scene.robot.holding {
             world.hold_at_start(held);
         }
+        world.believe(&options.told);
         world.carry();
         for thing in world.things.values_mut() {
             thing.moved = false;
@@ -89,7 +90,7 @@ impl World {
         self.put(id, spot, bottom, rest);
     }
 
-    fn hold_at_start(&mut self, held: &SmolStr) {
+    pub(crate) fn hold_at_start(&mut self, held: &SmolStr) {
         if let Some(thing) = self.things.get_mut(held) {
             thing.rest = Rest::Free;
             if let Some(grip) = self.hands.values_mut().next() {

@@ -103,7 +103,7 @@ impl World {
         }
     }
 
-    fn set_locked(&mut self, id: &str, locked: bool) {
+    pub(crate) fn set_locked(&mut self, id: &str, locked: bool) {
         if let Some(door) = self.things.get_mut(id).and_then(|thing| thing.door.as_mut()) {
             door.locked = locked;
         }

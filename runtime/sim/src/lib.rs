@@ -4,9 +4,9 @@
 //! It is no physics: nothing falls over, nothing collides, and what a primitive does it does at its end. [`Sim`] is the
 //! driver, [`Faults`] what goes wrong.
 //!
-//! Inside: `world`, `thing` and `body` are what is the case, filled from card and scene by `build`; `motion`, `hand`,
-//! `perception` and `people` are what can be done; `observe` answers queries; `deed` and `task` make a command a run of
-//! stages; `faults` and `fate` are what goes wrong; `sim` and `driver` move time.
+//! Inside: `world`, `thing` and `body` are what is the case, filled from card, scene and state by `build` and `told`;
+//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `deed` and `task` make a
+//! command a run of stages; `faults` and `fate` are what goes wrong; `sim` and `driver` move time.
 
 mod body;
 mod build;
@@ -24,6 +24,7 @@ mod random;
 mod sim;
 mod task;
 mod thing;
+mod told;
 mod world;
 
 pub use body::Stance;

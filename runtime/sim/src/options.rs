@@ -19,8 +19,8 @@ pub struct Options {
     /// Entities beside the scene's, with their kind, that shall have a place in the world all the same. One of a scene with
     /// the same name counts before it.
     pub entities: Vec<(SmolStr, SmolStr)>,
-    /// Facts that the world knows beside its own, by fluent and arguments: answers to observations of fluents that it does
-    /// not simulate.
+    /// Facts that hold at the start, by fluent and arguments. The world is made such that they do: what is told to be on
+    /// the table is put there. Those of fluents that it does not simulate answer observations of them.
     pub told: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
 }
 

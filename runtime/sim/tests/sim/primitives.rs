@@ -134,3 +134,30 @@ fn what_it_does_not_know_succeeds() {
     assert_eq!(bench.sim.holds("stirred", &["mug_1"]), None);
     assert_eq!(bench.sim.holds("on", &["block_a", "block_b"]), None);
 }
+
+#[test]
+fn what_it_is_told_is_so() {
+    let facts = [
+        ("holding", &["apple"][..], true),
+        ("open", &["drawer_1"], true),
+        ("in", &["mug_2", "drawer_1"], true),
+        ("on", &["box_1", "counter"], true),
+        ("at", &["robot", "counter"], true),
+        ("stirred", &["mug_1"], true),
+    ];
+    let told = facts.iter().map(|(fluent, args, holds)| {
+        (((*fluent).into(), args.iter().map(|arg| (*arg).into()).collect()), *holds)
+    });
+    let options = Options {
+        told: told.collect(),
+        entities: vec![("box_1".into(), "Object".into())],
+        ..Options::default()
+    };
+    let bench = Bench::with(options);
+    for (fluent, args, holds) in facts {
+        bench.is(fluent, args, holds);
+    }
+    bench.is("on", &["mug_2", "shelf"], false);
+    bench.is("on", &["apple", "kitchen_table"], false);
+    bench.is("free", &["hand"], false);
+}
