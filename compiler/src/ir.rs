@@ -225,6 +225,8 @@ pub(crate) struct Binding {
     pub(crate) span: Span,
     /// The description that it was found by, where it is a literal.
     pub(crate) description: Option<SmolStr>,
+    /// Whether it stands for the parameter of a sub-policy that is checked by itself.
+    pub(crate) is_param: bool,
     /// How often it is used.
     pub(crate) uses: u32,
 }

@@ -15,7 +15,7 @@ use crate::resolve::errors::{BadDeclaration, Duplicate, FluentParameter, LimitEx
 use crate::resolve::expr::Resolver;
 use crate::resolve::near::near;
 use crate::resolve::scope::Scope;
-use crate::world::Entities;
+use crate::world::{Entities, MAX_ENTITIES};
 
 /// The most parameters of a fluent.
 pub const MAX_FLUENT_PARAMS: usize = 4;
@@ -280,6 +280,11 @@ fn entities(
             }
         };
         for name in &decl.names {
+            if entities.len() >= MAX_ENTITIES {
+                diagnostics
+                    .push(LimitExceeded { span: name.span, what: "entities", limit: MAX_ENTITIES }.into());
+                break;
+            }
             if entities.add(name.text.clone(), kind).is_none() {
                 let known = library.entities.iter().find(|(known, ..)| *known == name.text);
                 let first = known.map_or(decl.span, |(.., span)| *span);

@@ -55,6 +55,10 @@ pub(super) fn primitives(
         let def = primitive(&mut resolver, &decl.item, robot);
         let mistakes = resolver.diagnostics;
         if !mistakes.is_empty() {
+            // A robot need not have what a primitive needs that it does not provide.
+            if !def.provided {
+                continue;
+            }
             // A layer above may replace what a contract below speaks of: what no longer fits goes with it.
             if decl.layer == declarations.top() || declarations.top() == 0 {
                 diagnostics.extend(mistakes);
@@ -269,8 +273,12 @@ fn lasts(resolver: &mut Resolver<'_>, names: &[Name], def: &mut PrimitiveDef) {
 }
 
 fn resource(resolver: &mut Resolver<'_>, name: &Name) -> Option<(u8, ResourceSet)> {
-    let resources = &resolver.library.resources;
-    match resources.iter().position(|def| def.name == name.text) {
+    let library = resolver.library;
+    let resources = &library.resources;
+    let named = |name: &str| resources.iter().position(|def| def.name == name);
+    let first =
+        || library.names.cases.get(&name.text).and_then(|(id, case)| named(library.case_name(*id, *case)));
+    match named(&name.text).or_else(first) {
         Some(index) => Some((u8::try_from(index).ok()?, resources.get(index)?.closure)),
         None => {
             let near = near(&name.text, resources.iter().map(|def| def.name.as_str()));

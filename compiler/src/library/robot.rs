@@ -43,6 +43,13 @@ pub(super) fn apply(library: &mut Library, robot: Option<&Robot>) {
         library.names.enums.insert(name.into(), id);
         library.enums.push(EnumDef { name: name.into(), cases });
     }
+    // Contracts say `hand` and `camera` whatever a robot calls its first.
+    for (word, name) in [("hand", "Hand"), ("camera", "Camera")] {
+        let Some(id) = library.names.enums.get(name).copied() else { continue };
+        if library.enums.get(id.index()).is_some_and(|def| !def.cases.is_empty()) {
+            library.names.cases.entry(word.into()).or_insert((id, 0));
+        }
+    }
 }
 
 fn resources(library: &mut Library, robot: &Robot) {

@@ -113,7 +113,8 @@ impl Prover<'_> {
     pub(crate) fn evaluate(&self, condition: &Condition, frame: Frame<'_>) -> Value {
         match condition {
             Condition::Literal(value) => Value::of(*value, Cause::NOTHING),
-            Condition::Unknown => Value::yes(Cause::NOTHING),
+            // An error that was reported: neither it nor its negation is refuted.
+            Condition::Unknown => Value::default(),
             Condition::Fact(fact) => self.evaluate_fact(fact, frame),
             Condition::Compare(op, left, right) => self.compare(*op, left, right, frame),
             Condition::MonitoredMeasure(id) => {

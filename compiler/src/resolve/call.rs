@@ -27,6 +27,10 @@ impl Steps<'_> {
     pub(super) fn call(&mut self, call: &Do, span: Span, place: Place) -> Option<StepId> {
         let library = self.resolver.library;
         let name = &call.call.name.text;
+        if self.calls.contains(name) {
+            self.resolver.say(Recursion { span: call.call.name.span, name: name.clone() });
+            return self.unknown(span, place);
+        }
         if let Some(id) = library.names.primitives.get(name).copied() {
             let def = library.primitive(id)?;
             return self.primitive(call, id, def, span, place);
@@ -131,10 +135,6 @@ impl Steps<'_> {
 
     fn inline(&mut self, call: &Do, policy: &Policy, span: Span, place: Place) -> Option<StepId> {
         let name = policy.name.text.clone();
-        if self.calls.contains(&name) {
-            self.resolver.say(Recursion { span: call.call.name.span, name });
-            return self.unknown(span, place);
-        }
         let id = self.reserve(span, place)?;
         if let Some(bind) = &call.bind {
             self.resolver.say(NoResult { span: bind.span, callee: name.clone(), name: bind.text.clone() });

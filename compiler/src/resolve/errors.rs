@@ -34,8 +34,12 @@ motet_syntax::mistakes! {
         }
     }
     help(m) {
-        write(m.near.as_ref()).or_else(|| (!m.known.is_empty()).then(|| format!("there is {}", m.known))).or_else(|| {
-            (!m.scene).then(|| "no scene is given: entities come from `--scene`, or from `entity` in a domain".to_owned())
+        write(m.near.as_ref()).or_else(|| {
+            if !m.scene {
+                Some("no scene is given: entities come from `--scene`, or from `entity` in a domain".to_owned())
+            } else {
+                (!m.known.is_empty()).then(|| format!("there is {}", m.known))
+            }
         })
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
@@ -128,9 +132,12 @@ motet_syntax::mistakes! {
     help(m) { write(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
 
     /// A value of one type where another is asked for.
-    WrongType("M0301", Error) { expected: String, actual: String, place: String }
+    WrongType("M0301", Error) { expected: String, actual: String, place: String, example: Option<String> }
     message(m) { format!("{} takes {}, not {}", m.place, m.expected, m.actual) }
-    help(m) { Some(format!("write {} here", m.expected)) }
+    help(m) {
+        let such = m.example.as_ref().map(|example| format!(", such as {example}")).unwrap_or_default();
+        Some(format!("write {} here{such}", m.expected))
+    }
 
     /// A quantity without a unit, in text.
     MissingUnit("M0302", Error) { value: String, unit: &'static str, ty: String, others: String }

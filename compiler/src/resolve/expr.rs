@@ -72,7 +72,8 @@ impl<'a> Resolver<'a> {
         }
         let actual = self.describe(&term, ty);
         let expected = article(&self.library.type_name(wanted.ty));
-        self.say(WrongType { span: expr.span, expected, actual, place: wanted.place.to_string() });
+        let example = self.example(wanted.ty);
+        self.say(WrongType { span: expr.span, expected, actual, place: wanted.place.to_string(), example });
         Term::Unknown
     }
 
@@ -106,12 +107,18 @@ impl<'a> Resolver<'a> {
     fn number(&mut self, value: f64, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
         if let Some(Wanted { ty: Ty { base: Base::Quantity(dimension), lists: 0 }, .. }) = wanted {
             if self.form == Form::Text {
-                let unit = if dimension == Dimension::NONE { "%" } else { dimension.si_symbol() };
+                // A number beyond a full turn is meant in degrees.
+                let unit = match dimension {
+                    Dimension::NONE => "%",
+                    Dimension::ANGLE if value.abs() > std::f64::consts::TAU => "deg",
+                    _ => dimension.si_symbol(),
+                };
                 if !unit.is_empty() {
                     let value = if dimension == Dimension::NONE { value * 100.0 } else { value };
                     let others = list(Unit::symbols_of(dimension).map(SmolStr::new));
                     let ty = dimension.type_name().unwrap_or("quantity").to_owned();
                     self.say(MissingUnit { span, value: value.to_string(), unit, ty, others });
+                    return (Term::Unknown, Ty::UNKNOWN);
                 }
             }
             return (Term::Number(value), Ty::plain(Base::Quantity(dimension)));
@@ -357,13 +364,37 @@ impl<'a> Resolver<'a> {
         } else {
             Base::Quantity(result)
         };
-        (Term::Arith(op, Box::new(left), Box::new(right)), Ty::plain(base))
+        let ty = Ty::plain(base);
+        let known = literal(&left).zip(literal(&right)).map(|(a, b)| match op {
+            ArithOp::Add => a + b,
+            ArithOp::Subtract => a - b,
+            ArithOp::Multiply => a * b,
+            ArithOp::Divide => a / b,
+        });
+        match known.filter(|value| value.is_finite()) {
+            Some(value) if whole => (Term::Int(value as i64), ty),
+            Some(value) => (Term::Number(value), ty),
+            None => (Term::Arith(op, Box::new(left), Box::new(right)), ty),
+        }
     }
 
     pub(crate) fn mismatch(&mut self, operator: &'static str, left: Ty, right: Ty, span: Span) {
         let left = self.library.type_name(left);
         let right = self.library.type_name(right);
         self.say(WrongDimension { span, left, right, operator });
+    }
+
+    /// A value of a type as it is written, where that helps.
+    fn example(&self, ty: Ty) -> Option<String> {
+        match ty {
+            Ty { base: Base::Quantity(Dimension::NONE), lists: 0 } => Some("`20 %`".to_owned()),
+            Ty { base: Base::Quantity(dimension), lists: 0 } => {
+                Some(format!("`1 {}`", dimension.si_symbol()))
+            }
+            Ty { base: Base::Text, lists: 0 } => Some("`\"red mug\"`".to_owned()),
+            Ty { base: Base::Int, lists: 0 } => Some("`3`".to_owned()),
+            _ => None,
+        }
     }
 
     /// A value in words, for a message about its type.
@@ -400,6 +431,15 @@ pub(crate) fn dimension(ty: Ty) -> Option<Dimension> {
     match ty {
         Ty { base: Base::Int | Base::Number, lists: 0 } => Some(Dimension::NONE),
         Ty { base: Base::Quantity(dimension), lists: 0 } => Some(dimension),
+        _ => None,
+    }
+}
+
+/// A number that is written out. Whole numbers are exact up to 2^53, the most that a document can write.
+fn literal(term: &Term) -> Option<f64> {
+    match term {
+        Term::Int(value) => Some(*value as f64),
+        Term::Number(value) => Some(*value),
         _ => None,
     }
 }

@@ -15,7 +15,7 @@ use motet_syntax::{Diagnostic, Form};
 
 use self::expr::{Place, Resolver, Wanted};
 use self::step::Steps;
-use crate::ir::{Program, Term, Ty};
+use crate::ir::{BindingId, Program, Term, Ty};
 use crate::library::Library;
 use crate::world::World;
 
@@ -66,11 +66,17 @@ impl Resolver<'_> {
                 None
             }
             Term::Unknown => None,
+            Term::Binding(id) if self.is_param(id) => None,
             _ => {
                 self.say(errors::NotConstant { span: expr.span, place });
                 None
             }
         }
+    }
+
+    /// Whether a binding is a parameter, of which the value is known only where the policy is called.
+    fn is_param(&self, id: BindingId) -> bool {
+        self.bindings.get(id.index()).is_some_and(|binding| binding.is_param)
     }
 
     /// A count that is known beforehand.
@@ -87,6 +93,7 @@ impl Resolver<'_> {
                 count
             }
             Term::Unknown => None,
+            Term::Binding(id) if self.is_param(id) => None,
             _ => {
                 self.say(errors::NotConstant { span: expr.span, place });
                 None

@@ -47,6 +47,7 @@ impl<'a> Steps<'a> {
             let id = self.bind(param.name.text.clone(), ty, param.name.span, None);
             self.resolver.scope.push(param.name.text.clone(), Term::Binding(id), ty, param.name.span);
             if let Some(binding) = self.resolver.bindings.get_mut(id.index()) {
+                binding.is_param = true;
                 binding.uses = 1;
             }
         }
@@ -99,7 +100,7 @@ impl<'a> Steps<'a> {
         description: Option<SmolStr>,
     ) -> BindingId {
         let id = BindingId(u32::try_from(self.resolver.bindings.len()).unwrap_or(u32::MAX));
-        self.resolver.bindings.push(Binding { name, ty, span, description, uses: 0 });
+        self.resolver.bindings.push(Binding { name, ty, span, description, is_param: false, uses: 0 });
         id
     }
 
@@ -186,6 +187,7 @@ impl<'a> Steps<'a> {
                         expected: "a list".to_owned(),
                         actual,
                         place,
+                        example: None,
                     });
                 }
                 (Term::Unknown, Ty::UNKNOWN)

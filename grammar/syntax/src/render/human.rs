@@ -61,7 +61,9 @@ impl Report {
         report.severity = diagnostic.severity;
         report.message.clone_from(&diagnostic.message);
         report.help.clone_from(&diagnostic.help);
-        report.labels.extend(label(span, None, sources));
+        // The place of the mistake itself is the one that the header names.
+        let main = label(span, None, sources);
+        report.labels.extend(main.map(|main| LabeledSpan::new_primary_with_span(None, *main.inner())));
         for related in &diagnostic.related {
             report.relate(related, span, sources);
         }
