@@ -77,6 +77,12 @@ impl Row {
             .to_string()
     }
 
+    /// Whether the goal holds in a world that tells which facts hold.
+    #[must_use]
+    pub fn reached(&self, holds: impl Fn(&str, &[&str]) -> bool) -> bool {
+        self.goal.iter().all(|atom| is_reached(atom, &holds))
+    }
+
     /// The room as a scene document.
     #[must_use]
     pub fn scene(&self) -> String {
@@ -132,5 +138,15 @@ fn goal(atom: &Value) -> Value {
         ["visited", place] => json!({"is": "visited", "where": place}),
         [fluent, object] => json!({"is": fluent, "object": object}),
         _ => atom.clone(),
+    }
+}
+
+fn is_reached(atom: &Value, holds: &impl Fn(&str, &[&str]) -> bool) -> bool {
+    let words: Vec<&str> = atom.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    match words.as_slice() {
+        ["or"] => atom.as_array().into_iter().flatten().skip(1).any(|part| is_reached(part, holds)),
+        ["robot_at", place] => holds("at", &["robot", place]),
+        [fluent, args @ ..] => holds(fluent, args),
+        [] => false,
     }
 }
