@@ -154,12 +154,12 @@ impl Session {
 
 /// Gives a finding its path, and moves one inside an inlined policy of another file to the call.
 fn place(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
-    if diagnostic.span.file != policy.span.file {
-        if let Some(call) = call_site(diagnostic.span, policy, program) {
-            diagnostic.related.insert(0, Related::new("in this step of the policy", diagnostic.span));
-            diagnostic.span = call;
-            diagnostic.fix = None;
-        }
+    if diagnostic.span.file != policy.span.file
+        && let Some(call) = call_site(diagnostic.span, policy, program)
+    {
+        diagnostic.related.insert(0, Related::new("in this step of the policy", diagnostic.span));
+        diagnostic.span = call;
+        diagnostic.fix = None;
     }
     diagnostic.path = motet_syntax::path::pointer(policy, diagnostic.span);
     for related in &mut diagnostic.related {

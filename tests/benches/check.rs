@@ -1,6 +1,8 @@
 //! What checking a policy costs: reading, resolving, checking and proving the JSON form, beside what `serde_json` and
 //! `jsonschema` take only to validate the same bytes, and how the cost grows with the policy.
 
+#![allow(clippy::expect_used, missing_docs, reason = "a benchmark that cannot be set up has failed")]
+
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

@@ -1,7 +1,6 @@
 //! Bindings that nothing uses, and descriptions that fit several entities of the scene, or none.
 
 use motet_syntax::Diagnostic;
-use smol_str::SmolStr;
 
 use super::errors::{Ambiguous, Missing, Unused};
 use crate::ir::{Program, StepKind};
@@ -30,7 +29,7 @@ pub(super) fn check(program: &Program, library: &Library, world: &World, diagnos
                 diagnostics.push(Missing { span: step.span, text: text.clone(), near }.into());
             }
             several => {
-                let found = list(several.iter().take(5).map(|entity| world.name(*entity)).map(SmolStr::from));
+                let found = list(several.iter().take(5).map(|entity| world.name(*entity)));
                 diagnostics.push(Ambiguous { span: step.span, text: text.clone(), found }.into());
             }
         }

@@ -85,10 +85,10 @@ fn observable(condition: &Condition, span: Span, library: &Library, diagnostics:
         }
         Condition::Compare(_, left, right) => {
             for term in [left, right] {
-                if let Term::Measure(id, _) = term {
-                    if let Some(def) = library.measure(*id).filter(|def| !def.observable) {
-                        say(&def.name);
-                    }
+                if let Term::Measure(id, _) = term
+                    && let Some(def) = library.measure(*id).filter(|def| !def.observable)
+                {
+                    say(&def.name);
                 }
             }
         }

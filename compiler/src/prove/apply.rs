@@ -77,10 +77,10 @@ impl Prover<'_> {
             self.change(effect, Frame { each: Some(candidate), ..frame }, changes);
         }
         // Those of which nothing is known by name: one pattern for all of them.
-        if let Some(sure) = rest {
-            if let Some(key) = self.key(&effect.fact, Frame { each: None, ..frame }) {
-                changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
-            }
+        if let Some(sure) = rest
+            && let Some(key) = self.key(&effect.fact, Frame { each: None, ..frame })
+        {
+            changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
         }
     }
 

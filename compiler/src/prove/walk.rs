@@ -114,10 +114,10 @@ impl Prover<'_> {
             }
             Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
             Condition::Not(inner) => {
-                if let Condition::Fact(fact) = &**inner {
-                    if let Some(key) = self.key(fact, Frame::default()) {
-                        self.facts.set(fact.fluent, key, Value::no(cause));
-                    }
+                if let Condition::Fact(fact) = &**inner
+                    && let Some(key) = self.key(fact, Frame::default())
+                {
+                    self.facts.set(fact.fluent, key, Value::no(cause));
                 }
             }
             Condition::Literal(_)

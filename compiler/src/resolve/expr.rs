@@ -134,10 +134,10 @@ impl<'a> Resolver<'a> {
         if let Some(found) = self.in_scope(name) {
             return found;
         }
-        if let Some(Wanted { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted {
-            if let Some(case) = self.case_of(id, name) {
-                return case;
-            }
+        if let Some(Wanted { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted
+            && let Some(case) = self.case_of(id, name)
+        {
+            return case;
         }
         if let Some((entity, kind)) = self.entities.find(name) {
             return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
@@ -198,10 +198,10 @@ impl<'a> Resolver<'a> {
     fn in_scope(&mut self, name: &str) -> Option<(Term, Ty)> {
         let entry = self.scope.find(name)?;
         let found = (entry.term.clone(), entry.ty);
-        if let Term::Binding(id) = found.0 {
-            if let Some(binding) = self.bindings.get_mut(id.index()) {
-                binding.uses += 1;
-            }
+        if let Term::Binding(id) = found.0
+            && let Some(binding) = self.bindings.get_mut(id.index())
+        {
+            binding.uses += 1;
         }
         Some(found)
     }

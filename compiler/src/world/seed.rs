@@ -70,10 +70,10 @@ impl Teller<'_> {
         // An entity that the parameter cannot take has no such fact.
         for ((_, ty), arg) in def.params.iter().zip(args) {
             let kind = arg.and_then(|entity| self.world.entities.kind(entity));
-            if let (Some(kind), Some(wanted)) = (kind, ty.kind()) {
-                if !self.library.is_kind(kind, wanted) {
-                    return;
-                }
+            if let (Some(kind), Some(wanted)) = (kind, ty.kind())
+                && !self.library.is_kind(kind, wanted)
+            {
+                return;
             }
         }
         let args = args.iter().map(|arg| arg.map(Term::Entity)).collect();

@@ -1,0 +1,78 @@
+//! Whatever a document says, every stage ends, and says what is wrong.
+
+use motet_syntax::{FileId, Severity, Source, Sources};
+use motet_tests::setup;
+
+/// The codes that checking a document gives, each once.
+fn codes(text: &str) -> Vec<String> {
+    let mut sources = Sources::default();
+    let (session, _) = setup::session(None, None, &mut sources);
+    let source = Source::new("hostile", text);
+    let said = session.check(&motet_syntax::read(&source, FileId(u16::MAX)));
+    let mut codes: Vec<_> = said
+        .iter()
+        .filter(|said| said.severity == Severity::Error)
+        .map(|said| said.code.to_string())
+        .collect();
+    codes.sort();
+    codes.dedup();
+    codes
+}
+
+fn json(steps: &str) -> String {
+    format!(r#"{{"motet": 1, "policy": "p", "steps": [{steps}]}}"#)
+}
+
+#[test]
+fn a_policy_of_as_many_steps_as_are_allowed_is_checked() {
+    let steps = vec![r#"{"do": "say", "text": "x"}"#; 100_000].join(",");
+    assert_eq!(codes(&json(&steps)), Vec::<String>::new());
+}
+
+#[test]
+fn one_step_more_is_refused_by_name() {
+    let steps = vec![r#"{"do": "say", "text": "x"}"#; 100_001].join(",");
+    assert_eq!(codes(&json(&steps)).len(), 1);
+}
+
+#[test]
+fn sub_policies_that_grow_beyond_the_limit_are_refused() {
+    let mut text = String::from("policy p0(n: Text) { say(n) say(n) say(n) say(n) }\n");
+    for level in 1..12 {
+        let below = level - 1;
+        text.push_str(&format!(
+            "policy p{level}(n: Text) {{ p{below}(n) p{below}(n) p{below}(n) p{below}(n) }}\n"
+        ));
+    }
+    text.push_str("policy top { p11(\"x\") }\n");
+    assert!(codes(&text).contains(&"M0212".to_owned()));
+}
+
+#[test]
+fn loops_nested_too_deep_are_refused() {
+    let nested = |depth: usize| {
+        let open = "repeat 2 { ".repeat(depth);
+        format!("policy p {{ {open} say(\"x\") {} }}", "}".repeat(depth))
+    };
+    assert_eq!(codes(&nested(8)), Vec::<String>::new());
+    assert_eq!(codes(&nested(9)), ["M0804"]);
+    assert!(!codes(&nested(5_000)).is_empty());
+}
+
+#[test]
+fn twenty_nested_branches_do_not_explode() {
+    let depth = 20;
+    let open = "if near(user) { go(user) ".repeat(depth);
+    let close = "} else { say(\"x\") } ".repeat(depth);
+    assert_eq!(codes(&format!("policy p {{ {open} {close} }}")), Vec::<String>::new());
+}
+
+#[test]
+fn brackets_without_end_are_refused() {
+    for bracket in ["[", "{\"if\":", "{\"not\":", "(", "not "] {
+        let deep = bracket.repeat(100_000);
+        assert!(!codes(&deep).is_empty(), "{bracket}");
+        assert!(!codes(&json(&deep)).is_empty(), "{bracket}");
+        assert!(!codes(&format!("policy p {{ if {deep}")).is_empty(), "{bracket}");
+    }
+}
