@@ -35,11 +35,13 @@ fn fences(markdown: &str) -> Vec<Fence> {
     found
 }
 
+fn named<'f>(fences: &'f [Fence], name: &'f str) -> impl Iterator<Item = &'f Fence> {
+    fences.iter().filter(move |fence| fence.info.first().map(String::as_str) == Some(name))
+}
+
 fn check(spec: &str) {
     let fences = fences(spec);
-    let named =
-        |name: &str| fences.iter().filter(|fence| fence.info.first().is_some_and(|info| info == name));
-    let prelude: String = named("prelude").map(|fence| fence.text.as_str()).collect();
+    let prelude: String = named(&fences, "prelude").map(|fence| fence.text.as_str()).collect();
     let mut sources = Sources::default();
     let domain = Source::new("prelude.motet", prelude);
     let id = sources.add(domain.clone());
@@ -48,7 +50,7 @@ fn check(spec: &str) {
     let (session, said) = Session::new(None, &[domain.file], None, None, Options::default(), &mut sources);
     assert!(said.is_empty(), "{said:?}");
     let mut wrong = Vec::new();
-    for fence in named("motet") {
+    for fence in named(&fences, "motet") {
         let source = Source::new("example.motet", fence.text.as_str());
         let id = sources.add(source.clone());
         let said = session.check(&motet_syntax::read(&source, id));

@@ -109,6 +109,14 @@ pub(super) fn facts(library: &Library, world: &mut World) {
         teller.hands(!matches!(held, Some(Some(_))));
     }
     teller.tell("visited", &[None], false);
+    // Only objects are on, in or held out to something; furniture, places and people are where they are.
+    if let Some(object) = library.names.kinds.get("Object").copied() {
+        let entities = teller.world.entities.iter().filter(|(id, ..)| *id != ROBOT);
+        let others = entities.filter(|(.., kind)| !library.is_kind(*kind, object) && !library.is_kind(object, *kind));
+        for entity in others.map(|(id, ..)| id).collect::<Vec<_>>() {
+            teller.tell("at", &[Some(entity), None], false);
+        }
+    }
     let Some(scene) = scene else { return };
     if let Some(place) = scene.robot.at.as_ref().and_then(|at| find(&teller, at)) {
         teller.tell("at", &[Some(ROBOT), None], false);
