@@ -26,6 +26,7 @@ mod timers;
 mod truth;
 mod turn;
 mod verifier;
+mod work;
 
 pub use driver::Driver;
 pub use effect::{Command, Effect, Fault, RunEnd};

@@ -1,9 +1,10 @@
 //! A graph made ready to be stepped: what can be worked out once is worked out here.
 
 use crate::effect::Command;
+use crate::time::Time;
 use motet_graph::{
     CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
-    Term, Value, Watch,
+    Term, Value, Verdict, Watch,
 };
 use smol_str::SmolStr;
 use std::sync::Arc;
@@ -25,11 +26,31 @@ pub(crate) struct Plan {
     /// The regions that each node owns: a range of `owned`.
     ranges: Vec<(u32, u32)>,
     owned: Vec<RegionId>,
-    /// The command of each call whose arguments are all literals.
-    commands: Vec<Option<Arc<Command>>>,
-    masks: Vec<Mask>,
+    /// What every step needs at hand.
+    steps: Vec<Step>,
+    spare_step: Step,
     spare: Node,
     spare_region: Region,
+}
+
+/// What is looked up of a step each time it runs, apart from the graph so that it lies close together.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) region: RegionId,
+    pub(crate) next: Option<NodeId>,
+    /// Call: the deadline of an attempt.
+    pub(crate) deadline: Time,
+    /// Call: its resources.
+    pub(crate) mask: Mask,
+    /// Call: its command where its arguments are all literals.
+    pub(crate) command: Option<Arc<Command>>,
+    pub(crate) is_call: bool,
+    /// Whether it owns regions.
+    pub(crate) is_composite: bool,
+    /// Call: whether nothing is to be checked or unsettled before it starts.
+    pub(crate) is_ready: bool,
+    /// Call: whether its success changes nothing that the engine knows.
+    pub(crate) is_silent: bool,
 }
 
 /// Resources as bits.
@@ -60,8 +81,8 @@ impl Plan {
             first_watch: Vec::with_capacity(graph.nodes.len()),
             ranges: Vec::with_capacity(graph.nodes.len()),
             owned: Vec::with_capacity(graph.regions.len()),
-            commands: Vec::with_capacity(graph.nodes.len()),
-            masks: graph.primitives.iter().map(|primitive| mask(&graph, primitive)).collect(),
+            steps: Vec::with_capacity(graph.nodes.len()),
+            spare_step: Step::of_kind(ROOT, None),
             spare: Node {
                 path: SmolStr::default(),
                 region: ROOT,
@@ -72,22 +93,19 @@ impl Plan {
             spare_region: Region { owner: None, entry: None },
             graph: graph.clone(),
         };
+        let masks: Vec<Mask> = graph.primitives.iter().map(|primitive| mask(&graph, primitive)).collect();
         for (index, node) in graph.nodes.iter().enumerate() {
-            plan.add(&graph, NodeId(index as u32), &node.kind);
+            plan.add(NodeId(index as u32), &node.kind);
+            let step = step(&graph, node, &masks, plan.owned(NodeId(index as u32)).is_empty());
+            plan.steps.push(step);
         }
         plan
     }
 
-    fn add(&mut self, graph: &Graph, id: NodeId, kind: &NodeKind) {
+    fn add(&mut self, id: NodeId, kind: &NodeKind) {
         let first = self.owned.len() as u32;
         self.first_watch.push(self.watches.len() as u32);
-        self.commands.push(None);
         match kind {
-            NodeKind::Call(call) => {
-                if let Some(command) = self.commands.last_mut() {
-                    *command = literal_command(graph, call);
-                }
-            }
             NodeKind::Sequence { body, .. }
             | NodeKind::Inline { body, .. }
             | NodeKind::Repeat { body, .. }
@@ -96,7 +114,7 @@ impl Plan {
                 self.owned.push(*then);
                 self.owned.extend(*otherwise);
             }
-            NodeKind::Wait { .. } | NodeKind::End { .. } => {}
+            NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => {}
             NodeKind::Monitor { watches, body } => {
                 self.owned.push(*body);
                 for (index, watch) in watches.iter().enumerate() {
@@ -129,13 +147,10 @@ impl Plan {
         self.owned.get(first as usize..end as usize).unwrap_or_default()
     }
 
-    /// The command of a call whose arguments are all literals.
-    pub(crate) fn command(&self, id: NodeId) -> Option<&Arc<Command>> {
-        self.commands.get(id.index())?.as_ref()
-    }
-
-    pub(crate) fn mask(&self, call: &CallNode) -> Mask {
-        self.masks.get(call.primitive.index()).copied().unwrap_or_default()
+    /// What a step needs at hand.
+    #[inline]
+    pub(crate) fn step(&self, id: NodeId) -> &Step {
+        self.steps.get(id.index()).unwrap_or(&self.spare_step)
     }
 
     /// The number of a monitor's watch among all.
@@ -201,6 +216,39 @@ pub(crate) fn command(graph: &Graph, call: &CallNode, args: Vec<Value>) -> Optio
         uses: uses.map(|resource| resource.name.clone()).collect(),
         deadline_secs: call.deadline_secs,
     })
+}
+
+impl Step {
+    /// A step that is no call.
+    fn of_kind(region: RegionId, next: Option<NodeId>) -> Self {
+        Self {
+            region,
+            next,
+            deadline: Time::ZERO,
+            mask: Mask::default(),
+            command: None,
+            is_call: false,
+            is_composite: false,
+            is_ready: false,
+            is_silent: false,
+        }
+    }
+}
+
+fn step(graph: &Graph, node: &Node, masks: &[Mask], is_leaf: bool) -> Step {
+    let mut step = Step { is_composite: !is_leaf, ..Step::of_kind(node.region, node.next) };
+    if let NodeKind::Call(call) = &node.kind {
+        let deferred = |verdict| verdict == Verdict::Deferred;
+        let checks = call.needs.iter().any(|need| deferred(need.verdict))
+            || call.motion.as_ref().is_some_and(|motion| deferred(motion.verdict));
+        step.is_call = true;
+        step.deadline = Time::from_secs(call.deadline_secs);
+        step.mask = masks.get(call.primitive.index()).copied().unwrap_or_default();
+        step.command = literal_command(graph, call);
+        step.is_ready = !checks && call.unsettles.is_empty();
+        step.is_silent = call.effects.is_empty() && call.binds.is_none();
+    }
+    step
 }
 
 fn literal_command(graph: &Graph, call: &CallNode) -> Option<Arc<Command>> {

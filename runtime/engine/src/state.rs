@@ -10,6 +10,7 @@ use crate::table::Table;
 use crate::time::Time;
 use crate::timers::Timers;
 use crate::truth::Truth;
+use crate::work::Work;
 use motet_graph::{NodeId, RegionId, Value};
 use smol_str::SmolStr;
 use std::cmp::Reverse;
@@ -104,7 +105,7 @@ pub(crate) struct Exit {
 pub(crate) struct NodeRun {
     pub(crate) phase: Phase,
     pub(crate) wish: Wish,
-    /// Call: attempts begun. Loop: runs of the body begun. Monitor: pauses in force.
+    /// Call: attempts begun. Loop: runs of the body begun.
     pub(crate) count: u32,
     pub(crate) goal: Option<GoalId>,
     /// When the observations that count began.
@@ -113,13 +114,20 @@ pub(crate) struct NodeRun {
     pub(crate) seen: u64,
     /// What is left of a deadline while the step is suspended.
     pub(crate) left: Time,
+    /// Whether the work list holds a judgement of it.
+    pub(crate) judging: bool,
+}
+
+/// What a composite step keeps beside it; apart, because few steps need it.
+#[derive(Clone, Debug)]
+pub(crate) struct CompositeRun {
     pub(crate) after: After,
+    /// Monitor: pauses in force.
+    pub(crate) pauses: u32,
     /// Monitor: the watch whose block runs or is about to.
     pub(crate) resuming: Option<u32>,
     /// Monitor: how the body ended while it was interrupted.
     pub(crate) body_ended: Option<Exit>,
-    /// Whether the work list holds a judgement of it.
-    pub(crate) judging: bool,
 }
 
 /// A region's state.
@@ -152,46 +160,6 @@ pub(crate) struct WatchRun {
     pub(crate) dirty: bool,
 }
 
-/// A transition to make. The work list takes them in document order.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Micro {
-    /// Enter a step.
-    Enter(NodeId),
-    /// Get a call's resources and start it.
-    Acquire(NodeId),
-    /// Judge a step that awaits observations.
-    Judge(NodeId),
-    /// A step is over.
-    NodeEnded(NodeId, Exit),
-    /// A region is over.
-    RegionEnded(RegionId, Exit),
-}
-
-/// An entry of the work list: first by place in the document, then in order of arrival.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Work {
-    pub(crate) place: u32,
-    pub(crate) order: u64,
-    pub(crate) micro: Micro,
-}
-
-impl PartialEq for Work {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-impl Eq for Work {}
-impl PartialOrd for Work {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Work {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        (self.place, self.order).cmp(&(other.place, other.order))
-    }
-}
-
 /// The state of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
@@ -200,6 +168,7 @@ pub(crate) struct Run {
     pub(crate) now: Time,
     pub(crate) revision: u32,
     pub(crate) nodes: Table<NodeRun>,
+    pub(crate) composites: Table<CompositeRun>,
     pub(crate) regions: Table<RegionRun>,
     pub(crate) watches: Table<WatchRun>,
     /// What each watch and each `wait` keeps watched.
@@ -220,8 +189,7 @@ pub(crate) struct Run {
     pub(crate) clearing: Vec<NodeId>,
     /// Observations that steps await.
     pub(crate) asked: Vec<(CellId, NodeId)>,
-    pub(crate) work: BinaryHeap<Reverse<Work>>,
-    pub(crate) order: u64,
+    pub(crate) work: Work,
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
     /// How the run is to end once everything is down.
     pub(crate) ending: Option<RunEnd>,
@@ -243,11 +211,9 @@ impl Run {
             since: Time::ZERO,
             seen: 0,
             left: Time::ZERO,
-            after: After::Nothing,
-            resuming: None,
-            body_ended: None,
             judging: false,
         };
+        let composite = CompositeRun { after: After::Nothing, pauses: 0, resuming: None, body_ended: None };
         let region = RegionRun { active: false, current: None, stopping: None, suspended: 0 };
         let watch = WatchRun {
             since: Time::ZERO,
@@ -265,6 +231,7 @@ impl Run {
             now: Time::ZERO,
             revision: 0,
             nodes: Table::new(plan.graph.nodes.len(), node),
+            composites: Table::new(plan.graph.nodes.len(), composite),
             regions: Table::new(plan.graph.regions.len(), region),
             watches: Table::new(plan.watches.len(), watch),
             subscriptions: Table::new(plan.keys(), Vec::new()),
@@ -278,8 +245,7 @@ impl Run {
             freed: false,
             clearing: Vec::new(),
             asked: Vec::new(),
-            work: BinaryHeap::new(),
-            order: 0,
+            work: Work::default(),
             dirty: BinaryHeap::new(),
             ending: None,
             failures: plan.failures.clone(),

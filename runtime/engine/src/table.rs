@@ -17,10 +17,12 @@ impl<T: Clone> Table<T> {
 }
 
 impl<T> Table<T> {
+    #[inline]
     pub(crate) fn at(&self, index: usize) -> &T {
         self.rows.get(index).unwrap_or(&self.spare)
     }
 
+    #[inline]
     pub(crate) fn at_mut(&mut self, index: usize) -> &mut T {
         self.rows.get_mut(index).unwrap_or(&mut self.spare)
     }

@@ -3,7 +3,7 @@
 use super::entities::Entities;
 use crate::query::{Answer, Pattern, Query};
 use crate::time::Time;
-use motet_graph::{Graph, Value};
+use motet_graph::{FluentId, Graph, Value};
 use rustc_hash::{FxHashMap, FxHasher};
 use smol_str::SmolStr;
 use std::hash::{Hash, Hasher};
@@ -30,8 +30,6 @@ pub(crate) struct Cell {
     pub(crate) live: bool,
     /// Whether the robot can observe it.
     pub(crate) observable: bool,
-    /// A fact with `any`.
-    pub(crate) pattern: bool,
     next: Option<CellId>,
 }
 
@@ -46,7 +44,12 @@ pub(crate) struct Wide {
 /// A fluent's facts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Facts {
+    /// Where it stands in the graph.
+    pub(crate) fluent: Option<FluentId>,
+    /// Single facts.
     pub(crate) cells: Vec<CellId>,
+    /// Facts with `any`.
+    pub(crate) patterns: Vec<CellId>,
     /// Later ones win.
     pub(crate) wides: Vec<Wide>,
     pub(crate) observable: bool,
@@ -71,8 +74,9 @@ impl Beliefs {
     /// Nothing is known.
     pub(crate) fn new(graph: &Graph) -> Self {
         let mut beliefs = Self::default();
-        for fluent in &graph.fluents {
-            let facts = Facts { observable: fluent.observable, ..Facts::default() };
+        for (index, fluent) in graph.fluents.iter().enumerate() {
+            let id = FluentId(index as u32);
+            let facts = Facts { fluent: Some(id), observable: fluent.observable, ..Facts::default() };
             beliefs.fluents.insert(fluent.name.clone(), facts);
         }
         beliefs
@@ -105,15 +109,19 @@ impl Beliefs {
             return id;
         }
         let id = CellId(self.cells.len() as u32);
-        let (answer, seen, observable, pattern) = match &query {
+        let (answer, seen, observable) = match &query {
             Query::Fact { fluent, args } => {
                 let pattern = args.contains(&Pattern::Any);
                 let (answer, seen) = self.wide_answer(fluent, args);
                 let facts = self.fluents.entry(fluent.clone()).or_default();
-                facts.cells.push(id);
-                (answer, seen, facts.observable, pattern)
+                if pattern {
+                    facts.patterns.push(id)
+                } else {
+                    facts.cells.push(id)
+                }
+                (answer, seen, facts.observable)
             }
-            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, 0, true, false),
+            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, 0, true),
         };
         let next = self.index.insert(query_hash(&query), id);
         let query = Arc::new(query);
@@ -127,7 +135,6 @@ impl Beliefs {
             watchers: 0,
             live: false,
             observable,
-            pattern,
             next,
         });
         id

@@ -115,7 +115,7 @@ impl Beliefs {
         let cells = self.fluents.get(fluent).map_or(&[][..], |facts| &facts.cells);
         cells.iter().copied().filter(move |id| {
             self.cell(*id).is_some_and(|cell| {
-                !cell.pattern && matches!(&*cell.query, crate::query::Query::Fact { args: own, .. } if covers(args, own))
+                matches!(&*cell.query, crate::query::Query::Fact { args: own, .. } if covers(args, own))
             })
         })
     }
@@ -149,12 +149,9 @@ impl Beliefs {
     /// Cells with `any` that a write touches.
     fn unsettle_patterns(&mut self, change: &Change, written: Truth, now: Time) {
         let Some(facts) = self.fluents.get(&change.fluent) else { return };
-        if facts.cells.is_empty() {
-            return;
-        }
         let mut touched = Vec::new();
-        for id in &facts.cells {
-            let Some(cell) = self.cell(*id).filter(|cell| cell.pattern) else { continue };
+        for id in &facts.patterns {
+            let Some(cell) = self.cell(*id) else { continue };
             let crate::query::Query::Fact { args, .. } = &*cell.query else { continue };
             if !overlaps(&change.args, args) {
                 continue;

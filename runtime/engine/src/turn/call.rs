@@ -5,10 +5,10 @@ use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
 use crate::plan;
 use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{Exit, Micro, Phase, Wish};
-use crate::time::Time;
+use crate::state::{Exit, Phase, Wish};
 use crate::truth::Truth;
 use crate::verifier::Verification;
+use crate::work::Micro;
 use motet_graph::{CallNode, FailureId, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;
@@ -45,6 +45,12 @@ impl Turn<'_> {
         } else if !self.reserve(node) {
             self.enqueue(node);
         } else {
+            let plan = self.plan;
+            let step = plan.step(node);
+            if let Some(command) = step.command.as_ref().filter(|_| step.is_ready) {
+                self.launch(node, command.clone());
+                return;
+            }
             let (now, seen) = (self.run.now, self.run.beliefs.observations);
             let state = self.run.nodes.at_mut(node.index());
             state.since = now;
@@ -108,7 +114,7 @@ impl Turn<'_> {
                 Truth::Unknown => unknown = unknown.or(Some(refusal)),
             }
         }
-        if let Some(command) = plan.command(node) {
+        if let Some(command) = &plan.step(node).command {
             return unknown.map_or_else(|| self.look_at_motion(call, command.clone()), Look::Unknown);
         }
         let args: Option<Vec<Value>> = self.values(&call.args, fresh);
@@ -187,8 +193,14 @@ impl Turn<'_> {
         if !call.unsettles.is_empty() {
             self.unsettle(call);
         }
+        self.launch(node, command);
+    }
+
+    /// The goal goes out.
+    fn launch(&mut self, node: NodeId, command: Arc<Command>) {
+        let plan = self.plan;
         let goal = self.run.goals.open(node);
-        let deadline = self.run.now.after(Time::from_secs(call.deadline_secs));
+        let deadline = self.run.now.after(plan.step(node).deadline);
         self.run.timers.set(plan.node_key(node), deadline);
         let state = self.run.nodes.at_mut(node.index());
         state.phase = Phase::Starting;

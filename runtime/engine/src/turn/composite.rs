@@ -105,7 +105,7 @@ impl Turn<'_> {
 
     fn branch_ended(&mut self, node: NodeId, branches: &[RegionId], exit: Exit) {
         if exit.ending != NodeEnding::Success {
-            self.run.nodes.at_mut(node.index()).after = After::Exit(exit);
+            self.run.composites.at_mut(node.index()).after = After::Exit(exit);
             branches.iter().for_each(|branch| self.stop(*branch, Cause::SiblingFailed));
         }
         if self.is_down(node) {
@@ -136,7 +136,7 @@ impl Turn<'_> {
                 Ending::Fail => NodeEnding::Failure(self.plan.failed),
             };
             let own = if ending == NodeEnding::Success { Cause::Completed } else { Cause::Failed };
-            let state = self.run.nodes.at_mut(of.index());
+            let state = self.run.composites.at_mut(of.index());
             if state.after == After::Nothing {
                 state.after = After::Exit(Exit { ending, cause: own, origin: node });
                 self.stop(body, cause);

@@ -103,6 +103,9 @@ impl Turn<'_> {
     /// No longer waits for answers.
     pub(super) fn forget_asked(&mut self, node: NodeId) {
         let key = self.plan.node_key(node);
+        if self.run.subscriptions.at(key as usize).is_empty() {
+            return;
+        }
         self.run.timers.clear(key);
         self.run.asked.retain(|(_, asker)| *asker != node);
         for id in self.run.subscriptions.at_mut(key as usize).drain(..) {

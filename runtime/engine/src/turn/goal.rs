@@ -5,7 +5,8 @@ use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, GoalId, Outcome};
 use crate::query::{Answer, Query};
 use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{Exit, Micro, Phase, Wish};
+use crate::state::{Exit, Phase, Wish};
+use crate::work::Micro;
 use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
 
 /// How a goal came out, in the engine's own terms.
@@ -131,6 +132,10 @@ impl Turn<'_> {
 
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
+        if plan.step(node).is_silent {
+            self.succeed(node);
+            return;
+        }
         let Some(call) = plan.call(node) else { return };
         if let Some(binding) = call.binds {
             let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);
@@ -199,8 +204,9 @@ impl Turn<'_> {
     fn hear(&mut self, query: &Query) {
         let Query::Fact { fluent, args } = query else { return };
         let graph = &self.plan.graph;
-        let params =
-            graph.fluents.iter().find(|known| known.name == *fluent).map_or(&[][..], |known| &known.params);
+        let declared = self.run.beliefs.fluents.get(fluent).and_then(|facts| facts.fluent);
+        let declared = declared.and_then(|id| graph.fluents.get(id.index()));
+        let params = declared.map_or(&[][..], |fluent| &fluent.params);
         for (arg, ty) in args.iter().zip(params) {
             if let crate::query::Pattern::Is(value) = arg {
                 self.run.beliefs.entities.hear_value(graph, value, Some(ty));

@@ -3,8 +3,9 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::Effect;
-use crate::state::{Micro, Phase};
+use crate::state::Phase;
 use crate::time::Time;
+use crate::work::Micro;
 use motet_graph::{Condition, NodeId};
 
 impl Turn<'_> {
@@ -61,8 +62,7 @@ impl Turn<'_> {
 
     /// Takes a call's resources. False where somebody else holds what conflicts.
     pub(super) fn reserve(&mut self, node: NodeId) -> bool {
-        let Some(call) = self.plan.call(node) else { return false };
-        let mask = self.plan.mask(call);
+        let mask = self.plan.step(node).mask;
         if self.run.held & mask.conflicts != 0 {
             return false;
         }
@@ -72,10 +72,8 @@ impl Turn<'_> {
 
     /// Gives a call's resources back.
     pub(super) fn release(&mut self, node: NodeId) {
-        if let Some(call) = self.plan.call(node) {
-            self.run.held &= !self.plan.mask(call).uses;
-            self.run.freed = !self.run.queue.is_empty();
-        }
+        self.run.held &= !self.plan.step(node).mask.uses;
+        self.run.freed = !self.run.queue.is_empty();
     }
 
     /// Resources became free: those who wait try again, in document order.

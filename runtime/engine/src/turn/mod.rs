@@ -21,9 +21,10 @@ use crate::event::Event;
 use crate::plan::{Key, Plan};
 use crate::record::{Cause, Happening, NodeEnding, Record};
 use crate::settings::Settings;
-use crate::state::{Exit, Micro, Phase, Run, Work};
+use crate::state::{Exit, Phase, Run};
 use crate::time::Time;
 use crate::verifier::Verifier;
+use crate::work::Micro;
 use motet_graph::{NodeId, ROOT, RegionId};
 use std::cmp::Reverse;
 
@@ -112,8 +113,8 @@ impl<'a> Turn<'a> {
             }
             if let Some(Reverse(watch)) = self.run.dirty.pop() {
                 self.judge_watch(watch);
-            } else if let Some(Reverse(work)) = self.run.work.pop() {
-                self.step(work.micro);
+            } else if let Some(micro) = self.run.work.pop() {
+                self.step(micro);
             } else if self.run.freed {
                 self.grant();
             } else {
@@ -172,8 +173,7 @@ impl<'a> Turn<'a> {
             }
             Micro::RegionEnded(region, _) => self.plan.region(region).owner.map_or(0, |owner| owner.0),
         };
-        self.run.order += 1;
-        self.run.work.push(Reverse(Work { place, order: self.run.order, micro }));
+        self.run.work.push(place, micro);
     }
 
     fn report(&mut self, what: Happening) {
@@ -245,6 +245,6 @@ impl<'a> Turn<'a> {
     }
 
     fn region_of(&self, node: NodeId) -> RegionId {
-        self.plan.node(node).region
+        self.plan.step(node).region
     }
 }

@@ -10,8 +10,8 @@ impl Turn<'_> {
     /// Enters a monitor. Its watches are judged before the body's first step is entered.
     pub(super) fn enter_monitor(&mut self, node: NodeId, watches: &[Watch], body: RegionId) {
         let now = self.run.now;
-        let state = self.run.nodes.at_mut(node.index());
-        state.count = 0;
+        let state = self.run.composites.at_mut(node.index());
+        state.pauses = 0;
         state.resuming = None;
         state.body_ended = None;
         for (index, watch) in watches.iter().enumerate() {
@@ -38,7 +38,7 @@ impl Turn<'_> {
             self.run.watches.at_mut(number as usize).paused_at = None;
         }
         self.run.clearing.retain(|clearing| *clearing != node);
-        self.run.nodes.at_mut(node.index()).resuming = None;
+        self.run.composites.at_mut(node.index()).resuming = None;
     }
 
     /// Judges all watches of a monitor before the next step.
@@ -49,14 +49,14 @@ impl Turn<'_> {
     /// By how many suspensions of its own a monitor holds a region that is about to be entered.
     pub(super) fn imposed(&self, owner: NodeId, region: RegionId) -> u32 {
         let NodeKind::Monitor { body, .. } = &self.plan.node(owner).kind else { return 0 };
-        let state = self.run.nodes.at(owner.index());
-        state.count + u32::from(state.resuming.is_some() && *body == region)
+        let state = self.run.composites.at(owner.index());
+        state.pauses + u32::from(state.resuming.is_some() && *body == region)
     }
 
     /// The region of a monitor that a pause holds: the block of a reaction, or else the body.
     pub(super) fn running_part(&self, node: NodeId) -> Option<RegionId> {
         let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return None };
-        let Some(number) = self.run.nodes.at(node.index()).resuming else { return Some(*body) };
+        let Some(number) = self.run.composites.at(node.index()).resuming else { return Some(*body) };
         let (_, index, _) = self.plan.watch(number)?;
         match watches.get(index as usize).map(|watch| &watch.reaction) {
             Some(Reaction::Resume { body, .. }) => Some(*body),
@@ -69,7 +69,7 @@ impl Turn<'_> {
     /// The body is down after a restart was asked for: it starts again.
     pub(super) fn restart(&mut self, node: NodeId) {
         let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
-        let state = self.run.nodes.at_mut(node.index());
+        let state = self.run.composites.at_mut(node.index());
         state.after = After::Nothing;
         state.body_ended = None;
         for index in 0..watches.len() as u32 {
@@ -100,9 +100,9 @@ impl Turn<'_> {
         for index in 0..watches.len() as u32 {
             self.stop_pausing(self.plan.watch_number(node, index));
         }
-        let state = self.run.nodes.at_mut(node.index());
+        let state = self.run.composites.at_mut(node.index());
         state.after = after;
-        state.count = 0;
+        state.pauses = 0;
         state.resuming = None;
         self.run.clearing.retain(|clearing| *clearing != node);
         for region in self.plan.owned(node) {
@@ -120,7 +120,7 @@ impl Turn<'_> {
 
     /// The body ended by itself.
     pub(super) fn body_ended(&mut self, node: NodeId, exit: Exit) {
-        let state = self.run.nodes.at_mut(node.index());
+        let state = self.run.composites.at_mut(node.index());
         if state.resuming.is_some() {
             state.body_ended = Some(exit);
             self.check_clearing();
@@ -133,7 +133,7 @@ impl Turn<'_> {
     pub(super) fn begin_block(&mut self, node: NodeId, number: u32) {
         let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { return };
         self.suspend(*body, Wish::Suspend);
-        self.run.nodes.at_mut(node.index()).resuming = Some(number);
+        self.run.composites.at_mut(node.index()).resuming = Some(number);
         self.run.clearing.push(node);
         self.check_clearing();
     }
@@ -145,7 +145,9 @@ impl Turn<'_> {
         }
         for node in self.run.clearing.clone() {
             let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { continue };
-            if !self.has_goals(*body) {
+            // One that is being stopped runs no block any more.
+            let stopped = self.stopping(self.region_of(node)).is_some();
+            if !stopped && !self.has_goals(*body) {
                 self.run.clearing.retain(|clearing| *clearing != node);
                 if let Some(block) = self.running_part(node) {
                     self.enter_region(block);
@@ -157,7 +159,7 @@ impl Turn<'_> {
     /// A block is over: the body goes on.
     pub(super) fn block_ended(&mut self, node: NodeId, exit: Exit) {
         let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
-        let state = self.run.nodes.at_mut(node.index());
+        let state = self.run.composites.at_mut(node.index());
         let number = state.resuming.take();
         if let Some(body_exit) = state.body_ended.take() {
             let worse = if exit.ending == NodeEnding::Success { body_exit } else { exit };
@@ -168,7 +170,7 @@ impl Turn<'_> {
             self.stop_within(node, After::Exit(exit));
             return;
         }
-        let pauses = state.count;
+        let pauses = state.pauses;
         // Pauses that held the block hold the body now.
         (0..pauses).for_each(|_| self.suspend(*body, Wish::Hold));
         self.go_on(*body);

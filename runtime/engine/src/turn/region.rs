@@ -2,7 +2,8 @@
 
 use super::Turn;
 use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{After, Exit, Micro, Phase};
+use crate::state::{After, Exit, Phase};
+use crate::work::Micro;
 use motet_graph::{Ending, NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
@@ -19,7 +20,7 @@ impl Turn<'_> {
         state.suspended = suspended;
         state.current = entry;
         match entry {
-            Some(node) => self.to_enter(node),
+            Some(node) => self.plan_entry(node),
             None => {
                 let origin = plan.region(region).owner.unwrap_or(NodeId(0));
                 let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin };
@@ -29,7 +30,7 @@ impl Turn<'_> {
     }
 
     /// The work list shall enter a step.
-    pub(super) fn to_enter(&mut self, node: NodeId) {
+    pub(super) fn plan_entry(&mut self, node: NodeId) {
         self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
         self.push(Micro::Enter(node));
     }
@@ -48,12 +49,19 @@ impl Turn<'_> {
             return;
         }
         self.report(Happening::Entered { node });
+        if self.plan.step(node).is_call {
+            self.run.nodes.at_mut(node.index()).count = 1;
+            self.acquire(node);
+        } else {
+            self.enter_other(node);
+        }
+    }
+
+    /// Enters a step that is no call.
+    fn enter_other(&mut self, node: NodeId) {
         self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
         match &self.plan.node(node).kind {
-            NodeKind::Call(_) => {
-                self.run.nodes.at_mut(node.index()).count = 1;
-                self.acquire(node);
-            }
+            NodeKind::Call(_) => {}
             NodeKind::Wait { condition, within_secs } => self.wait(node, condition, *within_secs),
             NodeKind::If { .. } => self.decide(node),
             NodeKind::End { how, of, why } => {
@@ -95,8 +103,8 @@ impl Turn<'_> {
 
     /// A step is over: goes on to the next, or ends the region.
     pub(super) fn node_ended(&mut self, node: NodeId, exit: Exit) {
-        let plan = self.plan;
-        let (region, next) = (plan.node(node).region, plan.node(node).next);
+        let step = self.plan.step(node);
+        let (region, next) = (step.region, step.next);
         self.leave(node);
         self.report(Happening::Ended { node, ending: exit.ending, cause: exit.cause });
         if let Some(cause) = self.stopping(region) {
@@ -138,7 +146,7 @@ impl Turn<'_> {
             }
             return;
         }
-        match self.run.nodes.at(owner.index()).after {
+        match self.run.composites.at(owner.index()).after {
             After::Nothing => self.child_ended(owner, region, exit),
             After::Exit(_) | After::Restart if !self.is_down(owner) => {}
             After::Exit(exit) => self.exit(owner, exit),
@@ -152,7 +160,17 @@ impl Turn<'_> {
     }
 
     /// Forgets what a step kept while it ran.
+    #[inline]
     fn leave(&mut self, node: NodeId) {
+        if self.plan.step(node).is_composite {
+            self.leave_composite(node);
+        }
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = Phase::Idle;
+        state.count = 0;
+    }
+
+    fn leave_composite(&mut self, node: NodeId) {
         match &self.plan.node(node).kind {
             NodeKind::Monitor { watches, .. } => self.leave_monitor(node, watches.len() as u32),
             NodeKind::Each { .. } => {
@@ -165,9 +183,6 @@ impl Turn<'_> {
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }
-        let state = self.run.nodes.at_mut(node.index());
-        state.phase = Phase::Idle;
-        state.after = After::Nothing;
-        state.count = 0;
+        self.run.composites.at_mut(node.index()).after = After::Nothing;
     }
 }

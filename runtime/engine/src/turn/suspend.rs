@@ -2,7 +2,8 @@
 
 use super::Turn;
 use crate::effect::Effect;
-use crate::state::{Micro, Phase, Wish};
+use crate::state::{Phase, Wish};
+use crate::work::Micro;
 use motet_graph::{NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
@@ -91,7 +92,7 @@ impl Turn<'_> {
         let now = self.run.now;
         let state = self.run.nodes.at_mut(node.index());
         match state.phase {
-            Phase::Parked => self.to_enter(node),
+            Phase::Parked => self.plan_entry(node),
             Phase::Suspended => {
                 state.phase = Phase::Entering;
                 self.push(Micro::Acquire(node));

@@ -68,12 +68,12 @@ impl Turn<'_> {
     /// Whether nothing that goes before keeps a watch from firing. What blocks it judges it again when it is over.
     fn may_fire(&self, node: NodeId, number: u32, watch: &Watch) -> bool {
         let region = self.region_of(node);
-        let state = self.run.nodes.at(node.index());
+        let state = self.run.composites.at(node.index());
         if self.stopping(region).is_some() || self.suspended(region) || state.after != After::Nothing {
             return false;
         }
         match &watch.reaction {
-            Reaction::Resume { .. } => state.resuming.is_none() && state.count == 0,
+            Reaction::Resume { .. } => state.resuming.is_none() && state.pauses == 0,
             Reaction::Pause { .. } | Reaction::Restart { .. } | Reaction::End { .. } => {
                 state.resuming != Some(number)
             }
@@ -107,7 +107,7 @@ impl Turn<'_> {
                 }
                 state.paused_at = Some(now);
                 self.run.timers.set(number, now.after(left));
-                self.run.nodes.at_mut(node.index()).count += 1;
+                self.run.composites.at_mut(node.index()).pauses += 1;
                 if let Some(part) = self.running_part(node) {
                     self.suspend(part, Wish::Hold);
                 }
@@ -135,8 +135,8 @@ impl Turn<'_> {
     fn end_pause(&mut self, node: NodeId, number: u32, index: u32) {
         self.stop_pausing(number);
         self.report(Happening::WentOn { node, watch: index });
-        let state = self.run.nodes.at_mut(node.index());
-        state.count = state.count.saturating_sub(1);
+        let state = self.run.composites.at_mut(node.index());
+        state.pauses = state.pauses.saturating_sub(1);
         if let Some(part) = self.running_part(node) {
             self.go_on(part);
         }

@@ -347,3 +347,21 @@ fn one_watch_serves_all_who_need_it() {
         [(0.0, distance(3.0)), (1.0, Done(1)), (2.0, Done(2)),]
     );
 }
+
+#[test]
+fn a_block_that_was_about_to_run_is_dropped_when_its_monitor_is_stopped() {
+    let inner = Step::Monitor(
+        vec![when(near(0.5), React::Resume(1, vec![Step::say("oh")]))],
+        vec![Step::go("table")],
+    );
+    check!(
+        over(vec![when(near(0.2), React::Restart(0))], vec![inner]),
+        [
+            (0.0, distance(3.0)),
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (1.1, distance(0.1)),
+            (1.5, Interrupted(1)),
+        ]
+    );
+}
