@@ -112,7 +112,8 @@ pub(super) fn facts(library: &Library, world: &mut World) {
     // Only objects are on, in or held out to something; furniture, places and people are where they are.
     if let Some(object) = library.names.kinds.get("Object").copied() {
         let entities = teller.world.entities.iter().filter(|(id, ..)| *id != ROBOT);
-        let others = entities.filter(|(.., kind)| !library.is_kind(*kind, object) && !library.is_kind(object, *kind));
+        let others =
+            entities.filter(|(.., kind)| !library.is_kind(*kind, object) && !library.is_kind(object, *kind));
         for entity in others.map(|(id, ..)| id).collect::<Vec<_>>() {
             teller.tell("at", &[Some(entity), None], false);
         }
