@@ -76,6 +76,12 @@ impl Work {
         }
     }
 
+    /// Whether there is none.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.first.is_none() && self.rest.is_empty()
+    }
+
     /// Takes the first transition.
     #[inline]
     pub(crate) fn pop(&mut self) -> Option<Micro> {

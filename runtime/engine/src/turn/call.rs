@@ -208,7 +208,7 @@ impl Turn<'_> {
         state.goal = Some(goal);
         let attempt = state.count;
         self.report(Happening::Started { node, goal, attempt });
-        self.out.push(Effect::Start { goal, node, command, deadline });
+        self.emit(|| Effect::Start { goal, node, command, deadline });
     }
 
     /// The id of a failure; a kind that the graph does not name gets one of its own.

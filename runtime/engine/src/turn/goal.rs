@@ -132,8 +132,10 @@ impl Turn<'_> {
 
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
-        if plan.step(node).is_silent {
-            self.succeed(node);
+        if plan.step(node).is_silent && self.is_quiet() {
+            // The common case, without a detour over the work list.
+            let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node };
+            self.node_ended(node, exit);
             return;
         }
         let Some(call) = plan.call(node) else { return };

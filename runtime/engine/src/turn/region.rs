@@ -165,9 +165,7 @@ impl Turn<'_> {
         if self.plan.step(node).is_composite {
             self.leave_composite(node);
         }
-        let state = self.run.nodes.at_mut(node.index());
-        state.phase = Phase::Idle;
-        state.count = 0;
+        self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
     }
 
     fn leave_composite(&mut self, node: NodeId) {
