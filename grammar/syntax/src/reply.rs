@@ -42,12 +42,12 @@ const DECLARATIONS: &[&str] = &[
 
 /// Finds the document of a text. O(bytes).
 pub(crate) fn locate(text: &str) -> Reply {
+    if text.trim_ascii_start().starts_with('{') {
+        return after_object(text, text.len() - text.trim_ascii_start().len());
+    }
     let mut first_two =
         tokens(text, 0).filter(|token| !matches!(token.kind, TokenKind::Comment | TokenKind::Doc));
     let (Some(first), second) = (first_two.next(), first_two.next()) else { return Reply::Whole };
-    if first.text == "{" {
-        return after_object(text, first.start);
-    }
     if first.text == "[" || is_declaration(first, second) {
         return after_policy(text, first.start);
     }
@@ -71,11 +71,15 @@ pub(crate) fn locate(text: &str) -> Reply {
 /// `policy fetch`: a word of a declaration and what must follow it.
 fn is_declaration(first: Token<'_>, second: Option<Token<'_>>) -> bool {
     let named = second.is_some_and(|token| matches!(token.kind, TokenKind::Word | TokenKind::Quoted));
-    DECLARATIONS.contains(&first.text) && (named || second.is_none())
+    // Facts may begin with anything.
+    first.text == "initially" || DECLARATIONS.contains(&first.text) && (named || second.is_none())
 }
 
 /// A text that begins with an object: prose may follow.
 fn after_object(text: &str, start: usize) -> Reply {
+    if text.trim_ascii_end().ends_with('}') {
+        return Reply::Whole;
+    }
     let Some(end) = object_end(text, start) else { return Reply::Whole };
     let rest = text.get(end..).unwrap_or("").trim_start();
     let is_prose =
@@ -85,7 +89,12 @@ fn after_object(text: &str, start: usize) -> Reply {
 
 /// A text that begins with a declaration: prose without braces may follow the last one.
 fn after_policy(text: &str, start: usize) -> Reply {
-    let Some(end) = text.rfind('}').map(|at| at + 1) else { return Reply::Whole };
+    if text.trim_ascii_end().ends_with('}') {
+        return Reply::Whole;
+    }
+    let closing =
+        tokens(text, start).filter(|token| token.kind == TokenKind::Mark && token.text == "}").last();
+    let Some(end) = closing.map(|token| token.end()) else { return Reply::Whole };
     let mut rest = tokens(text, end);
     let (first, second) = (rest.next(), rest.next());
     let Some(first) = first else { return Reply::Whole };

@@ -1,5 +1,14 @@
 //! Reading policies of both forms.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use motet_syntax::ast::{Item, StepKind};
 use motet_syntax::{FileId, Form, Parsed, Source, read};
 

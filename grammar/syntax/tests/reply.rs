@@ -1,5 +1,14 @@
 //! Documents in a model's reply.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use motet_syntax::ast::Item;
 use motet_syntax::{FileId, Severity, Source, decode, read};
 

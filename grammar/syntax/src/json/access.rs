@@ -1,6 +1,6 @@
 //! How the deserializer hands out the parts of a value: elements, members, fields, variants, places and faults.
 
-use serde::de::value::{StrDeserializer, U32Deserializer};
+use serde::de::value::{StrDeserializer, U128Deserializer};
 use serde::de::{self, DeserializeSeed, Deserializer, IntoDeserializer, Visitor};
 
 use super::de::{Context, OPEN, Value};
@@ -22,6 +22,7 @@ impl<'c, 's> Elements<'c, 's> {
 impl<'de> de::SeqAccess<'de> for Elements<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         if self.at >= self.end {
             return Ok(None);
@@ -32,8 +33,8 @@ impl<'de> de::SeqAccess<'de> for Elements<'_, 'de> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        // Nodes, not elements: an upper bound, kept small since an element is seldom one node.
-        Some(((self.end - self.at) as usize).min(8))
+        let next = |at: &u32| Some(self.context.tree.next(*at));
+        Some(std::iter::successors(Some(self.at), next).take_while(|at| *at < self.end).count())
     }
 }
 
@@ -53,6 +54,7 @@ impl<'c, 's> Members<'c, 's> {
 impl<'de> de::MapAccess<'de> for Members<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
         if self.at >= self.end {
             return Ok(None);
@@ -60,6 +62,7 @@ impl<'de> de::MapAccess<'de> for Members<'_, 'de> {
         seed.deserialize(Value { context: self.context, at: self.at }).map(Some)
     }
 
+    #[inline]
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
         let at = self.at + 1;
         self.at = self.context.tree.next(at);
@@ -83,6 +86,7 @@ impl<'c, 's> Fields<'c, 's> {
 impl<'de> de::MapAccess<'de> for Fields<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
         let Context { tree, sink } = self.members.context;
         while !self.is_open && self.members.at < self.members.end {
@@ -97,6 +101,7 @@ impl<'de> de::MapAccess<'de> for Fields<'_, 'de> {
         self.members.next_key_seed(seed)
     }
 
+    #[inline]
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
         self.members.next_value_seed(seed)
     }
@@ -226,33 +231,29 @@ impl<'de> Deserializer<'de> for Variant<'_, 'de> {
     }
 }
 
-/// A value and its place, for [`super::Spanned`]: the value, then file, start and end.
+/// A value and its place, for [`super::Spanned`]: the value, then the span as one number.
 pub(crate) struct Place<'c, 's> {
     value: Value<'c, 's>,
-    step: u8,
+    has_value: bool,
 }
 
 impl<'c, 's> Place<'c, 's> {
     pub(crate) fn new(value: Value<'c, 's>) -> Self {
-        Self { value, step: 0 }
+        Self { value, has_value: false }
     }
 }
 
 impl<'de> de::SeqAccess<'de> for Place<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
-        let span = self.value.context.tree.span(self.value.at);
-        let number = |number: u32| -> U32Deserializer<Fault> { number.into_deserializer() };
-        self.step += 1;
-        match self.step {
-            1 => seed.deserialize(self.value),
-            2 => seed.deserialize(number(u32::from(span.file.0))),
-            3 => seed.deserialize(number(span.start)),
-            4 => seed.deserialize(number(span.end)),
-            _ => return Ok(None),
+        if !self.has_value {
+            self.has_value = true;
+            return seed.deserialize(self.value).map(Some);
         }
-        .map(Some)
+        let number = super::spanned::pack(self.value.context.tree.span(self.value.at));
+        seed.deserialize(U128Deserializer::<Fault>::new(number)).map(Some)
     }
 }
 
@@ -270,6 +271,7 @@ impl<'c, 's> Recovery<'c, 's> {
 impl<'de> de::SeqAccess<'de> for Recovery<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         match seed.deserialize(self.value) {
             Ok(value) => Ok(Some(value)),

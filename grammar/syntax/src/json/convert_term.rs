@@ -1,7 +1,7 @@
 //! The wire types of conditions and terms to the AST. A string means something else in each place: the text form of a
 //! condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its place.
 
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
 use super::Spanned;
 use super::convert::Converter;
@@ -57,7 +57,7 @@ impl Converter {
             other @ (Term::Text(_) | Term::Form(_)) => {
                 return self.term(Spanned { value: other, span }, depth + 1);
             }
-            Term::Bool(_) | Term::List(_) => return self.wrong(span, "a number of seconds"),
+            Term::Bool(_) | Term::List(_) => return self.wrong(&value, span, "a number of seconds"),
         };
         Expr { kind, span }
     }
@@ -67,12 +67,21 @@ impl Converter {
         match &count.0.value {
             Term::Number(_) | Term::Form(_) => self.term(count.0, depth + 1),
             Term::Text(text) if text.starts_with('$') => self.term(count.0, depth + 1),
-            Term::Text(_) | Term::Bool(_) | Term::List(_) => self.wrong(count.0.span, "a whole number"),
+            Term::Text(_) | Term::Bool(_) | Term::List(_) => {
+                self.wrong(&count.0.value, count.0.span, "a whole number")
+            }
         }
     }
 
-    fn wrong(&mut self, span: Span, expected: &str) -> Expr {
-        self.found.push(WrongType { span, expected: expected.into(), found: "something else".into() }.into());
+    fn wrong(&mut self, found: &Term, span: Span, expected: &str) -> Expr {
+        let found = match found {
+            Term::Bool(value) => format_smolstr!("`{value}`"),
+            Term::Number(value) => format_smolstr!("the number `{value}`"),
+            Term::Text(text) => format_smolstr!("the string `{text}`"),
+            Term::List(_) => "an array".into(),
+            Term::Form(_) => "an object".into(),
+        };
+        self.found.push(WrongType { span, expected: expected.into(), found }.into());
         Expr { kind: ExprKind::Plain(SmolStr::default()), span }
     }
 
@@ -178,8 +187,9 @@ fn duration_help(text: &str) -> String {
 /// `"20 cm"`: a number, perhaps spaces, and a unit.
 pub(crate) fn quantity(text: &str) -> Option<(f64, Unit)> {
     let text = text.trim();
-    let digits = text.find(|c: char| !matches!(c, '0'..='9' | '.' | '-'))?;
-    let (number, unit) = text.split_at_checked(digits)?;
+    let sign = usize::from(text.starts_with('-'));
+    let digits = text.get(sign..).map_or(0, text::token::number);
+    let (number, unit) = text.split_at_checked(sign + digits).filter(|_| digits > 0)?;
     let unit = Unit::parse(unit.trim_start())?;
     let value: f64 = number.parse().ok()?;
     value.is_finite().then_some((value, unit))

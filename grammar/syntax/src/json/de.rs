@@ -19,6 +19,9 @@ use super::{lenient, spanned, term};
 /// In a struct's list of fields: any other key is welcome too.
 pub(crate) const OPEN: &str = "*";
 
+/// An enum whose name begins so is always an object, and is called by its name where it is none.
+pub(crate) const OBJECT: &str = "an object";
+
 /// What all deserializers of one document share.
 pub(crate) struct Context<'s> {
     pub(crate) tree: Tree<'s>,
@@ -56,6 +59,7 @@ impl<'s> Value<'_, 's> {
 impl<'de> Deserializer<'de> for Value<'_, 'de> {
     type Error = Fault;
 
+    #[inline]
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         let Some(node) = self.context.tree.get(self.at) else {
             return Err(Fault::invalid_type(Unexpected::Unit, &visitor));
@@ -82,6 +86,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         .map_err(|fault| fault.or_at(self.at))
     }
 
+    #[inline]
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
         name: &'static str,
@@ -114,7 +119,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
 
     fn deserialize_enum<V: Visitor<'de>>(
         self,
-        _name: &'static str,
+        name: &'static str,
         variants: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Fault> {
@@ -127,6 +132,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
                 };
                 visitor.visit_enum(Variant { context: self.context, object: self.at, key, variants })
             }
+            Some(_) if name.starts_with(OBJECT) => return self.wrong(name),
             Some(Kind::Text(text)) => visitor.visit_enum(text.as_ref().into_deserializer()),
             Some(_) | None => return self.wrong("a string or an object"),
         }

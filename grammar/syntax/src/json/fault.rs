@@ -198,7 +198,7 @@ impl de::Error for Fault {
         Self::unplaced(Reason::Range { found: number, expected })
     }
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
-        let found = format_smolstr!("{length} of them");
+        let found = if length == 1 { "one".into() } else { format_smolstr!("{length}") };
         Self::unplaced(Reason::Type { found, expected: expectation(expected) })
     }
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {

@@ -9,7 +9,7 @@ use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The name by which [`super::de`] knows that faults are to be collected.
-pub(crate) const NAME: &str = "$motet::Lenient";
+pub(crate) const NAME: &str = "$lenient_value";
 
 /// A value, or nothing where it could not be read: then [`super::read`] has an error for it. By any other deserializer
 /// it is as strict as `T`. It is written, and described in a schema, as `T`; nothing is written as `null`.

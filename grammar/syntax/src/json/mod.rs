@@ -83,6 +83,11 @@ fn read_tree<'s, T: Deserialize<'s>>(
     }
     let (tree, mut found) = parse::parse(text, file);
     let Some(tree) = tree else { return (None, None, found) };
+    // So far only duplicate keys, which are not in the tree: the first of the two tells where.
+    for duplicate in &mut found {
+        let first = duplicate.related.first().and_then(|related| related.span);
+        duplicate.path = first.map(|span| tree.pointer_at(span)).unwrap_or_default();
+    }
     let context = de::Context { tree, sink: RefCell::default() };
     let value = match T::deserialize(de::Value { context: &context, at: 0 }) {
         Ok(value) => Some(value),

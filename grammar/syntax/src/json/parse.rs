@@ -8,8 +8,9 @@ use rustc_hash::FxHashSet;
 use super::errors::{DuplicateKey, JsonSyntax, SyntaxFault};
 use super::scan::Scanner;
 use super::tree::{Kind, Node, Tree};
+use crate::ast::MAX_TOKENS;
 use crate::diagnostic::Diagnostic;
-use crate::errors::TooDeep;
+use crate::errors::{TooDeep, TooManyTokens};
 use crate::source::{FileId, Span};
 
 /// Objects with more keys than this look for duplicates in a hash set.
@@ -58,6 +59,10 @@ impl<'s> Parser<'s> {
     fn document(&mut self) -> Step {
         self.scanner.skip_space();
         loop {
+            if self.tree.nodes.len() > MAX_TOKENS {
+                let span = Span::new(self.tree.file, self.scanner.at, self.scanner.at);
+                return Err(Box::new(TooManyTokens { span }.into()));
+            }
             // One value, or the opening of one.
             let opened = self.value()?;
             if !opened {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::source::{FileId, Span};
 
 /// The name by which [`super::de`] knows that a place is asked for.
-pub(crate) const NAME: &str = "$motet::Spanned";
+pub(crate) const NAME: &str = "$spanned";
 
 /// A value and its place in the document. Read by [`super::read`] it has its span; by any other deserializer, or made
 /// by hand, an empty one. It is written, and described in a schema, as the value alone; equality ignores the span.
@@ -86,11 +86,19 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for SpannedVisitor<T> {
         let Some(value) = access.next_element::<T>()? else {
             return Err(serde::de::Error::invalid_length(0, &self));
         };
-        let file = access.next_element::<u16>()?.unwrap_or_default();
-        let start = access.next_element::<u32>()?.unwrap_or_default();
-        let end = access.next_element::<u32>()?.unwrap_or_default();
-        Ok(Spanned { value, span: Span { file: FileId(file), start, end } })
+        let span = access.next_element::<u128>()?.map(unpack).unwrap_or_default();
+        Ok(Spanned { value, span })
     }
+}
+
+/// A span as one number, which is how it passes through serde.
+pub(crate) fn pack(span: Span) -> u128 {
+    (u128::from(span.file.0) << 64) | (u128::from(span.start) << 32) | u128::from(span.end)
+}
+
+fn unpack(packed: u128) -> Span {
+    let bits = |shift: u32| u32::try_from((packed >> shift) & u128::from(u32::MAX)).unwrap_or_default();
+    Span { file: FileId(u16::try_from(bits(64)).unwrap_or_default()), start: bits(32), end: bits(0) }
 }
 
 impl<T: Serialize> Serialize for Spanned<T> {

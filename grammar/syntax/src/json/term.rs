@@ -13,7 +13,7 @@ use super::Spanned;
 use super::wire::Do;
 
 /// The name by which [`super::de`] knows a type that is an enum as an object and a literal otherwise.
-pub(crate) const MIXED: &str = "$motet::Mixed";
+pub(crate) const MIXED: &str = "$mixed";
 
 /// A literal, a binding, or a form.
 #[derive(Clone, PartialEq, Debug)]

@@ -40,8 +40,8 @@ pub type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 
 /// One step; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[schemars(untagged)]
+#[serde(rename = "an object that is a step", rename_all = "lowercase")]
+#[schemars(rename = "Step", untagged)]
 pub enum Step {
     /// A call.
     Do(Do),
@@ -144,8 +144,8 @@ pub struct When {
 
 /// What a monitor does; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[schemars(untagged)]
+#[serde(rename = "an object that is a reaction", rename_all = "lowercase")]
+#[schemars(rename = "Reaction", untagged)]
 pub enum Reaction {
     /// The policy goes on.
     React(React),

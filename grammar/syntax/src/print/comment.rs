@@ -55,6 +55,21 @@ impl<'s> Comments<'s> {
         self.rest.peek().is_some_and(|(start, _)| *start < offset as usize)
     }
 
+    /// Where the documentation of what begins at an offset begins: so many `///` lines before it.
+    pub(super) fn doc_start(&self, offset: u32, lines: usize) -> u32 {
+        let before = self.text.get(..offset as usize).unwrap_or("");
+        let mut lines_before = before.rsplit('\n');
+        let mut start = before.len() - lines_before.next().map_or(0, str::len);
+        let mut missing = lines;
+        while missing > 0 {
+            let Some(line) = lines_before.next() else { break };
+            start = start.saturating_sub(line.len() + 1);
+            let line = line.trim_start();
+            missing -= usize::from(line.starts_with("///") && !line.starts_with("////"));
+        }
+        u32::try_from(start).unwrap_or(offset)
+    }
+
     /// The printer has passed an offset.
     pub(super) fn pass(&mut self, offset: u32) {
         self.at = self.at.max(offset as usize);

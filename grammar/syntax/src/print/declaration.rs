@@ -27,7 +27,7 @@ impl Writer<'_> {
     fn item(&mut self, item: &Item, blank: Blank) {
         let (doc, span) = head(item);
         let doc_lines = if doc.is_empty() { 0 } else { doc.split('\n').count() };
-        self.begin(span.start, blank);
+        self.begin_documented(span.start, doc_lines, blank);
         for line in doc.split('\n').take(doc_lines) {
             self.text.push_str(if line.is_empty() { "///" } else { "/// " });
             self.text.push_str(line);

@@ -76,8 +76,23 @@ fn bare(text: &mut String, expr: &Expr) {
         }
         ExprKind::Call(value) => call(text, value),
         ExprKind::Field(inner, field) => {
-            let is_number =
-                matches!(inner.kind, ExprKind::Number(_) | ExprKind::Quantity(..) | ExprKind::Plain(_));
+            let is_number = match &inner.kind {
+                ExprKind::Number(_) | ExprKind::Quantity(..) => true,
+                ExprKind::Plain(value) => quantity(value).is_some(),
+                ExprKind::Bool(_)
+                | ExprKind::Text(_)
+                | ExprKind::Name(_)
+                | ExprKind::Binding(_)
+                | ExprKind::Any
+                | ExprKind::List(_)
+                | ExprKind::Call(_)
+                | ExprKind::Field(..)
+                | ExprKind::Not(_)
+                | ExprKind::All(_)
+                | ExprKind::AnyOf(_)
+                | ExprKind::Compare(..)
+                | ExprKind::Arith(..) => false,
+            };
             if is_number {
                 text.push('(');
             }

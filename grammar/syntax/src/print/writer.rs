@@ -19,16 +19,25 @@ impl<'s> Writer<'s> {
 
     /// The whole text, with the comments that are left.
     pub(super) fn finish(mut self) -> String {
-        self.leading(u32::MAX, Blank::AsWritten);
+        while let Some((comment, is_apart)) = self.comments.before(u32::MAX) {
+            self.comment(comment, is_apart);
+        }
         self.text
     }
 
     /// Begins the line of something that stands at `offset`: the comments before it, each on its line, and a blank line
     /// where there was one.
     pub(super) fn begin(&mut self, offset: u32, blank: Blank) {
-        self.leading(offset, blank);
+        self.leading(offset, offset, blank);
         self.is_first = false;
         self.start_line();
+    }
+
+    /// [`Self::begin`] of a declaration with so many lines of documentation above it.
+    pub(super) fn begin_documented(&mut self, offset: u32, lines: usize, blank: Blank) {
+        let doc = self.comments.doc_start(offset, lines);
+        self.leading(offset, doc, blank);
+        self.is_first = false;
     }
 
     /// Ends a line whose last thing ends at `offset`, with the comment that follows it there.
@@ -86,13 +95,14 @@ impl<'s> Writer<'s> {
         self.indent = self.indent.saturating_sub(1);
     }
 
-    fn leading(&mut self, offset: u32, blank: Blank) {
+    /// The comments before `offset`, and the blank line before `head`, which is where the thing itself begins.
+    fn leading(&mut self, offset: u32, head: u32, blank: Blank) {
         let mut is_forced = blank == Blank::Always;
         while let Some((comment, is_apart)) = self.comments.before(offset) {
             self.comment(comment, is_apart || is_forced);
             is_forced = false;
         }
-        if offset != u32::MAX && (self.comments.passes_blank(offset) || is_forced) {
+        if self.comments.passes_blank(head) || is_forced {
             self.blank_line();
         }
     }

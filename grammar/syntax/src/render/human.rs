@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 
+use super::excerpt::Excerpt;
 use super::source;
 use crate::diagnostic::{Diagnostic, Related, Severity};
 use crate::source::{Sources, Span};
@@ -47,7 +48,7 @@ struct Report {
     severity: Severity,
     message: String,
     help: Option<String>,
-    source: Option<NamedSource<Arc<str>>>,
+    source: Option<NamedSource<Excerpt>>,
     labels: Vec<LabeledSpan>,
     /// Places in other files.
     elsewhere: Vec<Report>,
@@ -77,7 +78,7 @@ impl Report {
             severity: Severity::Note,
             message: String::new(),
             help: None,
-            source: source.map(|source| NamedSource::new(&source.name, Arc::clone(&source.text))),
+            source: source.map(|source| NamedSource::new(&source.name, Excerpt(Arc::clone(&source.text)))),
             labels: Vec::new(),
             elsewhere: Vec::new(),
         }
@@ -86,7 +87,7 @@ impl Report {
     /// A remark in the same file is a second label; any other is a report of its own below.
     fn relate(&mut self, related: &Related, main: Span, sources: &Sources) {
         match related.span {
-            Some(span) if span.file == main.file => {
+            Some(span) if span.file == main.file && !is_cut(main, sources) && !is_cut(span, sources) => {
                 self.labels.extend(label(span, Some(related.message.clone()), sources));
             }
             Some(span) => {
@@ -104,12 +105,14 @@ impl Report {
     }
 }
 
-/// A label on a place; the text ends it where the span is beyond it.
+/// A label on a place, as much of it as is shown.
 fn label(span: Span, words: Option<String>, sources: &Sources) -> Option<LabeledSpan> {
-    let length = source(sources, span)?.text.len();
-    let start = (span.start as usize).min(length);
-    let end = (span.end as usize).clamp(start, length);
+    let (start, end) = Excerpt::clipped(&source(sources, span)?.text, span.start as usize, span.end as usize);
     Some(LabeledSpan::new(words, start, end - start))
+}
+
+fn is_cut(span: Span, sources: &Sources) -> bool {
+    source(sources, span).is_some_and(|source| Excerpt::is_cut(&source.text, span.start as usize))
 }
 
 impl Display for Report {

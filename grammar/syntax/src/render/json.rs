@@ -53,7 +53,8 @@ pub struct SpanRecord {
 pub struct RelatedRecord {
     /// What is there.
     pub message: String,
-    /// The file; `null` for something outside any file.
+    /// The file, where it is another one than the diagnostic's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// JSON Pointer, as in the diagnostic.
     pub path: String,
@@ -92,7 +93,10 @@ pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
     };
     let related = diagnostic.related.iter().map(|related| RelatedRecord {
         message: related.message.clone(),
-        file: related.span.map(|span| file_name(sources, span).into()),
+        file: related
+            .span
+            .filter(|span| span.file != diagnostic.span.file)
+            .map(|span| file_name(sources, span).into()),
         path: related.path.clone(),
         span: related.span.map(span),
     });

@@ -1,5 +1,6 @@
 //! Diagnostics for people and for tools, one format a file. Nothing here prints: the host writes the text out.
 
+mod excerpt;
 mod github;
 mod human;
 mod json;

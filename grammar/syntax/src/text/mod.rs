@@ -124,7 +124,6 @@ pub(crate) fn is_bare_name(text: &str) -> bool {
 
 /// Whether a text can stand as a name, in back-quotes if need be.
 pub(crate) fn is_name(text: &str) -> bool {
-    !text.is_empty()
-        && !text.starts_with('$')
-        && !text.chars().any(|c| c == '`' || c.is_ascii_control() && c != '\t')
+    let is_barred = |byte: u8| byte == b'`' || byte.is_ascii_control() && byte != b'\t';
+    !text.is_empty() && !text.starts_with('$') && !text.bytes().any(is_barred)
 }

@@ -93,12 +93,15 @@ fn measure(text: &str) -> Option<(TokenKind, usize)> {
     Some(measured)
 }
 
-/// Digits, one fraction, one exponent.
-fn number(text: &str) -> usize {
+/// The length of a number that a text begins with: digits, one fraction, one exponent; 0 where there is none.
+pub(crate) fn number(text: &str) -> usize {
     let digits = |from: usize| {
         text.get(from..).map_or(0, |rest| rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len()))
     };
     let mut length = digits(0);
+    if length == 0 {
+        return 0;
+    }
     let mark = |at: usize| text.as_bytes().get(at).copied();
     if mark(length) == Some(b'.') && digits(length + 1) > 0 {
         length += 1 + digits(length + 1);

@@ -1,0 +1,159 @@
+//! Made conditions and terms.
+
+use smol_str::{SmolStr, format_smolstr};
+
+use super::{Flavor, Maker};
+use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind};
+use crate::unit::{Dimension, Unit};
+
+/// Which strings a JSON term may hold.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Term,
+    /// An argument of a fluent or a measure, where `any` is a word of its own.
+    FluentArg,
+}
+
+impl Maker<'_> {
+    fn expr(&self, kind: ExprKind) -> Expr {
+        Expr { kind, span: self.span() }
+    }
+
+    pub(super) fn condition(&mut self, depth: usize) -> Expr {
+        let leaf = depth == 0;
+        let kind = match self.choice.below(if leaf { 4 } else { 9 }) {
+            0 => ExprKind::Call(self.fluent(depth)),
+            1 => ExprKind::Bool(self.choice.is_heads()),
+            2 => self.bound_or_else(|_| ExprKind::Bool(true)),
+            3 => {
+                let of = Box::new(self.term(0));
+                ExprKind::Field(of, self.choice.word())
+            }
+            4 => ExprKind::Not(Box::new(self.condition(depth - 1))),
+            5 => ExprKind::All(self.some(2, |maker| maker.condition(depth - 1))),
+            6 => ExprKind::AnyOf(self.some(2, |maker| maker.condition(depth - 1))),
+            _ => {
+                use CompareOp::{AtLeast, AtMost, Equal, Less, More, Unequal};
+                let op = self.choice.of(&[Less, Equal, Unequal, AtMost, More, AtLeast], Less);
+                ExprKind::Compare(op, Box::new(self.term(depth - 1)), Box::new(self.term(depth - 1)))
+            }
+        };
+        self.expr(kind)
+    }
+
+    pub(super) fn term(&mut self, depth: usize) -> Expr {
+        self.term_in(Place::Term, depth)
+    }
+
+    fn term_in(&mut self, place: Place, depth: usize) -> Expr {
+        let leaf = depth == 0;
+        let kind = match self.choice.below(if leaf { 7 } else { 11 }) {
+            0 => self.name_in(place),
+            1 => ExprKind::Number(self.choice.number()),
+            2 => self.quantity(),
+            3 => self.literal(),
+            4 => ExprKind::Bool(self.choice.is_heads()),
+            5 => self.bound_or_else(|maker| maker.name_in(place)),
+            6 if place == Place::FluentArg => ExprKind::Any,
+            6 => self.name_in(place),
+            7 => ExprKind::Call(self.fluent(depth - 1)),
+            8 => {
+                let of = Box::new(self.term(depth - 1));
+                ExprKind::Field(of, self.choice.word())
+            }
+            9 => ExprKind::List(self.some(0, |maker| maker.term(depth - 1))),
+            _ => {
+                use ArithOp::{Add, Divide, Multiply, Subtract};
+                let op = self.choice.of(&[Add, Subtract, Multiply, Divide], Add);
+                ExprKind::Arith(op, Box::new(self.term(depth - 1)), Box::new(self.term(depth - 1)))
+            }
+        };
+        self.expr(kind)
+    }
+
+    /// A name that nothing binds; in JSON never `any` where that is a word.
+    fn name_in(&mut self, _place: Place) -> ExprKind {
+        let name = self.choice.name_text();
+        match self.flavor {
+            Flavor::Text => ExprKind::Name(name),
+            Flavor::Json => ExprKind::Plain(name),
+        }
+    }
+
+    fn bound_or_else(&mut self, otherwise: impl FnOnce(&mut Self) -> ExprKind) -> ExprKind {
+        let index = self.choice.below(8);
+        match (self.scope.get(index).cloned(), self.flavor) {
+            (Some(name), Flavor::Text) => ExprKind::Name(name),
+            (Some(name), Flavor::Json) => ExprKind::Binding(name),
+            (None, _) => otherwise(self),
+        }
+    }
+
+    /// A quantity; in JSON a string with a unit that is not the SI one, since that would be a bare number.
+    fn quantity(&mut self) -> ExprKind {
+        let value = self.choice.number();
+        let unit = self.choice.of(Unit::ALL, Unit::Metre);
+        let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(unit);
+        match self.flavor {
+            Flavor::Text => ExprKind::Quantity(value, unit),
+            Flavor::Json if is_si => ExprKind::Number(value),
+            Flavor::Json => {
+                let quantity = self.expr(ExprKind::Quantity(value, unit));
+                ExprKind::Plain(crate::print::expression(&quantity).into())
+            }
+        }
+    }
+
+    /// A text; in JSON one that could be nothing else.
+    fn literal(&mut self) -> ExprKind {
+        let text = self.choice.text();
+        match self.flavor {
+            Flavor::Text => ExprKind::Text(text),
+            Flavor::Json if text.starts_with('$') => ExprKind::Text(text),
+            Flavor::Json => ExprKind::Plain(format_smolstr!("the {text}")),
+        }
+    }
+
+    fn fluent(&mut self, depth: usize) -> Call {
+        self.call_with(Place::FluentArg, depth.saturating_sub(1))
+    }
+
+    pub(super) fn call(&mut self, depth: usize) -> Call {
+        self.call_with(Place::Term, depth)
+    }
+
+    fn call_with(&mut self, place: Place, depth: usize) -> Call {
+        let name = self.choice.word();
+        let count = self.choice.below(3);
+        let args = (0..count).map(|index| self.arg(index, place, depth)).collect();
+        Call { name, args, span: self.span() }
+    }
+
+    fn arg(&mut self, index: usize, place: Place, depth: usize) -> Arg {
+        const KEYS: &[&str] = &["object", "to the", "on"];
+        let key = KEYS.get(index).map_or_else(SmolStr::default, SmolStr::new);
+        let is_named = self.flavor == Flavor::Json || self.choice.is_heads();
+        let name = is_named.then(|| crate::ast::Name { text: key, span: self.span() });
+        Arg { name, value: self.term_in(place, depth), span: self.span() }
+    }
+
+    pub(super) fn duration(&mut self) -> Expr {
+        let unit = self.choice.of(&[Unit::Second, Unit::Millisecond, Unit::Minute, Unit::Hour], Unit::Second);
+        let value = f64::from(u8::try_from(self.choice.below(200)).unwrap_or(0)) / 4.0;
+        let kind = match self.choice.below(3) {
+            0 => ExprKind::Quantity(value, unit),
+            1 => self.bound_or_else(|_| ExprKind::Quantity(value, unit)),
+            _ => ExprKind::Quantity(value, Unit::Second),
+        };
+        self.expr(kind)
+    }
+
+    pub(super) fn count(&mut self) -> Expr {
+        let value = f64::from(u8::try_from(self.choice.below(10)).unwrap_or(0));
+        let kind = match self.choice.below(2) {
+            0 => ExprKind::Number(value),
+            _ => self.bound_or_else(|_| ExprKind::Number(value)),
+        };
+        self.expr(kind)
+    }
+}
