@@ -1,5 +1,7 @@
 //! The fuzzers' seeds, and what once did harm, go through every reader and every stage: none panics or hangs.
 
+use std::path::PathBuf;
+
 use motet_compiler::{Options, Session};
 use motet_syntax::{FileId, Source, Sources, print};
 
@@ -9,8 +11,12 @@ const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus");
 fn every_seed_is_survived() {
     let (session, _) = Session::new(None, &[], None, None, Options::default(), &mut Sources::default());
     let mut seeds = 0;
-    for entry in std::fs::read_dir(CORPUS).unwrap() {
-        let path = entry.unwrap().path();
+    let mut waiting = vec![PathBuf::from(CORPUS)];
+    while let Some(path) = waiting.pop() {
+        if path.is_dir() {
+            waiting.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+            continue;
+        }
         let bytes = std::fs::read(&path).unwrap();
         seeds += 1;
         let Ok(text) = motet_syntax::decode(&bytes, FileId(u16::MAX)) else { continue };

@@ -1,5 +1,7 @@
 //! Both forms of every example say the same: they give the same graph, and each can be turned into the other and back.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
 use std::path::{Path, PathBuf};
 
 use motet_compiler::{Session, settle};
