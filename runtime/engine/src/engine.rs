@@ -1,18 +1,17 @@
 //! The engine: a graph, the state of its run, and one way in.
 
-use crate::belief::{Beliefs, Change};
 use crate::effect::Effect;
 use crate::event::Event;
 use crate::plan::Plan;
-use crate::query::{Pattern, Query};
+use crate::query::Pattern;
 use crate::settings::Settings;
-use crate::start::StartState;
+use crate::start::{self, StartState};
 use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
 use crate::verifier::{LeaveToDriver, Verifier};
-use motet_graph::{BindingId, FactArg, FailureId, Graph, Invalid, Term, Value};
+use motet_graph::{BindingId, FailureId, Graph, Invalid, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -35,7 +34,7 @@ impl Engine {
     pub fn new(graph: Graph, start: &StartState) -> Result<Self, Vec<Invalid>> {
         motet_graph::validate(&graph)?;
         let plan = Plan::new(Arc::new(graph));
-        let beliefs = believe(&plan.graph, start);
+        let beliefs = start::believe(&plan.graph, start);
         let run = Run::new(&plan, beliefs);
         Ok(Self {
             plan: Arc::new(plan),
@@ -104,65 +103,5 @@ impl Engine {
     #[must_use]
     pub fn believes(&self, fluent: &str, args: &[Pattern]) -> Truth {
         self.run.beliefs.fact(fluent, args).0
-    }
-}
-
-/// What is known at the start: first what the compiler was told, then what the host knows.
-fn believe(graph: &Graph, start: &StartState) -> Beliefs {
-    let mut beliefs = Beliefs::new(graph);
-    hear_graph(graph, &mut beliefs);
-    for (id, kind) in &start.entities {
-        let kind = graph.kinds.iter().position(|known| known.name == *kind);
-        beliefs.entities.hear(graph, id, kind.map(|index| motet_graph::KindId(index as u32)));
-    }
-    for (fact, value) in &graph.initial {
-        let Some(fluent) = graph.fluents.get(fact.fluent.index()) else { continue };
-        let args = fact.args.iter().map(|arg| match arg {
-            FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
-            FactArg::Any => Some(Pattern::Any),
-            FactArg::Term(_) => None,
-        });
-        let Some(args) = args.collect::<Option<Vec<_>>>() else { continue };
-        let change =
-            Change { fluent: fluent.name.clone(), args, value: Truth::from(*value), sure: true, rest: false };
-        beliefs.apply(&change, Time::ZERO);
-    }
-    for (query, value) in &start.facts {
-        let Query::Fact { fluent, args } = query else { continue };
-        if beliefs.fluents.contains_key(fluent) {
-            let change = Change {
-                fluent: fluent.clone(),
-                args: args.clone(),
-                value: Truth::from(*value),
-                sure: true,
-                rest: false,
-            };
-            beliefs.apply(&change, Time::ZERO);
-        }
-    }
-    beliefs.changed.clear();
-    beliefs
-}
-
-/// The entities that a graph names.
-fn hear_graph(graph: &Graph, beliefs: &mut Beliefs) {
-    for (fact, _) in &graph.initial {
-        let params = graph.fluents.get(fact.fluent.index()).map_or(&[][..], |fluent| &fluent.params);
-        for (arg, ty) in fact.args.iter().zip(params) {
-            if let FactArg::Term(Term::Literal(value)) = arg {
-                beliefs.entities.hear_value(graph, value, Some(ty));
-            }
-        }
-    }
-    for node in &graph.nodes {
-        if let motet_graph::NodeKind::Call(call) = &node.kind
-            && let Some(primitive) = graph.primitives.get(call.primitive.index())
-        {
-            for (arg, (_, ty)) in call.args.iter().zip(&primitive.params) {
-                if let Term::Literal(value) = arg {
-                    beliefs.entities.hear_value(graph, value, Some(ty));
-                }
-            }
-        }
     }
 }

@@ -1,9 +1,13 @@
-//! What a host knows when a run begins, beside what stands in the graph.
+//! What is known when a run begins: what stands in the graph, and what a host adds.
 
-use crate::query::Query;
+use crate::belief::{Beliefs, Change};
+use crate::query::{Pattern, Query};
+use crate::time::Time;
+use crate::truth::Truth;
+use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, NodeKind, Term, Type, Value};
 use smol_str::SmolStr;
 
-/// What is known at the start. Facts and kinds that the graph does not mention are left out.
+/// What a host knows at the start. Facts and kinds that the graph does not mention are left out.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct StartState {
     /// Facts with their value, in order: a later one wins. Queries that are no facts are ignored.
@@ -11,4 +15,148 @@ pub struct StartState {
     /// Entities with the name of their kind. Effects that quantify over a kind range over these and over every entity
     /// that a graph, a result or an observation names.
     pub entities: Vec<(SmolStr, SmolStr)>,
+}
+
+/// First what the compiler was told, then what the host knows.
+pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
+    let mut beliefs = Beliefs::new(graph);
+    let mut ears = Ears { graph, beliefs: &mut beliefs };
+    // Those that always exist.
+    for (id, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
+        ears.hear(&SmolStr::new_static(id), kind);
+    }
+    start.entities.iter().for_each(|(id, kind)| ears.hear(id, kind));
+    ears.graph();
+    for (fact, value) in &graph.initial {
+        let args = fact.args.iter().map(|arg| match arg {
+            FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
+            FactArg::Any => Some(Pattern::Any),
+            FactArg::Term(_) => None,
+        });
+        let fluent = graph.fluents.get(fact.fluent.index());
+        if let (Some(args), Some(fluent)) = (args.collect::<Option<Vec<_>>>(), fluent) {
+            tell(&mut beliefs, &fluent.name, args, *value);
+        }
+    }
+    for (query, value) in &start.facts {
+        if let Query::Fact { fluent, args } = query
+            && beliefs.fluents.contains_key(fluent)
+        {
+            tell(&mut beliefs, fluent, args.clone(), *value);
+        }
+    }
+    beliefs.changed.clear();
+    beliefs
+}
+
+fn tell(beliefs: &mut Beliefs, fluent: &SmolStr, args: Vec<Pattern>, value: bool) {
+    let change = Change { fluent: fluent.clone(), args, value: Truth::from(value), sure: true, rest: false };
+    beliefs.apply(&change, Time::ZERO);
+}
+
+/// Collects the entities that a graph names, with the kinds that their places say.
+struct Ears<'a> {
+    graph: &'a Graph,
+    beliefs: &'a mut Beliefs,
+}
+
+impl Ears<'_> {
+    fn hear(&mut self, id: &SmolStr, kind: &str) {
+        let kind = self.graph.kinds.iter().position(|known| known.name == kind);
+        self.beliefs.entities.hear(self.graph, id, kind.map(|index| KindId(index as u32)));
+    }
+
+    fn value(&mut self, value: &Value, ty: Option<&Type>) {
+        self.beliefs.entities.hear_value(self.graph, value, ty);
+    }
+
+    fn graph(&mut self) {
+        let graph = self.graph;
+        graph.initial.iter().for_each(|(fact, _)| self.fact(fact));
+        for node in &graph.nodes {
+            match &node.kind {
+                NodeKind::Call(call) => self.call(call),
+                NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => {
+                    self.condition(condition)
+                }
+                NodeKind::Repeat { until, .. } => until.iter().for_each(|until| self.condition(until)),
+                NodeKind::Monitor { watches, .. } => {
+                    watches.iter().for_each(|watch| self.condition(&watch.condition))
+                }
+                NodeKind::Each { list, item, .. } => {
+                    let ty = graph
+                        .bindings
+                        .get(item.index())
+                        .map(|binding| Type::List(Box::new(binding.ty.clone())));
+                    self.term(list, ty.as_ref());
+                }
+                NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::Try { .. } => {}
+                NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
+            }
+        }
+    }
+
+    fn call(&mut self, call: &CallNode) {
+        let primitive = self.graph.primitives.get(call.primitive.index());
+        let params = primitive.map_or(&[][..], |primitive| &primitive.params);
+        for (arg, (_, ty)) in call.args.iter().zip(params) {
+            self.term(arg, Some(ty));
+        }
+        for need in &call.needs {
+            need.when.iter().for_each(|when| self.condition(when));
+            self.condition(&need.condition);
+        }
+        for effect in &call.effects {
+            effect.when.iter().for_each(|when| self.condition(when));
+            self.fact(&effect.fact);
+        }
+        for unsettled in &call.unsettles {
+            unsettled.when.iter().for_each(|when| self.condition(when));
+            self.fact(&unsettled.fact);
+        }
+    }
+
+    fn fact(&mut self, fact: &Fact) {
+        let params = self.graph.fluents.get(fact.fluent.index()).map_or(&[][..], |fluent| &fluent.params);
+        for (arg, ty) in fact.args.iter().zip(params) {
+            if let FactArg::Term(term) = arg {
+                self.term(term, Some(ty));
+            }
+        }
+    }
+
+    fn condition(&mut self, condition: &Condition) {
+        match condition {
+            Condition::Literal(_) => {}
+            Condition::Fact(fact) => self.fact(fact),
+            Condition::Compare(_, left, right) => {
+                self.term(left, None);
+                self.term(right, None);
+            }
+            Condition::Not(inner) => self.condition(inner),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                parts.iter().for_each(|part| self.condition(part))
+            }
+        }
+    }
+
+    fn term(&mut self, term: &Term, ty: Option<&Type>) {
+        match term {
+            Term::Literal(value) => self.value(value, ty),
+            Term::Binding(_) | Term::Each => {}
+            Term::Field(of, _) => self.term(of, None),
+            Term::Measure(id, args) => {
+                let params = self.graph.measures.get(id.index()).map_or(&[][..], |measure| &measure.params);
+                args.iter().zip(params).for_each(|(arg, ty)| self.term(arg, Some(ty)));
+            }
+            Term::List(items) => {
+                let inner = if let Some(Type::List(inner)) = ty { Some(&**inner) } else { None };
+                items.iter().for_each(|item| self.term(item, inner));
+            }
+            Term::Arith(_, left, right) => {
+                self.term(left, None);
+                self.term(right, None);
+            }
+        }
+    }
 }

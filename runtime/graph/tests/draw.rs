@@ -1,5 +1,13 @@
 //! What drawings look like.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{Call, React, Step, When, graph};
 use motet_graph::{Condition, Ending, Graph, draw};

@@ -1,5 +1,13 @@
 //! Properties of graphs: they validate, round trip, hash and draw alike; mutated ones are refused or stay harmless.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use motet_graph::arbitrary::graphs;
 use motet_graph::{NodeId, RegionId, decode, draw, encode, hash, validate};
 use proptest::prelude::*;

@@ -13,6 +13,9 @@ use std::sync::Arc;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct CellId(pub(crate) u32);
 
+/// The most cells that things seen in passing may fill: what nobody asks for is then forgotten.
+const MAX_IN_PASSING: usize = 100_000;
+
 /// What is believed of one query.
 #[derive(Clone, Debug)]
 pub(crate) struct Cell {
@@ -101,6 +104,11 @@ impl Beliefs {
     /// The cell of a query, if somebody asked for it.
     pub(crate) fn find_query(&self, query: &Query) -> Option<CellId> {
         self.find(query_hash(query), |known| known == query)
+    }
+
+    /// Whether a fact that nobody asked for may still be kept.
+    pub(crate) fn has_room(&self) -> bool {
+        self.cells.len() < MAX_IN_PASSING
     }
 
     /// The cell of a query.

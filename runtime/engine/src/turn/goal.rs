@@ -179,15 +179,15 @@ impl Turn<'_> {
     }
 
     fn observed(&mut self, query: Query, answer: Answer) {
-        let known = match &query {
-            Query::Fact { fluent, .. } if self.run.beliefs.fluents.contains_key(fluent) => {
-                self.hear(&query);
-                Some(self.run.beliefs.intern(query))
-            }
-            Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => {
-                self.run.beliefs.find_query(&query)
-            }
-        };
+        let mut known = self.run.beliefs.find_query(&query);
+        if known.is_none()
+            && let Query::Fact { fluent, .. } = &query
+            && self.run.beliefs.fluents.contains_key(fluent)
+            && self.run.beliefs.has_room()
+        {
+            self.hear(&query);
+            known = Some(self.run.beliefs.intern(query));
+        }
         let Some(id) = known else { return };
         self.run.beliefs.observe(id, answer, self.run.now);
         // A reading that was taken afresh counts from now on, also where it reads the same.

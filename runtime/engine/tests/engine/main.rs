@@ -10,6 +10,7 @@
 
 mod calls;
 mod control;
+mod host;
 mod monitors;
 mod random;
 mod script;

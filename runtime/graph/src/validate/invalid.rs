@@ -75,6 +75,9 @@ pub enum Reason {
         /// Its value.
         value: f64,
     },
+    /// A literal that is not finite.
+    #[error("a literal is {0}, which is no finite number")]
+    NotFinite(f64),
     /// A least duration above the greatest.
     #[error("the least duration {least} s is above the greatest {greatest} s")]
     Bounds {
@@ -119,7 +122,7 @@ pub enum Reason {
     /// The variable of a quantified entry in a place where there is none.
     #[error("the variable of `for each` is used where nothing is quantified")]
     Each,
-    /// A quantified entry without its kind.
+    /// A loop over something that is no list.
     #[error("a loop needs a list")]
     NotAList,
     /// A call whose result goes nowhere, or that binds without having a result.

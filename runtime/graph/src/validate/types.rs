@@ -277,7 +277,7 @@ impl Types<'_> {
             Value::Int(_) => Class::Number(None),
             Value::Number(number) => {
                 if !number.is_finite() {
-                    self.say(Reason::Number { what: "a literal", value: *number });
+                    self.say(Reason::NotFinite(*number));
                 }
                 Class::Number(None)
             }
