@@ -1,0 +1,19 @@
+//! The text form: whatever is read prints, and what was printed reads as the same tree and formats to itself.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use motet_syntax::{FileId, Form, Severity, Source, ast, print, read};
+
+fuzz_target!(|text: &str| {
+    let parsed = read(&Source::new("fuzz", text), FileId(0));
+    let is_broken = parsed.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
+    if is_broken || parsed.form == Form::Json {
+        return;
+    }
+    let printed = print::text(&parsed.file);
+    let again = read(&Source::new("printed", printed.as_str()), FileId(0));
+    assert!(again.diagnostics.is_empty(), "{printed}");
+    assert!(ast::same(&parsed.file, &again.file), "{printed}");
+    let formatted = print::format(&Source::new("fuzz", text)).unwrap_or_default();
+    assert_eq!(print::format(&Source::new("fuzz", formatted.as_str())).as_ref(), Ok(&formatted));
+});
