@@ -16,6 +16,7 @@ pub(crate) struct Goals {
 
 impl Goals {
     /// A new goal for a step.
+    #[inline]
     pub(crate) fn open(&mut self, node: NodeId) -> GoalId {
         self.starts += 1;
         let slot = self.free.pop().unwrap_or_else(|| {
@@ -30,6 +31,7 @@ impl Goals {
     }
 
     /// The step of a live goal.
+    #[inline]
     pub(crate) fn node(&self, goal: GoalId) -> Option<NodeId> {
         match self.slots.get(Self::slot(goal)) {
             Some(Some((live, node))) if *live == goal => Some(*node),
@@ -38,6 +40,7 @@ impl Goals {
     }
 
     /// The goal is no longer live.
+    #[inline]
     pub(crate) fn close(&mut self, goal: GoalId) {
         let index = Self::slot(goal);
         if let Some(place) = self.slots.get_mut(index)

@@ -19,17 +19,20 @@ impl Timers {
     }
 
     /// The earliest instant; of equal ones that of the smallest key.
+    #[inline]
     pub(crate) fn next(&self) -> Option<(Time, u32)> {
         self.heap.first().copied()
     }
 
     /// A key's instant.
+    #[inline]
     pub(crate) fn get(&self, key: u32) -> Option<Time> {
         let place = self.places.get(key as usize)?;
         self.heap.get(*place as usize).map(|(at, _)| *at)
     }
 
     /// Sets a key's instant, in place of an earlier one.
+    #[inline]
     pub(crate) fn set(&mut self, key: u32, at: Time) {
         let Some(place) = self.places.get(key as usize).copied() else { return };
         if place == NOWHERE {
@@ -44,6 +47,7 @@ impl Timers {
     }
 
     /// Forgets a key's instant.
+    #[inline]
     pub(crate) fn clear(&mut self, key: u32) {
         let Some(place) = self.places.get_mut(key as usize) else { return };
         let hole = std::mem::replace(place, NOWHERE);

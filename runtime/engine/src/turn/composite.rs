@@ -12,7 +12,7 @@ impl Turn<'_> {
     pub(super) fn child_ended(&mut self, owner: NodeId, region: RegionId, exit: Exit) {
         match &self.plan.node(owner).kind {
             NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
-                self.exit(owner, exit)
+                self.exit_at_once(owner, exit)
             }
             NodeKind::Try { body, handlers } if *body == region => self.handle_failure(owner, handlers, exit),
             NodeKind::Try { .. } => self.exit(owner, exit),

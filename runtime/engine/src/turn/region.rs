@@ -93,6 +93,16 @@ impl Turn<'_> {
         self.push(Micro::NodeEnded(node, exit));
     }
 
+    /// The same from a region's end, which only the work list calls: without a detour over it where nothing else is to be
+    /// done first.
+    pub(super) fn exit_at_once(&mut self, node: NodeId, exit: Exit) {
+        if self.is_quiet() {
+            self.node_ended(node, exit);
+        } else {
+            self.exit(node, exit);
+        }
+    }
+
     pub(super) fn succeed(&mut self, node: NodeId) {
         self.exit(node, Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node });
     }
