@@ -30,6 +30,7 @@ mod fault;
 mod lenient;
 mod parse;
 mod scan;
+mod schema;
 mod spanned;
 pub mod term;
 mod tree;

@@ -6,6 +6,7 @@ mod contract;
 pub mod errors;
 mod explain;
 mod expr;
+mod label;
 mod scan;
 mod step;
 pub(crate) mod token;
