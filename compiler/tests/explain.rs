@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{Options, Session, State, codes};
-use motet_robots::{card, scene};
+use motet_robots::{card, scene, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -75,6 +75,10 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
                     .into_bytes(),
             )
         }
+        ["elements", n] => {
+            let n = count(n)?;
+            Some(format!("<robot>{}{}</robot>", "<a>".repeat(n), "</a>".repeat(n)).into_bytes())
+        }
         ["latin1"] => Some(b"policy cafe { go(caf\xe9) }\n".to_vec()),
         ["scene", n] => {
             let things: Vec<_> =
@@ -121,6 +125,12 @@ impl Case {
         }
     }
 
+    fn urdf(&mut self, text: &[u8]) {
+        if let Some((source, file)) = self.add(text) {
+            self.said.extend(urdf::read(&source, file).1);
+        }
+    }
+
     fn scene(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
             let (scene, said) = scene::read(&source, file);
@@ -163,12 +173,13 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "scene", "state", "domain"].contains(&word) => role = word,
+                    None if ["card", "urdf", "scene", "state", "domain"].contains(&word) => role = word,
                     Some(_) | None => return Err(format!("what is `{word}`?")),
                 }
             }
             match role {
                 "card" => self.card(text, None),
+                "urdf" => self.urdf(&bytes),
                 "scene" => self.scene(&bytes),
                 "state" => self.state(&bytes),
                 _ => {

@@ -1,0 +1,155 @@
+//! Closed form for six turning joints of which the second to fourth are parallel and the last two meet in a point, such
+//! as the arms of Universal Robots and the Unitree Z1: at most eight solutions.
+//!
+//! Turning about the parallel axes leaves components along them alone. The place of the point where the last two axes
+//! meet so gives the first joint, the orientation the fifth and then the sixth; what is left is a planar arm of two
+//! links (after Hawkins 2013, and Elias and Wen 2022, without Denavit–Hartenberg parameters).
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Isometry3, Unit, UnitQuaternion, Vector3};
+
+use super::Tolerance;
+use super::numeric;
+use super::screw::{Screw, drives_each, screws};
+use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
+use crate::kinematics::Chain;
+use crate::trigonometry::turn;
+
+/// The solver of one arm.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ParallelArm {
+    chain: Chain,
+    /// Directions of the six axes at positions 0, in the base's frame.
+    axes: [Vector3<f64>; 6],
+    /// For the parallel joints 1 where they turn with the second axis, −1 where against it.
+    signs: [f64; 3],
+    /// A point on the first axis.
+    first: Vector3<f64>,
+    /// From that point to the second axis, from axis to axis, and from the fourth to where the last two meet.
+    offsets: [Vector3<f64>; 4],
+    /// That point, in the tip's frame.
+    centre_in_tip: Vector3<f64>,
+    /// The tip's rotation at positions 0, in the base's frame.
+    base_from_tip: UnitQuaternion<f64>,
+}
+
+impl ParallelArm {
+    /// The solver, where the chain is of this kind.
+    #[must_use]
+    pub fn detect(chain: &Chain) -> Option<Self> {
+        if chain.joints.iter().any(|joint| joint.slides) || !drives_each(chain) {
+            return None;
+        }
+        let (axes, tip) = screws(chain);
+        let axes = <[Screw; 6]>::try_from(axes).ok()?;
+        let [one, two, three, four, five, six] = &axes;
+        if !two.is_parallel(three) || !two.is_parallel(four) || one.is_parallel(two) || five.is_parallel(four)
+        {
+            return None;
+        }
+        let centre = five.meeting(six)?;
+        let sign = |axis: &Screw| two.direction.dot(&axis.direction).signum();
+        Some(Self {
+            chain: chain.clone(),
+            axes: [one, two, three, four, five, six].map(|axis| axis.direction),
+            signs: [1.0, sign(three), sign(four)],
+            first: one.point,
+            offsets: [
+                two.point - one.point,
+                three.point - two.point,
+                four.point - three.point,
+                centre - four.point,
+            ],
+            centre_in_tip: tip.inverse_transform_vector(&(centre - tip.translation.vector)),
+            base_from_tip: tip.rotation,
+        })
+    }
+
+    /// The chain that it solves.
+    #[must_use]
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// Every solution within the limits, in a fixed order: values of the chain's variables. Where the last axis is
+    /// parallel to the inner three, a family of solutions is stood for by those with the last joint at 0.
+    #[must_use]
+    pub fn solve(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
+        let mut found = Vec::new();
+        for positions in self.positions(base_from_tip) {
+            self.values(&positions, &mut |values| {
+                let values = self.polished(values, base_from_tip);
+                if let Some(values) = values.filter(|values| self.chain.allows(values)) {
+                    found.push(values);
+                }
+            });
+        }
+        found
+    }
+
+    /// Joint positions, up to full turns, regardless of limits.
+    fn positions(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
+        let [h1, h, _, _, h5, h6] = &self.axes;
+        let [to_two, to_three, to_four, to_centre] = &self.offsets;
+        let centre = base_from_tip * nalgebra::Point3::from(self.centre_in_tip);
+        let from_first = centre.coords - self.first;
+        let turned_by = base_from_tip.rotation * self.base_from_tip.inverse();
+        let along = h.dot(&(to_two + to_three + to_four + to_centre));
+        let mut found = Vec::new();
+        // Turning the point back by the first joint is turning it by minus its angle.
+        for q1 in component(h1, &from_first, h, along).into_iter().flatten().map(|angle| -angle) {
+            let back = turn(&Unit::new_unchecked(*h1), -q1);
+            let rotation = back * turned_by;
+            let Some(fifths) = component(h5, h6, h, h.dot(&(rotation * h6))) else { continue };
+            for q5 in fifths {
+                let q6 = angle_between(h6, &(rotation.inverse() * h), &turned(h5, -q5, h));
+                let rest =
+                    rotation * turn(&Unit::new_unchecked(*h6), -q6) * turn(&Unit::new_unchecked(*h5), -q5);
+                let side = h1.cross(h);
+                let sum = angle_between(h, &side, &(rest * side));
+                let planar = back * from_first - to_two - turned(h, sum, to_centre);
+                let planar = planar - h * h.dot(&planar);
+                let (upper, fore) = (to_three - h * h.dot(to_three), to_four - h * h.dot(to_four));
+                // |planar|² = |upper + fore turned by q3|²
+                let c = (planar.norm_squared() - upper.norm_squared() - fore.norm_squared()) / 2.0;
+                let elbows = sum_of_waves(upper.dot(&fore), upper.dot(&h.cross(&fore)), c);
+                for q3 in elbows.into_iter().flatten() {
+                    let q2 = angle_between(h, &(upper + turned(h, q3, &fore)), &planar);
+                    let [_, s3, s4] = self.signs;
+                    found.push([q1, q2, s3 * q3, s4 * (sum - q2 - q3), q5, q6]);
+                }
+            }
+        }
+        found
+    }
+
+    /// All values within the limits that stand for the same positions.
+    fn values(&self, positions: &[f64; 6], each: &mut impl FnMut([f64; 6])) {
+        let options = self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
+        let options: Vec<Vec<f64>> = options
+            .map(|((joint, variable), q)| {
+                let value = (q - joint.driver.offset) / joint.driver.multiplier;
+                within(variable, value % TAU).collect()
+            })
+            .collect();
+        let count: usize = options.iter().map(Vec::len).product();
+        for mut index in 0..count {
+            let mut values = [0.0; 6];
+            for (slot, choices) in values.iter_mut().zip(&options) {
+                *slot = choices.get(index % choices.len()).copied().unwrap_or_default();
+                index /= choices.len();
+            }
+            each(values);
+        }
+    }
+
+    /// The solution as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
+    fn polished(&self, values: [f64; 6], base_from_tip: &Isometry3<f64>) -> Option<[f64; 6]> {
+        if Tolerance::EXACT.covers(&self.chain.base_from_tip(&values), base_from_tip) {
+            return Some(values);
+        }
+        let near = numeric::refined(&self.chain, base_from_tip, &values, 4, Tolerance::EXACT)?;
+        near.try_into().ok()
+    }
+}

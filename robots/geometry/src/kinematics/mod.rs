@@ -1,0 +1,10 @@
+//! Forward kinematics: the tree of a URDF, flattened, and the poses of its links.
+
+mod chain;
+mod forward;
+mod tree;
+
+pub use chain::{Chain, ChainJoint};
+pub use tree::{Tree, UnknownName, Variable};
+
+pub use crate::trigonometry::planar;

@@ -1,0 +1,164 @@
+//! Inverse kinematics: what is found is where it was asked for and within limits, and what is there is found.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    reason = "a test fails by panicking"
+)]
+
+use std::f64::consts::PI;
+
+use motet_geometry::inverse::{LiftArm, ParallelArm, Tolerance, numeric};
+use motet_geometry::kinematics::{Chain, Tree, planar};
+use motet_robots::urdf;
+use motet_syntax::{FileId, Source};
+use proptest::prelude::*;
+
+fn read(text: &str) -> Tree {
+    let (urdf, found) = urdf::read(&Source::new("robot.urdf", text), FileId(0));
+    assert_eq!(found, []);
+    Tree::new(&urdf.unwrap())
+}
+
+fn chain(robot: &str, base: &str, tip: &str) -> Chain {
+    let text =
+        std::fs::read_to_string(format!("{}/../models/{robot}/robot.urdf", env!("CARGO_MANIFEST_DIR")));
+    let tree = read(&text.unwrap());
+    Chain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
+}
+
+fn hsr() -> Chain {
+    chain("hsr", "base_footprint", "hand_palm_link")
+}
+
+fn z1() -> Chain {
+    chain("anymal_z1", "link00", "hand_tip")
+}
+
+fn panda() -> Chain {
+    chain("panda", "panda_link0", "panda_hand_tcp")
+}
+
+/// An arm in the proportions of the UR family: axes 2 to 4 parallel and offset along themselves, limits of two turns.
+fn ur() -> Chain {
+    let link = |n: usize| format!("<link name='l{n}'/>");
+    let joint = |n: usize, xyz: &str, axis: &str| {
+        format!(
+            "<joint name='j{n}' type='revolute'><parent link='l{}'/><child link='l{n}'/><origin xyz='{xyz}'/>
+             <axis xyz='{axis}'/><limit lower='-6.2831853' upper='6.2831853' velocity='1' effort='1'/></joint>",
+            n - 1
+        )
+    };
+    let joints = [
+        joint(1, "0 0 0.16", "0 0 1"),
+        joint(2, "0 0.14 0", "0 1 0"),
+        joint(3, "0.43 -0.12 0", "0 1 0"),
+        joint(4, "0.39 0 0", "0 1 0"),
+        joint(5, "0 0.11 0", "0 0 -1"),
+        joint(6, "0 0 -0.1", "0 1 0"),
+    ];
+    let text = format!("<robot>{}{}</robot>", (0..7).map(link).collect::<String>(), joints.concat());
+    let tree = read(&text);
+    Chain::new(&tree, 0, 6).unwrap()
+}
+
+/// Values of a chain from numbers in 0..1, one each.
+fn spread(chain: &Chain, parts: &[f64]) -> Vec<f64> {
+    let limits = chain.variables.iter().map(|variable| variable.limits.unwrap_or((-PI, PI)));
+    limits.zip(parts).map(|((lower, upper), part)| lower + part * (upper - lower)).collect()
+}
+
+#[test]
+fn closed_forms_are_seen_in_the_axes() {
+    assert!(LiftArm::detect(&hsr()).is_some() && ParallelArm::detect(&hsr()).is_none());
+    assert!(ParallelArm::detect(&z1()).is_some() && LiftArm::detect(&z1()).is_none());
+    assert!(ParallelArm::detect(&ur()).is_some());
+    assert!(ParallelArm::detect(&panda()).is_none() && LiftArm::detect(&panda()).is_none());
+}
+
+/// Each solution is within the limits and at the pose, and one is `values`.
+fn contains(arm: &ParallelArm, values: &[f64]) -> Result<(), TestCaseError> {
+    let wanted = arm.chain().base_from_tip(values);
+    let found = arm.solve(&wanted);
+    for solution in &found {
+        prop_assert!(arm.chain().allows(solution));
+        prop_assert!(Tolerance::EXACT.covers(&arm.chain().base_from_tip(solution), &wanted));
+    }
+    let nearest = found
+        .iter()
+        .map(|solution| solution.iter().zip(values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max));
+    let nearest = nearest.fold(f64::INFINITY, f64::min);
+    prop_assert!(nearest < 1e-5, "{nearest} from {values:?} in {} solutions", found.len());
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn the_hsr_reaches_what_it_reaches(
+        parts in prop::array::uniform5(0.0..=1.0_f64), x in -3.0..3.0_f64, y in -3.0..3.0_f64, yaw in -PI..PI,
+    ) {
+        let arm = LiftArm::detect(&hsr()).unwrap();
+        let values = spread(arm.chain(), &parts);
+        let wanted = planar(x, y, yaw) * arm.chain().base_from_tip(&values);
+        let found = arm.solve(&wanted, yaw, values[1]);
+        for placed in &found {
+            prop_assert!(arm.chain().allows(&placed.values));
+            prop_assert!(Tolerance::EXACT.covers(&arm.map_from_tip(placed), &wanted));
+        }
+        // Where the wrist is stretched only the sum of its outer angles counts.
+        prop_assume!(values[3].sin().abs() > 1e-3);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        prop_assert!(found.iter().any(|placed| {
+            near(placed.base[0], x) && near(placed.base[1], y) && near(placed.base[2], yaw)
+                && placed.values.iter().zip(&values).all(|(a, b)| near(*a, *b))
+        }), "{values:?} is not among {found:?}");
+    }
+
+    #[test]
+    fn the_z1_finds_every_way_back(parts in prop::array::uniform6(0.0..=1.0_f64)) {
+        let arm = ParallelArm::detect(&z1()).unwrap();
+        let values = spread(arm.chain(), &parts);
+        // At the singularity, where the last axis is parallel to the inner three, a family is stood for by one.
+        prop_assume!((PI / 2.0 - values[4].abs()).abs() > 1e-3);
+        contains(&arm, &values)?;
+    }
+
+    #[test]
+    fn a_ur_finds_every_way_back(parts in prop::array::uniform6(0.0..=1.0_f64)) {
+        let arm = ParallelArm::detect(&ur()).unwrap();
+        let values = spread(arm.chain(), &parts);
+        prop_assume!(values[4].sin().abs() > 1e-3);
+        contains(&arm, &values)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_arm_is_solved_by_steps(parts in prop::array::uniform7(0.02..0.98_f64)) {
+        let chain = panda();
+        let wanted = chain.base_from_tip(&spread(&chain, &parts));
+        let middle = spread(&chain, &[0.5; 7]);
+        let found = numeric::solve(&chain, &wanted, &middle, numeric::Settings::default());
+        let found = found.expect("reachable");
+        prop_assert!(chain.allows(&found));
+        prop_assert!(Tolerance::EXACT.covers(&chain.base_from_tip(&found), &wanted));
+    }
+}
+
+#[test]
+fn what_is_out_of_reach_is_not_found() {
+    let chain = panda();
+    let far = nalgebra::Isometry3::translation(3.0, 0.0, 0.0);
+    assert_eq!(
+        numeric::solve(&chain, &far, &[0.0; 7], numeric::Settings { starts: 5, ..Default::default() }),
+        None
+    );
+    assert!(ParallelArm::detect(&z1()).unwrap().solve(&far).is_empty());
+    let high = nalgebra::Isometry3::translation(0.0, 0.0, 3.0);
+    assert!(LiftArm::detect(&hsr()).unwrap().solve(&high, 0.0, -1.0).is_empty());
+}

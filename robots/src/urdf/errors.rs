@@ -1,0 +1,155 @@
+//! What can be wrong with a URDF (M0451 to M0470).
+
+use motet_syntax::suggest::one_of;
+use motet_syntax::{Related, Span};
+
+use super::document::Part;
+
+motet_syntax::mistakes! {
+    pub const CODES;
+
+    /// The text is not XML.
+    NotXml("M0451", Error) { problem: String }
+    message(m) { format!("this is not XML: {}", m.problem) }
+    help(_m) { Some("a URDF is an XML document whose root element is `<robot>`".to_owned()) }
+
+    /// More elements, or more levels of them, than a description may have.
+    TooMuch("M0452", Error) { what: &'static str, limit: usize }
+    message(m) { format!("the description has more than {} {}", m.limit, m.what) }
+    help(_m) { Some("a robot needs five levels and some thousand elements: is this the right file?".to_owned()) }
+
+    /// XML, but of something else.
+    NotUrdf("M0453", Error) { found: String }
+    message(m) { format!("the root element is `<{}>`, a URDF starts with `<robot>`", m.found) }
+
+    /// A macro that was not expanded.
+    LeftoverXacro("M0454", Error) { text: String }
+    message(m) { format!("`{}` belongs to xacro, which this file has still to be put through", m.text) }
+    help(_m) { Some("run `xacro robot.urdf.xacro > robot.urdf` and give the result".to_owned()) }
+
+    /// An element without something that it needs.
+    MissingPart("M0455", Error) { element: String, name: String, part: &'static str, kind: Part }
+    message(m) {
+        let element = if m.name.is_empty() {
+            format!("`<{}>`", m.element)
+        } else {
+            format!("{} `{}`", m.element, m.name)
+        };
+        match m.kind {
+            Part::Attribute => format!("{element} has no `{}`", m.part),
+            Part::Element => format!("{element} has no `<{}>`", m.part),
+        }
+    }
+    help(m) {
+        Some(match m.kind {
+            Part::Attribute => format!("add `{}=\"…\"`", m.part),
+            Part::Element => format!("add `<{} …/>`", m.part),
+        })
+    }
+
+    /// A value that is not the number, or not the three numbers, that it has to be.
+    BadNumber("M0456", Error) { key: &'static str, text: String, wanted: &'static str }
+    message(m) { format!("`{}` is `{}`, and must be {}", m.key, m.text.escape_debug(), m.wanted) }
+    help(_m) { Some("write decimal numbers with a point, with spaces between them".to_owned()) }
+
+    /// A number that no robot can have.
+    ImpossibleNumber("M0457", Error) { key: &'static str, actual: f64, wanted: &'static str }
+    message(m) { format!("`{}` is {}, and must be {}", m.key, m.actual, m.wanted) }
+
+    /// Two links, or two joints, of one name.
+    TakenName("M0458", Error) { what: &'static str, name: String, first: Span }
+    message(m) { format!("there are two {}s `{}`", m.what, m.name.escape_debug()) }
+    help(m) { Some(format!("give each {} a name of its own", m.what)) }
+    related(m) { vec![Related::new("the first is here", m.first)] }
+
+    /// A joint between links that are not there.
+    UnknownLink("M0459", Error) { link: String, near: Option<String> }
+    message(m) { format!("there is no link `{}`", m.link.escape_debug()) }
+    help(m) { Some(near_or(m.near.as_deref(), || format!("add `<link name=\"{}\"/>`", m.link))) }
+
+    /// A link that two joints move.
+    TwoParents("M0460", Error) { link: String, joint: String, other: String, first: Span }
+    message(m) { format!("link `{}` is the child of joint `{}` and of joint `{}`", m.link, m.other, m.joint) }
+    help(_m) { Some("a URDF is a tree: leave out one of the joints, or let it end in a link of its own".to_owned()) }
+    related(m) { vec![Related::new(format!("joint `{}` is here", m.other), m.first)] }
+
+    /// Links that hang on each other in a ring.
+    LinkCycle("M0461", Error) { chain: Vec<String> }
+    message(m) {
+        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{name}`")).collect();
+        format!("links hang on each other in a ring: {}", chain.join(", "))
+    }
+    help(_m) { Some("a URDF is a tree: leave out one of the joints".to_owned()) }
+
+    /// Links that nothing joins.
+    SeveralRoots("M0462", Error) { link: String, first: String, place: Span }
+    message(m) { format!("nothing joins link `{}` to link `{}`", m.link, m.first) }
+    help(m) { Some(format!("add a joint that ends in `{}`, or leave the link out", m.link)) }
+    related(m) { vec![Related::new(format!("`{}` is here", m.first), m.place)] }
+
+    /// A kind of joint that URDF does not have.
+    UnknownJointType("M0463", Error) { word: String, near: Option<String>, known: Vec<&'static str> }
+    message(m) { format!("there are no joints of the type `{}`", m.word.escape_debug()) }
+    help(m) { Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(m.known.iter().copied())))) }
+
+    /// An axis without a direction.
+    ZeroAxis("M0464", Error) { joint: String }
+    message(m) { format!("the axis of joint `{}` has length 0, so it has no direction", m.joint) }
+    help(_m) { Some("write a direction such as `0 0 1`".to_owned()) }
+
+    /// Limits that leave no position.
+    EmptyLimits("M0465", Error) { joint: String, lower: f64, upper: f64 }
+    message(m) { format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint, m.lower, m.upper) }
+    help(_m) { Some("swap them".to_owned()) }
+
+    /// A joint that follows one that is not there, or that has no single position.
+    UnknownMimic("M0466", Error) { joint: String, leader: String, near: Option<String>, is_joint: bool }
+    message(m) {
+        if m.is_joint {
+            format!("joint `{}` follows `{}`, whose position is not one number", m.joint, m.leader)
+        } else {
+            format!("joint `{}` follows `{}`, which is no joint", m.joint, m.leader.escape_debug())
+        }
+    }
+    help(m) {
+        Some(near_or(m.near.as_deref(), || "name a revolute, continuous or prismatic joint".to_owned()))
+    }
+
+    /// Joints that follow each other in a ring.
+    MimicCycle("M0467", Error) { chain: Vec<String> }
+    message(m) {
+        match m.chain.as_slice() {
+            [alone] => format!("joint `{alone}` follows itself"),
+            chain => {
+                let chain: Vec<String> = chain.iter().map(|name| format!("`{name}`")).collect();
+                format!("joints follow each other in a ring: {}", chain.join(", "))
+            }
+        }
+    }
+    help(_m) { Some("one of them has to move by itself: leave out its `<mimic>`".to_owned()) }
+
+    /// A joint that is not moved.
+    HeldJoint("M0468", Warning) { joint: String }
+    message(m) { format!("joint `{}` is floating, and is held at its origin", m.joint) }
+    help(_m) { Some("the robot's card says how its base drives".to_owned()) }
+
+    /// A shape that URDF does not have, or none, or several at once.
+    BadShape("M0469", Error) { found: String, near: Option<String> }
+    message(m) {
+        if m.found.is_empty() {
+            "the geometry has no shape".to_owned()
+        } else {
+            format!("there is no shape `{}`", m.found.escape_debug())
+        }
+    }
+    help(m) { Some(near_or(m.near.as_deref(), || format!("possible here: {}", one_of(super::shape::WORDS)))) }
+
+    /// A description without a body.
+    NoLink("M0470", Error) {}
+    message(_m) { "the robot has no link".to_owned() }
+    help(_m) { Some("add `<link name=\"base_link\"/>`".to_owned()) }
+}
+
+fn near_or(near: Option<&str>, otherwise: impl FnOnce() -> String) -> String {
+    near.map_or_else(otherwise, |near| format!("did you mean `{near}`?"))
+}

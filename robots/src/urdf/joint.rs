@@ -1,0 +1,130 @@
+//! One joint: its kind, axis, limits and mimic rule. What its names refer to is settled in [`super::tree`].
+
+use motet_syntax::{Span, suggest};
+use roxmltree::Node;
+
+use super::document::{Part, child};
+use super::errors::{EmptyLimits, HeldJoint, UnknownJointType, ZeroAxis};
+use super::model::{JointKind, Limits, Pose};
+use super::number::Numbers;
+
+/// A name and where it stands.
+pub(super) type Named<'a> = (&'a str, Span);
+
+/// A joint whose names are not looked up yet.
+pub(super) struct RawJoint<'a> {
+    pub(super) name: Named<'a>,
+    pub(super) kind: JointKind,
+    pub(super) parent: Named<'a>,
+    pub(super) child: Named<'a>,
+    pub(super) parent_from_joint: Pose,
+    pub(super) axis: [f64; 3],
+    pub(super) limits: Option<Limits>,
+    pub(super) velocity: Option<f64>,
+    pub(super) mimic: Option<RawMimic<'a>>,
+}
+
+/// A mimic rule whose leader is not looked up yet.
+pub(super) struct RawMimic<'a> {
+    pub(super) leader: Named<'a>,
+    pub(super) multiplier: f64,
+    pub(super) offset: f64,
+}
+
+impl Numbers {
+    /// A joint; `None` where a part is missing without which it means nothing.
+    pub(super) fn joint<'a>(&mut self, node: Node<'a, '_>, name: Named<'a>) -> Option<RawJoint<'a>> {
+        let kind = self.kind(node);
+        let parent = self.end(node, "parent");
+        let child_link = self.end(node, "child");
+        let parent_from_joint = self.origin(node);
+        let (kind, parent, child_link) = (kind?, parent?, child_link?);
+        let axis = self.axis(node, name.0, kind);
+        let (limits, velocity) = self.limits(node, name.0, kind);
+        let mimic = child(node, "mimic").filter(|_| kind.has_one_position());
+        let mimic = mimic.and_then(|mimic| self.mimic(mimic));
+        if kind == JointKind::Floating {
+            self.found.push(HeldJoint { span: name.1, joint: name.0.to_owned() }.into());
+        }
+        Some(RawJoint {
+            name,
+            kind,
+            parent,
+            child: child_link,
+            parent_from_joint,
+            axis,
+            limits,
+            velocity,
+            mimic,
+        })
+    }
+
+    fn kind(&mut self, node: Node<'_, '_>) -> Option<JointKind> {
+        let (word, span) = self.places.required(node, "type", &mut self.found)?;
+        let known = JointKind::WORDS.iter().find(|(known, _)| *known == word);
+        if known.is_none() {
+            let known: Vec<_> = JointKind::WORDS.iter().map(|(known, _)| *known).collect();
+            let near = suggest::closest(word, known.iter().copied()).map(str::to_owned);
+            self.found.push(UnknownJointType { span, word: word.to_owned(), near, known }.into());
+        }
+        known.map(|(_, kind)| *kind)
+    }
+
+    fn end<'a>(&mut self, node: Node<'a, '_>, part: &'static str) -> Option<Named<'a>> {
+        let Some(end) = child(node, part) else {
+            self.found.push(self.places.missing(node, part, Part::Element));
+            return None;
+        };
+        self.places.required(end, "link", &mut self.found)
+    }
+
+    /// The axis at length 1; x where the file gives none, as URDF says.
+    fn axis(&mut self, node: Node<'_, '_>, joint: &str, kind: JointKind) -> [f64; 3] {
+        const X: [f64; 3] = [1.0, 0.0, 0.0];
+        if matches!(kind, JointKind::Fixed | JointKind::Floating) {
+            return X;
+        }
+        let Some(axis) = child(node, "axis") else { return X };
+        let xyz = self.triple(axis, "xyz", X);
+        let norm = xyz.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if norm < 1e-9 {
+            let span = self.places.attribute(axis, "xyz").map_or(self.places.tag(axis), |(_, span)| span);
+            self.found.push(ZeroAxis { span, joint: joint.to_owned() }.into());
+            return X;
+        }
+        xyz.map(|value| value / norm)
+    }
+
+    /// Position limits and the greatest speed, from `<limit>`. `<safety_controller>` is passed over: its soft limits
+    /// belong to a controller, and files leave them at zero.
+    fn limits(&mut self, node: Node<'_, '_>, joint: &str, kind: JointKind) -> (Option<Limits>, Option<f64>) {
+        let needed = matches!(kind, JointKind::Revolute | JointKind::Prismatic);
+        let Some(limit) = child(node, "limit") else {
+            if needed {
+                self.found.push(self.places.missing(node, "limit", Part::Element));
+            }
+            return (None, None);
+        };
+        let velocity =
+            self.limit(limit, "velocity").map(|(velocity, _)| velocity).filter(|speed| *speed > 0.0);
+        if !needed {
+            return (None, velocity);
+        }
+        // URDF takes a bound that is not written as 0.
+        let (lower, upper) = (self.limit(limit, "lower"), self.limit(limit, "upper"));
+        let span = lower.or(upper).map_or(self.places.tag(limit), |(_, span)| span);
+        let (lower, upper) = (lower.map_or(0.0, |(value, _)| value), upper.map_or(0.0, |(value, _)| value));
+        if lower > upper {
+            self.found.push(EmptyLimits { span, joint: joint.to_owned(), lower, upper }.into());
+            return (None, velocity);
+        }
+        (Some(Limits { lower, upper }), velocity)
+    }
+
+    fn mimic<'a>(&mut self, node: Node<'a, '_>) -> Option<RawMimic<'a>> {
+        let leader = self.places.required(node, "joint", &mut self.found)?;
+        let multiplier = self.scalar(node, "multiplier").unwrap_or(1.0);
+        let offset = self.scalar(node, "offset").unwrap_or(0.0);
+        Some(RawMimic { leader, multiplier, offset })
+    }
+}

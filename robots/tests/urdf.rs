@@ -1,0 +1,371 @@
+//! URDFs: published ones and our own are read as another reader reads them, every mistake is told at its place, and no
+//! text makes the reader panic.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::string_slice,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    reason = "a test fails by panicking"
+)]
+
+use std::path::{Path, PathBuf};
+
+use motet_robots::urdf::{self, JointKind, Shape, Urdf, mesh};
+use motet_syntax::{Diagnostic, FileId, Source};
+use proptest::prelude::*;
+
+/// A URDF without a mistake.
+const GOOD: &str = r#"<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"><collision><geometry><box size="1 2 3"/></geometry></collision></link>
+  <link name="upper"/>
+  <link name="tip"/>
+  <joint name="lift" type="prismatic">
+    <parent link="base"/><child link="upper"/>
+    <origin xyz="0 0 0.5" rpy="0 0 1.57"/>
+    <axis xyz="0 0 2"/>
+    <limit lower="-0.1" upper="0.4" velocity="0.2" effort="1"/>
+    <safety_controller soft_lower_limit="0" soft_upper_limit="0" k_velocity="0"/>
+  </joint>
+  <joint name="follow" type="revolute">
+    <parent link="upper"/><child link="tip"/>
+    <axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" velocity="1" effort="1"/>
+    <mimic joint="lift" multiplier="0.5" offset="0.1"/>
+  </joint>
+</robot>
+"#;
+
+fn read(text: &str) -> (Option<Urdf>, Vec<Diagnostic>, Source) {
+    let source = Source::new("robot.urdf", text);
+    let (robot, found) = urdf::read(&source, FileId(0));
+    (robot, found, source)
+}
+
+/// `GOOD` with `from` replaced by `to` says exactly this: lines of `CODE [text under the span] message / help`.
+fn check(from: &str, to: &str, expected: &[&str]) {
+    assert_eq!(GOOD.matches(from).count(), 1, "`{from}` must stand once in the URDF");
+    told(&GOOD.replacen(from, to, 1), expected);
+}
+
+fn told(text: &str, expected: &[&str]) {
+    let (robot, found, source) = read(text);
+    let told: Vec<String> = found
+        .iter()
+        .map(|found| {
+            let help = found.help.as_ref().map(|help| format!(" / {help}")).unwrap_or_default();
+            format!("{} [{}] {}{help}", found.code, source.slice(found.span), found.message)
+        })
+        .collect();
+    assert_eq!(told, expected);
+    assert_eq!(robot.is_some(), !told.iter().any(|line| !line.starts_with("M0468")));
+}
+
+#[test]
+fn a_good_urdf_is_read() {
+    let (robot, found, _) = read(GOOD);
+    assert_eq!(found, []);
+    let robot = robot.unwrap();
+    assert_eq!((robot.name.as_str(), robot.root), ("arm", 0));
+    let [lift, follow] = robot.joints.as_slice() else { panic!("two joints") };
+    assert_eq!((lift.kind, lift.axis), (JointKind::Prismatic, [0.0, 0.0, 1.0]));
+    let limits = lift.limits.unwrap();
+    assert_eq!((limits.lower, limits.upper), (-0.1, 0.4), "from `<limit>`, not from the safety controller");
+    let mimic = follow.mimic.unwrap();
+    assert_eq!((mimic.joint, mimic.multiplier, mimic.offset), (0, 0.5, 0.1));
+    assert_eq!(robot.links[0].collisions[0].shape, Shape::Box([1.0, 2.0, 3.0]));
+}
+
+#[test]
+fn numbers_have_to_be_numbers() {
+    check(
+        "0 0 0.5",
+        "abc 1 2 3",
+        &[
+            "M0456 [abc 1 2 3] `xyz` is `abc 1 2 3`, and must be three numbers / write decimal numbers with a point, with spaces between them",
+        ],
+    );
+    check(
+        "0 0 1.57",
+        "0 0",
+        &[
+            "M0456 [0 0] `rpy` is `0 0`, and must be three numbers / write decimal numbers with a point, with spaces between them",
+        ],
+    );
+    check("0 0 1.57", "0 NaN 0", &["M0457 [0 NaN 0] `rpy` is NaN, and must be a finite number"]);
+    check("0 0 0.5", "0 0 5e7", &["M0457 [0 0 5e7] `xyz` is 50000000, and must be at most a million"]);
+    check(
+        "0 0 2",
+        "0 0 0",
+        &[
+            "M0464 [0 0 0] the axis of joint `lift` has length 0, so it has no direction / write a direction such as `0 0 1`",
+        ],
+    );
+    check("1 2 3", "1 -2 3", &["M0457 [1 -2 3] `size` is -2, and must be zero or more"]);
+    check(
+        r#"lower="-0.1""#,
+        r#"lower="0.5""#,
+        &["M0465 [0.5] the lower limit of joint `lift` is 0.5, above the upper, 0.4 / swap them"],
+    );
+    check(r#"lower="-0.1""#, r#"lower="inf""#, &["M0457 [inf] `lower` is inf, and must be a finite number"]);
+}
+
+#[test]
+fn parts_have_to_be_there() {
+    check(
+        r#"<box size="1 2 3"/>"#,
+        "<sphere/>",
+        &["M0455 [<sphere] `<sphere>` has no `radius` / add `radius=\"…\"`"],
+    );
+    check(
+        r#"<box size="1 2 3"/>"#,
+        "",
+        &[
+            "M0469 [<geometry] the geometry has no shape / possible here: `box`, `cylinder`, `sphere`, `capsule` or `mesh`",
+        ],
+    );
+    check(
+        r#"<box size="1 2 3"/>"#,
+        "<bok/>",
+        &["M0469 [<bok] there is no shape `bok` / did you mean `box`?"],
+    );
+    check(
+        r#"<parent link="base"/>"#,
+        "",
+        &["M0455 [<joint] joint `lift` has no `<parent>` / add `<parent …/>`"],
+    );
+    check(
+        r#"type="prismatic""#,
+        r#"type="prismtic""#,
+        &["M0463 [prismtic] there are no joints of the type `prismtic` / did you mean `prismatic`?"],
+    );
+    check(
+        "<limit lower=\"-0.1\" upper=\"0.4\" velocity=\"0.2\" effort=\"1\"/>",
+        "",
+        &["M0455 [<joint] joint `lift` has no `<limit>` / add `<limit …/>`"],
+    );
+    check(
+        r#"<robot name="arm">"#,
+        "<robot name=\"arm\"><link/>",
+        &["M0455 [<link] `<link>` has no `name` / add `name=\"…\"`"],
+    );
+}
+
+#[test]
+fn links_have_to_form_a_tree() {
+    check(
+        r#"<child link="tip"/>"#,
+        r#"<child link="tipp"/>"#,
+        &["M0459 [tipp] there is no link `tipp` / did you mean `tip`?"],
+    );
+    check(
+        r#"<child link="tip"/>"#,
+        r#"<child link="upper"/>"#,
+        &[
+            "M0460 [upper] link `upper` is the child of joint `lift` and of joint `follow` / a URDF is a tree: leave out one of the joints, or let it end in a link of its own",
+        ],
+    );
+    check(
+        r#"<parent link="base"/>"#,
+        r#"<parent link="tip"/>"#,
+        &[
+            "M0461 [upper] links hang on each other in a ring: `upper`, `tip` / a URDF is a tree: leave out one of the joints",
+        ],
+    );
+    check(
+        r#"<link name="tip"/>"#,
+        r#"<link name="tip"/><link name="lost"/>"#,
+        &[
+            "M0462 [lost] nothing joins link `lost` to link `base` / add a joint that ends in `lost`, or leave the link out",
+        ],
+    );
+    check(
+        r#"<link name="tip"/>"#,
+        r#"<link name="tip"/><link name="base"/>"#,
+        &["M0458 [base] there are two links `base` / give each link a name of its own"],
+    );
+    check(
+        r#"name="follow""#,
+        r#"name="lift""#,
+        &["M0458 [lift] there are two joints `lift` / give each joint a name of its own"],
+    );
+    told("<robot name='x'/>", &["M0470 [<robot] the robot has no link / add `<link name=\"base_link\"/>`"]);
+}
+
+#[test]
+fn mimics_have_to_end_somewhere() {
+    check(
+        r#"<mimic joint="lift""#,
+        r#"<mimic joint="follow""#,
+        &[
+            "M0467 [follow] joint `follow` follows itself / one of them has to move by itself: leave out its `<mimic>`",
+        ],
+    );
+    check(
+        r#"<mimic joint="lift""#,
+        r#"<mimic joint="lifts""#,
+        &["M0466 [lifts] joint `follow` follows `lifts`, which is no joint / did you mean `lift`?"],
+    );
+    check(
+        "<axis xyz=\"0 0 2\"/>",
+        "<axis xyz=\"0 0 2\"/><mimic joint=\"follow\"/>",
+        &[
+            "M0467 [follow] joints follow each other in a ring: `lift`, `follow` / one of them has to move by itself: leave out its `<mimic>`",
+        ],
+    );
+}
+
+#[test]
+fn what_is_no_urdf_is_told() {
+    told(
+        "<robot>",
+        &[
+            "M0451 [] this is not XML: the root node was opened but never closed / a URDF is an XML document whose root element is `<robot>`",
+        ],
+    );
+    told("<sdf/>", &["M0453 [<sdf] the root element is `<sdf>`, a URDF starts with `<robot>`"]);
+    let help = "run `xacro robot.urdf.xacro > robot.urdf` and give the result";
+    check(
+        "0 0 0.5",
+        "0 0 ${height}",
+        &[&format!(
+            "M0454 [0 0 ${{height}}] `0 0 ${{height}}` belongs to xacro, which this file has still to be put through / {help}"
+        )],
+    );
+    let macros = "<robot name='a' xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:include filename='x'/><link name='a'/></robot>";
+    told(
+        macros,
+        &[&format!(
+            "M0454 [<xacro:include] `xacro:include` belongs to xacro, which this file has still to be put through / {help}"
+        )],
+    );
+    told(
+        "<robot><xacro:arm/></robot>",
+        &[&format!(
+            "M0454 [] `xacro:` belongs to xacro, which this file has still to be put through / {help}"
+        )],
+    );
+    let entity = "<!DOCTYPE robot [<!ENTITY a 'b'>]><robot><link name='&a;'/></robot>";
+    assert_eq!(read(entity).1[0].code.0, "M0451");
+}
+
+#[test]
+fn a_floating_joint_is_held() {
+    let text = "<robot><link name='world'/><link name='base'/><joint name='free' type='floating'><parent link='world'/><child link='base'/></joint></robot>";
+    told(
+        text,
+        &[
+            "M0468 [free] joint `free` is floating, and is held at its origin / the robot's card says how its base drives",
+        ],
+    );
+}
+
+#[test]
+fn what_is_too_much_is_refused() {
+    let deep = |n: usize| format!("<robot>{}{}</robot>", "<a>".repeat(n), "</a>".repeat(n));
+    assert_eq!(read(&deep(100_000)).1[0].code.0, "M0452");
+    assert_eq!(read(&deep(63)).1[0].code.0, "M0470");
+    assert_eq!(read(&deep(64)).1[0].code.0, "M0452");
+    let wide = format!("<robot>{}</robot>", "<a/>".repeat(300_000));
+    assert_eq!(read(&wide).1[0].code.0, "M0452");
+    // A chain of as many links as fit is no deeper than any other robot.
+    let links: String = (0..40_000).map(|n| format!("<link name='l{n}'/>")).collect();
+    let joints: String = (1..40_000)
+        .map(|n| {
+            format!("<joint name='j{n}' type='fixed'><parent link='l{}'/><child link='l{n}'/></joint>", n - 1)
+        })
+        .collect();
+    let (robot, found, _) = read(&format!("<robot>{links}{joints}</robot>"));
+    assert_eq!((found, robot.unwrap().joints.len()), (vec![], 39_999));
+}
+
+#[test]
+fn meshes_are_looked_for_without_a_shell() {
+    let search = ["/ros/share".to_owned(), "/my/arm_description/".to_owned()];
+    let locate = |file: &str| mesh::locate(file, "/robots/arm", &search);
+    assert_eq!(
+        locate("package://arm_description/meshes/a.stl"),
+        [
+            "/my/arm_description/meshes/a.stl",
+            "/ros/share/arm_description/meshes/a.stl",
+            "/my/arm_description/arm_description/meshes/a.stl"
+        ]
+    );
+    assert_eq!(locate("meshes/a.stl"), ["/robots/arm/meshes/a.stl"]);
+    assert_eq!(locate("file:///tmp/a.stl"), ["/tmp/a.stl"]);
+    assert_eq!(locate("/tmp/a.stl"), ["/tmp/a.stl"]);
+    assert!(locate("package://arm/../../etc/passwd").is_empty());
+    assert_eq!(locate("package://$(id)/a.stl")[0], "/ros/share/$(id)/a.stl");
+}
+
+/// Published URDFs, where they lie beside the repository, and our own.
+fn files() -> Vec<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in [here.join("../../shared/data/robots/urdf"), here.join("models")] {
+        let folders = std::fs::read_dir(&folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+        for folder in folders.filter(|path| path.is_dir()) {
+            let inside = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+            files.extend(inside.filter(|path| path.extension().is_some_and(|end| end == "urdf")));
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn published_urdfs_are_read_as_another_reader_reads_them() {
+    let files = files();
+    assert!(files.len() >= 3, "our own at least");
+    for path in files {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let (robot, found, _) = read(&text);
+        assert!(found.is_empty(), "{}: {found:?}", path.display());
+        same(&robot.unwrap(), &urdf_rs::read_from_string(&text).unwrap());
+    }
+}
+
+fn same(ours: &Urdf, theirs: &urdf_rs::Robot) {
+    let names = |urdf: &Urdf| urdf.links.iter().map(|link| link.name.to_string()).collect::<Vec<_>>();
+    assert_eq!(names(ours), theirs.links.iter().map(|link| link.name.clone()).collect::<Vec<_>>());
+    assert_eq!(ours.joints.len(), theirs.joints.len());
+    for (link, other) in ours.links.iter().zip(&theirs.links) {
+        assert_eq!(link.collisions.len(), other.collision.len(), "{}", link.name);
+        assert_eq!(link.visuals.len(), other.visual.len(), "{}", link.name);
+    }
+    for joint in &ours.joints {
+        let other = theirs.joints.iter().find(|other| other.name == joint.name.as_str()).unwrap();
+        assert_eq!(ours.links[joint.parent].name, other.parent.link);
+        assert_eq!(ours.links[joint.child].name, other.child.link);
+        assert_eq!(joint.parent_from_joint.xyz, other.origin.xyz.0);
+        assert_eq!(format!("{:?}", joint.kind), format!("{:?}", other.joint_type));
+        if let Some(limits) = joint.limits {
+            assert_eq!((limits.lower, limits.upper), (other.limit.lower, other.limit.upper));
+        }
+        if joint.kind != JointKind::Fixed {
+            assert_eq!(joint.axis, other.axis.xyz.0, "{}", joint.name);
+        }
+        let mimic = joint
+            .mimic
+            .map(|mimic| (ours.joints[mimic.joint].name.to_string(), mimic.multiplier, mimic.offset));
+        let other = other.mimic.as_ref().filter(|_| joint.kind != JointKind::Fixed);
+        let other = other
+            .map(|mimic| (mimic.joint.clone(), mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)));
+        assert_eq!(mimic, other);
+    }
+}
+
+proptest! {
+    /// Whatever is done to a good URDF, it is read or something is said, at a place within the text.
+    #[test]
+    fn no_text_makes_the_reader_panic(at in 0..GOOD.len(), cut in 0..40_usize, put in "[<>/\"a-z0-9 &;.-]{0,8}") {
+        let mut text = GOOD[..at].to_owned() + &put;
+        text.push_str(GOOD.get(at + cut..).unwrap_or_default());
+        let (robot, found, _) = read(&text);
+        prop_assert!(robot.is_some() || !found.is_empty());
+        for said in found {
+            prop_assert!(said.span.end as usize <= text.len(), "{said:?}");
+        }
+    }
+}
