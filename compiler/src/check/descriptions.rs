@@ -21,16 +21,17 @@ pub(super) fn check(program: &Program, library: &Library, world: &World, diagnos
         let StepKind::Call(call) = &step.kind else { continue };
         let Some(binding) = call.binds.and_then(|id| program.bindings.get(id.index())) else { continue };
         let (Some(text), Some(kind)) = (&binding.description, binding.ty.kind()) else { continue };
+        let callee = library.primitive(call.primitive).map(|def| def.name.clone()).unwrap_or_default();
         match world.described(library, text, kind).as_slice() {
             [_] => {}
             [] => {
                 let fitting = world.entities().iter().filter(|(.., other)| library.is_kind(*other, kind));
                 let near = near(text, fitting.map(|(_, name, _)| name.as_str()));
-                diagnostics.push(Missing { span: step.span, text: text.clone(), near }.into());
+                diagnostics.push(Missing { span: step.span, callee, text: text.clone(), near }.into());
             }
             several => {
                 let found = list(several.iter().take(5).map(|entity| world.name(*entity)));
-                diagnostics.push(Ambiguous { span: step.span, text: text.clone(), found }.into());
+                diagnostics.push(Ambiguous { span: step.span, callee, text: text.clone(), found }.into());
             }
         }
     }

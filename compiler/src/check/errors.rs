@@ -1,7 +1,11 @@
 //! The robot's limits (M04xx), resources (M07xx), bounds (M08xx), and style (M09xx).
 
-use motet_syntax::{Related, Span};
+use motet_syntax::{About, Related, Span};
 use smol_str::SmolStr;
+
+fn called(callee: &SmolStr) -> Option<About> {
+    Some(About { primitive: Some(callee.clone()), ..About::default() })
+}
 
 motet_syntax::mistakes! {
     pub(crate) const CODES;
@@ -70,12 +74,13 @@ motet_syntax::mistakes! {
     help(m) { Some(format!("use `{}`, or call the step without binding it", m.name)) }
 
     /// A description that fits several entities of the scene.
-    Ambiguous("M0903", Warning) { text: SmolStr, found: String }
+    Ambiguous("M0903", Warning) { callee: SmolStr, text: SmolStr, found: String }
     message(m) { format!("\"{}\" fits {}: the step can fail with `ambiguous`", m.text, m.found) }
     help(_m) { Some("describe it so that it fits one, or catch `ambiguous`".to_owned()) }
+    about(m) { called(&m.callee) }
 
     /// A description that fits nothing in the scene.
-    Missing("M0904", Warning) { text: SmolStr, near: Option<SmolStr> }
+    Missing("M0904", Warning) { callee: SmolStr, text: SmolStr, near: Option<SmolStr> }
     message(m) { format!("\"{}\" fits nothing in the scene: the step can fail with `not_found`", m.text) }
     help(m) {
         Some(match &m.near {
@@ -83,4 +88,5 @@ motet_syntax::mistakes! {
             None => "describe something that is there, or catch `not_found`".to_owned(),
         })
     }
+    about(m) { called(&m.callee) }
 }

@@ -122,6 +122,7 @@ impl Prover<'_> {
             culprit: self.cause_span(blame.cause),
             declared: need.span,
             remedy: self.remedy(&blame),
+            subject: blame.subject,
         };
         self.diagnostics.push(mistake.into());
     }

@@ -1,10 +1,15 @@
 //! What the prover refutes (M05xx), and what else it sees on the way (M07xx, M08xx, M09xx).
 
-use motet_syntax::{Related, Span};
+use motet_syntax::{About, Related, Span};
 use smol_str::SmolStr;
 
 fn culprit(span: Option<Span>) -> Option<Related> {
     span.map(|span| Related::new("changed here", span))
+}
+
+fn about(subject: Option<&(SmolStr, bool)>) -> About {
+    let (subject, wanted) = subject.cloned().unzip();
+    About { subject, wanted, ..About::default() }
 }
 
 motet_syntax::mistakes! {
@@ -13,12 +18,14 @@ motet_syntax::mistakes! {
     /// A step needs what some path makes false.
     Refuted("M0501", Error) {
         callee: SmolStr, needs: String, story: String, culprit: Option<Span>, declared: Span, remedy: Option<String>,
+        subject: Option<(SmolStr, bool)>,
     }
     message(m) { format!("`{}` needs {}, {}", m.callee, m.needs, m.story) }
     help(m) { m.remedy.clone().or_else(|| Some("change the steps before, or leave this one out".to_owned())) }
     related(m) {
         culprit(m.culprit).into_iter().chain([Related::new("asked for here", m.declared)]).collect()
     }
+    about(m) { Some(About { primitive: Some(m.callee.clone()), ..about(m.subject.as_ref()) }) }
 
     /// A step uses a pose that is no longer right.
     Stale("M0502", Error) {
@@ -32,10 +39,13 @@ motet_syntax::mistakes! {
     }
 
     /// Where the policy is done its goal is false.
-    GoalRefuted("M0503", Error) { wanted: String, story: String, culprit: Option<Span>, remedy: Option<String> }
+    GoalRefuted("M0503", Error) {
+        wanted: String, story: String, culprit: Option<Span>, remedy: Option<String>, subject: Option<(SmolStr, bool)>,
+    }
     message(m) { format!("the policy is done without {}, {}", m.wanted, m.story) }
     help(m) { m.remedy.as_ref().map(|remedy| remedy.replace(": call it before", "")) }
     related(m) { culprit(m.culprit).into_iter().collect() }
+    about(m) { Some(about(m.subject.as_ref())) }
 
     /// A handler for a failure that cannot happen.
     NeverCaught("M0504", Warning) { name: SmolStr }

@@ -20,6 +20,8 @@ pub(crate) struct Blame {
     pub(crate) cause: Cause,
     /// The fluent and the value that it should have.
     pub(crate) fact: Option<(Fluent, bool)>,
+    /// The name of the fluent, measure or field that it turns on, and the value that it should have.
+    pub(crate) subject: Option<(SmolStr, bool)>,
     /// What is told instead of a cause: "`kettle` has 2.1 kg".
     numbers: Option<String>,
     maker: Option<SmolStr>,
@@ -63,7 +65,15 @@ impl Prover<'_> {
                 let cause = if truth { value.no } else { value.yes };
                 let maker = cause.as_step().map(|_| self.cause_name(cause));
                 let wanted = self.show(condition, truth, frame);
-                return Blame { wanted, cause, fact: Some((fact.fluent, truth)), numbers: None, maker };
+                let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
+                return Blame {
+                    wanted,
+                    cause,
+                    fact: Some((fact.fluent, truth)),
+                    subject,
+                    numbers: None,
+                    maker,
+                };
             }
             Condition::Compare(_, left, right) => {
                 let numbers = self.numbers(left, right, frame);
@@ -72,6 +82,7 @@ impl Prover<'_> {
                     wanted,
                     cause: Cause::START,
                     fact: None,
+                    subject: self.measured(left).or_else(|| self.measured(right)).map(|name| (name, truth)),
                     numbers: Some(numbers),
                     maker: None,
                 };
@@ -79,12 +90,23 @@ impl Prover<'_> {
             Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => {
                 let wanted = self.show(condition, truth, frame);
                 let numbers = Some("and no `monitor` around it does".to_owned());
-                return Blame { wanted, cause: Cause::NOTHING, fact: None, numbers, maker: None };
+                let subject = Some((SmolStr::new_static("monitored"), truth));
+                return Blame { wanted, cause: Cause::NOTHING, fact: None, subject, numbers, maker: None };
             }
             Condition::Literal(_) | Condition::Unknown => {}
         }
         let wanted = self.show(condition, truth, frame);
-        Blame { wanted, cause: Cause::NOTHING, fact: None, numbers: None, maker: None }
+        Blame { wanted, cause: Cause::NOTHING, fact: None, subject: None, numbers: None, maker: None }
+    }
+
+    /// The field or measure behind a number.
+    fn measured(&self, term: &Term) -> Option<SmolStr> {
+        match term {
+            Term::Field(_, name) => Some(name.clone()),
+            Term::Measure(id, _) => self.library.measure(*id).map(|def| def.name.clone()),
+            Term::Arith(_, left, right) => self.measured(left).or_else(|| self.measured(right)),
+            _ => None,
+        }
     }
 
     /// Which primitives make the fact that is missing.
@@ -116,6 +138,7 @@ impl Prover<'_> {
             story: blame.story(),
             culprit: self.cause_span(blame.cause),
             remedy: self.remedy(&blame),
+            subject: blame.subject,
         };
         let mistake = mistake.into();
         if !self.diagnostics.contains(&mistake) {

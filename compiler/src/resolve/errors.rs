@@ -1,6 +1,6 @@
 //! Names that mean nothing (M02xx) and values of the wrong type (M03xx).
 
-use motet_syntax::{Edit, Fix, Related, Span};
+use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 use super::near::article;
@@ -25,7 +25,9 @@ motet_syntax::mistakes! {
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// A name that is no binding, parameter, entity, case or resource.
-    UnknownName("M0202", Error) { name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool }
+    UnknownName("M0202", Error) {
+        name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool, about: Option<About>,
+    }
     message(m) {
         if m.wanted.is_empty() {
             format!("nothing here is called `{}`", m.name)
@@ -43,6 +45,7 @@ motet_syntax::mistakes! {
         })
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    about(m) { m.about.clone() }
 
     /// `$x` where nothing of that name is bound.
     UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr> }

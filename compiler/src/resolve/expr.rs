@@ -3,7 +3,7 @@
 
 use motet_syntax::ast::{ArithOp, Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{About, Diagnostic, Form, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
@@ -44,6 +44,15 @@ pub(crate) enum Place<'a> {
     Param(&'a str, &'a str),
     /// Something with a name of its own: "a deadline".
     Named(&'static str),
+}
+
+impl Place<'_> {
+    fn about(self) -> Option<About> {
+        match self {
+            Self::Param(param, callee) => Some(About::parameter(callee, param)),
+            Self::Named(_) => None,
+        }
+    }
 }
 
 impl std::fmt::Display for Place<'_> {
@@ -224,6 +233,7 @@ impl<'a> Resolver<'a> {
     fn unknown_name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) {
         let name = name.clone();
         let library = self.library;
+        let about = wanted.and_then(|wanted| wanted.place.about());
         match wanted.map(|wanted| wanted.ty.base) {
             Some(Base::Enum(id)) => {
                 let cases = library.enums.get(id.index()).map(|def| def.cases.as_slice()).unwrap_or_default();
@@ -249,7 +259,7 @@ impl<'a> Resolver<'a> {
                 };
                 let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
                 let scene = self.has_scene;
-                self.say(UnknownName { span, name, near, wanted, known, scene });
+                self.say(UnknownName { span, name, near, wanted, known, scene, about });
             }
             Some(_) | None => {
                 let names = self.scope.names().map(SmolStr::as_str);
@@ -262,6 +272,7 @@ impl<'a> Resolver<'a> {
                     wanted: String::new(),
                     known: String::new(),
                     scene,
+                    about,
                 });
             }
         }

@@ -1,6 +1,8 @@
 //! What every stage says about a document: one struct a mistake (in the stage's `errors.rs`), one code each, turned
 //! into this flat form. Rendering is [`crate::render`]'s.
 
+use smol_str::SmolStr;
+
 use crate::source::Span;
 
 /// How bad a finding is. `check` fails on errors and on nothing else.
@@ -59,6 +61,10 @@ pub trait Mistake {
     fn fix(&self) -> Option<Fix> {
         None
     }
+    /// What it is about, in names, for programs that act on it.
+    fn about(&self) -> Option<About> {
+        None
+    }
 }
 
 /// One finding.
@@ -80,6 +86,29 @@ pub struct Diagnostic {
     pub related: Vec<Related>,
     /// A machine-applicable edit.
     pub fix: Option<Fix>,
+    /// What it is about, in names, so that no program has to read the message.
+    pub about: Option<About>,
+}
+
+/// The names that a finding is about; those that play no part in it are missing.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct About {
+    /// The primitive or policy that is called.
+    pub primitive: Option<SmolStr>,
+    /// Its parameter.
+    pub parameter: Option<SmolStr>,
+    /// The fluent, measure or field on which a condition depends: of several the one that fails.
+    pub subject: Option<SmolStr>,
+    /// Whether the condition asks for the subject to hold, or not to.
+    pub wanted: Option<bool>,
+}
+
+impl About {
+    /// A parameter of something called.
+    #[must_use]
+    pub fn parameter(primitive: &str, parameter: &str) -> Self {
+        Self { primitive: Some(primitive.into()), parameter: Some(parameter.into()), ..Self::default() }
+    }
 }
 
 /// Another place that belongs to a finding.
@@ -130,6 +159,7 @@ impl<M: Mistake> From<M> for Diagnostic {
             path: String::new(),
             related: mistake.related(),
             fix: mistake.fix(),
+            about: mistake.about(),
         }
     }
 }

@@ -21,6 +21,6 @@ pub mod suggest;
 pub mod text;
 pub mod unit;
 
-pub use diagnostic::{Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
+pub use diagnostic::{About, Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
 pub use read::{Parsed, decode, read};
 pub use source::{FileId, Form, Source, Sources, Span};

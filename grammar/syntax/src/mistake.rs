@@ -3,7 +3,7 @@
 
 /// Declares structs that implement [`crate::Mistake`], and `CODES`, the list of their codes.
 ///
-/// Each has a `span`; `help`, `related` and `fix` may be left out.
+/// Each has a `span`; `help`, `related`, `fix` and `about` may be left out.
 ///
 /// ```
 /// motet_syntax::mistakes! {
@@ -28,6 +28,7 @@ macro_rules! mistakes {
         $(help($h:ident) $help:block)?
         $(related($r:ident) $related:block)?
         $(fix($f:ident) $fix:block)?
+        $(about($a:ident) $about:block)?
     )*) => {
         /// Every code that is raised here, in order.
         $vis const CODES: &[$crate::Code] = &[$($crate::Code($code)),*];
@@ -59,6 +60,10 @@ macro_rules! mistakes {
                 $(fn fix(&self) -> Option<$crate::Fix> {
                     let $f = self;
                     $fix
+                })?
+                $(fn about(&self) -> Option<$crate::About> {
+                    let $a = self;
+                    $about
                 })?
             }
         )*

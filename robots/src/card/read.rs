@@ -163,13 +163,15 @@ impl Reader {
             add("payload", hand.payload_kg, "Mass");
             add("opening", hand.opening_m, "Length");
             add("reach", hand.reach_m, "Length");
+            add("lowest", hand.heights_m.least, "Length");
+            add("highest", hand.heights_m.greatest, "Length");
         }
         add("speed", base.speed_m_per_s, "Speed");
         for (name, number) in &card.numbers {
             let span = self.numbers.span(number);
             self.name(name, span);
             let place = match name.as_str() {
-                "payload" | "opening" | "reach" => Some("hands"),
+                "payload" | "opening" | "reach" | "lowest" | "highest" => Some("hands"),
                 "speed" => Some("base"),
                 _ => None,
             };

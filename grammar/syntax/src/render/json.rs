@@ -31,6 +31,27 @@ pub struct Record {
     pub related: Vec<RelatedRecord>,
     /// Edits that mend it, where they are sure.
     pub fix: Option<FixRecord>,
+    /// What it is about, in names, for programs that act on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<AboutRecord>,
+}
+
+/// The names that a finding is about.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AboutRecord {
+    /// The primitive or policy that is called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub primitive: Option<String>,
+    /// Its parameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameter: Option<String>,
+    /// The fluent, measure or field on which a condition depends: of several the one that fails.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
+    /// Whether the condition asks for the subject to hold, or not to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wanted: Option<bool>,
 }
 
 /// A range of bytes in a file.
@@ -118,6 +139,15 @@ pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
         span: span(diagnostic.span),
         related: related.collect(),
         fix,
+        about: diagnostic.about.as_ref().map(|about| {
+            let name = |name: &Option<smol_str::SmolStr>| name.as_ref().map(ToString::to_string);
+            AboutRecord {
+                primitive: name(&about.primitive),
+                parameter: name(&about.parameter),
+                subject: name(&about.subject),
+                wanted: about.wanted,
+            }
+        }),
     }
 }
 
