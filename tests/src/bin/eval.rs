@@ -1,13 +1,17 @@
-//! Compares the compiler's verdicts with other people's: `eval planbench FILE [--json]`.
+//! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json]`.
 //!
 //! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1.
 
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use motet_tests::eval::{Judged, planbench, summary};
+use motet_tests::eval::{Judged, planbench, saycan, scenarios, summary};
 
-const USAGE: &str = "usage: eval planbench FILE [--json]";
+/// Judges a line of a file.
+type Judge = fn(&str) -> Result<Judged, String>;
+
+const SUITES: &[(&str, Judge)] =
+    &[("planbench", planbench::judge), ("scenarios", scenarios::judge), ("saycan", saycan::judge)];
 
 fn main() -> ExitCode {
     match run() {
@@ -24,10 +28,12 @@ fn run() -> Result<bool, String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let only_json = args.iter().any(|arg| arg == "--json");
     let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| *arg != "--json").collect();
-    let (judge, file): (fn(&str) -> serde_json::Result<Judged>, &str) = match words.as_slice() {
-        ["planbench", file] => (planbench::judge, file),
-        _ => return Err(USAGE.to_owned()),
+    let usage = || {
+        let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
+        format!("usage: eval {} FILE [--json]", names.join("|"))
     };
+    let [suite, file] = words.as_slice() else { return Err(usage()) };
+    let Some((_, judge)) = SUITES.iter().find(|(name, _)| name == suite) else { return Err(usage()) };
     let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
     let mut rows = Vec::new();
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {

@@ -1,9 +1,12 @@
 //! Verdicts of the compiler beside verdicts that are not ours, row by row.
 
 pub mod planbench;
+pub mod saycan;
+pub mod scenarios;
 
 use std::time::Duration;
 
+use indexmap::IndexMap;
 use motet_compiler::{Options, Session};
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
@@ -23,6 +26,10 @@ pub struct Judged {
     pub step: Option<(String, String)>,
     /// How long reading, checking and proving took.
     pub took: Duration,
+    /// Under which name the row is added up apart from the others.
+    pub apart: Option<String>,
+    /// What the compiler says, in a few words.
+    pub note: Option<String>,
 }
 
 /// The sums over all rows.
@@ -46,6 +53,9 @@ pub struct Summary {
     pub step_total: usize,
     /// Median time of a row in microseconds.
     pub median_us: f64,
+    /// The sums of the rows that are added up apart, which the others do not contain.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub apart: IndexMap<String, Summary>,
 }
 
 impl Judged {
@@ -53,17 +63,14 @@ impl Judged {
     #[must_use]
     pub fn disagreement(&self) -> Option<String> {
         let word = |error: bool| if error { "error" } else { "ok" };
+        let note = self.note.as_ref().map(|note| format!(": {note}")).unwrap_or_default();
         if self.expected_error != self.found_error {
-            return Some(format!(
-                "{}: expected {}, found {}",
-                self.id,
-                word(self.expected_error),
-                word(self.found_error)
-            ));
+            let (expected, found) = (word(self.expected_error), word(self.found_error));
+            return Some(format!("{}: expected {expected}, found {found}{note}", self.id));
         }
         let differs = |name: &str, pair: &Option<(String, String)>| {
             let (expected, found) = pair.as_ref().filter(|(expected, found)| expected != found)?;
-            Some(format!("{}: {name} expected {expected}, found {found}", self.id))
+            Some(format!("{}: {name} expected {expected}, found {found}{note}", self.id))
         };
         differs("class", &self.class).or_else(|| differs("step", &self.step))
     }
@@ -72,6 +79,18 @@ impl Judged {
 /// Adds up judged rows.
 #[must_use]
 pub fn summary(rows: &[Judged]) -> Summary {
+    let mut apart: IndexMap<String, Vec<&Judged>> = IndexMap::new();
+    for row in rows {
+        if let Some(name) = &row.apart {
+            apart.entry(name.clone()).or_default().push(row);
+        }
+    }
+    let counted: Vec<_> = rows.iter().filter(|row| row.apart.is_none()).collect();
+    let apart = apart.iter().map(|(name, rows)| (name.clone(), sums(rows))).collect();
+    Summary { apart, ..sums(&counted) }
+}
+
+fn sums(rows: &[&Judged]) -> Summary {
     let both: Vec<_> = rows.iter().filter(|row| row.expected_error && row.found_error).collect();
     let classes: Vec<_> = both.iter().filter_map(|row| row.class.as_ref()).collect();
     let steps: Vec<_> = both.iter().filter_map(|row| row.step.as_ref()).collect();
@@ -88,6 +107,7 @@ pub fn summary(rows: &[Judged]) -> Summary {
         step_agree: steps.iter().filter(|(expected, found)| expected == found).count(),
         step_total: steps.len(),
         median_us: median.as_secs_f64() * 1e6,
+        apart: IndexMap::new(),
     }
 }
 

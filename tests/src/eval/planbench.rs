@@ -38,8 +38,8 @@ struct Op {
 /// # Errors
 ///
 /// Where the line is no such row.
-pub fn judge(line: &str) -> serde_json::Result<Judged> {
-    let row: Row = serde_json::from_str(line)?;
+pub fn judge(line: &str) -> Result<Judged, String> {
+    let row: Row = serde_json::from_str(line).map_err(|error| error.to_string())?;
     let (said, took) = check_in_domain(&row.domain(), &row.policy());
     let error = first_error(&said);
     let step = row.first_error_step.map(|expected| {
@@ -53,6 +53,8 @@ pub fn judge(line: &str) -> serde_json::Result<Judged> {
         class: None,
         step,
         took,
+        apart: None,
+        note: None,
     })
 }
 

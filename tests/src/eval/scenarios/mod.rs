@@ -1,0 +1,146 @@
+//! Scenarios: plans for two household robots in two profiles, with the verdict of a contract (`CONTRACT.md` beside the
+//! rows).
+//!
+//! A row becomes an ordinary scene, an ordinary policy and facts at the start; where the contract differs from the
+//! standard library its words are declared in `contract.motet`. Every verdict is one of `check`, through the table of
+//! `verdict.rs`.
+
+mod condition;
+mod policy;
+mod row;
+mod verdict;
+mod words;
+mod world;
+
+use std::time::Instant;
+
+use motet_compiler::{Options, Session};
+use motet_robots::card::Robot;
+use motet_syntax::{Severity, Source, Sources};
+use serde_json::Value;
+
+use self::policy::Written;
+use self::row::Row;
+use self::world::Names;
+use super::Judged;
+
+const CONTRACT: &str = include_str!("contract.motet");
+
+/// Words of the contract that the cards do not list, because the policies of people have no use for them.
+const OWN_WORDS: &[&str] =
+    &["detect_container", "detect_person", "find", "check", "aim", "choose_spot", "wait", "take_over"];
+
+/// Words of the contract that a card may list.
+const WORDS: &[&str] = &[
+    "go",
+    "turn",
+    "wake_up",
+    "home",
+    "start_pose",
+    "search",
+    "detect",
+    "ground",
+    "pick",
+    "lift",
+    "place",
+    "handover",
+    "open",
+    "close",
+    "ask",
+    "choose",
+];
+
+/// Judges a line.
+///
+/// # Errors
+///
+/// Where the line is no such row, or its scene is none.
+pub fn judge(line: &str) -> Result<Judged, String> {
+    let row: Row = serde_json::from_str(line).map_err(|error| error.to_string())?;
+    let plan = row.plan()?;
+    let names = Names::of(&row.scene);
+    let written = policy::write(&row, &plan, &names)?;
+    let mut sources = Sources::default();
+    let (session, _) = session(&row, &names, &written, &mut sources)?;
+    let source = Source::new("plan.json", written.policy.to_string());
+    let file = sources.add(source.clone());
+    let begin = Instant::now();
+    let said = session.check(&motet_syntax::read(&source, file));
+    let took = begin.elapsed();
+    let found = verdict::first(&said, &written);
+    let expected_error = row.verdict != "ok";
+    let both = |expected: Option<String>, found: Option<&str>| {
+        expected.filter(|_| expected_error).zip(found.map(str::to_owned))
+    };
+    let class = both(row.class.clone(), found.as_ref().map(|found| found.class));
+    let step = both(row.error_step(), found.as_ref().map(|found| found.step.as_str()));
+    let apart = row.needs.filter(|needs| needs != "static");
+    let note = found.as_ref().map(|found| {
+        let (code, message) = (found.said.code, &found.said.message);
+        format!("{} at {}: {code} {message}", found.class, found.step)
+    });
+    Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, apart, note })
+}
+
+/// The session of a row's robot, scene and contract.
+fn session(
+    row: &Row,
+    names: &Names,
+    written: &Written,
+    sources: &mut Sources,
+) -> Result<(Session, Robot), String> {
+    let mut robot = robot(&row.robot, sources)?;
+    robot.primitives.retain(|name, _| WORDS.contains(&name.as_str()));
+    robot.primitives.extend(OWN_WORDS.iter().map(|word| ((*word).into(), Default::default())));
+    // How the robot starts is the row's to say.
+    robot.initially.clear();
+    // What a plan watches, its robot can observe.
+    robot.observes.extend(written.fluents.keys().map(Into::into));
+    let mut contract = CONTRACT.to_owned();
+    for rule in row.scene.get("rules").and_then(Value::as_array).into_iter().flatten() {
+        contract = watched(contract, rule);
+    }
+    contract.push_str(&condition::declarations(&written.fluents));
+    let source = Source::new("contract.motet", contract);
+    let file = sources.add(source.clone());
+    let parsed = motet_syntax::read(&source, file);
+    let scene = world::scene(row, names, sources)?;
+    let state = world::state(row, names, &robot);
+    let options = Options::default();
+    let (session, mut said) =
+        Session::new(Some(&robot), &[parsed.file], Some(&scene), Some(&state), options, sources);
+    said.extend(parsed.diagnostics);
+    match said.iter().find(|said| said.severity == Severity::Error) {
+        Some(wrong) => Err(format!("the world of the row: {} {}", wrong.code, wrong.message)),
+        None => Ok((session, robot)),
+    }
+}
+
+fn robot(name: &str, sources: &mut Sources) -> Result<Robot, String> {
+    let mut known = motet_robots::card::embedded().iter();
+    let Some((_, toml, _)) = known.find(|row| row.0 == name) else {
+        return Err(format!("there is no robot `{name}`"));
+    };
+    let source = Source::new(format!("{name}/robot.toml"), *toml);
+    let file = sources.add(source.clone());
+    // The contract stands for the robot's own declarations.
+    let (robot, said) = motet_robots::card::read(&source, file, None);
+    robot.ok_or_else(|| format!("the card of `{name}`: {said:?}"))
+}
+
+/// The contract with a rule of the home: a monitor that a primitive needs.
+fn watched(contract: String, rule: &Value) -> String {
+    let text = |key: &str| rule.get(key).and_then(Value::as_str);
+    let (Some("monitor_required"), Some(op), Some(watched)) = (text("rule"), text("op"), text("cond")) else {
+        return contract;
+    };
+    let name: String = watched.split('(').next().unwrap_or_default().trim().to_owned();
+    let header = [format!("\naction {op}("), format!("\nperception {op}(")];
+    let Some(start) = header.iter().find_map(|header| contract.find(header.as_str())) else {
+        return contract;
+    };
+    let rest = contract.get(start + 1..).unwrap_or_default();
+    let Some(end) = rest.find('\n').map(|end| start + 1 + end) else { return contract };
+    let (before, after) = contract.split_at(end);
+    format!("{before}\n    needs monitored(`{name}`){after}")
+}
