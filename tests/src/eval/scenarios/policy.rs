@@ -1,8 +1,8 @@
 //! A plan as an ordinary policy in JSON, with a map from its paths back to the steps of the plan.
 //!
 //! A binding of Motet is visible to the end of its block, one of a plan from then on. So where a branch binds what is
-//! used after it, what comes after is written in both branches; after a monitor and a parallel step, whose bodies always
-//! run, the entity itself is named.
+//! used after it, what comes after is written in both branches; after a body that has always run, such as that of a
+//! monitor, the entity itself is named.
 
 use std::collections::HashMap;
 
@@ -245,10 +245,14 @@ impl Writer<'_> {
             retried(steps);
             return Ok(false);
         }
-        let escapes = escapes(body.iter().chain(on_fail), after);
+        // Where the handler ends the policy, what comes after follows a body that has run.
+        let ended = ends(on_fail);
+        let escapes = !ended && escapes(body.iter().chain(on_fail), after);
         let rest = if escapes { after } else { &[] };
         let here = self.push(steps, at, spot, json!({}));
-        let mut tried = self.inner(&joined(body, rest), &format!("{here}/try"))?;
+        let inside = format!("{here}/try");
+        let mut tried =
+            if ended { self.surviving(body, &inside)? } else { self.inner(&joined(body, rest), &inside)? };
         if let (Some(tried), false) = (tried.as_array_mut(), escapes) {
             retried(tried);
         }
