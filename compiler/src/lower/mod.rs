@@ -223,7 +223,8 @@ impl Lowering<'_> {
                 unsettles: Vec::new(),
             };
         };
-        let verdicts = self.proof.needs.get(step.index()).map(Vec::as_slice).unwrap_or_default();
+        let verdicts =
+            self.proof.needs.get(step.index()).map(|verdicts| verdicts.as_slice()).unwrap_or_default();
         let mut needs = Vec::with_capacity(def.needs.len());
         for (need, verdict) in def.needs.iter().zip(verdicts) {
             needs.push(self.need(need, *verdict, call, &def.fails));

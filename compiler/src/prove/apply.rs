@@ -6,6 +6,7 @@ use super::Prover;
 use super::eval::Frame;
 use super::facts::{ANY, Key};
 use super::value::{Cause, Value};
+use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
@@ -30,6 +31,9 @@ enum Sure {
     /// Only observation can tell.
     Unknown,
 }
+
+/// Entities that a contract speaks of: few, as a rule.
+type Entities = SmallVec<[Entity; 8]>;
 
 /// Until when a perception stays true.
 #[derive(Clone, Debug)]
@@ -85,14 +89,9 @@ impl Prover<'_> {
     }
 
     /// The entities of a kind for which `when` may hold: by name, and whether it may hold for others too.
-    fn candidates(
-        &self,
-        when: Option<&Condition>,
-        kind: Kind,
-        frame: Frame<'_>,
-    ) -> (Vec<Entity>, Option<Sure>) {
+    fn candidates(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Entities, Option<Sure>) {
         match when {
-            None => (Vec::new(), Some(Sure::Always)),
+            None => (Entities::new(), Some(Sure::Always)),
             Some(
                 Condition::Compare(CompareOp::Equal, Term::Each, other)
                 | Condition::Compare(CompareOp::Equal, other, Term::Each),
@@ -107,39 +106,31 @@ impl Prover<'_> {
             }
             Some(Condition::Fact(fact)) => {
                 let Some(pattern) = self.key(fact, Frame { each: None, ..frame }) else {
-                    return (Vec::new(), None);
+                    return (Entities::new(), None);
                 };
                 let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
-                let Some(place) = place else { return (self.of_kind(kind, usize::MAX), None) };
-                let mut known: Vec<_> = self
-                    .facts
-                    .entries(fact.fluent, pattern)
-                    .filter(|(_, value)| !value.is_false())
-                    .map(|(key, _)| Entity(key.arg(place)))
-                    .filter(|entity| {
-                        self.symbols
-                            .kind(self.world, *entity)
-                            .is_some_and(|other| self.library.is_kind(other, kind))
-                    })
-                    .collect();
+                let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
+                let mut known = Entities::new();
+                self.facts.entries(fact.fluent, pattern, |key, value| {
+                    let entity = Entity(key.arg(place));
+                    let found = self.symbols.kind(self.world, entity).filter(|_| !value.is_false());
+                    if found.is_some_and(|found| self.library.is_kind(found, kind)) {
+                        known.push(entity);
+                    }
+                });
                 known.sort_unstable();
                 known.dedup();
                 let rest = self.facts.get(fact.fluent, pattern);
                 (known, if rest.is_false() { None } else { sure(rest) })
             }
-            Some(_) => (self.of_kind(kind, usize::MAX), None),
+            Some(_) => (self.of_kind(kind, usize::MAX).into(), None),
         }
     }
 
     /// For which entities a quantified need is asked, and whether there may be others.
-    pub(crate) fn asked(
-        &self,
-        when: Option<&Condition>,
-        kind: Kind,
-        frame: Frame<'_>,
-    ) -> (Vec<Entity>, bool) {
+    pub(crate) fn asked(&self, when: Option<&Condition>, kind: Kind, frame: Frame<'_>) -> (Entities, bool) {
         match when {
-            None => (self.of_kind(kind, usize::MAX), false),
+            None => (self.of_kind(kind, usize::MAX).into(), false),
             Some(_) => {
                 let (known, rest) = self.candidates(when, kind, frame);
                 (known, rest.is_some())
@@ -164,8 +155,10 @@ impl Prover<'_> {
     pub(crate) fn unsettle(&mut self, changes: &[Change], cause: Cause) {
         for change in changes {
             let open = Value::open(cause);
-            let before = self.facts.get(change.fluent, change.key);
-            let value = if change.sure == Sure::Sometimes { before.join(open) } else { open };
+            let value = match change.sure {
+                Sure::Sometimes => self.facts.get(change.fluent, change.key).join(open),
+                Sure::Always | Sure::Unknown => open,
+            };
             self.write(change.fluent, change.key, value, change.sure == Sure::Always, cause);
         }
     }
@@ -174,7 +167,8 @@ impl Prover<'_> {
     fn write(&mut self, fluent: Fluent, key: Key, value: Value, sure: bool, cause: Cause) {
         if key.is_pattern() && !sure {
             // The pattern may or may not hold: so may each fact that it covers.
-            let covered: Vec<_> = self.facts.entries(fluent, key).collect();
+            let mut covered = Vec::new();
+            self.facts.entries(fluent, key, |single, old| covered.push((single, old)));
             self.facts.set(fluent, key, value);
             for (single, old) in covered {
                 self.facts.set(fluent, single, old.maybe(value, cause));
@@ -203,11 +197,11 @@ impl Prover<'_> {
         let library = self.library;
         let Some(def) = library.fluent(fluent) else { return };
         let mut targets: Vec<(Key, Value)> = Vec::new();
-        for (other, known) in self.facts.entries(fluent, Key::ALL) {
+        self.facts.entries(fluent, Key::ALL, |other, known| {
             if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {
                 targets.push((other, known));
             }
-        }
+        });
         // Entities behind a symbol that have no entry yet.
         for (index, (_, ty)) in def.params.iter().enumerate() {
             let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| ty.kind().is_some());
@@ -246,17 +240,15 @@ impl Prover<'_> {
         }
         let moved = self.moved(def, frame);
         let mut stale = Vec::new();
-        let perceived = self.library.perceived.iter().copied().chain([self.fresh]);
-        let entries = perceived.flat_map(|fluent| {
-            self.facts.entries(fluent, Key::ALL).map(move |(key, value)| (fluent, key, value))
-        });
-        for (fluent, key, value) in entries {
-            let Some(source) = value.yes.as_step().filter(|source| *source != step) else { continue };
-            let Some(lasting) = self.lasting.get(&source) else { continue };
-            let used = lasting.resources & def.uses != 0;
-            if used || lasting.entities.iter().any(|entity| moved.contains(entity)) {
-                stale.push((fluent, key, value));
-            }
+        for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
+            self.facts.written(fluent, |key, value| {
+                let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };
+                let Some(lasting) = self.lasting.get(&source) else { return };
+                let used = lasting.resources & def.uses != 0;
+                if used || lasting.entities.iter().any(|entity| moved.contains(entity)) {
+                    stale.push((fluent, key, value));
+                }
+            });
         }
         // The order of a table is not that of the document.
         stale.sort_unstable_by_key(|(fluent, key, _)| (*fluent, *key));
@@ -269,13 +261,13 @@ impl Prover<'_> {
     }
 
     /// Entities whose place a step changes: those that an action's effects name first.
-    fn moved(&self, def: &PrimitiveDef, frame: Frame<'_>) -> Vec<Entity> {
+    fn moved(&self, def: &PrimitiveDef, frame: Frame<'_>) -> Entities {
         if def.form == PrimitiveForm::Perception {
-            return Vec::new();
+            return Entities::new();
         }
         let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);
         let effects = def.makes.iter().chain(&def.unsettles).filter(named);
-        let mut moved: Vec<_> = effects
+        let mut moved: Entities = effects
             .filter_map(|effect| self.argument(effect.fact.args.first()?.as_ref()?, frame))
             .map(Entity)
             .collect();

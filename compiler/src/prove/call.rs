@@ -7,8 +7,8 @@ use super::errors::{Refuted, Stale};
 use super::eval::Frame;
 use super::facts::Key;
 use super::value::{Cause, Value};
-use super::{Prover, Verdict};
-use crate::ir::{Base, Call, Entity, StepId, Term, Ty};
+use super::{Prover, Verdict, Verdicts};
+use crate::ir::{Base, Call, Entity, Fluent, StepId, Term, Ty};
 use crate::library::{NeedDef, PrimitiveDef};
 
 impl Prover<'_> {
@@ -91,8 +91,8 @@ impl Prover<'_> {
         }
     }
 
-    fn needs(&mut self, id: StepId, def: &PrimitiveDef, frame: Frame<'_>, span: Span) -> Vec<Verdict> {
-        let mut verdicts = Vec::with_capacity(def.needs.len());
+    fn needs(&mut self, id: StepId, def: &PrimitiveDef, frame: Frame<'_>, span: Span) -> Verdicts {
+        let mut verdicts = Verdicts::new();
         for need in &def.needs {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
@@ -178,16 +178,16 @@ impl Prover<'_> {
     /// Forgets what was known of a symbol: its name is bound anew.
     pub(crate) fn forget(&mut self, symbol: Option<Entity>) {
         let Some(symbol) = symbol else { return };
-        let mut stale: Vec<_> = self
-            .facts
-            .all_entries()
-            .filter(|(fluent, key, _)| {
-                let params =
-                    self.library.fluent(*fluent).map(|def| def.params.as_slice()).unwrap_or_default();
-                params.iter().enumerate().any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0)
-            })
-            .map(|(fluent, key, _)| (fluent, key))
-            .collect();
+        let mut stale = Vec::new();
+        for (index, def) in self.library.fluents.iter().enumerate() {
+            let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
+            self.facts.written(fluent, |key, _| {
+                let mut params = def.params.iter().enumerate();
+                if params.any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0) {
+                    stale.push((fluent, key));
+                }
+            });
+        }
         stale.sort_unstable();
         for (fluent, key) in stale {
             self.facts.forget(fluent, key);

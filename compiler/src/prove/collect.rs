@@ -38,7 +38,7 @@ impl Collector {
     }
 
     /// Takes in the state as it is.
-    pub(crate) fn see(&mut self, facts: &Facts) {
+    pub(crate) fn see(&mut self, facts: &Facts<'_>) {
         if self.hit && !self.cut && self.last == facts.mark() {
             return;
         }

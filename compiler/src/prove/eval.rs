@@ -146,8 +146,9 @@ impl Prover<'_> {
             return self.read(fact.fluent, key);
         }
         // Some entity: those that are known one by one, then all the rest.
-        let known = self.facts.entries(fact.fluent, key).map(|(key, _)| self.read(fact.fluent, key));
-        known.fold(self.read(fact.fluent, key), |some, value| value.or(some))
+        let mut some = self.read(fact.fluent, key);
+        self.facts.entries(fact.fluent, key, |key, _| some = self.read(fact.fluent, key).or(some));
+        some
     }
 
     fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: Frame<'_>) -> Value {

@@ -20,6 +20,7 @@ mod walk;
 
 use motet_syntax::Diagnostic;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
@@ -44,11 +45,14 @@ pub(crate) enum Verdict {
     Refuted,
 }
 
+/// What the prover found of each need of a step.
+pub(crate) type Verdicts = SmallVec<[Verdict; 16]>;
+
 /// What the prover found.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Proof {
     /// By step: a verdict for each need of its primitive; empty for other steps and for steps that are never reached.
-    pub(crate) needs: Vec<Vec<Verdict>>,
+    pub(crate) needs: Vec<Verdicts>,
     /// By step: whether it can be reached.
     pub(crate) reached: Vec<bool>,
 }
@@ -59,7 +63,7 @@ pub(crate) struct Prover<'a> {
     pub(crate) world: &'a World,
     pub(crate) program: &'a Program,
     pub(crate) symbols: Symbols,
-    pub(crate) facts: Facts,
+    pub(crate) facts: Facts<'a>,
     /// The table of bindings whose value is still right, by binding.
     pub(crate) fresh: Fluent,
     pub(crate) lasting: FxHashMap<StepId, Lasting>,
@@ -87,7 +91,7 @@ pub(crate) struct Watched {
 
 /// Proves a program from the facts that the world gives at the start.
 pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Proof, Vec<Diagnostic>) {
-    let mut facts = world.facts.clone();
+    let mut facts = Facts::above(&world.facts);
     let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
     let steps = program.steps.len();
     let mut prover = Prover {
@@ -106,7 +110,7 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         aliased: vec![false; library.fluents.len()],
         buffers: Default::default(),
         diagnostics: Vec::new(),
-        proof: Proof { needs: vec![Vec::new(); steps], reached: vec![false; steps] },
+        proof: Proof { needs: vec![Verdicts::new(); steps], reached: vec![false; steps] },
     };
     prover.block(&program.body);
     if prover.live {

@@ -30,7 +30,7 @@ pub struct World {
     scene: Option<Scene>,
     /// What a description finds.
     descriptions: FxHashMap<String, Vec<Entity>>,
-    pub(crate) facts: Facts,
+    pub(crate) facts: Facts<'static>,
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
 }

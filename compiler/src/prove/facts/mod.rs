@@ -1,0 +1,232 @@
+//! What is known of all facts at one point of a policy, with a trail to go back on.
+//!
+//! A fluent's table holds single facts and patterns with `any` in some places. A pattern says what holds of every fact
+//! that it covers and that has no entry of its own; writing one drops the entries that it covers. So `not on(cup, any)`
+//! costs what is known of it, not the size of the world.
+//!
+//! The facts at the start are shared by all policies: what a policy writes lies above them.
+
+mod delta;
+mod key;
+mod table;
+
+pub(crate) use self::delta::Delta;
+use self::delta::order;
+pub(crate) use self::key::{ANY, Atom, Key, arg, show};
+use self::table::{Cell, Table};
+use super::value::Value;
+use crate::ir::Fluent;
+
+/// One write, so that it can be taken back.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    fluent: Fluent,
+    key: Key,
+    undo: Undo,
+    /// What was known before, also where there was no entry.
+    before: Value,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Undo {
+    /// Put the entry back that had this value, written at this time.
+    Put(Value, u32),
+    /// Drop the entry.
+    Drop,
+    /// A fact of the start, which is seen again when what hides it is dropped.
+    Hidden,
+}
+
+/// The facts.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Facts<'w> {
+    /// The facts at the start, below; never written.
+    start: &'w [Table],
+    tables: Vec<Table>,
+    trail: Vec<Entry>,
+}
+
+impl Facts<'static> {
+    /// Tables for `fluents` fluents, of which nothing is known but `default`.
+    pub(crate) fn new(fluents: usize, default: Value) -> Self {
+        Self { start: &[], tables: vec![Table::new(default); fluents], trail: Vec::new() }
+    }
+}
+
+impl<'w> Facts<'w> {
+    /// Facts above those of the start. O(fluents).
+    pub(crate) fn above(start: &'w Facts<'static>) -> Self {
+        let tables = start.tables.iter().map(|table| Table::new(table.default)).collect();
+        Self { start: &start.tables, tables, trail: Vec::with_capacity(64) }
+    }
+
+    /// Adds a table; its fluent is the next index.
+    pub(crate) fn add_table(&mut self, default: Value) -> Fluent {
+        let id = Fluent(u16::try_from(self.tables.len()).unwrap_or(u16::MAX));
+        self.tables.push(Table::new(default));
+        id
+    }
+
+    fn table(&self, fluent: Fluent) -> Option<&Table> {
+        self.tables.get(fluent.index())
+    }
+
+    fn below(&self, fluent: Fluent) -> Option<&'w Table> {
+        self.start.get(fluent.index())
+    }
+
+    /// What is known of a fact; of a pattern, what is known of those it covers that have no entry of their own.
+    pub(crate) fn get(&self, fluent: Fluent, key: Key) -> Value {
+        let Some(table) = self.table(fluent) else { return Value::NOTHING_KNOWN };
+        let below = || self.below(fluent)?.get(key);
+        table.get(key).or_else(below).unwrap_or(table.default)
+    }
+
+    /// The entry of a single fact, where it has one.
+    pub(crate) fn entry(&self, fluent: Fluent, key: Key) -> Option<Value> {
+        let table = self.table(fluent)?;
+        let below = || self.below(fluent)?.entry(key).filter(|_| table.get(key).is_none());
+        table.entry(key).or_else(below)
+    }
+
+    /// Hands out the single facts with an entry that a pattern covers, in no order.
+    pub(crate) fn entries(&self, fluent: Fluent, pattern: Key, mut take: impl FnMut(Key, Value)) {
+        let mut single = |cell: &Cell| {
+            if !cell.key.is_pattern() {
+                take(cell.key, cell.value);
+            }
+        };
+        if let Some(table) = self.table(fluent) {
+            table.covered(pattern, &mut single);
+        }
+        self.unhidden(fluent, pattern, single);
+    }
+
+    /// Hands out the single facts with an entry above those of the start, in no order.
+    pub(crate) fn written(&self, fluent: Fluent, mut take: impl FnMut(Key, Value)) {
+        let Some(table) = self.table(fluent) else { return };
+        table.covered(Key::ALL, |cell| {
+            if !cell.key.is_pattern() {
+                take(cell.key, cell.value);
+            }
+        });
+    }
+
+    /// Hands out the entries of the start that a pattern covers and nothing hides.
+    fn unhidden(&self, fluent: Fluent, pattern: Key, mut take: impl FnMut(&Cell)) {
+        let Some((above, below)) = self.table(fluent).zip(self.below(fluent)) else { return };
+        // What hides the pattern hides all that it covers.
+        if above.get(pattern).is_none() {
+            below.covered(pattern, |cell| {
+                if above.get(cell.key).is_none() {
+                    take(cell);
+                }
+            });
+        }
+    }
+
+    /// Sets a fact, or a pattern and all that it covers.
+    pub(crate) fn set(&mut self, fluent: Fluent, key: Key, value: Value) {
+        let before = self.get(fluent, key);
+        if key.is_pattern() {
+            let mut trail = std::mem::take(&mut self.trail);
+            self.unhidden(fluent, key, |cell| {
+                let (key, before) = (cell.key, cell.value);
+                trail.push(Entry { fluent, key, undo: Undo::Hidden, before });
+            });
+            self.trail = trail;
+        }
+        let Some(table) = self.tables.get_mut(fluent.index()) else { return };
+        if key.is_pattern() {
+            table.drop_covered(key, |cell| {
+                let undo = Undo::Put(cell.value, cell.time);
+                self.trail.push(Entry { fluent, key: cell.key, undo, before: cell.value });
+            });
+        }
+        let time = u32::try_from(self.trail.len()).unwrap_or(u32::MAX);
+        let old = table.put(Cell { key, value, time });
+        let undo = old.map_or(Undo::Drop, |old| Undo::Put(old.value, old.time));
+        self.trail.push(Entry { fluent, key, undo, before });
+    }
+
+    /// Drops the entry of a single fact: what is known of it is again what its patterns say.
+    pub(crate) fn forget(&mut self, fluent: Fluent, key: Key) {
+        let Some(table) = self.tables.get_mut(fluent.index()) else { return };
+        if let Some(old) = table.drop(key) {
+            self.trail.push(Entry { fluent, key, undo: Undo::Put(old.value, old.time), before: old.value });
+        }
+    }
+
+    /// A point to go back to.
+    pub(crate) fn mark(&self) -> usize {
+        self.trail.len()
+    }
+
+    /// Takes back all writes since `mark`.
+    pub(crate) fn back_to(&mut self, mark: usize) {
+        while self.trail.len() > mark {
+            let Some(entry) = self.trail.pop() else { return };
+            let Some(table) = self.tables.get_mut(entry.fluent.index()) else { return };
+            match entry.undo {
+                Undo::Put(value, time) => {
+                    table.put(Cell { key: entry.key, value, time });
+                }
+                Undo::Drop => {
+                    table.drop(entry.key);
+                }
+                Undo::Hidden => {}
+            }
+        }
+    }
+
+    /// All writes since `mark`, in order: what was written, and what was known of it just before.
+    pub(crate) fn writes(&self, mark: usize) -> impl Iterator<Item = (Fluent, Key, Value)> + '_ {
+        let trail = self.trail.get(mark..).unwrap_or_default();
+        trail.iter().map(|entry| (entry.fluent, entry.key, entry.before))
+    }
+
+    /// The facts and patterns written since `mark`, each once.
+    pub(crate) fn touched(&self, mark: usize) -> Vec<Atom> {
+        let mut atoms: Vec<Atom> = self.writes(mark).map(|(fluent, key, _)| (fluent, key)).collect();
+        atoms.sort_unstable_by_key(order);
+        atoms.dedup();
+        atoms
+    }
+
+    /// The writes since `mark` and what they leave: one way through a fork.
+    pub(crate) fn delta(&self, mark: usize) -> Delta {
+        let atoms = self.touched(mark).into_iter();
+        Delta { written: atoms.map(|atom| (atom, self.get(atom.0, atom.1))).collect() }
+    }
+
+    /// Joins the ways through a fork that began where the facts are now. No way leaves the facts as they are.
+    pub(crate) fn join(&mut self, ways: &[Delta]) {
+        if let [only] = ways {
+            self.replay(only);
+            return;
+        }
+        let mut atoms: Vec<Atom> =
+            ways.iter().flat_map(|way| way.written.iter().map(|(atom, _)| *atom)).collect();
+        atoms.sort_unstable_by_key(order);
+        atoms.dedup();
+        let values: Vec<_> = atoms
+            .iter()
+            .map(|atom| {
+                let joined = ways.iter().map(|way| way.get(self, *atom)).reduce(Value::join);
+                joined.unwrap_or_else(|| self.get(atom.0, atom.1))
+            })
+            .collect();
+        for ((fluent, key), value) in atoms.into_iter().zip(values) {
+            if key.is_pattern() || self.get(fluent, key) != value {
+                self.set(fluent, key, value);
+            }
+        }
+    }
+
+    /// Goes one way on.
+    pub(crate) fn replay(&mut self, way: &Delta) {
+        for ((fluent, key), value) in &way.written {
+            self.set(*fluent, *key, *value);
+        }
+    }
+}
