@@ -433,6 +433,8 @@ pub(crate) enum Reaction {
 pub(crate) struct Catch {
     /// The failures with their places; none for `any`.
     pub(crate) on: Option<Vec<(Failure, Span)>>,
+    /// Where it says which failures it takes, or as a whole.
+    pub(crate) span: Span,
     /// What then runs.
     pub(crate) body: Block,
 }

@@ -15,10 +15,17 @@ use crate::library::{EffectDef, PrimitiveDef, ResourceSet};
 /// A change that a step will make, worked out in the state before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Change {
-    fluent: Fluent,
-    key: Key,
-    truth: bool,
+    pub(crate) fluent: Fluent,
+    pub(crate) key: Key,
+    pub(crate) truth: bool,
     sure: Sure,
+}
+
+impl Change {
+    /// Whether it happens on every path.
+    pub(crate) fn is_sure(&self) -> bool {
+        self.sure == Sure::Always
+    }
 }
 
 /// Whether the condition of an effect holds.

@@ -8,7 +8,7 @@ use super::eval::Frame;
 use super::facts::Key;
 use super::value::{Cause, Value};
 use super::{Prover, Verdict, Verdicts};
-use crate::ir::{Base, Call, Entity, Fluent, StepId, Term, Ty};
+use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
 use crate::library::{NeedDef, PrimitiveDef};
 
 impl Prover<'_> {
@@ -18,19 +18,22 @@ impl Prover<'_> {
         let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
         let frame = Frame { args: &call.args, result, each: None };
         let cause = Cause::step(id);
+        self.here = Some(id);
 
         self.check_fresh(call, def);
         let mut verdicts = self.needs(id, def, frame, span);
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
         self.changes(&def.unsettles, frame, &mut unsettles);
+        self.check_watched(def, frame, span);
+        self.check_redundant(def, &makes, &verdicts, span);
         if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(def);
         }
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
-        self.fail(def, &makes, cause, call.retries > 0, frame, &mut verdicts);
+        self.fail(call, def, &makes, frame, &mut verdicts, span, cause);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         self.make(&makes, cause);
         self.buffers = (makes, unsettles);
@@ -44,13 +47,15 @@ impl Prover<'_> {
     /// What is known where the step fails, and whether its needs still hold when it is tried again.
     fn fail(
         &mut self,
+        call: &Call,
         def: &PrimitiveDef,
         makes: &[Change],
-        cause: Cause,
-        retried: bool,
         frame: Frame<'_>,
         verdicts: &mut [Verdict],
+        span: Span,
+        cause: Cause,
     ) {
+        let retried = call.retries > 0;
         if self.enclosing.is_empty() && !retried {
             return;
         }
@@ -59,6 +64,9 @@ impl Prover<'_> {
         self.see_states();
         self.throw_all(def);
         if retried {
+            if !verdicts.contains(&Verdict::Refuted) {
+                self.check_retry(call, def, frame, span);
+            }
             for (need, verdict) in def.needs.iter().zip(verdicts) {
                 if *verdict == Verdict::Proven && !self.need(need, frame).0.is_true() {
                     *verdict = Verdict::Deferred;
@@ -76,7 +84,7 @@ impl Prover<'_> {
             if bound.ty != Ty::plain(Base::Pose) {
                 continue;
             }
-            let fresh = self.facts.get(self.fresh, binding_key(binding.0));
+            let fresh = self.freshness(*binding);
             if fresh.no.is_some() {
                 let mistake = Stale {
                     span: *span,
@@ -89,6 +97,16 @@ impl Prover<'_> {
                 self.diagnostics.push(mistake.into());
             }
         }
+    }
+
+    fn freshness(&self, binding: BindingId) -> Value {
+        self.facts.get(self.fresh, binding_key(binding.0))
+    }
+
+    /// Whether a binding is a pose that is no longer right.
+    pub(crate) fn is_stale(&self, id: BindingId) -> bool {
+        let binding = self.program.bindings.get(id.index());
+        binding.is_some_and(|binding| binding.ty == Ty::plain(Base::Pose)) && self.freshness(id).no.is_some()
     }
 
     fn needs(&mut self, id: StepId, def: &PrimitiveDef, frame: Frame<'_>, span: Span) -> Verdicts {
@@ -105,6 +123,9 @@ impl Prover<'_> {
                 Verdict::Proven
             };
             verdicts.push(verdict);
+            if verdict == Verdict::Deferred && !self.volatile.is_empty() {
+                self.check_reactions(def, need, frame, span);
+            }
             if verdict != Verdict::Proven {
                 self.grant(id, need, frame);
             }
@@ -128,7 +149,7 @@ impl Prover<'_> {
     }
 
     /// The values that a need can have, and the entity for which it can be false.
-    fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
+    pub(crate) fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
         let Some(kind) = need.each else {
             let asked = self.evaluate(&need.condition, frame);
             let value = match &need.when {

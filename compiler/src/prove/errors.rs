@@ -76,4 +76,49 @@ motet_syntax::mistakes! {
     Unreached("M0902", Warning) { }
     message(_m) { "this step is never reached".to_owned() }
     help(_m) { Some("leave it out, or change what comes before".to_owned()) }
+
+    /// A base moves to a person unwatched.
+    Unwatched("M0905", Warning) { callee: SmolStr, person: SmolStr }
+    message(m) { format!("`{}` moves to `{}`, and nothing watches how near it comes", m.callee, m.person) }
+    help(m) {
+        Some(format!("write `monitor when distance({}) < 0.5 m for 200 ms then pause during {{ … }}` around it", m.person))
+    }
+
+    /// The policy is done with something in the hand.
+    EndsHolding("M0906", Warning) { object: SmolStr, since: Option<Span> }
+    message(m) { format!("the policy is done while the hand holds `{}`", m.object) }
+    help(m) {
+        Some(format!("put it down or hand it over before, or say that it is meant: `achieves holding({})`", m.object))
+    }
+    related(m) { m.since.map(|span| Related::new("taken here", span)).into_iter().collect() }
+
+    /// The policy opened a container and leaves it open.
+    LeftOpen("M0907", Warning) { container: SmolStr, since: Option<Span> }
+    message(m) { format!("the policy is done and leaves `{}` open", m.container) }
+    help(m) { Some(format!("close it before, or say that it is meant: `achieves open({})`", m.container)) }
+    related(m) { m.since.map(|span| Related::new("opened here", span)).into_iter().collect() }
+
+    /// A handler of everything that goes on after `unsafe`.
+    HidesUnsafe("M0908", Warning) { }
+    message(_m) { "this `catch any` also takes `unsafe`, and goes on".to_owned() }
+    help(_m) { Some("name the failures that are meant, or end the policy with `fail` or `replan`".to_owned()) }
+
+    /// A retry that cannot succeed.
+    HopelessRetry("M0909", Warning) { callee: SmolStr, why: String }
+    message(m) { format!("to try `{}` again is no use: {}", m.callee, m.why) }
+    help(m) { Some(format!("leave out `retry`, and repeat what `{}` needs together with it: `repeat 2 {{ … }}`", m.callee)) }
+
+    /// A reaction that takes away what the body needs.
+    ReactionBreaks("M0910", Warning) { callee: SmolStr, needs: String, maker: SmolStr, step: Span }
+    message(m) {
+        format!("when this fires, `{}` may take away {}, which `{}` needs afterwards", m.maker, m.needs, m.callee)
+    }
+    help(m) { Some(format!("bring {} about again at the end of the reaction, or `restart` the body", m.needs)) }
+    related(m) { vec![Related::new("needed here", m.step)] }
+
+    /// An action that changes nothing.
+    Redundant("M0911", Warning) { callee: SmolStr, fact: String, since: Option<Span> }
+    message(m) { format!("`{}` changes nothing: {} holds already", m.callee, m.fact) }
+    help(_m) { Some("leave this step out".to_owned()) }
+    related(m) { m.since.map(|span| Related::new("since here", span)).into_iter().collect() }
 }

@@ -61,8 +61,8 @@ impl Prover<'_> {
     /// What is known of a single fact, symbols seen through.
     pub(crate) fn read(&self, fluent: Fluent, key: Key) -> Value {
         let value = self.read_plain(fluent, key);
-        let volatile = self.volatile.iter().filter(|row| row.0 == fluent && row.1.covers(key));
-        volatile.fold(value, |value, row| value.join(row.2))
+        let volatile = self.volatile.iter().filter(|row| row.fluent == fluent && row.key.covers(key));
+        volatile.fold(value, |value, row| value.join(row.value))
     }
 
     fn read_plain(&self, fluent: Fluent, key: Key) -> Value {

@@ -11,6 +11,7 @@ pub(crate) mod errors;
 mod eval;
 pub(crate) mod facts;
 mod flow;
+mod intent;
 mod monitor;
 mod parallel;
 mod story;
@@ -18,7 +19,7 @@ mod symbols;
 pub(crate) mod value;
 mod walk;
 
-use motet_syntax::Diagnostic;
+use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
@@ -27,7 +28,7 @@ use self::collect::Enclosing;
 use self::facts::{Facts, Key};
 use self::symbols::Symbols;
 use self::value::Value;
-use crate::ir::{Fluent, Measure, Program, StepId};
+use crate::ir::{Entity, Fluent, Measure, Program, StepId};
 use crate::library::Library;
 use crate::world::World;
 
@@ -69,8 +70,10 @@ pub(crate) struct Prover<'a> {
     pub(crate) lasting: FxHashMap<StepId, Lasting>,
     pub(crate) watched: Vec<Watched>,
     /// Facts that something beside the step being proved may change at any moment, and to what.
-    pub(crate) volatile: Vec<(Fluent, Key, Value)>,
+    pub(crate) volatile: Vec<Volatile>,
     pub(crate) enclosing: Vec<Enclosing>,
+    /// The call that is being proved.
+    pub(crate) here: Option<StepId>,
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
@@ -82,11 +85,24 @@ pub(crate) struct Prover<'a> {
     pub(crate) proof: Proof,
 }
 
+/// A fact that a monitor's reaction may change at any moment of the body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Volatile {
+    pub(crate) fluent: Fluent,
+    pub(crate) key: Key,
+    /// What it may be then.
+    pub(crate) value: Value,
+    /// The monitor's condition.
+    pub(crate) when: Span,
+}
+
 /// What an enclosing monitor watches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watched {
     pub(crate) measures: Vec<Measure>,
     pub(crate) fluents: Vec<Fluent>,
+    /// What the distance to is watched.
+    pub(crate) near: Vec<Entity>,
 }
 
 /// Proves a program from the facts that the world gives at the start.
@@ -105,6 +121,7 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         watched: Vec::new(),
         volatile: Vec::new(),
         enclosing: Vec::new(),
+        here: None,
         live: true,
         fixpoints: 0,
         aliased: vec![false; library.fluents.len()],
@@ -115,6 +132,8 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
     prover.block(&program.body);
     if prover.live {
         prover.check_goal();
+        let last = program.body.last().and_then(|id| program.steps.get(id.index()));
+        prover.check_end(last.map_or(program.span, |step| step.span));
     }
     prover.report_unreached();
     (prover.proof, prover.diagnostics)

@@ -7,8 +7,8 @@ use super::errors::NeverFires;
 use super::eval::Frame;
 use super::facts::Delta;
 use super::value::Cause;
-use super::{Prover, Watched};
-use crate::ir::{Condition, Reaction, StepId, TIMEOUT, Term, When};
+use super::{Prover, Volatile, Watched};
+use crate::ir::{Condition, Entity, Reaction, StepId, TIMEOUT, Term, When};
 
 impl Prover<'_> {
     pub(crate) fn monitor(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
@@ -22,7 +22,8 @@ impl Prover<'_> {
         let said = self.diagnostics.len();
         let volatile = self.volatile.len();
         self.disturb(id, whens, mark);
-        self.watched.push(watched(whens));
+        let watched = self.watched_by(whens);
+        self.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
         let mut head = Delta::default();
@@ -73,6 +74,15 @@ impl Prover<'_> {
         self.meet(mark, end.as_slice());
     }
 
+    /// What the conditions of a monitor speak of.
+    fn watched_by(&self, whens: &[When]) -> Watched {
+        let mut watched = Watched::default();
+        for when in whens {
+            visit(&when.condition, &mut watched, &mut |term| self.argument(term, Frame::default()));
+        }
+        watched
+    }
+
     /// Whether a reaction leaves the policy, or only waits, so that there is nothing to prove of it.
     fn is_outside(&self, when: &When) -> bool {
         let caught = self.enclosing.iter().any(|enclosing| matches!(enclosing, Enclosing::Try { .. }));
@@ -90,7 +100,8 @@ impl Prover<'_> {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
             self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
         }
-        self.watched.push(watched(whens));
+        let watched = self.watched_by(whens);
+        self.watched.push(watched);
         if self.live {
             self.block(body);
         }
@@ -107,7 +118,7 @@ impl Prover<'_> {
             self.block(body);
             for (fluent, key) in self.facts.touched(seen) {
                 let value = self.facts.get(fluent, key);
-                self.volatile.push((fluent, key, value));
+                self.volatile.push(Volatile { fluent, key, value, when: when.span });
             }
             self.back_to(mark);
             self.diagnostics.truncate(said);
@@ -138,7 +149,7 @@ impl Prover<'_> {
                     }
                     self.block(body);
                 }
-                Reaction::End { kind, of, .. } => self.end(*kind, *of),
+                Reaction::End { kind, of, .. } => self.end(*kind, *of, when.span),
             }
         } else if let Reaction::Resume { body, .. } = &when.reaction {
             // A condition that only the world can bring about still needs its block proved.
@@ -178,24 +189,20 @@ fn fixed(term: &Term) -> bool {
     }
 }
 
-/// What the conditions of a monitor speak of.
-fn watched(whens: &[When]) -> Watched {
-    let mut watched = Watched::default();
-    for when in whens {
-        visit(&when.condition, &mut watched);
-    }
-    watched
-}
+/// Looks up an entity.
+type Lookup<'l> = &'l mut dyn FnMut(&Term) -> Option<u16>;
 
-fn visit(condition: &Condition, watched: &mut Watched) {
+fn visit(condition: &Condition, watched: &mut Watched, lookup: Lookup<'_>) {
     match condition {
         Condition::Fact(fact) => watched.fluents.push(fact.fluent),
         Condition::Compare(_, left, right) => {
-            visit_term(left, watched);
-            visit_term(right, watched);
+            visit_term(left, watched, lookup);
+            visit_term(right, watched, lookup);
         }
-        Condition::Not(inner) => visit(inner, watched),
-        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().for_each(|part| visit(part, watched)),
+        Condition::Not(inner) => visit(inner, watched, lookup),
+        Condition::All(parts) | Condition::AnyOf(parts) => {
+            parts.iter().for_each(|part| visit(part, watched, lookup));
+        }
         Condition::Literal(_)
         | Condition::MonitoredMeasure(_)
         | Condition::MonitoredFluent(_)
@@ -203,12 +210,15 @@ fn visit(condition: &Condition, watched: &mut Watched) {
     }
 }
 
-fn visit_term(term: &Term, watched: &mut Watched) {
+fn visit_term(term: &Term, watched: &mut Watched, lookup: Lookup<'_>) {
     match term {
-        Term::Measure(id, _) => watched.measures.push(*id),
+        Term::Measure(id, args) => {
+            watched.measures.push(*id);
+            watched.near.extend(args.iter().filter_map(lookup).map(Entity));
+        }
         Term::Arith(_, left, right) => {
-            visit_term(left, watched);
-            visit_term(right, watched);
+            visit_term(left, watched, lookup);
+            visit_term(right, watched, lookup);
         }
         _ => {}
     }

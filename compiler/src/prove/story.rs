@@ -9,10 +9,10 @@ use super::errors::GoalRefuted;
 use super::eval::Frame;
 use super::facts::show;
 use super::value::Cause;
-use crate::ir::{Base, Condition, Entity, Fact, Fluent, StepKind, Term};
+use crate::ir::{Base, Condition, Entity, Fact, Fluent, Slot, StepId, StepKind, Term};
 
 /// Why a condition can be false.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Blame {
     /// What was asked for: "`free(hand)`", "`not open(drawer_1)`".
     pub(crate) wanted: String,
@@ -24,7 +24,10 @@ pub(crate) struct Blame {
     pub(crate) subject: Option<(SmolStr, bool)>,
     /// What is told instead of a cause: "`kettle` has 2.1 kg".
     numbers: Option<String>,
-    maker: Option<SmolStr>,
+    /// "`place(mug, table)` made".
+    maker: Option<String>,
+    /// On which way: " where `open(drawer)` holds".
+    way: String,
 }
 
 impl Blame {
@@ -34,8 +37,8 @@ impl Blame {
             return numbers.clone();
         }
         match (&self.maker, self.cause) {
-            (Some(maker), _) => format!("which `{maker}` made false"),
-            (None, Cause::NOTHING) => "which nothing ever made true".to_owned(),
+            (Some(maker), _) => format!("which {maker} false{}", self.way),
+            (None, Cause::NONE | Cause::NOTHING) => "which nothing ever made true".to_owned(),
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
@@ -63,40 +66,29 @@ impl Prover<'_> {
             Condition::Fact(fact) => {
                 let value = self.evaluate(condition, frame);
                 let cause = if truth { value.no } else { value.yes };
-                let maker = cause.as_step().map(|_| self.cause_name(cause));
+                let maker = cause.as_step().map(|_| self.maker(cause));
                 let wanted = self.show(condition, truth, frame);
                 let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
-                return Blame {
-                    wanted,
-                    cause,
-                    fact: Some((fact.fluent, truth)),
-                    subject,
-                    numbers: None,
-                    maker,
-                };
+                let (fact, way) = (Some((fact.fluent, truth)), self.way(cause));
+                return Blame { wanted, cause, fact, subject, numbers: None, maker, way };
             }
             Condition::Compare(_, left, right) => {
                 let numbers = self.numbers(left, right, frame);
                 let wanted = self.show(condition, truth, frame);
-                return Blame {
-                    wanted,
-                    cause: Cause::START,
-                    fact: None,
-                    subject: self.measured(left).or_else(|| self.measured(right)).map(|name| (name, truth)),
-                    numbers: Some(numbers),
-                    maker: None,
-                };
+                let subject = self.measured(left).or_else(|| self.measured(right)).map(|name| (name, truth));
+                let numbers = Some(numbers);
+                return Blame { wanted, cause: Cause::START, subject, numbers, ..Blame::default() };
             }
             Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => {
                 let wanted = self.show(condition, truth, frame);
                 let numbers = Some("and no `monitor` around it does".to_owned());
                 let subject = Some((SmolStr::new_static("monitored"), truth));
-                return Blame { wanted, cause: Cause::NOTHING, fact: None, subject, numbers, maker: None };
+                return Blame { wanted, subject, numbers, ..Blame::default() };
             }
             Condition::Literal(_) | Condition::Unknown => {}
         }
         let wanted = self.show(condition, truth, frame);
-        Blame { wanted, cause: Cause::NOTHING, fact: None, subject: None, numbers: None, maker: None }
+        Blame { wanted, ..Blame::default() }
     }
 
     /// The field or measure behind a number.
@@ -107,6 +99,50 @@ impl Prover<'_> {
             Term::Arith(_, left, right) => self.measured(left).or_else(|| self.measured(right)),
             _ => None,
         }
+    }
+
+    /// Who is to blame: an action made it so, a test found it so.
+    fn maker(&self, cause: Cause) -> String {
+        let step = cause.as_step().and_then(|id| self.program.steps.get(id.index()));
+        match step.map(|step| &step.kind) {
+            Some(StepKind::If { condition, .. }) => {
+                format!("`if {}` found", self.text(condition, Frame::default()))
+            }
+            Some(StepKind::Wait { .. } | StepKind::Repeat { until: Some(_), .. }) => {
+                format!("`{}` found", self.cause_name(cause))
+            }
+            _ => format!("`{}` made", self.cause_name(cause)),
+        }
+    }
+
+    /// The way from a cause to the step that is being proved, where it is not the only one.
+    fn way(&self, cause: Cause) -> String {
+        let Some(maker) = cause.as_step() else { return String::new() };
+        if self.here.is_some_and(|here| maker >= here) {
+            return " in an earlier round".to_owned();
+        }
+        let parent = |id: StepId| self.program.steps.get(id.index())?.place.parent;
+        let around = |id: StepId| std::iter::successors(parent(id), move |id| parent(*id));
+        let shared: Vec<StepId> = self.here.into_iter().flat_map(around).collect();
+        let mut inner = maker;
+        while let Some(outer) = parent(inner) {
+            let place = self.program.steps.get(inner.index()).map(|step| step.place.slot);
+            let fork = self.program.steps.get(outer.index()).map(|step| &step.kind);
+            // A step beside the one being proved, in another block of the same fork, is on another way too.
+            let apart = !shared.contains(&outer);
+            match (fork, place) {
+                (Some(StepKind::If { condition, .. }), Some(Slot::Then)) if apart => {
+                    return format!(" where {} holds", self.show(condition, true, Frame::default()));
+                }
+                (Some(StepKind::If { condition, .. }), Some(Slot::Else)) if apart => {
+                    return format!(" where {} does not hold", self.show(condition, true, Frame::default()));
+                }
+                (_, Some(Slot::Catch(_))) if apart => return " after a failure".to_owned(),
+                (_, Some(Slot::Reaction(_))) => return " when its monitor fires".to_owned(),
+                _ => inner = outer,
+            }
+        }
+        String::new()
     }
 
     /// Which primitives make the fact that is missing.
@@ -131,6 +167,7 @@ impl Prover<'_> {
         if !self.evaluate(goal, frame).no.is_some() {
             return;
         }
+        self.here = None;
         let blame = self.blame(goal, true, frame);
         let mistake = GoalRefuted {
             span: *span,
@@ -189,7 +226,7 @@ impl Prover<'_> {
         self.entity_name(Entity(arg))
     }
 
-    fn entity_name(&self, entity: Entity) -> SmolStr {
+    pub(crate) fn entity_name(&self, entity: Entity) -> SmolStr {
         let bound = self.symbols.binding_of(entity).and_then(|index| self.program.bindings.get(index));
         bound.map_or_else(|| self.world.name(entity), |binding| binding.name.clone())
     }

@@ -28,7 +28,7 @@ impl Cause {
         self.0 != 0
     }
 
-    fn or(self, other: Self) -> Self {
+    pub(crate) fn or(self, other: Self) -> Self {
         if self.is_some() { self } else { other }
     }
 }

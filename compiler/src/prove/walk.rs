@@ -1,5 +1,6 @@
 //! The walk over blocks and steps.
 
+use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 
 use super::MAX_FIXPOINTS;
@@ -64,7 +65,7 @@ impl Prover<'_> {
                 );
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
-            StepKind::End { kind, of, .. } => self.end(*kind, *of),
+            StepKind::End { kind, of, .. } => self.end(*kind, *of, step.span),
             StepKind::Unknown => self.forget_all(Cause::step(id)),
         }
     }
@@ -168,6 +169,7 @@ impl Prover<'_> {
                 self.live = true;
                 self.facts.replay(&states.delta());
                 self.block(&catch.body);
+                self.check_catch(catch, kinds);
                 if self.live {
                     ways.push(self.facts.delta(mark));
                 }
@@ -260,13 +262,16 @@ impl Prover<'_> {
     }
 
     /// Ends the policy, or the inlined policy `of`.
-    pub(crate) fn end(&mut self, kind: EndKind, of: Option<StepId>) {
+    pub(crate) fn end(&mut self, kind: EndKind, of: Option<StepId>, span: Span) {
         let depth = self
             .enclosing
             .iter()
             .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
-            (EndKind::Done, None, _) => self.check_goal(),
+            (EndKind::Done, None, _) => {
+                self.check_goal();
+                self.check_end(span);
+            }
             (EndKind::Done, Some(_), Some(depth)) => {
                 if let Some(Enclosing::Inline { exits, .. }) = self.enclosing.get_mut(depth) {
                     exits.see(&self.facts);

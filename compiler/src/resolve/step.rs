@@ -252,7 +252,8 @@ impl<'a> Steps<'a> {
             }
         };
         let slot = Slot::Catch(u16::try_from(index).unwrap_or(u16::MAX));
-        ir::Catch { on, body: self.block(&catch.body, Some(id), slot) }
+        let span = if let CatchOn::Any(span) = &catch.on { *span } else { catch.span };
+        ir::Catch { on, span, body: self.block(&catch.body, Some(id), slot) }
     }
 
     /// An expression in a place of a step where nothing but a name of something called makes sense.

@@ -1,0 +1,196 @@
+//! Lints of intent: what is allowed and yet hardly meant. All are warnings; what they rest on is what the prover knows.
+
+use motet_syntax::Span;
+use motet_syntax::ast::PrimitiveForm;
+use smallvec::SmallVec;
+
+use super::apply::Change;
+use super::errors::{
+    EndsHolding, HidesUnsafe, HopelessRetry, LeftOpen, ReactionBreaks, Redundant, Unwatched,
+};
+use super::eval::Frame;
+use super::facts::{Key, show};
+use super::value::{Cause, Value};
+use super::{Prover, Verdict};
+use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Term};
+use crate::library::{NeedDef, PrimitiveDef};
+
+impl Prover<'_> {
+    /// Whether a step stands in the document itself, and not in a policy that it calls from elsewhere.
+    fn is_own(&self, span: Span) -> bool {
+        span.file == self.program.span.file
+    }
+
+    /// Where the policy is done: what it still holds, and what it opened and did not close.
+    pub(crate) fn check_end(&mut self, span: Span) {
+        let ends = |name: &str, of_a_step: bool| {
+            let fluent = *self.library.names.fluents.get(name)?;
+            let meant = self.program.achieves.as_ref().is_some_and(|(goal, _)| mentions(goal, fluent));
+            if meant {
+                return None;
+            }
+            let mut found: Option<(Key, Cause)> = None;
+            self.facts.entries(fluent, Key::ALL, |key, value| {
+                let counts = value.yes.is_some() && (!of_a_step || value.yes.as_step().is_some());
+                if counts && found.is_none_or(|(least, _)| key < least) {
+                    found = Some((key, value.yes));
+                }
+            });
+            found.map(|(key, cause)| (self.argument_name(fluent, 0, key.arg(0)), self.cause_span(cause)))
+        };
+        let holding =
+            ends("holding", false).map(|(object, since)| EndsHolding { span, object, since }.into());
+        let open = ends("open", true).map(|(container, since)| LeftOpen { span, container, since }.into());
+        for mistake in [holding, open].into_iter().flatten() {
+            if !self.diagnostics.contains(&mistake) {
+                self.diagnostics.push(mistake);
+            }
+        }
+    }
+
+    /// A base that moves to a person, with nothing that watches how near it comes.
+    pub(crate) fn check_watched(&mut self, def: &PrimitiveDef, frame: Frame<'_>, span: Span) {
+        let Some((query, args)) = def.motion.as_ref().filter(|_| self.is_own(span)) else { return };
+        let measure = self.library.names.measures.get("distance");
+        let can = measure.and_then(|id| self.library.measure(*id)).is_some_and(|def| def.observable);
+        let target = args.first().and_then(|arg| self.argument(arg, frame)).map(Entity);
+        let person = self.library.kind_named("Person");
+        let (true, "go_to", Some(target)) = (can, query.as_str(), target) else { return };
+        let kind = self.symbols.kind(self.world, target);
+        if !kind.is_some_and(|kind| self.library.is_kind(kind, person)) {
+            return;
+        }
+        if !self.watched.iter().any(|watched| watched.near.contains(&target)) {
+            let person = self.entity_name(target);
+            self.diagnostics.push(Unwatched { span, callee: def.name.clone(), person }.into());
+        }
+    }
+
+    /// An action all of whose effects hold already. One with a number or a text among its arguments may do more than its
+    /// contract says.
+    pub(crate) fn check_redundant(
+        &mut self,
+        def: &PrimitiveDef,
+        makes: &[Change],
+        verdicts: &[Verdict],
+        span: Span,
+    ) {
+        let plain = |base: Base| matches!(base, Base::Entity(_) | Base::Enum(_));
+        let says_all = def.form == PrimitiveForm::Action
+            && def.params.iter().all(|param| plain(param.ty.base))
+            && !verdicts.contains(&Verdict::Refuted);
+        if !says_all || !self.is_own(span) {
+            return;
+        }
+        let Some(first) = makes.iter().find(|change| change.truth) else { return };
+        if !makes.iter().all(|change| self.holds_already(change, makes)) {
+            return;
+        }
+        let cause = self.facts.get(first.fluent, first.key).yes;
+        let Some(known) = self.library.fluent(first.fluent) else { return };
+        let name = |index, arg| self.argument_name(first.fluent, index, arg);
+        let fact = show(&known.name, first.key, known.params.len(), name);
+        let since = self.cause_span(cause);
+        self.diagnostics.push(Redundant { span, callee: def.name.clone(), fact, since }.into());
+    }
+
+    fn holds_already(&self, change: &Change, makes: &[Change]) -> bool {
+        let made = |key: Key| {
+            makes.iter().any(|other| other.truth && other.fluent == change.fluent && other.key.covers(key))
+        };
+        let is = |value: Value| if change.truth { value.is_true() } else { value.is_false() };
+        let mut holds = change.is_sure()
+            && (is(self.facts.get(change.fluent, change.key)) || (!change.truth && made(change.key)));
+        if change.key.is_pattern() {
+            self.facts.entries(change.fluent, change.key, |key, value| {
+                holds &= is(value) || (!change.truth && made(key));
+            });
+        }
+        holds
+    }
+
+    /// A retry that cannot go better: what the step needs is gone for good once it was tried.
+    pub(crate) fn check_retry(&mut self, call: &Call, def: &PrimitiveDef, frame: Frame<'_>, span: Span) {
+        let stale = call.args.iter().find_map(|arg| match arg {
+            Term::Binding(id) if self.is_stale(*id) => self.program.bindings.get(id.index()),
+            _ => None,
+        });
+        if let Some(binding) = stale {
+            let why = format!("`{}` is stale by then: it was perceived before the first try", binding.name);
+            return self.diagnostics.push(HopelessRetry { span, callee: def.name.clone(), why }.into());
+        }
+        let lost = def.needs.iter().find(|need| self.is_lost(need, frame));
+        if let Some(need) = lost {
+            let needs = self.show(&need.condition, true, frame);
+            let why = format!("it needs {needs}, which is lost by then and which nothing here can observe");
+            self.diagnostics.push(HopelessRetry { span, callee: def.name.clone(), why }.into());
+        }
+    }
+
+    /// Whether a need cannot be seen to hold: it is false, or rests on what the robot does not observe.
+    fn is_lost(&self, need: &NeedDef, frame: Frame<'_>) -> bool {
+        if need.each.is_some() || need.when.is_some() {
+            return false;
+        }
+        let value = self.evaluate(&need.condition, frame);
+        let unseen = |fact: &Fact| {
+            let Some(def) = self.library.fluent(fact.fluent) else { return false };
+            !def.observable && !def.derived
+        };
+        match &need.condition {
+            Condition::Fact(fact) => value.is_false() || (!value.yes.is_some() && unseen(fact)),
+            _ => value.is_false(),
+        }
+    }
+
+    /// A `catch any` that takes `unsafe` and goes on.
+    pub(crate) fn check_catch(&mut self, catch: &Catch, kinds: &[Failure]) {
+        let hidden = self.library.names.failures.get("unsafe");
+        let hides = catch.on.is_none() && hidden.is_some_and(|kind| kinds.contains(kind));
+        if hides && self.live && self.is_own(catch.span) {
+            self.diagnostics.push(HidesUnsafe { span: catch.span }.into());
+        }
+    }
+
+    /// A need that would be proven, were it not for what a monitor's reaction does meanwhile.
+    pub(crate) fn check_reactions(
+        &mut self,
+        def: &PrimitiveDef,
+        need: &NeedDef,
+        frame: Frame<'_>,
+        span: Span,
+    ) {
+        let rows = std::mem::take(&mut self.volatile);
+        let calm = self.need(need, frame).0.is_true();
+        self.volatile = rows;
+        let spoken = |fluent: Fluent| mentions(&need.condition, fluent);
+        let Some(row) = self.volatile.iter().find(|row| calm && spoken(row.fluent)) else { return };
+        let needs = self.show(&need.condition, true, frame);
+        let (when, maker) = (row.when, self.cause_name(row.value.no.or(row.value.open)));
+        let mistake =
+            ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into();
+        if !self.diagnostics.contains(&mistake) {
+            self.diagnostics.push(mistake);
+        }
+    }
+}
+
+/// Whether a condition speaks of a fluent.
+fn mentions(condition: &Condition, fluent: Fluent) -> bool {
+    let mut open: SmallVec<[&Condition; 8]> = SmallVec::new();
+    open.push(condition);
+    while let Some(part) = open.pop() {
+        match part {
+            Condition::Fact(fact) if fact.fluent == fluent => return true,
+            Condition::Not(inner) => open.push(inner),
+            Condition::All(parts) | Condition::AnyOf(parts) => open.extend(parts),
+            Condition::Fact(_)
+            | Condition::Literal(_)
+            | Condition::Compare(..)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::Unknown => {}
+        }
+    }
+    false
+}
