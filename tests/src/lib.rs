@@ -1,8 +1,8 @@
-//! What the tests share: adapters that turn other people's data into ordinary policies and scenes, and helpers that run
-//! them through every stage. No verdict is made here.
+//! What the tests share: adapters that turn other people's data into ordinary policies and scenes, helpers that run them
+//! through every stage, and an interpreter that the prover is held against. No verdict of the compiler is made here.
 
 pub mod eval;
 pub mod generate;
+pub mod oracle;
 pub mod saycan;
-
 pub mod setup;

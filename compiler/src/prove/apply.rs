@@ -3,7 +3,7 @@
 use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
 use super::Prover;
-use super::eval::Frame;
+use super::eval::{Frame, MAX_ALIASES};
 use super::facts::{ANY, Key};
 use super::value::{Cause, Value};
 use smallvec::SmallVec;
@@ -118,20 +118,52 @@ impl Prover<'_> {
                 let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
                 let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
                 let mut known = Entities::new();
-                self.facts.entries(fact.fluent, pattern, |key, value| {
-                    let entity = Entity(key.arg(place));
-                    let found = self.symbols.kind(self.world, entity).filter(|_| !value.is_false());
-                    if found.is_some_and(|found| self.library.is_kind(found, kind)) {
-                        known.push(entity);
-                    }
-                });
+                let mut rest = self.facts.get(fact.fluent, pattern);
+                let Some(aliases) = self.aliases(fact.fluent, pattern) else {
+                    return (Entities::new(), Some(Sure::Unknown));
+                };
+                for pattern in aliases {
+                    rest = rest.join(self.facts.get(fact.fluent, pattern));
+                    self.facts.entries(fact.fluent, pattern, |key, value| {
+                        let entity = Entity(key.arg(place));
+                        let found = self.symbols.kind(self.world, entity).filter(|_| !value.is_false());
+                        if found.is_some_and(|found| self.library.is_kind(found, kind)) {
+                            known.push(entity);
+                        }
+                    });
+                }
                 known.sort_unstable();
                 known.dedup();
-                let rest = self.facts.get(fact.fluent, pattern);
                 (known, if rest.is_false() { None } else { sure(rest) })
             }
             Some(_) => (self.of_kind(kind, usize::MAX).into(), None),
         }
+    }
+
+    /// A pattern, and the same of all that the symbols in it may be; none where those are too many to look at.
+    fn aliases(&self, fluent: Fluent, pattern: Key) -> Option<SmallVec<[Key; 4]>> {
+        let mut found: SmallVec<[Key; 4]> = SmallVec::from_slice(&[pattern]);
+        if self.symbols.is_empty() || self.facts.entry(fluent, pattern).is_some() {
+            return Some(found);
+        }
+        let params = self.library.fluent(fluent).map(|def| def.params.as_slice()).unwrap_or_default();
+        for (index, _) in params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some()) {
+            let Some(symbol) = self.symbols.get(Entity(pattern.arg(index))) else { continue };
+            let all;
+            let may_be: &[Entity] = match &symbol.may_be {
+                Some(list) => list,
+                None => {
+                    all = self.of_kind(symbol.kind, MAX_ALIASES + 1);
+                    &all
+                }
+            };
+            if may_be.len().saturating_mul(found.len()) > MAX_ALIASES {
+                return None;
+            }
+            let known = found.clone();
+            found.extend(may_be.iter().flat_map(|entity| known.iter().map(|key| key.with(index, entity.0))));
+        }
+        Some(found)
     }
 
     /// For which entities a quantified need is asked, and whether there may be others.

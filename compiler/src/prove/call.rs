@@ -26,7 +26,7 @@ impl Prover<'_> {
         self.changes(&def.makes, frame, &mut makes);
         self.changes(&def.unsettles, frame, &mut unsettles);
         self.check_watched(def, frame, span);
-        self.check_redundant(def, &makes, &verdicts, span);
+        self.check_redundant(def, &makes, frame, &verdicts, span);
         if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(def);

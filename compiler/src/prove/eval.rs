@@ -16,7 +16,7 @@ pub(crate) struct Frame<'c> {
 }
 
 /// The most entities behind a symbol that are looked at one by one.
-const MAX_ALIASES: usize = 64;
+pub(super) const MAX_ALIASES: usize = 64;
 
 impl Prover<'_> {
     /// The argument of a fact as a number; none where it is not known what it is.

@@ -2,9 +2,9 @@
 
 use motet_syntax::Span;
 use motet_syntax::ast::PrimitiveForm;
-use smallvec::SmallVec;
 
 use super::apply::Change;
+use super::assume::mentions;
 use super::errors::{
     EndsHolding, HidesUnsafe, HopelessRetry, LeftOpen, ReactionBreaks, Redundant, Unwatched,
 };
@@ -12,7 +12,7 @@ use super::eval::Frame;
 use super::facts::{Key, show};
 use super::value::{Cause, Value};
 use super::{Prover, Verdict};
-use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Term};
+use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Slot, StepId, Term};
 use crate::library::{NeedDef, PrimitiveDef};
 
 impl Prover<'_> {
@@ -72,6 +72,7 @@ impl Prover<'_> {
         &mut self,
         def: &PrimitiveDef,
         makes: &[Change],
+        frame: Frame<'_>,
         verdicts: &[Verdict],
         span: Span,
     ) {
@@ -79,7 +80,7 @@ impl Prover<'_> {
         let says_all = def.form == PrimitiveForm::Action
             && def.params.iter().all(|param| plain(param.ty.base))
             && !verdicts.contains(&Verdict::Refuted);
-        if !says_all || !self.is_own(span) {
+        if !says_all || !self.is_own(span) || self.may_have_changed(frame) {
             return;
         }
         let Some(first) = makes.iter().find(|change| change.truth) else { return };
@@ -92,6 +93,21 @@ impl Prover<'_> {
         let fact = show(&known.name, first.key, known.params.len(), name);
         let since = self.cause_span(cause);
         self.diagnostics.push(Redundant { span, callee: def.name.clone(), fact, since }.into());
+    }
+
+    /// Whether the world may have moved on without the robot: people walk, and a monitor's reaction runs because of it.
+    fn may_have_changed(&self, frame: Frame<'_>) -> bool {
+        let step = |id: StepId| self.program.steps.get(id.index());
+        let mut around = std::iter::successors(self.here, |id| step(*id)?.place.parent);
+        let person = self.library.kind_named("Person");
+        let mut args = frame.args.iter();
+        around.any(|id| step(id).is_some_and(|step| matches!(step.place.slot, Slot::Reaction(_))))
+            || args.any(|arg| {
+                let kind =
+                    self.argument(arg, frame).and_then(|arg| self.symbols.kind(self.world, Entity(arg)));
+                matches!(arg, Term::Entity(_) | Term::Binding(_))
+                    && kind.is_some_and(|kind| self.library.is_kind(kind, person))
+            })
     }
 
     fn holds_already(&self, change: &Change, makes: &[Change]) -> bool {
@@ -173,24 +189,4 @@ impl Prover<'_> {
             self.diagnostics.push(mistake);
         }
     }
-}
-
-/// Whether a condition speaks of a fluent.
-fn mentions(condition: &Condition, fluent: Fluent) -> bool {
-    let mut open: SmallVec<[&Condition; 8]> = SmallVec::new();
-    open.push(condition);
-    while let Some(part) = open.pop() {
-        match part {
-            Condition::Fact(fact) if fact.fluent == fluent => return true,
-            Condition::Not(inner) => open.push(inner),
-            Condition::All(parts) | Condition::AnyOf(parts) => open.extend(parts),
-            Condition::Fact(_)
-            | Condition::Literal(_)
-            | Condition::Compare(..)
-            | Condition::MonitoredMeasure(_)
-            | Condition::MonitoredFluent(_)
-            | Condition::Unknown => {}
-        }
-    }
-    false
 }

@@ -25,7 +25,7 @@ use smallvec::SmallVec;
 
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
-use self::facts::{Facts, Key};
+use self::facts::{Facts, Key, Split};
 use self::symbols::Symbols;
 use self::value::Value;
 use crate::ir::{Entity, Fluent, Measure, Program, StepId};
@@ -74,6 +74,8 @@ pub(crate) struct Prover<'a> {
     pub(crate) enclosing: Vec<Enclosing>,
     /// The call that is being proved.
     pub(crate) here: Option<StepId>,
+    /// The ways that met on the way here, the latest last.
+    pub(crate) splits: Vec<Split>,
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
@@ -122,6 +124,7 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         volatile: Vec::new(),
         enclosing: Vec::new(),
         here: None,
+        splits: Vec::new(),
         live: true,
         fixpoints: 0,
         aliased: vec![false; library.fluents.len()],

@@ -73,6 +73,9 @@ impl Prover<'_> {
     /// Takes the facts back, and tells those who collect states.
     pub(crate) fn back_to(&mut self, mark: usize) {
         self.facts.back_to(mark);
+        while self.splits.last().is_some_and(|split| split.since > mark) {
+            self.splits.pop();
+        }
         for enclosing in &mut self.enclosing {
             enclosing.cut_to(mark);
         }
@@ -83,7 +86,8 @@ impl Prover<'_> {
         self.back_to(mark);
         self.live = !ways.is_empty();
         if self.live {
-            self.facts.join(ways);
+            let split = self.facts.join(ways);
+            self.remember(split);
         }
     }
 

@@ -70,7 +70,7 @@ pub(crate) fn show(name: &str, key: Key, arity: usize, arg: impl Fn(usize, u16) 
             if value == ANY { SmolStr::new_static("any") } else { arg(index, value) }
         })
         .collect();
-    if args.is_empty() { format!("`{name}`") } else { format!("`{name}({})`", args.join(", ")) }
+    format!("`{name}({})`", args.join(", "))
 }
 
 /// An entity as an argument.

@@ -8,11 +8,13 @@
 
 mod delta;
 mod key;
+mod split;
 mod table;
 
 pub(crate) use self::delta::Delta;
 use self::delta::order;
 pub(crate) use self::key::{ANY, Atom, Key, arg, show};
+pub(crate) use self::split::Split;
 use self::table::{Cell, Table};
 use super::value::Value;
 use crate::ir::Fluent;
@@ -197,30 +199,6 @@ impl<'w> Facts<'w> {
     pub(crate) fn delta(&self, mark: usize) -> Delta {
         let atoms = self.touched(mark).into_iter();
         Delta { written: atoms.map(|atom| (atom, self.get(atom.0, atom.1))).collect() }
-    }
-
-    /// Joins the ways through a fork that began where the facts are now. No way leaves the facts as they are.
-    pub(crate) fn join(&mut self, ways: &[Delta]) {
-        if let [only] = ways {
-            self.replay(only);
-            return;
-        }
-        let mut atoms: Vec<Atom> =
-            ways.iter().flat_map(|way| way.written.iter().map(|(atom, _)| *atom)).collect();
-        atoms.sort_unstable_by_key(order);
-        atoms.dedup();
-        let values: Vec<_> = atoms
-            .iter()
-            .map(|atom| {
-                let joined = ways.iter().map(|way| way.get(self, *atom)).reduce(Value::join);
-                joined.unwrap_or_else(|| self.get(atom.0, atom.1))
-            })
-            .collect();
-        for ((fluent, key), value) in atoms.into_iter().zip(values) {
-            if key.is_pattern() || self.get(fluent, key) != value {
-                self.set(fluent, key, value);
-            }
-        }
     }
 
     /// Goes one way on.

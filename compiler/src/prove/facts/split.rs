@@ -1,0 +1,57 @@
+//! The ways that met at a join, kept for a while: a later test that some of them cannot pass tells them apart again.
+
+use super::super::value::Value;
+use super::{Atom, Delta, Facts, order};
+
+/// Ways that met.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Split {
+    /// The trail when they had met.
+    pub(crate) since: usize,
+    atoms: Vec<Atom>,
+    /// What each way left of each atom, way by way.
+    values: Vec<Value>,
+}
+
+impl Split {
+    /// Whether the ways differ in a fluent that `asked` picks.
+    pub(crate) fn differs(&self, mut asked: impl FnMut(crate::ir::Fluent) -> bool) -> bool {
+        let first = self.values.get(..self.atoms.len()).unwrap_or_default();
+        self.atoms.iter().enumerate().any(|(index, (fluent, _))| {
+            let mut others = self.values.iter().skip(index).step_by(self.atoms.len().max(1));
+            asked(*fluent)
+                && first.get(index).is_some_and(|first| !others.all(|value| value.same_set(*first)))
+        })
+    }
+
+    /// The ways, each as what it left.
+    pub(crate) fn ways(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, Value)> + '_> + '_ {
+        let ways = self.values.chunks(self.atoms.len().max(1));
+        ways.map(|values| self.atoms.iter().copied().zip(values.iter().copied()))
+    }
+}
+
+impl Facts<'_> {
+    /// Joins the ways through a fork that began where the facts are now, and keeps them apart beside. No way leaves the
+    /// facts as they are.
+    pub(crate) fn join(&mut self, ways: &[Delta]) -> Split {
+        if let [only] = ways {
+            self.replay(only);
+            return Split::default();
+        }
+        let mut atoms: Vec<Atom> =
+            ways.iter().flat_map(|way| way.written.iter().map(|(atom, _)| *atom)).collect();
+        atoms.sort_unstable_by_key(order);
+        atoms.dedup();
+        let each = ways.iter().flat_map(|way| atoms.iter().map(|atom| way.get(self, *atom)));
+        let values: Vec<Value> = each.collect();
+        for (index, (fluent, key)) in atoms.iter().copied().enumerate() {
+            let found = values.iter().skip(index).step_by(atoms.len()).copied().reduce(Value::join);
+            let Some(value) = found else { continue };
+            if key.is_pattern() || self.get(fluent, key) != value {
+                self.set(fluent, key, value);
+            }
+        }
+        Split { since: self.mark(), atoms, values }
+    }
+}
