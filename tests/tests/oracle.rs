@@ -6,7 +6,7 @@
 use motet_compiler::{Options, Session};
 use motet_graph::{NodeKind, Verdict};
 use motet_syntax::{Severity, Source, Sources};
-use motet_tests::oracle::{self, Dice, Domain, Policy};
+use motet_tests::oracle::{self, Dice, Domain, Policy, Step};
 use proptest::prelude::*;
 
 /// What the prover says of a policy.
@@ -85,20 +85,22 @@ fn judge(lab: &mut Lab, policy: &Policy, count: &mut Count) -> Result<(), String
     match said {
         Said::Accepted => {
             count.accepted += 1;
-            if found.violated || found.unobserved {
+            if found.violated || found.contended || found.unobserved {
                 return Err(format!("accepted, but {found:?}:\n{}", lab.show(policy)));
             }
         }
         Said::Deferred => {
             count.deferred += 1;
-            if found.violated {
+            // What another branch may change is unknown by the word of the language.
+            let contended = policy.iter().any(Step::is_parallel);
+            if found.violated && !contended {
                 return Err(format!("deferred, but a path breaks a need:\n{}", lab.show(policy)));
             }
-            count.deferred_in_vain += usize::from(!found.unobserved);
+            count.deferred_in_vain += usize::from(!found.unobserved && !contended);
         }
         Said::Refuted => {
             count.refuted += 1;
-            count.refuted_in_vain += usize::from(!found.violated);
+            count.refuted_in_vain += usize::from(!found.violated && !found.contended);
         }
         Said::Other => {}
     }
@@ -119,11 +121,12 @@ fn verdicts_are_those_of_the_paths() {
         }
     }
     println!("{count:?}");
-    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), count.total, wrong[0]);
+    let first: Vec<_> = wrong.iter().take(3).map(String::as_str).collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), count.total, first.join("\n"));
     assert!(count.accepted * 10 >= count.total * 3, "{count:?}");
     assert!(count.refuted * 10 >= count.total * 3, "{count:?}");
     assert!(count.refuted_in_vain * 100 <= count.refuted * 2, "{count:?}");
-    assert!(count.deferred_in_vain * 100 <= count.deferred * 5, "{count:?}");
+    assert!(count.deferred_in_vain * 100 <= count.deferred * 3, "{count:?}");
 }
 
 proptest! {

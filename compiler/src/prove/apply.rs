@@ -181,40 +181,38 @@ impl Prover<'_> {
     pub(crate) fn make(&mut self, changes: &[Change], cause: Cause) {
         for change in changes {
             let new = Value::of(change.truth, cause);
-            let value = match change.sure {
-                Sure::Always => new,
-                Sure::Sometimes => self.facts.get(change.fluent, change.key).join(new),
-                Sure::Unknown => self.facts.get(change.fluent, change.key).maybe(new, cause),
-            };
-            self.write(change.fluent, change.key, value, change.sure == Sure::Always, cause);
+            match change.sure {
+                Sure::Always => self.write(change, cause, |_| new),
+                Sure::Sometimes => self.write(change, cause, |old| old.join(new)),
+                Sure::Unknown => self.write(change, cause, |old| old.maybe(new, cause)),
+            }
         }
     }
 
     /// Leaves the facts of changes unobserved.
     pub(crate) fn unsettle(&mut self, changes: &[Change], cause: Cause) {
+        let open = Value::open(cause);
         for change in changes {
-            let open = Value::open(cause);
-            let value = match change.sure {
-                Sure::Sometimes => self.facts.get(change.fluent, change.key).join(open),
-                Sure::Always | Sure::Unknown => open,
-            };
-            self.write(change.fluent, change.key, value, change.sure == Sure::Always, cause);
+            match change.sure {
+                Sure::Sometimes => self.write(change, cause, |old| old.join(open)),
+                Sure::Always | Sure::Unknown => self.write(change, cause, |_| open),
+            }
         }
     }
 
     /// Writes a fact, and lets those that may be the same feel it.
-    fn write(&mut self, fluent: Fluent, key: Key, value: Value, sure: bool, cause: Cause) {
-        if key.is_pattern() && !sure {
-            // The pattern may or may not hold: so may each fact that it covers.
-            let mut covered = Vec::new();
-            self.facts.entries(fluent, key, |single, old| covered.push((single, old)));
-            self.facts.set(fluent, key, value);
-            for (single, old) in covered {
-                self.facts.set(fluent, single, old.maybe(value, cause));
-            }
-            return;
+    fn write(&mut self, change: &Change, cause: Cause, new: impl Fn(Value) -> Value) {
+        let Change { fluent, key, sure, .. } = *change;
+        if sure == Sure::Always {
+            self.facts.set(fluent, key, new(Value::default()));
+        } else if self.symbols.is_empty() || key.is_pattern() {
+            self.facts.change(fluent, key, new);
+        } else {
+            // What is known of a binding is what is known of all that it may be.
+            let known = self.read_plain(fluent, key);
+            self.facts.set(fluent, key, new(known));
         }
-        self.facts.set(fluent, key, value);
+        let value = self.facts.get(fluent, key);
         if self.symbols.is_empty() {
             return;
         }

@@ -19,6 +19,7 @@ impl Prover<'_> {
         let frame = Frame { args: &call.args, result, each: None };
         let cause = Cause::step(id);
         self.here = Some(id);
+        self.erode();
 
         self.check_fresh(call, def);
         let mut verdicts = self.needs(id, def, frame, span);
@@ -33,11 +34,12 @@ impl Prover<'_> {
         }
         self.make_stale(id, def, frame);
         self.unsettle(&unsettles, cause);
-        self.fail(call, def, &makes, frame, &mut verdicts, span, cause);
+        self.fail(id, call, def, frame, &makes, &mut verdicts);
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         self.make(&makes, cause);
         self.buffers = (makes, unsettles);
         self.bind(id, call, def, frame);
+        self.erode();
         self.see_states();
         if let Some(slot) = self.proof.needs.get_mut(id.index()) {
             *slot = verdicts;
@@ -47,25 +49,25 @@ impl Prover<'_> {
     /// What is known where the step fails, and whether its needs still hold when it is tried again.
     fn fail(
         &mut self,
+        id: StepId,
         call: &Call,
         def: &PrimitiveDef,
-        makes: &[Change],
         frame: Frame<'_>,
+        makes: &[Change],
         verdicts: &mut [Verdict],
-        span: Span,
-        cause: Cause,
     ) {
         let retried = call.retries > 0;
         if self.enclosing.is_empty() && !retried {
             return;
         }
         let mark = self.facts.mark();
-        self.unsettle(makes, cause);
+        self.unsettle(makes, Cause::step(id));
+        self.erode();
         self.see_states();
         self.throw_all(def);
         if retried {
             if !verdicts.contains(&Verdict::Refuted) {
-                self.check_retry(call, def, frame, span);
+                self.check_retry(id, call, def, frame);
             }
             for (need, verdict) in def.needs.iter().zip(verdicts) {
                 if *verdict == Verdict::Proven && !self.need(need, frame).0.is_true() {
@@ -124,7 +126,7 @@ impl Prover<'_> {
             };
             verdicts.push(verdict);
             if verdict == Verdict::Deferred && !self.volatile.is_empty() {
-                self.check_reactions(def, need, frame, span);
+                self.check_reactions(def, need, value, frame, span);
             }
             if verdict != Verdict::Proven {
                 self.grant(id, need, frame);

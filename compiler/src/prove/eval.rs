@@ -65,7 +65,7 @@ impl Prover<'_> {
         volatile.fold(value, |value, row| value.join(row.value))
     }
 
-    fn read_plain(&self, fluent: Fluent, key: Key) -> Value {
+    pub(super) fn read_plain(&self, fluent: Fluent, key: Key) -> Value {
         if self.symbols.is_empty() || self.facts.entry(fluent, key).is_some() {
             return self.facts.get(fluent, key);
         }

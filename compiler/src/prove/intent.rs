@@ -126,7 +126,8 @@ impl Prover<'_> {
     }
 
     /// A retry that cannot go better: what the step needs is gone for good once it was tried.
-    pub(crate) fn check_retry(&mut self, call: &Call, def: &PrimitiveDef, frame: Frame<'_>, span: Span) {
+    pub(crate) fn check_retry(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: Frame<'_>) {
+        let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
         let stale = call.args.iter().find_map(|arg| match arg {
             Term::Binding(id) if self.is_stale(*id) => self.program.bindings.get(id.index()),
             _ => None,
@@ -168,21 +169,20 @@ impl Prover<'_> {
         }
     }
 
-    /// A need that would be proven, were it not for what a monitor's reaction does meanwhile.
+    /// A need that is unobserved because of what a monitor's reaction does meanwhile.
     pub(crate) fn check_reactions(
         &mut self,
         def: &PrimitiveDef,
         need: &NeedDef,
+        value: Value,
         frame: Frame<'_>,
         span: Span,
     ) {
-        let rows = std::mem::take(&mut self.volatile);
-        let calm = self.need(need, frame).0.is_true();
-        self.volatile = rows;
         let spoken = |fluent: Fluent| mentions(&need.condition, fluent);
-        let Some(row) = self.volatile.iter().find(|row| calm && spoken(row.fluent)) else { return };
+        let mut rows = self.volatile.iter();
+        let Some(row) = rows.find(|row| spoken(row.fluent) && row.value.open == value.open) else { return };
         let needs = self.show(&need.condition, true, frame);
-        let (when, maker) = (row.when, self.cause_name(row.value.no.or(row.value.open)));
+        let (when, maker) = (row.when, self.cause_name(row.value.open));
         let mistake =
             ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into();
         if !self.diagnostics.contains(&mistake) {

@@ -14,6 +14,7 @@ mod flow;
 mod intent;
 mod monitor;
 mod parallel;
+mod show;
 mod story;
 mod symbols;
 pub(crate) mod value;

@@ -21,7 +21,7 @@ impl Prover<'_> {
         let mark = self.facts.mark();
         let said = self.diagnostics.len();
         let volatile = self.volatile.len();
-        self.disturb(id, whens, mark);
+        self.disturb(id, whens, &Delta::default(), mark, volatile);
         let watched = self.watched_by(whens);
         self.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
@@ -33,6 +33,7 @@ impl Prover<'_> {
             self.live = true;
             self.facts.replay(&head);
             self.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
+            self.erode();
             self.see_states();
             for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
                 self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
@@ -49,6 +50,8 @@ impl Prover<'_> {
                 _ => Delta::default(),
             };
             self.back_to(mark);
+            // A reaction may run in any state of the body, and again in what it left.
+            let grown = self.disturb(id, whens, &states, mark, volatile);
             let mut next = head.clone();
             for when in &restarts {
                 self.facts.replay(&states);
@@ -60,7 +63,7 @@ impl Prover<'_> {
                     self.back_to(mark);
                 }
             }
-            if next.same_sets(&head, &self.facts) {
+            if !grown && next.same_sets(&head, &self.facts) {
                 break (end, states);
             }
             head = next;
@@ -108,21 +111,45 @@ impl Prover<'_> {
         self.watched.pop();
     }
 
-    /// What the blocks of `resume` reactions change may change at any moment of the body.
-    fn disturb(&mut self, id: StepId, whens: &[When], mark: usize) {
+    /// What the blocks of `resume` reactions change, from any of these states, may change at any moment of the body. Whether
+    /// that is more than was known of it; rows from `first` are those of this monitor.
+    fn disturb(&mut self, id: StepId, whens: &[When], states: &Delta, mark: usize, first: usize) -> bool {
+        let mut grown = false;
         for when in whens {
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
             let said = self.diagnostics.len();
+            self.live = true;
+            self.facts.replay(states);
             self.assume(&when.condition, true, Cause::step(id), Frame::default());
             let seen = self.facts.mark();
             self.block(body);
             for (fluent, key) in self.facts.touched(seen) {
                 let value = self.facts.get(fluent, key);
-                self.volatile.push(Volatile { fluent, key, value, when: when.span });
+                let mut rows = self.volatile.iter_mut().skip(first);
+                match rows.find(|row| row.fluent == fluent && row.key == key && row.when == when.span) {
+                    Some(row) => {
+                        let joined = row.value.join(value);
+                        grown |= !joined.same_set(row.value);
+                        row.value = joined;
+                    }
+                    None => {
+                        self.volatile.push(Volatile { fluent, key, value, when: when.span });
+                        grown = true;
+                    }
+                }
             }
             self.back_to(mark);
             self.diagnostics.truncate(said);
             self.live = true;
+        }
+        grown
+    }
+
+    /// Reactions may have run just now: what they change may be so, or as it was.
+    pub(crate) fn erode(&mut self) {
+        for index in 0..self.volatile.len() {
+            let Some(row) = self.volatile.get(index).copied() else { return };
+            self.facts.change(row.fluent, row.key, |known| known.join(row.value));
         }
     }
 

@@ -125,7 +125,7 @@ fn step(dice: &mut Dice, domain: &Domain, depth: usize) -> Step {
             let body = inner(dice);
             Step::Repeat(1 + dice.below(3), body, dice.chance(60).then(|| literal(dice, domain, false, 0)))
         }
-        88..92 => Step::Resume(inner(dice), vec![step(dice, domain, 0)]),
+        88..92 => Step::Resume(inner(dice), 1 + dice.below(2), vec![step(dice, domain, 0)]),
         92..95 => {
             let mut branch = || (0..1 + dice.below(2)).map(|_| call(dice, domain)).collect::<Vec<_>>();
             Step::Parallel(vec![branch(), branch()])

@@ -101,8 +101,8 @@ pub enum Step {
     Try(Vec<Step>, Vec<(Option<Vec<Kind>>, Vec<Step>)>),
     /// A bounded loop.
     Repeat(usize, Vec<Step>, Option<Literal>),
-    /// A body, and a block that may run before any of its steps, once.
-    Resume(Vec<Step>, Vec<Step>),
+    /// A body, and a block that may run before any of its steps, at most so often.
+    Resume(Vec<Step>, usize, Vec<Step>),
     /// Calls at once, as pairs of action and entity.
     Parallel(Vec<Vec<(usize, usize)>>),
     /// Ends the policy: done, or failed.
@@ -111,3 +111,19 @@ pub enum Step {
 
 /// A policy.
 pub type Policy = Vec<Step>;
+
+impl Step {
+    /// Whether branches run at once somewhere in it.
+    #[must_use]
+    pub fn is_parallel(&self) -> bool {
+        let any = |steps: &[Self]| steps.iter().any(Self::is_parallel);
+        match self {
+            Self::Parallel(_) => true,
+            Self::Call { .. } | Self::End(_) => false,
+            Self::Sequence(body) | Self::Repeat(_, body, _) => any(body),
+            Self::If(_, then, otherwise) => any(then) || any(otherwise),
+            Self::Try(body, handlers) => any(body) || handlers.iter().any(|(_, handler)| any(handler)),
+            Self::Resume(body, _, reaction) => any(body) || any(reaction),
+        }
+    }
+}

@@ -135,8 +135,8 @@ fn print(domain: &Domain, step: &Step, groups: &mut usize, out: &mut String) {
                 None => out.push_str("}\n"),
             }
         }
-        Step::Resume(body, reaction) => {
-            out.push_str("monitor when battery() < 20 % for 1 s then resume at most 1 {\n");
+        Step::Resume(body, at_most, reaction) => {
+            let _ = writeln!(out, "monitor when battery() < 20 % for 1 s then resume at most {at_most} {{");
             block(domain, reaction, groups, out);
             out.push_str("} during {\n");
             block(domain, body, groups, out);

@@ -12,6 +12,9 @@ pub struct Found {
     pub violated: bool,
     /// On some path a need was unobserved where its step started.
     pub unobserved: bool,
+    /// On some path a need was false where its step started, beside another branch: whether that branch made it so is left
+    /// to a guard.
+    pub contended: bool,
     /// There were too many states to walk them all.
     pub gave_up: bool,
 }
@@ -24,44 +27,111 @@ const MAX_STATES: usize = 4000;
 /// Walks all paths of a policy from the start of its domain.
 #[must_use]
 pub fn walk(domain: &Domain, policy: &Policy) -> Found {
-    let mut walker = Walker { domain, found: Found::default(), reactions: Vec::new() };
+    let mut walker = Walker { domain, found: Found::default(), reactions: Vec::new(), escaped: Vec::new() };
     walker.block(policy, States::from([State::start(domain)]), &mut BTreeMap::new());
     walker.found
+}
+
+/// What a need that is false means.
+#[derive(Clone, Copy)]
+enum Refusal {
+    /// The policy is wrong, and the path ends there.
+    Violation,
+    /// The step was tried before: its guard refuses.
+    Guard,
+    /// Another branch may have made it so: the guard refuses.
+    Contention,
 }
 
 struct Walker<'a> {
     domain: &'a Domain,
     found: Found,
-    /// Blocks that may run before any step, with how often they still may.
+    /// Blocks that may run before any step.
     reactions: Vec<&'a [Step]>,
+    /// What failed in each of them.
+    escaped: Vec<Failed>,
 }
 
 /// States in which a block fails, by kind.
 type Failed = BTreeMap<Kind, States>;
 
+fn merge(failed: &mut Failed, more: Failed) {
+    for (kind, states) in more {
+        failed.entry(kind).or_default().extend(states);
+    }
+}
+
 impl<'a> Walker<'a> {
     /// The states in which a block comes to its end.
     fn block(&mut self, block: &'a [Step], mut states: States, failed: &mut Failed) -> States {
         for step in block {
-            states = self.disturbed(states, failed);
+            states = self.disturbed(states);
             states = self.step(step, states, failed);
             if states.len() > MAX_STATES {
                 self.found.gave_up = true;
                 return States::new();
             }
         }
-        self.disturbed(states, failed)
+        self.disturbed(states)
     }
 
-    /// With what the reactions of enclosing monitors may have done meanwhile.
-    fn disturbed(&mut self, mut states: States, failed: &mut Failed) -> States {
+    /// With what the reactions of enclosing monitors may have done meanwhile, each as often as it still may.
+    fn disturbed(&mut self, mut states: States) -> States {
         let reactions = std::mem::take(&mut self.reactions);
-        for reaction in &reactions {
-            let after = self.block(reaction, states.clone(), failed);
-            states.extend(after);
+        for (level, reaction) in reactions.iter().enumerate() {
+            // While it runs only the monitors around its own watch.
+            self.reactions = reactions.get(..level).unwrap_or_default().to_vec();
+            let mut fired = states.clone();
+            while !fired.is_empty() && states.len() <= MAX_STATES {
+                let able = fired.into_iter().filter_map(|mut state| {
+                    let left = state.left.get_mut(level).filter(|left| **left > 0)?;
+                    *left -= 1;
+                    Some(state)
+                });
+                let able = able.collect();
+                let mut failed = Failed::new();
+                fired = self.block(reaction, able, &mut failed);
+                // What fails in a reaction fails outside of its body.
+                if let Some(escaped) = self.escaped.get_mut(level) {
+                    merge(escaped, failed);
+                }
+                fired.retain(|state| !states.contains(state));
+                states.extend(fired.iter().cloned());
+            }
         }
         self.reactions = reactions;
         states
+    }
+
+    fn resume(
+        &mut self,
+        body: &'a [Step],
+        at_most: usize,
+        reaction: &'a [Step],
+        states: States,
+        failed: &mut Failed,
+    ) -> States {
+        let entered = states.into_iter().map(|mut state| {
+            state.left.push(at_most);
+            state
+        });
+        let entered = entered.collect();
+        let mut inside = Failed::new();
+        let level = self.reactions.len();
+        self.reactions.push(reaction);
+        self.escaped.push(Failed::new());
+        let states = self.block(body, entered, &mut inside);
+        self.reactions.pop();
+        merge(&mut inside, self.escaped.pop().unwrap_or_default());
+        let left = |states: States| -> States {
+            let states = states.into_iter().map(|mut state| {
+                state.left.truncate(level);
+                state
+            });
+            states.collect()
+        };
+        merge(failed, inside.into_iter().map(|(kind, states)| (kind, left(states))).collect());
+        left(states)
     }
 
     fn step(&mut self, step: &'a Step, states: States, failed: &mut Failed) -> States {
@@ -88,12 +158,7 @@ impl<'a> Walker<'a> {
                 after
             }
             Step::Repeat(times, body, until) => self.repeat(*times, body, until.as_ref(), states, failed),
-            Step::Resume(body, reaction) => {
-                self.reactions.push(reaction);
-                let states = self.block(body, states, failed);
-                self.reactions.pop();
-                states
-            }
+            Step::Resume(body, at_most, reaction) => self.resume(body, *at_most, reaction, states, failed),
             Step::Parallel(branches) => self.parallel(branches, states, failed),
             Step::End(_) => States::new(),
         }
@@ -150,25 +215,23 @@ impl<'a> Walker<'a> {
         for attempt in 0..=retry {
             let mut failures = Failed::new();
             for state in &states {
-                after.extend(self.attempt(action, entity, attempt > 0, state, &mut failures));
+                let first = if attempt > 0 { Refusal::Guard } else { Refusal::Violation };
+                after.extend(self.attempt(action, entity, first, state, &mut failures));
             }
             states = failures.values().flatten().cloned().collect();
             if attempt == retry {
-                for (kind, states) in failures {
-                    failed.entry(kind).or_default().extend(states);
-                }
+                merge(failed, failures);
             }
         }
         after
     }
 
-    /// One attempt at an action in one state. A need that is false at the first attempt is a violation, and the path ends
-    /// there; at a later one the guard refuses.
+    /// One attempt at an action in one state.
     fn attempt(
         &mut self,
         action: usize,
         entity: usize,
-        again: bool,
+        refusal: Refusal,
         state: &State,
         failed: &mut Failed,
     ) -> Option<State> {
@@ -179,11 +242,17 @@ impl<'a> Walker<'a> {
         for need in &action.needs {
             match ready.value(domain, need, entity) {
                 Some(true) => {}
-                Some(false) if again => refused = true,
-                Some(false) => {
-                    self.found.violated = true;
-                    return None;
-                }
+                Some(false) => match refusal {
+                    Refusal::Guard => refused = true,
+                    Refusal::Contention => {
+                        self.found.contended = true;
+                        refused = true;
+                    }
+                    Refusal::Violation => {
+                        self.found.violated = true;
+                        return None;
+                    }
+                },
                 None => {
                     self.found.unobserved = true;
                     guarded = true;
@@ -233,7 +302,7 @@ impl<'a> Walker<'a> {
             for (index, branch) in branches.iter().enumerate() {
                 let Some((action, entity)) = at.get(index).and_then(|at| branch.get(*at)) else { continue };
                 is_done = false;
-                if let Some(next) = self.attempt(*action, *entity, false, &state, failed) {
+                if let Some(next) = self.attempt(*action, *entity, Refusal::Contention, &state, failed) {
                     let mut at = at.clone();
                     if let Some(place) = at.get_mut(index) {
                         *place += 1;

@@ -4,15 +4,20 @@ use super::model::{Arg, Atom, Domain, Effect, Literal};
 
 /// Every fact of a domain, by its place.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct State(Vec<Option<bool>>);
+pub(super) struct State {
+    facts: Vec<Option<bool>>,
+    /// How often the reaction of each enclosing monitor may still run, the outermost first.
+    pub(super) left: Vec<usize>,
+}
 
 /// Where the facts of each fluent begin.
 fn offset(domain: &Domain, fluent: usize) -> usize {
     domain.arities.iter().take(fluent).map(|arity| count(domain, *arity)).sum()
 }
 
+/// Beside the entities that a domain names there is one that stands for all others.
 fn count(domain: &Domain, arity: usize) -> usize {
-    (0..arity).fold(1, |count, _| count * domain.entities)
+    (0..arity).fold(1, |count, _| count * (domain.entities + 1))
 }
 
 /// The places of the facts that an atom means, of a call on `entity`.
@@ -23,7 +28,7 @@ pub(super) fn places(domain: &Domain, atom: &Atom, entity: usize) -> Vec<usize> 
         let choices = match arg {
             Arg::Param => entity..entity + 1,
             Arg::Entity(other) => *other..*other + 1,
-            Arg::Any => 0..domain.entities,
+            Arg::Any => 0..domain.entities + 1,
         };
         places = choices.flat_map(|choice| places.iter().map(move |place| place + choice * weight)).collect();
     }
@@ -34,7 +39,8 @@ pub(super) fn places(domain: &Domain, atom: &Atom, entity: usize) -> Vec<usize> 
 impl State {
     pub(super) fn start(domain: &Domain) -> Self {
         let size = offset(domain, domain.arities.len());
-        let mut state = Self(vec![domain.is_closed.then_some(false); size]);
+        let facts = vec![domain.is_closed.then_some(false); size];
+        let mut state = Self { facts, left: Vec::new() };
         for (atom, truth) in &domain.start {
             state.set(domain, atom, 0, Some(*truth));
         }
@@ -43,7 +49,7 @@ impl State {
 
     pub(super) fn set(&mut self, domain: &Domain, atom: &Atom, entity: usize, value: Option<bool>) {
         for place in places(domain, atom, entity) {
-            if let Some(slot) = self.0.get_mut(place) {
+            if let Some(slot) = self.facts.get_mut(place) {
                 *slot = value;
             }
         }
@@ -53,7 +59,7 @@ impl State {
     pub(super) fn value(&self, domain: &Domain, literal: &Literal, entity: usize) -> Option<bool> {
         let values: Vec<_> = places(domain, &literal.atom, entity)
             .into_iter()
-            .map(|place| self.0.get(place).copied().flatten())
+            .map(|place| self.facts.get(place).copied().flatten())
             .collect();
         let some = if values.contains(&Some(true)) {
             Some(true)
@@ -89,7 +95,7 @@ impl State {
                 let happens =
                     effect.when.as_ref().map_or(Some(true), |when| before.value(domain, when, entity));
                 for place in places(domain, &effect.literal.atom, entity) {
-                    let Some(slot) = self.0.get_mut(place) else { continue };
+                    let Some(slot) = self.facts.get_mut(place) else { continue };
                     match happens {
                         Some(true) => *slot = Some(truth),
                         Some(false) => {}

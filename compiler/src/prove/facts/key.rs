@@ -53,6 +53,15 @@ impl Key {
         (head != ANY).then_some(head)
     }
 
+    /// The facts that two patterns share, where neither covers the other.
+    pub(super) fn crossing(self, other: Self) -> Option<Self> {
+        let (one, two) = (self.any(), other.any());
+        let agree = (self.0 ^ other.0) & !one & !two == 0;
+        // What is `any` on one side is taken from the other.
+        let shared = (self.0 & !one) | (other.0 & one);
+        (agree && one & !two != 0 && two & !one != 0).then_some(Self(shared))
+    }
+
     /// Whether every fact of `other` is one of this pattern.
     pub(crate) fn covers(self, other: Self) -> bool {
         (self.0 ^ other.0) & !self.any() == 0

@@ -11,6 +11,8 @@ mod key;
 mod split;
 mod table;
 
+use smallvec::SmallVec;
+
 pub(crate) use self::delta::Delta;
 use self::delta::order;
 pub(crate) use self::key::{ANY, Atom, Key, arg, show};
@@ -127,6 +129,13 @@ impl<'w> Facts<'w> {
         }
     }
 
+    /// Hands out what a pattern shares with each other pattern that crosses it.
+    fn crossings(&self, fluent: Fluent, pattern: Key, mut take: impl FnMut(Key)) {
+        for table in self.table(fluent).into_iter().chain(self.below(fluent)) {
+            table.crossings(pattern, &mut take);
+        }
+    }
+
     /// Sets a fact, or a pattern and all that it covers.
     pub(crate) fn set(&mut self, fluent: Fluent, key: Key, value: Value) {
         let before = self.get(fluent, key);
@@ -135,6 +144,9 @@ impl<'w> Facts<'w> {
             self.unhidden(fluent, key, |cell| {
                 let (key, before) = (cell.key, cell.value);
                 trail.push(Entry { fluent, key, undo: Undo::Hidden, before });
+            });
+            self.crossings(fluent, key, |key| {
+                trail.push(Entry { fluent, key, undo: Undo::Hidden, before: self.get(fluent, key) });
             });
             self.trail = trail;
         }
@@ -149,6 +161,30 @@ impl<'w> Facts<'w> {
         let old = table.put(Cell { key, value, time });
         let undo = old.map_or(Undo::Drop, |old| Undo::Put(old.value, old.time));
         self.trail.push(Entry { fluent, key, undo, before });
+    }
+
+    /// Changes what is known of a fact, or of each fact that a pattern covers, whatever it is.
+    pub(crate) fn change(&mut self, fluent: Fluent, key: Key, change: impl Fn(Value) -> Value) {
+        let mut apart: SmallVec<[(Key, Value); 8]> = SmallVec::new();
+        if key.is_pattern() {
+            if let Some(table) = self.table(fluent) {
+                table.covered(key, |cell| apart.push((cell.key, cell.value)));
+            }
+            self.unhidden(fluent, key, |cell| apart.push((cell.key, cell.value)));
+            self.crossings(fluent, key, |key| apart.push((key, self.get(fluent, key))));
+            apart.retain(|(other, _)| *other != key);
+            // The wider first, so that what they cover is written after them.
+            apart.sort_unstable_by_key(|(key, _)| order(&(fluent, *key)));
+        }
+        let known = self.get(fluent, key);
+        let new = change(known);
+        if new == known && apart.iter().all(|(_, old)| change(*old) == *old) {
+            return;
+        }
+        self.set(fluent, key, new);
+        for (key, old) in apart {
+            self.set(fluent, key, change(old));
+        }
     }
 
     /// Drops the entry of a single fact: what is known of it is again what its patterns say.

@@ -80,6 +80,18 @@ impl Table {
         visit(self.row(pattern));
     }
 
+    /// Hands out what a pattern shares with each other pattern that crosses it.
+    pub(super) fn crossings(&self, pattern: Key, mut take: impl FnMut(Key)) {
+        let mut visit = |cells: &[Cell]| {
+            cells.iter().filter_map(|cell| cell.key.crossing(pattern)).for_each(&mut take);
+        };
+        visit(&self.wide);
+        match pattern.head() {
+            Some(_) => visit(self.row(pattern)),
+            None => self.rows.values().for_each(|row| visit(row)),
+        }
+    }
+
     /// Writes the entry of a fact or a pattern, and returns the one that it replaces.
     pub(super) fn put(&mut self, cell: Cell) -> Option<Cell> {
         match cell.key.head() {
