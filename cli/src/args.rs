@@ -1,9 +1,11 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod duration;
+mod import;
 mod input;
 mod run;
 
+pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use run::{RunArgs, RunFormat, Speed};
 
@@ -51,6 +53,8 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Compile a policy to its execution graph, a drawing, or either form
     Compile(CompileArgs),
+    /// Write the files of another planning language as Motet
+    Import(ImportArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Show the robots that are built in
