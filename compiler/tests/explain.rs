@@ -11,9 +11,6 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 /// The sections of a page that hold examples, in order.
 const SECTIONS: [&str; 3] = ["Wrong", "Right", "Near miss"];
 
-/// Errors that another one brings with it, which their page need not avoid.
-const FOLLOW_UPS: [(&str, &str); 2] = [("M0117", "M0204"), ("M0445", "M0221")];
-
 /// One fenced example: the words after the fence, and its text.
 #[derive(Debug)]
 struct Fence<'a> {
@@ -247,9 +244,7 @@ fn faults(page: &codes::Page) -> Vec<String> {
         }
         let allowed = |said: &&Diagnostic| {
             // Policies in a document that only shows declarations are not chosen to run.
-            let follows = FOLLOW_UPS.contains(&(page.code, said.code.0));
-            said.severity == Severity::Error
-                && (wrong && (follows || page.code == said.code.0) || said.code.0 == "M0405")
+            said.severity == Severity::Error && (wrong && page.code == said.code.0 || said.code.0 == "M0405")
         };
         for said in said.iter().filter(|said| said.severity == Severity::Error && !allowed(said)) {
             faults.push(format!("`{section}` raises {}: {}", said.code, said.message));
