@@ -72,6 +72,7 @@ pub(crate) enum Command {
 #[command(after_help = "Examples:\n  \
     motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
     motet check policies/ --format sarif > findings.sarif\n  \
+    motet check --fix reply.json --robot hsr --scene kitchen\n  \
     cat reply.txt | motet check - --robot hsr")]
 pub(crate) struct CheckArgs {
     /// What to check.
@@ -80,6 +81,9 @@ pub(crate) struct CheckArgs {
     /// Against what.
     #[command(flatten)]
     pub(crate) world: WorldArgs,
+    /// Mend what can be mended: rewrites the files; of standard input the mended document is printed
+    #[arg(long)]
+    pub(crate) fix: bool,
     /// How to say it.
     #[command(flatten)]
     pub(crate) format: FormatArgs,

@@ -1,6 +1,6 @@
 //! One call of a primitive: its needs, then what it does, and what is known where it fails.
 
-use motet_syntax::Span;
+use motet_syntax::{Diagnostic, Span};
 
 use super::apply::{Change, Lasting};
 use super::errors::{Refuted, Stale};
@@ -19,7 +19,7 @@ impl Prover<'_> {
         let frame = Frame { args: &call.args, result, each: None };
         let cause = Cause::step(id);
 
-        self.check_fresh(call, def);
+        self.check_fresh(id, call, def);
         let mut verdicts = self.needs(id, def, frame, span);
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
@@ -69,7 +69,7 @@ impl Prover<'_> {
     }
 
     /// A pose that was perceived before something moved is stale, and using it an error.
-    fn check_fresh(&mut self, call: &Call, def: &PrimitiveDef) {
+    fn check_fresh(&mut self, id: StepId, call: &Call, def: &PrimitiveDef) {
         for (arg, span) in call.args.iter().zip(&call.spans) {
             let Term::Binding(binding) = arg else { continue };
             let Some(bound) = self.program.bindings.get(binding.index()) else { continue };
@@ -86,7 +86,9 @@ impl Prover<'_> {
                     moved: self.cause_span(fresh.no),
                     mover: self.cause_name(fresh.no),
                 };
-                self.diagnostics.push(mistake.into());
+                let (bound, mistake) = (bound.span, Diagnostic::from(mistake));
+                self.offer_again(id, bound, *span, (mistake.code, mistake.message.clone()));
+                self.diagnostics.push(mistake);
             }
         }
     }
@@ -97,7 +99,7 @@ impl Prover<'_> {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = Frame { each: culprit, ..frame };
-                self.refuted(def, need, frame, span);
+                self.refuted(id, def, need, frame, span);
                 Verdict::Refuted
             } else if value.open.is_some() {
                 Verdict::Deferred
@@ -112,7 +114,7 @@ impl Prover<'_> {
         verdicts
     }
 
-    fn refuted(&mut self, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
+    fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
         let blame = self.blame(&need.condition, true, frame);
         let mistake = Refuted {
             span,
@@ -124,11 +126,13 @@ impl Prover<'_> {
             remedy: self.remedy(&blame),
             subject: blame.subject,
         };
-        self.diagnostics.push(mistake.into());
+        let mistake = Diagnostic::from(mistake);
+        self.offer_before(id, def, Frame { each: None, ..frame }, (mistake.code, mistake.message.clone()));
+        self.diagnostics.push(mistake);
     }
 
     /// The values that a need can have, and the entity for which it can be false.
-    fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
+    pub(crate) fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
         let Some(kind) = need.each else {
             let asked = self.evaluate(&need.condition, frame);
             let value = match &need.when {

@@ -11,6 +11,7 @@ pub(crate) mod errors;
 mod eval;
 pub(crate) mod facts;
 mod flow;
+pub(crate) mod mend;
 mod monitor;
 mod parallel;
 mod story;
@@ -24,6 +25,8 @@ use rustc_hash::FxHashMap;
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::facts::{Facts, Key};
+use self::mend::Offer;
+use self::story::AtEnd;
 use self::symbols::Symbols;
 use self::value::Value;
 use crate::ir::{Fluent, Measure, Program, StepId};
@@ -76,6 +79,8 @@ pub(crate) struct Prover<'a> {
     pub(crate) buffers: (Vec<Change>, Vec<Change>),
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) proof: Proof,
+    /// What would mend the findings.
+    pub(crate) offers: Vec<Offer>,
 }
 
 /// What an enclosing monitor watches.
@@ -86,7 +91,11 @@ pub(crate) struct Watched {
 }
 
 /// Proves a program from the facts that the world gives at the start.
-pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Proof, Vec<Diagnostic>) {
+pub(crate) fn prove(
+    program: &Program,
+    library: &Library,
+    world: &World,
+) -> (Proof, Vec<Diagnostic>, Vec<Offer>) {
     let mut facts = world.facts.clone();
     let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
     let steps = program.steps.len();
@@ -107,11 +116,12 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         buffers: Default::default(),
         diagnostics: Vec::new(),
         proof: Proof { needs: vec![Vec::new(); steps], reached: vec![false; steps] },
+        offers: Vec::new(),
     };
     prover.block(&program.body);
     if prover.live {
-        prover.check_goal();
+        prover.check_goal(AtEnd::Offer);
     }
     prover.report_unreached();
-    (prover.proof, prover.diagnostics)
+    (prover.proof, prover.diagnostics, prover.offers)
 }

@@ -8,6 +8,7 @@ use super::collect::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
 use super::eval::Frame;
 use super::facts::Delta;
+use super::story::AtEnd;
 use super::value::{Cause, Value};
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 
@@ -266,7 +267,7 @@ impl Prover<'_> {
             .iter()
             .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
-            (EndKind::Done, None, _) => self.check_goal(),
+            (EndKind::Done, None, _) => self.check_goal(AtEnd::Tell),
             (EndKind::Done, Some(_), Some(depth)) => {
                 if let Some(Enclosing::Inline { exits, .. }) = self.enclosing.get_mut(depth) {
                     exits.see(&self.facts);
