@@ -172,7 +172,9 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "urdf", "scene", "state", "domain", "pddl"].contains(&word) => role = word,
+                    None if ["card", "urdf", "scene", "state", "domain", "pddl"].contains(&word) => {
+                        role = word
+                    }
                     Some(_) | None => return Err(format!("what is `{word}`?")),
                 }
             }
