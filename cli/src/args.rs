@@ -1,9 +1,11 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod duration;
+mod import;
 mod input;
 mod run;
 
+pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use run::{RunArgs, RunFormat, Speed};
 
@@ -51,6 +53,8 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Compile a policy to its execution graph, a drawing, or either form
     Compile(CompileArgs),
+    /// Write the files of another planning language as Motet
+    Import(ImportArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Show the robots that are built in
@@ -68,6 +72,7 @@ pub(crate) enum Command {
 #[command(after_help = "Examples:\n  \
     motet check fetch_mug.motet --robot hsr --scene kitchen\n  \
     motet check policies/ --format sarif > findings.sarif\n  \
+    motet check --fix reply.json --robot hsr --scene kitchen\n  \
     cat reply.txt | motet check - --robot hsr")]
 pub(crate) struct CheckArgs {
     /// What to check.
@@ -76,6 +81,9 @@ pub(crate) struct CheckArgs {
     /// Against what.
     #[command(flatten)]
     pub(crate) world: WorldArgs,
+    /// Mend what can be mended: rewrites the files; of standard input the mended document is printed
+    #[arg(long)]
+    pub(crate) fix: bool,
     /// How to say it.
     #[command(flatten)]
     pub(crate) format: FormatArgs,

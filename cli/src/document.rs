@@ -34,5 +34,5 @@ pub(crate) fn read(document: &Document) -> (Source, Parsed) {
 
 /// What is read of a document that is no text.
 fn nothing(diagnostics: Vec<Diagnostic>) -> Parsed {
-    Parsed { file: File::default(), form: Form::Text, diagnostics }
+    Parsed { file: File::default(), form: Form::Text, text: Default::default(), diagnostics }
 }

@@ -44,6 +44,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Check(args) => command::check::run(args, colors),
         Command::Fmt(args) => command::fmt::run(args, colors),
         Command::Compile(args) => command::compile::run(args, colors),
+        Command::Import(args) => command::import::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),

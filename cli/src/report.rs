@@ -55,7 +55,7 @@ impl Report {
             }
         }
         match self.format {
-            Format::Human | Format::Github | Format::Json if !self.is_held => {
+            Format::Human | Format::Github | Format::Json | Format::Llm if !self.is_held => {
                 let text = self.text(diagnostics, sources);
                 let gap = if self.format == Format::Human && self.out.is_used() && !text.is_empty() {
                     "\n"
@@ -64,7 +64,7 @@ impl Report {
                 };
                 self.out.text(&format!("{gap}{text}"));
             }
-            Format::Human | Format::Github | Format::Json | Format::Sarif => {
+            Format::Human | Format::Github | Format::Json | Format::Sarif | Format::Llm => {
                 self.gathered.add(diagnostics, sources)
             }
         }
@@ -80,7 +80,8 @@ impl Report {
             }
             Format::Github => render::github(diagnostics, sources),
             Format::Json => render::json(diagnostics, sources),
-            Format::Sarif => render::sarif(diagnostics, sources),
+            Format::Sarif => render::sarif(diagnostics, sources, &help),
+            Format::Llm => render::llm(diagnostics, sources),
         }
     }
 
@@ -153,4 +154,12 @@ pub(crate) fn close(out: &mut Out, result: Result<Exit, Trouble>) -> Result<Exit
         Some(source) => Err(Trouble::Write { path: PathBuf::from("standard output"), source }),
         None => result,
     }
+}
+
+/// The title and the text of a code's page.
+fn help(code: &str) -> Option<render::Help<'static>> {
+    let page = motet_compiler::codes::page(code)?;
+    let title =
+        page.text.lines().next().and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
+    Some(render::Help { title, markdown: page.text })
 }

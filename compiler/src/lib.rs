@@ -6,6 +6,7 @@
 
 mod check;
 pub mod codes;
+pub mod fix;
 mod ir;
 mod library;
 mod lower;

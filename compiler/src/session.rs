@@ -7,6 +7,7 @@ use motet_syntax::ast::{File, Item, Policy};
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Sources, Span};
 
 use crate::check::errors::{NoPolicy, OtherRobot};
+use crate::fix::Finding;
 use crate::ir::{Program, StepKind};
 use crate::library::{Library, LibraryBuilder};
 use crate::prove::Proof;
@@ -71,19 +72,27 @@ impl Session {
     /// Everything there is to say about a document: its front end's findings and those of every policy in it.
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
+        self.findings(parsed).into_iter().map(|finding| finding.diagnostic).collect()
+    }
+
+    /// As [`Self::check`], each finding with all the ways that are known to mend it.
+    pub(crate) fn findings(&self, parsed: &Parsed) -> Vec<Finding> {
         let mut diagnostics = parsed.diagnostics.clone();
-        self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
+        let mut findings = Vec::new();
+        self.within(parsed, &mut diagnostics, |library, world, _| {
             for policy in parsed.file.policies() {
-                diagnostics.extend(self.analyse(policy, parsed, library, world).2);
+                findings.extend(self.analyse(policy, parsed, library, world).2);
             }
         });
-        finish(diagnostics)
+        findings.extend(diagnostics.into_iter().map(Finding::from));
+        finish(findings)
     }
 
     /// Compiles the policy with a name, or the one policy without parameters.
     #[must_use]
     pub fn compile(&self, parsed: &Parsed, name: Option<&str>) -> Compiled {
         let mut diagnostics = parsed.diagnostics.clone();
+        let mut findings = Vec::new();
         let mut graph = None;
         self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
             let runnable = || parsed.file.runnable();
@@ -100,12 +109,17 @@ impl Session {
                 return;
             };
             let (program, proof, said) = self.analyse(policy, parsed, library, world);
-            diagnostics.extend(said);
-            if !diagnostics.iter().any(|said| said.severity == Severity::Error) {
+            let is_error = |said: &Diagnostic| said.severity == Severity::Error;
+            let is_refused =
+                diagnostics.iter().any(is_error) || said.iter().any(|said| is_error(&said.diagnostic));
+            findings = said;
+            if !is_refused {
                 graph = Some(crate::lower::lower(&program, &proof, library, world));
             }
         });
-        Compiled { graph, diagnostics: finish(diagnostics) }
+        findings.extend(diagnostics.into_iter().map(Finding::from));
+        let diagnostics = finish(findings).into_iter().map(|finding| finding.diagnostic).collect();
+        Compiled { graph, diagnostics }
     }
 
     /// Runs with the library and the world of a document: the session's own, unless it declares something itself.
@@ -134,7 +148,7 @@ impl Session {
         parsed: &Parsed,
         library: &Library,
         world: &World,
-    ) -> (Program, Proof, Vec<Diagnostic>) {
+    ) -> (Program, Proof, Vec<Finding>) {
         let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
         if let Some(robot) =
             policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
@@ -143,12 +157,13 @@ impl Session {
             diagnostics.push(OtherRobot { span: robot.span, written, given }.into());
         }
         diagnostics.extend(crate::check::check(&mut program, library, world, self.options.max_duration_secs));
-        let (proof, said) = crate::prove::prove(&program, library, world);
+        let (proof, said, offers) = crate::prove::prove(&program, library, world);
         diagnostics.extend(said);
-        for diagnostic in &mut diagnostics {
-            place(diagnostic, policy, &program);
+        let mut findings = crate::fix::findings(diagnostics, &offers, parsed, &program, library, world);
+        for finding in &mut findings {
+            place(&mut finding.diagnostic, policy, &program);
         }
-        (program, proof, diagnostics)
+        (program, proof, findings)
     }
 }
 
@@ -179,8 +194,14 @@ fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
 }
 
 /// In the order of the document, each finding once.
-fn finish(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    diagnostics.sort_by_key(|said| (said.span, std::cmp::Reverse(said.severity), said.code));
-    diagnostics.dedup_by(|a, b| a.code == b.code && a.span == b.span && a.message == b.message);
-    diagnostics
+fn finish(mut findings: Vec<Finding>) -> Vec<Finding> {
+    findings.sort_by_key(|found| {
+        let said = &found.diagnostic;
+        (said.span, std::cmp::Reverse(said.severity), said.code)
+    });
+    findings.dedup_by(|a, b| {
+        let (a, b) = (&a.diagnostic, &b.diagnostic);
+        a.code == b.code && a.span == b.span && a.message == b.message
+    });
+    findings
 }

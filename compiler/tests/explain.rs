@@ -11,9 +11,6 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 /// The sections of a page that hold examples, in order.
 const SECTIONS: [&str; 3] = ["Wrong", "Right", "Near miss"];
 
-/// Errors that another one brings with it, which their page need not avoid.
-const FOLLOW_UPS: [(&str, &str); 2] = [("M0117", "M0204"), ("M0445", "M0221")];
-
 /// One fenced example: the words after the fence, and its text.
 #[derive(Debug)]
 struct Fence<'a> {
@@ -99,6 +96,8 @@ struct Case {
     scene: Option<scene::Scene>,
     state: Option<State>,
     options: Options,
+    /// A PDDL domain, a problem and a plan, in this order.
+    pddl: Vec<(Source, FileId)>,
 }
 
 impl Case {
@@ -173,7 +172,9 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "urdf", "scene", "state", "domain"].contains(&word) => role = word,
+                    None if ["card", "urdf", "scene", "state", "domain", "pddl"].contains(&word) => {
+                        role = word
+                    }
                     Some(_) | None => return Err(format!("what is `{word}`?")),
                 }
             }
@@ -182,6 +183,10 @@ impl Case {
                 "urdf" => self.urdf(&bytes),
                 "scene" => self.scene(&bytes),
                 "state" => self.state(&bytes),
+                "pddl" => {
+                    let added = self.add(&bytes);
+                    self.pddl.extend(added);
+                }
                 _ => {
                     let Some((source, file)) = self.add(&bytes) else { continue };
                     let parsed = motet_syntax::read(&source, file);
@@ -193,6 +198,15 @@ impl Case {
                     }
                 }
             }
+        }
+        if let [domain, problem, plan @ ..] = self.pddl.as_slice() {
+            let input = |of: &(Source, FileId)| (of.0.clone(), of.1);
+            let ((domain, first), (problem, second)) = (input(domain), input(problem));
+            let plan = plan.first().map(input);
+            let plan = plan.as_ref().map(|(source, file)| motet_pddl::Input { source, file: *file });
+            let domain = motet_pddl::Input { source: &domain, file: first };
+            let problem = motet_pddl::Input { source: &problem, file: second };
+            self.said.extend(motet_pddl::import(domain, problem, plan).1);
         }
         let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
         let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);
@@ -232,9 +246,7 @@ fn faults(page: &codes::Page) -> Vec<String> {
         }
         let allowed = |said: &&Diagnostic| {
             // Policies in a document that only shows declarations are not chosen to run.
-            let follows = FOLLOW_UPS.contains(&(page.code, said.code.0));
-            said.severity == Severity::Error
-                && (wrong && (follows || page.code == said.code.0) || said.code.0 == "M0405")
+            said.severity == Severity::Error && (wrong && page.code == said.code.0 || said.code.0 == "M0405")
         };
         for said in said.iter().filter(|said| said.severity == Severity::Error && !allowed(said)) {
             faults.push(format!("`{section}` raises {}: {}", said.code, said.message));

@@ -55,4 +55,6 @@ pub(crate) enum Format {
     Sarif,
     /// Workflow commands of GitHub Actions
     Github,
+    /// Short plain sentences for a language model's next prompt, the most useful first
+    Llm,
 }

@@ -1,5 +1,7 @@
 //! `motet check`: what is wrong with policies, before a robot moves.
 
+use motet_compiler::fix::fix;
+
 use crate::args::CheckArgs;
 use crate::document;
 use crate::exit::{Exit, Trouble};
@@ -7,7 +9,10 @@ use crate::input::{self, Bytes, Document, Flow};
 use crate::out::{Colors, count, note};
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::workbench::{Workbench, stranger, wanted_robot};
+use crate::workbench::{DOCUMENT, Workbench, stranger, wanted_robot};
+
+/// The most fixes that are made to one document.
+const MOST_FIXES: usize = 100;
 
 /// Runs the command.
 ///
@@ -16,6 +21,10 @@ use crate::workbench::{Workbench, stranger, wanted_robot};
 /// An input cannot be read, or what it is checked against cannot be used.
 pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut report = Report::new(args.format.format, colors);
+    // The mended document takes standard output.
+    if args.fix && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
+        report.hold();
+    }
     let result = check(args, &mut report);
     report.close(result)
 }
@@ -27,6 +36,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let mut tally = Tally::default();
     for input in &inputs.inputs {
         let flow = input.documents(&mut |found| {
+            let found = if args.fix { tally.mend(found, &mut bench, report)? } else { found };
             tally.add(&found, &mut bench, report, &progress)?;
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
         })?;
@@ -36,6 +46,9 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
     }
     drop(progress);
     tally.tell(&bench, inputs.skipped);
+    if args.fix {
+        note(&format!("made {} fix{}", tally.fixed, if tally.fixed == 1 { "" } else { "es" }));
+    }
     note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
     Ok(if report.errors() > 0 { Exit::Findings } else { Exit::Clean })
 }
@@ -44,6 +57,10 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
 #[derive(Default)]
 struct Tally {
     documents: usize,
+    /// Fixes that were made.
+    fixed: usize,
+    /// Documents of which only a line could be rewritten.
+    lines: usize,
     /// Motions whose geometry nobody looked at.
     motions: usize,
     /// Documents that were checked against no robot.
@@ -53,6 +70,38 @@ struct Tally {
 }
 
 impl Tally {
+    /// Mends a document where it lies, and gives what it then is.
+    fn mend(
+        &mut self,
+        mut found: Document,
+        bench: &mut Workbench,
+        report: &mut Report,
+    ) -> Result<Document, Trouble> {
+        let is_stdin = found.name == "-";
+        if found.path.is_none() && !is_stdin {
+            self.lines += 1;
+            return Ok(found);
+        }
+        let (source, parsed) = document::read(&found);
+        let is_text = matches!(&found.bytes, Bytes::All(bytes) if std::str::from_utf8(bytes).is_ok());
+        if is_text {
+            let setting = bench.setting(&parsed.file, report)?;
+            let fixed = fix(&setting.session, &source, DOCUMENT, MOST_FIXES);
+            self.fixed += fixed.applied.len();
+            if !fixed.applied.is_empty() {
+                if let Some(path) = &found.path {
+                    let fail = |source| Trouble::Write { path: path.clone(), source };
+                    std::fs::write(path, &fixed.text).map_err(fail)?;
+                }
+                found.bytes = Bytes::All(fixed.text.into_bytes());
+            }
+        }
+        if let (true, Bytes::All(bytes)) = (is_stdin, &found.bytes) {
+            report.out.text(&String::from_utf8_lossy(bytes));
+        }
+        Ok(found)
+    }
+
     fn add(
         &mut self,
         found: &Document,
@@ -101,6 +150,11 @@ impl Tally {
                 format!("{skipped} JSON files that are no policies")
             };
             note(&format!("note: skipped {files}"));
+        }
+        if self.lines > 0 {
+            note(
+                "note: a .jsonl file keeps a policy a line and is left as it is: --fix rewrites whole files",
+            );
         }
         for name in &self.strangers {
             note(&stranger(name));

@@ -183,3 +183,25 @@ fn outlives_a_reader_that_goes_away() {
     assert_eq!(output.status.code(), Some(1));
     assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"));
 }
+
+#[test]
+fn mends_what_it_can() {
+    let place = place("check_fix").file("worse.json", GOOD_JSON.replace("\"go\"", "\"goo\""));
+    let ran = place.run("check bad.motet worse.json --scene kitchen --fix");
+    ran.check(0, &["err:made 3 fixes", "err:checked 2 documents: no errors"]);
+    assert_eq!(place.read("bad.motet"), BAD.replace("goo", "go"));
+    assert_eq!(place.read("worse.json"), GOOD_JSON);
+    place.run("check good.motet --scene kitchen --fix").check(0, &["err:made 0 fixes"]);
+    let ran = place.run_with("check - --scene kitchen --fix", BAD.as_bytes(), &[]);
+    ran.check(0, &["err:made 1 fix"]);
+    assert_eq!(ran.stdout, BAD.replace("goo", "go"));
+    place.run("check lines.jsonl --scene kitchen --fix").check(1, &["err:is left as it is"]);
+    place.run("check latin.motet --fix").check(1, &["out:latin.motet"]);
+}
+
+#[test]
+fn tells_a_model_what_to_write() {
+    let ran = place("check_llm").run("check bad.motet --scene kitchen --format llm");
+    ran.check(1, &[]);
+    assert_eq!(ran.stdout, "Step 1: there is no primitive or policy `goo`. Write `go`.\n");
+}

@@ -3,5 +3,6 @@
 mod check;
 mod commands;
 mod fmt;
+mod import;
 mod run;
 mod support;

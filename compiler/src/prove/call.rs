@@ -1,6 +1,6 @@
 //! One call of a primitive: its needs, then what it does, and what is known where it fails.
 
-use motet_syntax::Span;
+use motet_syntax::{Diagnostic, Span};
 
 use super::apply::{Change, Lasting};
 use super::errors::{Refuted, Stale};
@@ -21,7 +21,7 @@ impl Prover<'_> {
         self.here = Some(id);
         self.erode();
 
-        self.check_fresh(call, def);
+        self.check_fresh(id, call, def);
         let mut verdicts = self.needs(id, def, frame, span);
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
@@ -79,7 +79,7 @@ impl Prover<'_> {
     }
 
     /// A pose that was perceived before something moved is stale, and using it an error.
-    fn check_fresh(&mut self, call: &Call, def: &PrimitiveDef) {
+    fn check_fresh(&mut self, id: StepId, call: &Call, def: &PrimitiveDef) {
         for (arg, span) in call.args.iter().zip(&call.spans) {
             let Term::Binding(binding) = arg else { continue };
             let Some(bound) = self.program.bindings.get(binding.index()) else { continue };
@@ -96,7 +96,9 @@ impl Prover<'_> {
                     moved: self.cause_span(fresh.no),
                     mover: self.cause_name(fresh.no),
                 };
-                self.diagnostics.push(mistake.into());
+                let (bound, mistake) = (bound.span, Diagnostic::from(mistake));
+                self.offer_again(id, bound, *span, (mistake.code, mistake.message.clone()));
+                self.diagnostics.push(mistake);
             }
         }
     }
@@ -117,7 +119,7 @@ impl Prover<'_> {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = Frame { each: culprit, ..frame };
-                self.refuted(def, need, frame, span);
+                self.refuted(id, def, need, frame, span);
                 Verdict::Refuted
             } else if value.open.is_some() {
                 Verdict::Deferred
@@ -135,7 +137,7 @@ impl Prover<'_> {
         verdicts
     }
 
-    fn refuted(&mut self, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
+    fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
         let blame = self.blame(&need.condition, true, frame);
         let mistake = Refuted {
             span,
@@ -147,7 +149,9 @@ impl Prover<'_> {
             remedy: self.remedy(&blame),
             subject: blame.subject,
         };
-        self.diagnostics.push(mistake.into());
+        let mistake = Diagnostic::from(mistake);
+        self.offer_before(id, def, Frame { each: None, ..frame }, (mistake.code, mistake.message.clone()));
+        self.diagnostics.push(mistake);
     }
 
     /// The values that a need can have, and the entity for which it can be false.

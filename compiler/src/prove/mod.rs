@@ -12,6 +12,7 @@ mod eval;
 pub(crate) mod facts;
 mod flow;
 mod intent;
+pub(crate) mod mend;
 mod monitor;
 mod parallel;
 mod show;
@@ -27,6 +28,8 @@ use smallvec::SmallVec;
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::facts::{Facts, Key, Split};
+use self::mend::Offer;
+use self::story::AtEnd;
 use self::symbols::Symbols;
 use self::value::Value;
 use crate::ir::{Entity, Fluent, Measure, Program, StepId};
@@ -86,6 +89,8 @@ pub(crate) struct Prover<'a> {
     pub(crate) buffers: (Vec<Change>, Vec<Change>),
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) proof: Proof,
+    /// What would mend the findings.
+    pub(crate) offers: Vec<Offer>,
 }
 
 /// A fact that a monitor's reaction may change at any moment of the body.
@@ -109,7 +114,11 @@ pub(crate) struct Watched {
 }
 
 /// Proves a program from the facts that the world gives at the start.
-pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Proof, Vec<Diagnostic>) {
+pub(crate) fn prove(
+    program: &Program,
+    library: &Library,
+    world: &World,
+) -> (Proof, Vec<Diagnostic>, Vec<Offer>) {
     let mut facts = Facts::above(&world.facts);
     let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
     let steps = program.steps.len();
@@ -132,13 +141,14 @@ pub(crate) fn prove(program: &Program, library: &Library, world: &World) -> (Pro
         buffers: Default::default(),
         diagnostics: Vec::new(),
         proof: Proof { needs: vec![Verdicts::new(); steps], reached: vec![false; steps] },
+        offers: Vec::new(),
     };
     prover.block(&program.body);
     if prover.live {
-        prover.check_goal();
+        prover.check_goal(AtEnd::Offer);
         let last = program.body.last().and_then(|id| program.steps.get(id.index()));
         prover.check_end(last.map_or(program.span, |step| step.span));
     }
     prover.report_unreached();
-    (prover.proof, prover.diagnostics)
+    (prover.proof, prover.diagnostics, prover.offers)
 }

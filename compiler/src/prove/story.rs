@@ -1,6 +1,6 @@
 //! The story of a refutation: which fact, made false by which step, and what would make it true.
 
-use motet_syntax::Span;
+use motet_syntax::{Diagnostic, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Prover;
@@ -41,6 +41,15 @@ impl Blame {
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
+}
+
+/// Whether the end of the policy is a place where steps could be added.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum AtEnd {
+    /// It is: the last step has run.
+    Offer,
+    /// A `done` in the middle.
+    Tell,
 }
 
 impl Prover<'_> {
@@ -150,6 +159,7 @@ impl Prover<'_> {
         let makers = self.library.primitives.iter().filter(|def| def.provided);
         let makers = makers.filter(|def| {
             def.makes.iter().any(|effect| effect.fact.fluent == fluent && effect.value == truth)
+                && !def.needs.iter().any(|need| asks_for(&need.condition, fluent, truth))
         });
         let names: Vec<_> = makers.map(|def| format!("`{}`", def.name)).take(4).collect();
         match names.split_last() {
@@ -160,8 +170,9 @@ impl Prover<'_> {
     }
 
     /// Where the policy is done, its goal must not be refuted.
-    pub(crate) fn check_goal(&mut self) {
-        let Some((goal, span)) = &self.program.achieves else { return };
+    pub(crate) fn check_goal(&mut self, end: AtEnd) {
+        let program = self.program;
+        let Some((goal, span)) = &program.achieves else { return };
         let frame = Frame::default();
         if !self.evaluate(goal, frame).no.is_some() {
             return;
@@ -176,7 +187,10 @@ impl Prover<'_> {
             remedy: self.remedy(&blame),
             subject: blame.subject,
         };
-        let mistake = mistake.into();
+        let mistake: Diagnostic = mistake.into();
+        if let (AtEnd::Offer, true) = (end, self.live) {
+            self.offer_goal(goal, *span, (mistake.code, mistake.message.clone()));
+        }
         if !self.diagnostics.contains(&mistake) {
             self.diagnostics.push(mistake);
         }
@@ -236,5 +250,20 @@ impl Prover<'_> {
             (Some(a), Some(b)) => format!("and {} is {a}, not within {b}", self.term_text(left, frame)),
             _ => "which does not hold".to_owned(),
         }
+    }
+}
+
+/// Whether a condition asks for a fluent to have a truth: what needs a fact is no way to make it.
+fn asks_for(condition: &Condition, fluent: Fluent, truth: bool) -> bool {
+    match condition {
+        Condition::Fact(fact) => truth && fact.fluent == fluent,
+        Condition::Not(inner) => asks_for(inner, fluent, !truth),
+        Condition::All(parts) => parts.iter().any(|part| asks_for(part, fluent, truth)),
+        Condition::AnyOf(_)
+        | Condition::Literal(_)
+        | Condition::Compare(..)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => false,
     }
 }

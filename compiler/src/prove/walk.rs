@@ -9,6 +9,7 @@ use super::collect::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
 use super::eval::Frame;
 use super::facts::Delta;
+use super::story::AtEnd;
 use super::value::{Cause, Value};
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 
@@ -273,7 +274,7 @@ impl Prover<'_> {
             .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
             (EndKind::Done, None, _) => {
-                self.check_goal();
+                self.check_goal(AtEnd::Tell);
                 self.check_end(span);
             }
             (EndKind::Done, Some(_), Some(depth)) => {

@@ -197,12 +197,14 @@ impl Steps<'_> {
         formals: &[Formal<'_>],
     ) -> Vec<Option<&'e Expr>> {
         let mut given: Vec<Option<&Expr>> = vec![None; formals.len()];
+        let mut unknown = 0;
         for (position, arg) in call.call.args.iter().enumerate() {
             let index = match &arg.name {
                 None => position,
                 Some(name) => match formals.iter().position(|formal| *formal.name == name.text) {
                     Some(index) => index,
                     None => {
+                        unknown += 1;
                         let near = near(&name.text, formals.iter().map(|formal| formal.name.as_str()));
                         let known = list(formals.iter().map(|formal| formal.name.clone()));
                         let (name, span) = (name.text.clone(), name.span);
@@ -240,12 +242,12 @@ impl Steps<'_> {
                 }
             }
         }
-        for (formal, slot) in formals.iter().zip(&given) {
-            if slot.is_none() && !formal.optional {
-                let ty = self.resolver.library.type_name(formal.ty);
-                let (callee, param) = (callee.clone(), formal.name.clone());
-                self.resolver.say(MissingArgument { span: call.call.span, callee, param, ty });
-            }
+        // An argument under a wrong name is most likely the one that is missing.
+        let missing = formals.iter().zip(&given).filter(|(formal, slot)| slot.is_none() && !formal.optional);
+        for (formal, _) in missing.skip(unknown) {
+            let ty = self.resolver.library.type_name(formal.ty);
+            let (callee, param) = (callee.clone(), formal.name.clone());
+            self.resolver.say(MissingArgument { span: call.call.span, callee, param, ty });
         }
         given
     }

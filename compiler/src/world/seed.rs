@@ -21,6 +21,8 @@ pub(super) fn entities(
     for thing in scene.entities.values() {
         let kind = match library.names.kinds.get(&thing.kind) {
             Some(kind) => *kind,
+            // That the kind is empty was said when the scene was read.
+            None if thing.kind.is_empty() => library.kind_named("Entity"),
             None => {
                 let near = near(&thing.kind, library.kinds.iter().map(|def| def.name.as_str()));
                 let (kind, entity) = (thing.kind.clone(), thing.id.clone());

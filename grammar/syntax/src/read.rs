@@ -1,5 +1,7 @@
 //! The entry point: bytes to text, and a document of either form, or a model's reply with one in it, to the AST.
 
+use std::sync::Arc;
+
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{IgnoredProse, NoDocument, NotUtf8, TooLarge};
@@ -14,6 +16,8 @@ pub struct Parsed {
     pub file: File,
     /// The form that the document is in.
     pub form: Form,
+    /// The text that was read, to which the spans belong.
+    pub text: Arc<str>,
     /// Errors and warnings in the order of the document.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -26,12 +30,14 @@ pub fn read(source: &Source, file: FileId) -> Parsed {
     let document: &str = &source.text;
     if document.len() > MAX_BYTES {
         let mistake = TooLarge { span: Span::new(file, 0, 0), bytes: document.len() };
-        return Parsed { file: File::default(), form: form(document), diagnostics: vec![mistake.into()] };
+        let (form, text) = (form(document), Arc::clone(&source.text));
+        return Parsed { file: File::default(), form, text, diagnostics: vec![mistake.into()] };
     }
-    if let Some(rest) = document.strip_prefix(BOM) {
-        return located(&format!("{BLANK_BOM}{rest}"), file);
-    }
-    located(document, file)
+    let parsed = match document.strip_prefix(BOM) {
+        Some(rest) => located(&format!("{BLANK_BOM}{rest}"), file),
+        None => located(document, file),
+    };
+    Parsed { text: Arc::clone(&source.text), ..parsed }
 }
 
 /// The text of a file: a byte order mark is blanked out, so that offsets stay those of the bytes.
@@ -74,7 +80,8 @@ fn located(document: &str, file: FileId) -> Parsed {
             let start = document.len() - document.trim_start().len();
             let line = document.trim_start().lines().next().unwrap_or("").trim_end();
             let mistake = NoDocument { span: Span::new(file, start, start + line.len()) };
-            Parsed { file: File::default(), form: Form::Text, diagnostics: vec![mistake.into()] }
+            let text = Arc::default();
+            Parsed { file: File::default(), form: Form::Text, text, diagnostics: vec![mistake.into()] }
         }
     }
 }
@@ -85,7 +92,7 @@ fn whole(document: &str, file: FileId) -> Parsed {
         Form::Text => text::parse(document, file),
         Form::Json => json::read_policy(document, file),
     };
-    Parsed { file, form, diagnostics }
+    Parsed { file, form, text: Arc::default(), diagnostics }
 }
 
 /// The form of a document by its first character.

@@ -33,7 +33,10 @@ fn torture(text: &str) -> Parsed {
     let _ = render::human(shown, &sources, render::Color::Off, 80);
     let _ = render::json(shown, &sources);
     let _ = render::github(shown, &sources);
-    let _ = render::sarif(shown, &sources);
+    let _ = render::sarif(shown, &sources, &|_| None);
+    for line in render::llm(shown, &sources).lines() {
+        assert!(line.chars().count() <= render::MAX_CHARS, "{line}");
+    }
     let _ = print::text(&parsed.file);
     for item in &parsed.file.items {
         if let Item::Policy(policy) = item {

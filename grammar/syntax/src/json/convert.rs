@@ -112,12 +112,15 @@ impl Converter {
         })
     }
 
-    fn call_step(&mut self, step: wire::Do, span: Span, depth: usize) -> Do {
-        for (key, _) in &step.args.0 {
-            if RESERVED.iter().any(|(reserved, _)| *reserved == key.value) {
+    fn call_step(&mut self, mut step: wire::Do, span: Span, depth: usize) -> Do {
+        // A key of another step is no argument, not even one that does not exist.
+        step.args.0.retain(|(key, _)| {
+            let is_reserved = RESERVED.iter().any(|(reserved, _)| *reserved == key.value);
+            if is_reserved {
                 self.found.push(ReservedKey { span: key.span, key: key.value.clone() }.into());
             }
-        }
+            !is_reserved
+        });
         Do {
             call: self.call(step.r#do, step.args, span, depth + 1, false),
             bind: step.r#as.map(|bind| self.name(bind)),

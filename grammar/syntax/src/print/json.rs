@@ -23,6 +23,12 @@ pub fn policy_json(policy: &Policy) -> String {
     layout::pretty(&value)
 }
 
+/// A call as a step, on one line.
+pub(super) fn call(step: &Do) -> String {
+    let mut lowering = Lowering { scope: Vec::new() };
+    layout::one_line(&serde_json::to_value(lowering.call_step(step)).unwrap_or_default())
+}
+
 /// A policy as the wire types of the JSON form. Spans are left empty.
 #[must_use]
 pub fn policy_wire(policy: &Policy) -> wire::Document {

@@ -13,6 +13,13 @@ pub(super) fn pretty(value: &Value) -> String {
     text
 }
 
+/// A value on one line, without a line break.
+pub(super) fn one_line(value: &Value) -> String {
+    let mut text = String::new();
+    flat(&mut text, value, usize::MAX);
+    text
+}
+
 /// Appends a value; `used` columns of the line are taken, and `after` are needed behind it. The outermost is always
 /// broken.
 fn fitting(text: &mut String, value: &Value, indent: usize, used: usize, after: usize) {

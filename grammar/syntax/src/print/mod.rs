@@ -13,7 +13,8 @@ mod writer;
 pub use format::format;
 pub use json::{policy_json, policy_wire};
 
-use crate::ast::{Expr, File};
+use crate::ast::{Do, Expr, ExprKind, File};
+use crate::source::Form;
 
 /// A file in the text form. Documentation is kept; comments are not part of a tree (see [`format()`]).
 #[must_use]
@@ -28,5 +29,32 @@ pub fn text(file: &File) -> String {
 pub fn expression(expr: &Expr) -> String {
     let mut text = String::new();
     expr::write(&mut text, expr);
+    text
+}
+
+/// A call as a step on one line, in either form. Arguments of the JSON form are written under their names.
+#[must_use]
+pub fn call(step: &Do, form: Form) -> String {
+    match form {
+        Form::Json => json::call(step),
+        Form::Text => {
+            let mut text = String::new();
+            if let Some(bind) = &step.bind {
+                text.push_str("let ");
+                expr::name(&mut text, &bind.text);
+                text.push_str(" = ");
+            }
+            let call = Expr { kind: ExprKind::Call(step.call.clone()), span: step.call.span };
+            expr::write(&mut text, &call);
+            text
+        }
+    }
+}
+
+/// A name in the text form, back-quoted where it has to be.
+#[must_use]
+pub fn identifier(name: &str) -> String {
+    let mut text = String::new();
+    expr::name(&mut text, name);
     text
 }

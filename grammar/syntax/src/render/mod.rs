@@ -4,12 +4,14 @@ mod excerpt;
 mod github;
 mod human;
 mod json;
+mod llm;
 mod sarif;
 
 pub use github::github;
 pub use human::{Color, human};
 pub use json::{EditRecord, FixRecord, Record, RelatedRecord, SpanRecord, json, record};
-pub use sarif::sarif;
+pub use llm::{MAX_CHARS, llm};
+pub use sarif::{Help, sarif};
 
 use crate::source::{Source, Sources, Span};
 

@@ -8,16 +8,26 @@ use super::{end_line_column, file_name, line_column};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Sources, Span};
 
-/// One log with one run of the tool `motet`.
+/// What there is to read about a code.
+#[derive(Clone, Copy, Debug)]
+pub struct Help<'h> {
+    /// Its title, a few words.
+    pub title: &'h str,
+    /// Its page.
+    pub markdown: &'h str,
+}
+
+/// One log with one run of the tool `motet`. `help` gives what there is to read about a code, where there is something.
 #[must_use]
-pub fn sarif(diagnostics: &[Diagnostic], sources: &Sources) -> String {
+pub fn sarif<'h>(
+    diagnostics: &[Diagnostic],
+    sources: &Sources,
+    help: &dyn Fn(&str) -> Option<Help<'h>>,
+) -> String {
     let codes: BTreeMap<&str, usize> = diagnostics.iter().map(|diagnostic| (diagnostic.code.0, 0)).collect();
     let codes: BTreeMap<&str, usize> =
         codes.into_keys().enumerate().map(|(index, code)| (code, index)).collect();
-    let rules: Vec<Value> = codes
-        .keys()
-        .map(|code| json!({"id": code, "help": {"text": format!("motet explain {code}")}}))
-        .collect();
+    let rules: Vec<Value> = codes.keys().map(|code| rule(code, help(code))).collect();
     let results: Vec<Value> = diagnostics
         .iter()
         .map(|diagnostic| result(diagnostic, codes.get(diagnostic.code.0).copied(), sources))
@@ -38,6 +48,18 @@ pub fn sarif(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut text = serde_json::to_string_pretty(&log).unwrap_or_default();
     text.push('\n');
     text
+}
+
+fn rule(code: &str, help: Option<Help<'_>>) -> Value {
+    let text = format!("motet explain {code}");
+    match help {
+        None => json!({"id": code, "help": {"text": text}}),
+        Some(help) => json!({
+            "id": code,
+            "shortDescription": {"text": help.title},
+            "help": {"text": text, "markdown": help.markdown},
+        }),
+    }
 }
 
 fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Value {

@@ -1,0 +1,166 @@
+//! Edits that mend findings, and the loop that makes them: each is tried in memory, and kept only where the document then
+//! checks better.
+//!
+//! Beside the stages, not one of them: it reads what they found and checks again. Pure, like they are.
+
+mod edit;
+mod write;
+
+use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
+
+use crate::ir::Program;
+use crate::library::Library;
+use crate::prove::mend::Offer;
+use crate::session::Session;
+use crate::world::World;
+
+pub use edit::apply;
+
+/// The most documents that are checked to mend one.
+const MAX_TRIES: usize = 500;
+/// How many edits may be needed together before the document checks better: a mended name can uncover what lies behind.
+const MAX_DEPTH: usize = 3;
+
+/// What came of mending a document.
+#[derive(Clone, Debug)]
+pub struct Fixed {
+    /// The document.
+    pub text: String,
+    /// What was done to it, in order.
+    pub applied: Vec<Applied>,
+    /// What is left to say of it.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// One fix that was made.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Applied {
+    /// Of which finding.
+    pub code: Code,
+    /// What it did: "write `pick`".
+    pub title: String,
+}
+
+/// Mends a document by at most so many fixes. Each leaves it with fewer errors, or with as many and fewer warnings, and
+/// with no code that it did not have before; at most 500 documents are checked on the way.
+#[must_use]
+pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fixed {
+    let mut tries = MAX_TRIES;
+    let mut at = State::of(session, source.text.to_string(), source, file);
+    let mut applied = Vec::new();
+    while applied.len() < most {
+        let depth = MAX_DEPTH.min(most - applied.len() - 1);
+        let Some((next, done)) = better(session, source, file, &at, &at, depth, &mut tries) else { break };
+        applied.extend(done);
+        at = next;
+    }
+    let diagnostics = at.findings.into_iter().map(|found| found.diagnostic).collect();
+    Fixed { text: at.text, applied, diagnostics }
+}
+
+/// A finding and the ways to mend it, the best first.
+#[derive(Clone, Debug)]
+pub(crate) struct Finding {
+    pub(crate) diagnostic: Diagnostic,
+    pub(crate) others: Vec<Fix>,
+}
+
+impl From<Diagnostic> for Finding {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { diagnostic, others: Vec::new() }
+    }
+}
+
+/// Joins what was found with what the prover offers, as edits of the document.
+pub(crate) fn findings(
+    diagnostics: Vec<Diagnostic>,
+    offers: &[Offer],
+    parsed: &Parsed,
+    program: &Program,
+    library: &Library,
+    world: &World,
+) -> Vec<Finding> {
+    let writer = write::Writer { parsed, program, library, world };
+    let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
+    for found in &mut findings {
+        let said = &mut found.diagnostic;
+        if let Some(fix) = &mut said.fix {
+            writer.in_form(said.code, fix);
+        }
+        let offer = offers.iter().find(|offer| {
+            offer.code == said.code && offer.span == said.span && offer.message == said.message
+        });
+        let mut fixes = offer.map(|offer| writer.fixes(offer)).unwrap_or_default().into_iter();
+        if said.fix.is_none() {
+            said.fix = fixes.next().or_else(|| writer.leaving_out(said));
+        }
+        found.others = fixes.collect();
+    }
+    findings
+}
+
+/// A document and what is found in it.
+struct State {
+    text: String,
+    findings: Vec<Finding>,
+}
+
+impl State {
+    fn of(session: &Session, text: String, source: &Source, file: FileId) -> Self {
+        let parsed = motet_syntax::read(&Source::new(source.name.clone(), text.as_str()), file);
+        Self { findings: session.findings(&parsed), text }
+    }
+
+    fn count(&self, severity: Severity) -> usize {
+        self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
+    }
+
+    /// Whether it checks better than another: fewer errors, or as many and fewer warnings; and no new code.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
+        let is_known = |found: &Finding| {
+            other.findings.iter().any(|known| known.diagnostic.code == found.diagnostic.code)
+        };
+        counts(self) < counts(other) && self.findings.iter().all(is_known)
+    }
+}
+
+/// The first document that is better than `base` by mending `at`, with what was done. Errors are tried before warnings.
+fn better(
+    session: &Session,
+    source: &Source,
+    file: FileId,
+    base: &State,
+    at: &State,
+    depth: usize,
+    tries: &mut usize,
+) -> Option<(State, Vec<Applied>)> {
+    let mut order: Vec<_> = at.findings.iter().collect();
+    order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
+    let mut promising = Vec::new();
+    for found in order {
+        let said = &found.diagnostic;
+        for fix in said.fix.iter().chain(&found.others) {
+            *tries = tries.checked_sub(1)?;
+            let Some(text) = apply(&at.text, file, fix) else { continue };
+            let next = State::of(session, text, source, file);
+            let done = Applied { code: said.code, title: fix.title.clone() };
+            if next.is_better_than(base) {
+                return Some((next, vec![done]));
+            }
+            // Behind a name or a type that is wrong nothing is proved: mending it can uncover more than it removes.
+            let uncovers = ["M01", "M02", "M03"].iter().any(|stage| said.code.0.starts_with(stage));
+            let is_no_worse = next.count(Severity::Error) <= base.count(Severity::Error);
+            if said.severity == Severity::Error && (uncovers || is_no_worse) {
+                promising.push((next, done));
+            }
+        }
+    }
+    if depth == 0 {
+        return None;
+    }
+    promising.into_iter().find_map(|(next, done)| {
+        let (last, more) = better(session, source, file, base, &next, depth - 1, tries)?;
+        Some((last, std::iter::once(done).chain(more).collect()))
+    })
+}

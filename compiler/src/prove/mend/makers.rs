@@ -1,0 +1,181 @@
+//! Which calls make a fact.
+
+use motet_syntax::ast::CompareOp;
+
+use super::{MAX_PROPOSALS, Proposed, Want};
+use crate::ir::{Base, Condition, Entity, Primitive, Term, Ty};
+use crate::library::{EffectDef, PrimitiveDef};
+use crate::prove::Prover;
+use crate::prove::eval::Frame;
+use crate::prove::facts::{ANY, Key};
+
+impl Prover<'_> {
+    /// Calls that make a fact, in the order of the library.
+    pub(super) fn makers(&self, want: Want) -> Vec<(Proposed, Want)> {
+        let mut found = Vec::new();
+        for (index, def) in self.library.primitives.iter().enumerate() {
+            let Some(primitive) = u16::try_from(index).ok().map(Primitive).filter(|_| def.provided) else {
+                continue;
+            };
+            for effect in
+                def.makes.iter().filter(|effect| effect.fact.fluent == want.0 && effect.value == want.2)
+            {
+                let Some(args) = self.unify(def, effect, want.1) else { continue };
+                for args in self.fill(def, args) {
+                    let call = Proposed { primitive, args };
+                    if !found.iter().any(|(other, _)| *other == call) && self.applies(effect, &call, want.1) {
+                        found.push((call, want));
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// The arguments for which an effect is about a fact; those that it leaves open are none.
+    pub(super) fn unify(
+        &self,
+        def: &PrimitiveDef,
+        effect: &EffectDef,
+        key: Key,
+    ) -> Option<Vec<Option<Term>>> {
+        let mut args: Vec<Option<Term>> = vec![None; def.params.len()];
+        let mut each = None;
+        for (index, term) in effect.fact.args.iter().enumerate() {
+            let value = key.arg(index);
+            match term {
+                None => {}
+                Some(_) if value == ANY => {}
+                Some(Term::Param(at)) => self.bind_arg(def, &mut args, *at, value)?,
+                Some(Term::Each) => each = Some(value),
+                Some(term) if self.argument(term, Frame::default()) == Some(value) => {}
+                Some(_) => return None,
+            }
+        }
+        if let (Some(value), Some(Condition::Compare(CompareOp::Equal, left, right))) = (each, &effect.when) {
+            match (left, right) {
+                (Term::Each, Term::Param(at)) | (Term::Param(at), Term::Each) => {
+                    self.bind_arg(def, &mut args, *at, value)?;
+                }
+                _ => {}
+            }
+        }
+        Some(args)
+    }
+
+    pub(super) fn bind_arg(
+        &self,
+        def: &PrimitiveDef,
+        args: &mut [Option<Term>],
+        at: u16,
+        value: u16,
+    ) -> Option<()> {
+        let term = match def.params.get(usize::from(at))?.ty {
+            Ty { base: Base::Enum(id), lists: 0 } => Term::Case(id, value),
+            ty => {
+                let kind = self.symbols.kind(self.world, Entity(value))?;
+                self.library.fits(ty, Ty::plain(Base::Entity(kind))).then_some(Term::Entity(Entity(value)))?
+            }
+        };
+        let slot = args.get_mut(usize::from(at))?;
+        match slot {
+            Some(other) if *other != term => None,
+            _ => {
+                *slot = Some(term);
+                Some(())
+            }
+        }
+    }
+
+    /// Whether the effect is about the fact at this call, in the state as it is.
+    pub(super) fn applies(&self, effect: &EffectDef, call: &Proposed, key: Key) -> bool {
+        let place = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
+        let each = place.map(|index| Entity(key.arg(index)));
+        let is_of_kind = match (effect.each, each) {
+            (Some(kind), Some(each)) => {
+                self.symbols.kind(self.world, each).is_some_and(|other| self.library.is_kind(other, kind))
+            }
+            _ => true,
+        };
+        let frame = Frame { args: &call.args, result: None, each };
+        is_of_kind && effect.when.as_ref().is_none_or(|when| self.evaluate(when, frame).is_true())
+    }
+
+    /// What the open arguments may be: what the primitive's own needs say of them in the state as it is.
+    pub(super) fn fill(&self, def: &PrimitiveDef, args: Vec<Option<Term>>) -> Vec<Vec<Term>> {
+        let mut all = vec![args];
+        for (index, param) in def.params.iter().enumerate() {
+            let mut next = Vec::new();
+            for args in all {
+                if args.get(index).is_some_and(Option::is_some) {
+                    next.push(args);
+                    continue;
+                }
+                let choices = match (&param.default, param.ty.kind()) {
+                    (Some(default), _) => vec![default.clone()],
+                    (None, Some(_)) => self.choices(def, index, &args),
+                    (None, None) => Vec::new(),
+                };
+                for choice in choices {
+                    let mut args = args.clone();
+                    if let Some(slot) = args.get_mut(index) {
+                        *slot = Some(choice);
+                    }
+                    next.push(args);
+                }
+            }
+            all = next;
+        }
+        all.into_iter().filter_map(|args| args.into_iter().collect()).collect()
+    }
+
+    /// Entities that may stand for a parameter: those for which a need of the primitive is known to hold; else any few.
+    pub(super) fn choices(&self, def: &PrimitiveDef, index: usize, args: &[Option<Term>]) -> Vec<Term> {
+        let Some(param) = def.params.get(index) else { return Vec::new() };
+        let Some(kind) = param.ty.kind() else { return Vec::new() };
+        let mut found = Vec::new();
+        for need in def.needs.iter().filter(|need| need.each.is_none()) {
+            let Condition::Fact(fact) = &need.condition else { continue };
+            let is_it =
+                |term: &Option<Term>| matches!(term, Some(Term::Param(at)) if usize::from(*at) == index);
+            let Some(place) = fact.args.iter().position(is_it) else { continue };
+            let pattern = fact.args.iter().enumerate().try_fold(Key(0), |key, (at, term)| {
+                let value = match term {
+                    _ if at == place => ANY,
+                    None => ANY,
+                    Some(Term::Param(other)) => match args.get(usize::from(*other)) {
+                        Some(Some(term)) => self.argument(term, Frame::default())?,
+                        _ => ANY,
+                    },
+                    Some(term) => self.argument(term, Frame::default())?,
+                };
+                Some(key.with(at, value))
+            });
+            let Some(pattern) = pattern else { continue };
+            self.facts.entries(fact.fluent, pattern, |key, value| {
+                if value.is_true() {
+                    found.push(Entity(key.arg(place)));
+                }
+            });
+        }
+        found.sort_unstable();
+        found.dedup();
+        found.retain(|entity| {
+            let other = self.symbols.kind(self.world, *entity);
+            other.is_some_and(|other| self.library.is_kind(other, kind))
+        });
+        if found.is_empty() {
+            found = self.of_kind(kind, MAX_PROPOSALS);
+        }
+        // Furniture is a better place to put something than a thing or a person.
+        let rank = |entity: &Entity| {
+            let kind = self.symbols.kind(self.world, *entity);
+            let is =
+                |name| kind.is_some_and(|kind| self.library.is_kind(kind, self.library.kind_named(name)));
+            if is("Surface") { 0 } else { 1 + usize::from(!is("Container")) }
+        };
+        found.sort_by_key(rank);
+        found.truncate(MAX_PROPOSALS);
+        found.into_iter().map(Term::Entity).collect()
+    }
+}

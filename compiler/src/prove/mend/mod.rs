@@ -1,0 +1,184 @@
+//! What would mend a refutation: calls that bring about what a step needs, found by chaining backwards from the needs to
+//! primitives that make them, and trying them on the facts as they are before the step.
+//!
+//! The search is bounded and greedy, after the manner of means-ends analysis (Newell and Simon 1963); what it finds is a
+//! proposal, which [`crate::fix`] verifies by checking the document again.
+
+use motet_syntax::{Code, Diagnostic, Span};
+
+mod makers;
+mod search;
+
+use super::Prover;
+use super::eval::Frame;
+use super::facts::Key;
+use crate::ir::{Base, BindingId, Condition, Entity, Fluent, Primitive, StepId, StepKind, Term, Ty};
+use crate::library::{NeedDef, PrimitiveDef};
+
+/// How deep needs of needs are followed.
+const MAX_DEPTH: usize = 3;
+/// The most calls of one proposal.
+const MAX_CALLS: usize = 6;
+/// The most proposals for one step.
+const MAX_PROPOSALS: usize = 4;
+/// The most steps of a policy for which proposals are made.
+const MAX_OFFERS: usize = 32;
+/// How many steps back a call may be inserted.
+const MAX_EARLIER: usize = 6;
+/// The most calls that are tried for one step.
+const MAX_TRIES: usize = 400;
+
+/// Proposals for one finding.
+#[derive(Clone, Debug)]
+pub(crate) struct Offer {
+    pub(crate) code: Code,
+    pub(crate) span: Span,
+    pub(crate) message: String,
+    pub(crate) mends: Vec<Mend>,
+}
+
+/// One way to mend a finding.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Mend {
+    /// Calls before a step.
+    Before(StepId, Vec<Proposed>),
+    /// Calls behind a step.
+    After(StepId, Vec<Proposed>),
+    /// The step that bound a value, once more before another step, whose argument then is the new value.
+    Again { found: StepId, before: StepId, used: Span },
+    /// The step left out.
+    Drop(StepId),
+}
+
+/// A call that is not there yet.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Proposed {
+    pub(crate) primitive: Primitive,
+    pub(crate) args: Vec<Term>,
+}
+
+/// A fact that is asked for: the fluent, its arguments, its truth.
+type Want = (Fluent, Key, bool);
+
+impl Prover<'_> {
+    /// Offers what would make the needs of a step hold, where nothing is offered for it yet.
+    pub(crate) fn offer_before(
+        &mut self,
+        id: StepId,
+        def: &PrimitiveDef,
+        frame: Frame<'_>,
+        finding: (Code, String),
+    ) {
+        let Some(step) = self.program.steps.get(id.index()) else { return };
+        let span = step.span;
+        if self.offers.len() >= MAX_OFFERS
+            || self.is_inlined(id)
+            || self.offers.iter().any(|offer| offer.span == span)
+        {
+            return;
+        }
+        let mut mends = Vec::new();
+        if self.is_done(def, frame) {
+            mends.push(Mend::Drop(id));
+        }
+        let plans = self.plans(&def.needs, frame);
+        let wants = self.first_refuted(&def.needs, frame);
+        let direct: Vec<_> = wants.into_iter().flat_map(|want| self.makers(want)).collect();
+        mends.extend(plans.into_iter().map(|calls| Mend::Before(id, self.named(calls, span))));
+        // What cannot be done here, since the hand is full, say, may go before an earlier step.
+        for earlier in self.siblings_before(id) {
+            let place = self.program.steps.get(earlier.index()).map_or(span, |step| step.span);
+            for (call, _) in direct.iter().take(MAX_PROPOSALS) {
+                mends.push(Mend::Before(earlier, self.named(vec![call.clone()], place)));
+            }
+        }
+        self.offers.push(Offer { code: finding.0, span, message: finding.1, mends });
+    }
+
+    /// The steps before one in its block, the nearest first.
+    fn siblings_before(&self, id: StepId) -> Vec<StepId> {
+        let Some(place) = self.program.steps.get(id.index()).map(|step| step.place) else {
+            return Vec::new();
+        };
+        let before = self.program.steps.iter().enumerate().take(id.index()).rev();
+        let siblings =
+            before.filter(|(_, step)| step.place.parent == place.parent && step.place.slot == place.slot);
+        siblings.filter_map(|(index, _)| u32::try_from(index).ok().map(StepId)).take(MAX_EARLIER).collect()
+    }
+
+    /// Offers what would reach the goal behind the last step.
+    pub(crate) fn offer_goal(&mut self, goal: &Condition, span: Span, finding: (Code, String)) {
+        let Some(last) = self.program.body.last().copied() else { return };
+        if !self.live || self.offers.iter().any(|offer| offer.span == span) {
+            return;
+        }
+        let need = NeedDef { condition: goal.clone(), each: None, when: None, span };
+        let plans = self.plans(&[need], Frame::default());
+        let end = self
+            .program
+            .steps
+            .get(last.index())
+            .map_or(span, |step| Span { start: step.span.end, ..step.span });
+        let mends = plans.into_iter().map(|calls| Mend::After(last, self.named(calls, end))).collect();
+        self.offers.push(Offer { code: finding.0, span, message: finding.1, mends });
+    }
+
+    /// Offers what would close what a policy left open, behind its last step.
+    pub(crate) fn offer_closed(&mut self, fluent: Fluent, key: Key, finding: &Diagnostic) {
+        let Some(last) = self.program.body.last().copied().filter(|_| self.live) else { return };
+        let end = Span { start: finding.span.end, ..finding.span };
+        let calls = self.makers((fluent, key, false)).into_iter().map(|(call, _)| call);
+        let mends = calls.take(MAX_PROPOSALS).map(|call| Mend::After(last, self.named(vec![call], end)));
+        let mends = mends.collect();
+        let Diagnostic { code, span, message, .. } = finding;
+        self.offers.push(Offer { code: *code, span: *span, message: message.clone(), mends });
+    }
+
+    /// Offers to perceive again what is stale.
+    pub(crate) fn offer_again(&mut self, id: StepId, bound: Span, used: Span, finding: (Code, String)) {
+        let found = self.program.steps.iter().position(|step| {
+            let StepKind::Call(call) = &step.kind else { return false };
+            let binding = call.binds.and_then(|id| self.program.bindings.get(id.index()));
+            binding.is_some_and(|binding| binding.span == bound)
+        });
+        let Some(found) = found.and_then(|index| u32::try_from(index).ok()) else { return };
+        if self.offers.len() < MAX_OFFERS && !self.is_inlined(id) {
+            let mends = vec![Mend::Again { found: StepId(found), before: id, used }];
+            self.offers.push(Offer { code: finding.0, span: used, message: finding.1, mends });
+        }
+    }
+
+    /// Whether a step belongs to a sub-policy, where the names of its caller mean nothing.
+    fn is_inlined(&self, id: StepId) -> bool {
+        let step = |id: &StepId| self.program.steps.get(id.index());
+        let parents = std::iter::successors(step(&id), |of| of.place.parent.as_ref().and_then(step));
+        parents.skip(1).any(|step| matches!(step.kind, StepKind::Inline { .. }))
+    }
+
+    /// Whether all that a step makes is so already.
+    fn is_done(&self, def: &PrimitiveDef, frame: Frame<'_>) -> bool {
+        let mut plain =
+            def.makes.iter().filter(|effect| effect.each.is_none() && effect.when.is_none()).peekable();
+        plain.peek().is_some()
+            && plain.all(|effect| {
+                let fact = Condition::Fact(effect.fact.clone());
+                let value = self.evaluate(&fact, frame);
+                if effect.value { value.is_true() } else { value.is_false() }
+            })
+    }
+
+    /// Entities by the bindings through which the document speaks of them, where there is one before `place`.
+    fn named(&self, mut calls: Vec<Proposed>, place: Span) -> Vec<Proposed> {
+        for term in calls.iter_mut().flat_map(|call| &mut call.args) {
+            let Term::Entity(entity) = term else { continue };
+            let bound = self.program.bindings.iter().enumerate().rev().find(|(index, binding)| {
+                let is_before = binding.span.file == place.file && binding.span.start < place.start;
+                is_before && binding.name != "_" && self.symbols.of_binding(*index) == Some(*entity)
+            });
+            if let Some(id) = bound.and_then(|(index, _)| u32::try_from(index).ok()) {
+                *term = Term::Binding(BindingId(id));
+            }
+        }
+        calls
+    }
+}

@@ -1,0 +1,152 @@
+//! Chaining backwards from what is wanted, with the facts as they would be.
+
+use super::{MAX_CALLS, MAX_DEPTH, MAX_PROPOSALS, MAX_TRIES, Proposed, Want};
+use crate::ir::Condition;
+use crate::library::NeedDef;
+use crate::prove::Prover;
+use crate::prove::apply::Change;
+use crate::prove::eval::Frame;
+use crate::prove::value::Cause;
+
+impl Prover<'_> {
+    /// Runs of calls after which all needs hold, the shortest first.
+    pub(super) fn plans(&mut self, needs: &[NeedDef], frame: Frame<'_>) -> Vec<Vec<Proposed>> {
+        let mut plans = Vec::new();
+        let mut tries = MAX_TRIES;
+        for want in self.first_refuted(needs, frame) {
+            for (call, want) in self.makers(want) {
+                let mark = self.facts.mark();
+                let mut calls = Vec::new();
+                let is_found = self.perform(&call, want, MAX_DEPTH, &mut tries, &mut calls)
+                    && self.satisfy(needs, frame, MAX_DEPTH, &mut tries, &mut calls);
+                self.back_to(mark);
+                if is_found && !plans.contains(&calls) {
+                    plans.push(calls);
+                }
+            }
+        }
+        plans.sort_by_key(Vec::len);
+        plans.truncate(MAX_PROPOSALS);
+        plans
+    }
+
+    /// Extends `calls`, and the facts with them, until no need is refuted.
+    pub(super) fn satisfy(
+        &mut self,
+        needs: &[NeedDef],
+        frame: Frame<'_>,
+        depth: usize,
+        tries: &mut usize,
+        calls: &mut Vec<Proposed>,
+    ) -> bool {
+        loop {
+            let wants = self.first_refuted(needs, frame);
+            if wants.is_empty() {
+                // Either all is well, or what is refuted is no fact that a step could change.
+                return needs.iter().all(|need| !self.need(need, frame).0.no.is_some());
+            }
+            if depth == 0 || calls.len() >= MAX_CALLS {
+                return false;
+            }
+            let before = calls.len();
+            let is_found = wants.into_iter().any(|want| {
+                self.makers(want).into_iter().any(|(call, want)| {
+                    let mark = self.facts.mark();
+                    let is_found = self.perform(&call, want, depth - 1, tries, calls);
+                    if !is_found {
+                        self.back_to(mark);
+                        calls.truncate(before);
+                    }
+                    is_found
+                })
+            });
+            if !is_found {
+                return false;
+            }
+        }
+    }
+
+    /// Brings about what a call needs, and does it. `false`, with facts and calls to be taken back, where that fails.
+    pub(super) fn perform(
+        &mut self,
+        call: &Proposed,
+        want: Want,
+        depth: usize,
+        tries: &mut usize,
+        calls: &mut Vec<Proposed>,
+    ) -> bool {
+        let library = self.library;
+        let Some(def) = library.primitive(call.primitive) else { return false };
+        let Some(left) = tries.checked_sub(1) else { return false };
+        *tries = left;
+        let frame = Frame { args: &call.args, ..Frame::default() };
+        if calls.contains(call)
+            || !self.satisfy(&def.needs, frame, depth, tries, calls)
+            || calls.len() >= MAX_CALLS
+        {
+            return false;
+        }
+        let (mut makes, mut unsettles): (Vec<Change>, Vec<Change>) = Default::default();
+        self.changes(&def.makes, frame, &mut makes);
+        self.changes(&def.unsettles, frame, &mut unsettles);
+        self.unsettle(&unsettles, Cause::NOTHING);
+        self.make(&makes, Cause::NOTHING);
+        calls.push(call.clone());
+        let (fluent, key, truth) = want;
+        let holds = if key.is_pattern() { None } else { Some(self.read(fluent, key)) };
+        holds.is_none_or(|value| if truth { value.is_true() } else { value.is_false() })
+    }
+
+    /// The facts each of which would be a first step towards the first need that is refuted.
+    pub(super) fn first_refuted(&self, needs: &[NeedDef], frame: Frame<'_>) -> Vec<Want> {
+        let mut wants = Vec::new();
+        for need in needs {
+            let (value, each) = self.need(need, frame);
+            if value.no.is_some() {
+                self.wants(&need.condition, true, Frame { each, ..frame }, &mut wants);
+                break;
+            }
+        }
+        wants
+    }
+
+    pub(super) fn wants(&self, condition: &Condition, truth: bool, frame: Frame<'_>, wants: &mut Vec<Want>) {
+        let value = self.evaluate(condition, frame);
+        if !(if truth { value.no } else { value.yes }).is_some() {
+            return;
+        }
+        match condition {
+            Condition::Not(inner) => self.wants(inner, !truth, frame, wants),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                // Of a disjunction any part will do, of a conjunction each in its turn.
+                let is_choice = matches!(condition, Condition::AnyOf(_)) == truth;
+                for part in parts {
+                    if is_choice || wants.is_empty() {
+                        self.wants(part, truth, frame, wants);
+                    }
+                }
+            }
+            Condition::Fact(fact) => {
+                let Some(key) = self.key(fact, frame) else { return };
+                if truth || !key.is_pattern() {
+                    wants.push((fact.fluent, key, truth));
+                    return;
+                }
+                // That none holds: each that may hold has to go.
+                let mut held = Vec::new();
+                self.facts.entries(fact.fluent, key, |key, value| {
+                    if value.yes.is_some() {
+                        held.push(key);
+                    }
+                });
+                held.sort_unstable();
+                wants.extend(held.into_iter().map(|key| (fact.fluent, key, false)));
+            }
+            Condition::Literal(_)
+            | Condition::Compare(..)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::Unknown => {}
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Conditions: conjunctions of literals and of equalities. What else PDDL has is refused by name.
+
+use motet_syntax::{Diagnostic, Span};
+use smol_str::SmolStr;
+
+use crate::domain::Vocabulary;
+use crate::errors::{Unsupported, WrongName, unknown};
+use crate::tree::Tree;
+use crate::typed::{Typed, is_type};
+
+/// An argument.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Arg {
+    /// Without its `?`.
+    Variable(SmolStr),
+    /// A constant or an object.
+    Name(SmolStr),
+}
+
+/// A predicate applied to arguments, or an equality.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Atom {
+    /// `None` for `=`.
+    pub(crate) predicate: Option<SmolStr>,
+    pub(crate) args: Vec<Arg>,
+    pub(crate) span: Span,
+}
+
+/// An atom and whether it is asserted.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Literal {
+    pub(crate) atom: Atom,
+    pub(crate) truth: bool,
+}
+
+/// The names that a formula may use.
+#[derive(Clone, Copy)]
+pub(crate) struct Scope<'a> {
+    pub(crate) words: &'a Vocabulary,
+    pub(crate) variables: &'a [Typed],
+    pub(crate) objects: &'a [Typed],
+}
+
+/// The literals of a conjunction. `place` says of what: "a precondition".
+pub(crate) fn literals(
+    tree: &Tree,
+    scope: Scope<'_>,
+    place: &str,
+    said: &mut Vec<Diagnostic>,
+) -> Vec<Literal> {
+    let mut found = Vec::new();
+    collect(tree, scope, place, &mut found, said);
+    found
+}
+
+// Nesting was bounded when the tree was read.
+fn collect(tree: &Tree, scope: Scope<'_>, place: &str, found: &mut Vec<Literal>, said: &mut Vec<Diagnostic>) {
+    match tree.form() {
+        None if tree.list().is_some_and(<[Tree]>::is_empty) => {}
+        Some((head, parts)) if head == "and" => {
+            parts.iter().for_each(|part| collect(part, scope, place, found, said));
+        }
+        Some((head, _)) if is_refused(head) => {
+            said.push(Unsupported { span: tree.span, what: format!("`{head}` in {place}") }.into());
+        }
+        _ => found.extend(literal(tree, scope, place, said)),
+    }
+}
+
+/// Words that PDDL knows in conditions and that are not taken.
+fn is_refused(head: &str) -> bool {
+    matches!(
+        head,
+        "or" | "imply"
+            | "exists"
+            | "forall"
+            | "when"
+            | "preference"
+            | "at-end"
+            | ">"
+            | "<"
+            | ">="
+            | "<="
+            | "always"
+            | "sometime"
+            | "within"
+            | "at-most-once"
+            | "hold-during"
+            | "hold-after"
+    )
+}
+
+/// An atom, perhaps under one `not`.
+pub(crate) fn literal(
+    tree: &Tree,
+    scope: Scope<'_>,
+    place: &str,
+    said: &mut Vec<Diagnostic>,
+) -> Option<Literal> {
+    if let Some((head, inner)) = tree.form()
+        && head == "not"
+    {
+        let [inner] = inner else {
+            said.push(tree.not("one condition under `not`").into());
+            return None;
+        };
+        if let Some((head, _)) = inner.form()
+            && (matches!(head.as_str(), "and" | "not") || is_refused(head))
+        {
+            said.push(
+                Unsupported { span: inner.span, what: format!("`{head}` under `not` in {place}") }.into(),
+            );
+            return None;
+        }
+        return Some(Literal { atom: atom(inner, scope, place, said)?, truth: false });
+    }
+    Some(Literal { atom: atom(tree, scope, place, said)?, truth: true })
+}
+
+fn atom(tree: &Tree, scope: Scope<'_>, place: &str, said: &mut Vec<Diagnostic>) -> Option<Atom> {
+    let Some((head, parts)) = tree.form() else {
+        said.push(tree.not(format!("a predicate in {place}")).into());
+        return None;
+    };
+    if parts.iter().any(|part| part.list().is_some()) {
+        let what = format!("a numeric or object fluent in `{head}`");
+        said.push(Unsupported { span: tree.span, what }.into());
+        return None;
+    }
+    let before = said.len();
+    let args: Vec<_> = parts.iter().filter_map(|part| arg(part, scope, said)).collect();
+    if said.len() > before {
+        return None;
+    }
+    let span = tree.span;
+    if head == "=" {
+        if args.len() != 2 {
+            said.push(tree.not("`=` with two arguments").into());
+            return None;
+        }
+        return Some(Atom { predicate: None, args: args.into_iter().map(|(arg, _)| arg).collect(), span });
+    }
+    let Some(params) = scope.words.predicates.get(head) else {
+        let known = scope.words.predicates.keys().map(SmolStr::as_str);
+        said.push(unknown(tree.span, "predicate", head, known).into());
+        return None;
+    };
+    if params.len() != args.len() {
+        let what = format!("`{head}` takes {} arguments, and here are {}", params.len(), args.len());
+        said.push(WrongName { span, what, help: None }.into());
+        return None;
+    }
+    for ((_, ty), param) in args.iter().zip(params) {
+        // A variable of a wider type may be of the right one where it counts: the effect then says nothing of others.
+        if !is_type(&scope.words.types, ty, &param.ty) {
+            let what =
+                format!("`{head}` takes {} `{}`, and this is {} `{ty}`", a(&param.ty), param.ty, a(ty));
+            said.push(WrongName { span, what, help: None }.into());
+            return None;
+        }
+    }
+    Some(Atom { predicate: Some(head.clone()), args: args.into_iter().map(|(arg, _)| arg).collect(), span })
+}
+
+fn a(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}
+
+/// An argument and its type.
+fn arg(tree: &Tree, scope: Scope<'_>, said: &mut Vec<Diagnostic>) -> Option<(Arg, SmolStr)> {
+    let word = tree.word()?;
+    let (name, among, kind) = match word.strip_prefix('?') {
+        Some(name) => (SmolStr::new(name), scope.variables, "variable"),
+        None => (word.clone(), scope.objects, "object"),
+    };
+    // An inner variable hides an outer one.
+    let Some(found) = among.iter().rev().find(|one| one.name == name) else {
+        said.push(unknown(tree.span, kind, word, among.iter().map(|one| one.name.as_str())).into());
+        return None;
+    };
+    let arg = if kind == "variable" { Arg::Variable(name) } else { Arg::Name(name) };
+    Some((arg, found.ty.clone()))
+}

@@ -1,0 +1,78 @@
+//! PDDL in, Motet out: a STRIPS domain and a problem become declarations, a plan becomes a policy.
+//!
+//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects` of PDDL 2.1
+//! (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its place. The stages are
+//! `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which the canonical printer prints).
+//! Nothing here reads a file, and no text panics.
+
+mod actions;
+mod domain;
+mod errors;
+mod formula;
+mod name;
+mod plan;
+mod problem;
+mod tree;
+mod typed;
+mod write;
+
+pub use errors::CODES;
+
+use motet_syntax::ast::File;
+use motet_syntax::{Diagnostic, FileId, Severity, Source, print};
+
+/// The most parameters of a predicate: a fluent takes no more.
+pub const MAX_ARITY: usize = 4;
+
+/// A domain and a problem, as Motet says them.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// Kinds, fluents, actions, entities, `initially` and `closed world`.
+    pub declarations: File,
+    /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is given.
+    pub policy: File,
+}
+
+impl Imported {
+    /// The declarations in the text form, with the goal in a comment above them.
+    #[must_use]
+    pub fn declarations_text(&self) -> String {
+        let goal = self.policy.policies().find_map(|policy| policy.achieves.as_ref());
+        let goal = goal.map(|goal| format!("policy plan achieves {} {{ … }}", print::expression(goal)));
+        let goal = goal.unwrap_or_else(|| "policy plan { … }".to_owned());
+        format!("// A plan for it is: {goal}\n\n{}", print::text(&self.declarations))
+    }
+
+    /// The policy in the text form.
+    #[must_use]
+    pub fn policy_text(&self) -> String {
+        print::text(&self.policy)
+    }
+}
+
+/// A source with its place among the files of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'s> {
+    /// The text.
+    pub source: &'s Source,
+    /// Its id in the diagnostics.
+    pub file: FileId,
+}
+
+/// Imports a domain with a problem, and a plan where one is given. `None` where there is an error among the diagnostics,
+/// which are in the order of the files. O(n log n) in the length of the files.
+#[must_use]
+pub fn import(
+    domain: Input<'_>,
+    problem: Input<'_>,
+    plan: Option<Input<'_>>,
+) -> (Option<Imported>, Vec<Diagnostic>) {
+    let mut said = Vec::new();
+    let domain = tree::read(domain, &mut said).and_then(|tree| domain::read(&tree, &mut said));
+    let problem = tree::read(problem, &mut said)
+        .and_then(|tree| domain.as_ref().and_then(|domain| problem::read(&tree, domain, &mut said)));
+    let plan = plan.map(|plan| plan::read(plan, domain.as_ref(), problem.as_ref(), &mut said));
+    let is_refused = said.iter().any(|said: &Diagnostic| said.severity == Severity::Error);
+    let imported = domain.zip(problem).filter(|_| !is_refused);
+    (imported.map(|(domain, problem)| write::imported(&domain, &problem, plan.unwrap_or_default())), said)
+}
