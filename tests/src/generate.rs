@@ -31,7 +31,7 @@ pub fn policy_of(steps: usize) -> String {
                     "during": [{"do": "go", "to": away}]}),
             ),
             (1, json!({"do": "place", "object": bound, "on": away})),
-            (1, json!({"do": "say", "text": "There it is."})),
+            (1, json!({"do": "go", "to": "trash"})),
         ];
         for (count, step) in lap {
             if count > left {

@@ -20,7 +20,7 @@ fn every_verdict_is_that_of_the_contract() {
     let text = std::fs::read_to_string(DATA).unwrap();
     let rows: Vec<_> = text.lines().map(|line| scenarios::judge(line).unwrap()).collect();
     let wrong: Vec<_> = rows.iter().filter_map(Judged::disagreement).collect();
-    assert!(wrong.len() <= 1, "{wrong:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
     let summary = summary(&rows);
     assert!(summary.total >= 46 && summary.class_total >= 31 && summary.step_total >= 31, "{summary:?}");
 }
@@ -125,6 +125,7 @@ fn hands_and_places() {
     hsr("go table; pick cup; handover user; done", "not_at_location @ 3");
     hsr("go table; pick cup; place shelf; done", "not_at_location @ 3");
     hsr("search cup; pick cup; go user_spot; handover user; done", "ok");
+    hsr("go table; pick cup; done", "ends_holding @ end");
     hsr("go table; pick cup; place table; done; go hall", "dead_code @ 5");
     given(json!({"goal": [["holding", "cup"]]}), "go table; pick cup; done", "ok");
     given(json!({"goal": [["at", "toy", "box"]]}), "go sofa; pick toy; go box; place box; done", "ok");

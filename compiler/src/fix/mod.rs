@@ -41,8 +41,8 @@ pub struct Applied {
     pub title: String,
 }
 
-/// Mends a document by at most so many fixes. Each leaves it with fewer errors, or with as many and fewer warnings, and
-/// with no code that it did not have before; at most 500 documents are checked on the way.
+/// Mends a document by at most so many fixes. Each leaves it with fewer errors and no new kind of error, or with as many
+/// errors, fewer warnings and no new code; at most 500 documents are checked on the way.
 #[must_use]
 pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fixed {
     let mut tries = MAX_TRIES;
@@ -115,13 +115,16 @@ impl State {
         self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
     }
 
-    /// Whether it checks better than another: fewer errors, or as many and fewer warnings; and no new code.
+    /// Whether it checks better than another: fewer errors and no new code of an error, or as many errors, fewer
+    /// warnings, and no new code. A step that mends an error may be one that a lint has a word on.
     fn is_better_than(&self, other: &Self) -> bool {
         let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
-        let is_known = |found: &Finding| {
-            other.findings.iter().any(|known| known.diagnostic.code == found.diagnostic.code)
+        let fewer_errors = counts(self).0 < counts(other).0;
+        let may_be = |found: &Finding| {
+            (fewer_errors && found.diagnostic.severity != Severity::Error)
+                || other.findings.iter().any(|known| known.diagnostic.code == found.diagnostic.code)
         };
-        counts(self) < counts(other) && self.findings.iter().all(is_known)
+        counts(self) < counts(other) && self.findings.iter().all(may_be)
     }
 }
 

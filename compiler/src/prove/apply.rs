@@ -206,10 +206,10 @@ impl Prover<'_> {
         if sure == Sure::Always {
             self.facts.set(fluent, key, new(Value::default()));
         } else if self.symbols.is_empty() || key.is_pattern() {
-            self.facts.change(fluent, key, new);
+            self.facts.change(fluent, key, |_, old| new(old));
         } else {
             // What is known of a binding is what is known of all that it may be.
-            let known = self.read_plain(fluent, key);
+            let known = self.read(fluent, key);
             self.facts.set(fluent, key, new(known));
         }
         let value = self.facts.get(fluent, key);

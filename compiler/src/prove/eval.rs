@@ -60,12 +60,6 @@ impl Prover<'_> {
 
     /// What is known of a single fact, symbols seen through.
     pub(crate) fn read(&self, fluent: Fluent, key: Key) -> Value {
-        let value = self.read_plain(fluent, key);
-        let volatile = self.volatile.iter().filter(|row| row.fluent == fluent && row.key.covers(key));
-        volatile.fold(value, |value, row| value.join(row.value))
-    }
-
-    pub(super) fn read_plain(&self, fluent: Fluent, key: Key) -> Value {
         if self.symbols.is_empty() || self.facts.entry(fluent, key).is_some() {
             return self.facts.get(fluent, key);
         }
@@ -89,8 +83,7 @@ impl Prover<'_> {
                 return Value::open(Cause::NOTHING);
             }
             let generic = symbol.may_be.is_none().then(|| self.facts.get(fluent, key));
-            let known =
-                candidates.iter().map(|candidate| self.read_plain(fluent, key.with(index, candidate.0)));
+            let known = candidates.iter().map(|candidate| self.read(fluent, key.with(index, candidate.0)));
             let mut values = known.chain(generic);
             let Some(first) = values.next() else { return self.facts.get(fluent, key) };
             return if values.all(|value| value.same_set(first)) {

@@ -1,7 +1,7 @@
 //! Lints of intent: what is allowed and yet hardly meant. All are warnings; what they rest on is what the prover knows.
 
-use motet_syntax::Span;
 use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::{Diagnostic, Span};
 
 use super::apply::Change;
 use super::assume::mentions;
@@ -36,15 +36,25 @@ impl Prover<'_> {
                     found = Some((key, value.yes));
                 }
             });
-            found.map(|(key, cause)| (self.argument_name(fluent, 0, key.arg(0)), self.cause_span(cause)))
+            found.map(|(key, cause)| {
+                (fluent, key, self.argument_name(fluent, 0, key.arg(0)), self.cause_span(cause))
+            })
         };
-        let holding =
-            ends("holding", false).map(|(object, since)| EndsHolding { span, object, since }.into());
-        let open = ends("open", true).map(|(container, since)| LeftOpen { span, container, since }.into());
-        for mistake in [holding, open].into_iter().flatten() {
-            if !self.diagnostics.contains(&mistake) {
-                self.diagnostics.push(mistake);
-            }
+        let (holding, open) = (ends("holding", false), ends("open", true));
+        if let Some((.., object, since)) = holding {
+            self.warn(EndsHolding { span, object, since }.into());
+        }
+        if let Some((fluent, key, container, since)) = open {
+            let mistake: Diagnostic = LeftOpen { span, container, since }.into();
+            self.offer_closed(fluent, key, &mistake);
+            self.warn(mistake);
+        }
+    }
+
+    /// Says something, once.
+    fn warn(&mut self, mistake: Diagnostic) {
+        if !self.diagnostics.contains(&mistake) {
+            self.diagnostics.push(mistake);
         }
     }
 
@@ -92,7 +102,9 @@ impl Prover<'_> {
         let name = |index, arg| self.argument_name(first.fluent, index, arg);
         let fact = show(&known.name, first.key, known.params.len(), name);
         let since = self.cause_span(cause);
-        self.diagnostics.push(Redundant { span, callee: def.name.clone(), fact, since }.into());
+        let mistake: Diagnostic = Redundant { span, callee: def.name.clone(), fact, since }.into();
+        self.offer_leaving_out(&mistake);
+        self.diagnostics.push(mistake);
     }
 
     /// Whether the world may have moved on without the robot: people walk, and a monitor's reaction runs because of it.
@@ -183,10 +195,6 @@ impl Prover<'_> {
         let Some(row) = rows.find(|row| spoken(row.fluent) && row.value.open == value.open) else { return };
         let needs = self.show(&need.condition, true, frame);
         let (when, maker) = (row.when, self.cause_name(row.value.open));
-        let mistake =
-            ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into();
-        if !self.diagnostics.contains(&mistake) {
-            self.diagnostics.push(mistake);
-        }
+        self.warn(ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into());
     }
 }

@@ -5,7 +5,7 @@ use motet_syntax::ast::EndKind;
 use super::collect::{Collector, Enclosing};
 use super::errors::NeverFires;
 use super::eval::Frame;
-use super::facts::Delta;
+use super::facts::{Delta, Key};
 use super::value::Cause;
 use super::{Prover, Volatile, Watched};
 use crate::ir::{Condition, Entity, Reaction, StepId, TIMEOUT, Term, When};
@@ -40,6 +40,7 @@ impl Prover<'_> {
             }
             if self.live {
                 self.block(body);
+                self.erode();
             } else {
                 // It fires at once: the body never runs.
                 self.live = false;
@@ -147,10 +148,37 @@ impl Prover<'_> {
 
     /// Reactions may have run just now: what they change may be so, or as it was.
     pub(crate) fn erode(&mut self) {
-        for index in 0..self.volatile.len() {
-            let Some(row) = self.volatile.get(index).copied() else { return };
-            self.facts.change(row.fluent, row.key, |known| known.join(row.value));
+        if self.volatile.is_empty() {
+            return;
         }
+        let rows = std::mem::take(&mut self.volatile);
+        let single = rows.iter().filter(|row| !row.key.is_pattern());
+        let single = single.map(|row| (row, self.read(row.fluent, row.key).join(row.value)));
+        let single: Vec<_> = single.collect();
+        for row in rows.iter().filter(|row| row.key.is_pattern()) {
+            // A narrower row of the same reaction says more of what it covers.
+            let is_told = |key: Key| {
+                rows.iter().any(|other| {
+                    (other.fluent, other.when) == (row.fluent, row.when)
+                        && other.key != row.key
+                        && row.key.covers(other.key)
+                        && other.key.covers(key)
+                })
+            };
+            self.facts.change(
+                row.fluent,
+                row.key,
+                |key, known| {
+                    if is_told(key) { known } else { known.join(row.value) }
+                },
+            );
+        }
+        for (row, value) in single {
+            if self.facts.get(row.fluent, row.key) != value {
+                self.facts.set(row.fluent, row.key, value);
+            }
+        }
+        self.volatile = rows;
     }
 
     /// Proves a reaction from the states in which it can start.

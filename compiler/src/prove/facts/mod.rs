@@ -164,7 +164,7 @@ impl<'w> Facts<'w> {
     }
 
     /// Changes what is known of a fact, or of each fact that a pattern covers, whatever it is.
-    pub(crate) fn change(&mut self, fluent: Fluent, key: Key, change: impl Fn(Value) -> Value) {
+    pub(crate) fn change(&mut self, fluent: Fluent, key: Key, change: impl Fn(Key, Value) -> Value) {
         let mut apart: SmallVec<[(Key, Value); 8]> = SmallVec::new();
         if key.is_pattern() {
             if let Some(table) = self.table(fluent) {
@@ -177,13 +177,13 @@ impl<'w> Facts<'w> {
             apart.sort_unstable_by_key(|(key, _)| order(&(fluent, *key)));
         }
         let known = self.get(fluent, key);
-        let new = change(known);
-        if new == known && apart.iter().all(|(_, old)| change(*old) == *old) {
+        let new = change(key, known);
+        if new == known && apart.iter().all(|(key, old)| change(*key, *old) == *old) {
             return;
         }
         self.set(fluent, key, new);
         for (key, old) in apart {
-            self.set(fluent, key, change(old));
+            self.set(fluent, key, change(key, old));
         }
     }
 

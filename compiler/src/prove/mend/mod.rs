@@ -12,7 +12,7 @@ mod search;
 use super::Prover;
 use super::eval::Frame;
 use super::facts::Key;
-use crate::ir::{Base, BindingId, Condition, Entity, Fluent, Primitive, StepId, StepKind, Term, Ty};
+use crate::ir::{BindingId, Condition, Fluent, Primitive, StepId, StepKind, Term};
 use crate::library::{NeedDef, PrimitiveDef};
 
 /// How deep needs of needs are followed.
@@ -130,8 +130,20 @@ impl Prover<'_> {
         let calls = self.makers((fluent, key, false)).into_iter().map(|(call, _)| call);
         let mends = calls.take(MAX_PROPOSALS).map(|call| Mend::After(last, self.named(vec![call], end)));
         let mends = mends.collect();
-        let Diagnostic { code, span, message, .. } = finding;
-        self.offers.push(Offer { code: *code, span: *span, message: message.clone(), mends });
+        self.offer(finding, mends);
+    }
+
+    /// Offers to leave out the step that is being proved.
+    pub(crate) fn offer_leaving_out(&mut self, finding: &Diagnostic) {
+        let own = self.here.filter(|id| !self.is_inlined(*id));
+        self.offer(finding, own.map(Mend::Drop).into_iter().collect());
+    }
+
+    fn offer(&mut self, finding: &Diagnostic, mends: Vec<Mend>) {
+        if self.offers.len() < MAX_OFFERS {
+            let Diagnostic { code, span, message, .. } = finding;
+            self.offers.push(Offer { code: *code, span: *span, message: message.clone(), mends });
+        }
     }
 
     /// Offers to perceive again what is stale.
