@@ -93,6 +93,8 @@ struct Case {
     sources: Sources,
     said: Vec<Diagnostic>,
     robot: Option<card::Robot>,
+    /// The text of its card, and which file that is.
+    card: Option<(Source, FileId)>,
     scene: Option<scene::Scene>,
     state: Option<State>,
     options: Options,
@@ -121,12 +123,19 @@ impl Case {
             let (robot, said) = card::read(&source, file, declarations);
             self.said.extend(said);
             self.robot = robot;
+            self.card = Some((source, file));
         }
     }
 
     fn urdf(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
-            self.said.extend(urdf::read(&source, file).1);
+            let (urdf, said) = urdf::read(&source, file);
+            self.said.extend(said);
+            if let (Some(urdf), Some((card, file))) = (urdf, &self.card)
+                && self.robot.as_ref().is_some_and(|robot| robot.model.is_some())
+            {
+                self.said.extend(card::fit(card, *file, &urdf));
+            }
         }
     }
 
