@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{Options, Session, State, codes};
-use motet_robots::{card, scene, urdf};
+use motet_robots::{card, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -95,6 +95,7 @@ struct Case {
     robot: Option<card::Robot>,
     /// The text of its card, and which file that is.
     card: Option<(Source, FileId)>,
+    urdf: Option<urdf::Urdf>,
     scene: Option<scene::Scene>,
     state: Option<State>,
     options: Options,
@@ -131,11 +132,18 @@ impl Case {
         if let Some((source, file)) = self.add(text) {
             let (urdf, said) = urdf::read(&source, file);
             self.said.extend(said);
-            if let (Some(urdf), Some((card, file))) = (urdf, &self.card)
+            if let (Some(urdf), Some((card, file))) = (&urdf, &self.card)
                 && self.robot.as_ref().is_some_and(|robot| robot.model.is_some())
             {
-                self.said.extend(card::fit(card, *file, &urdf));
+                self.said.extend(card::fit(card, *file, urdf));
             }
+            self.urdf = urdf;
+        }
+    }
+
+    fn srdf(&mut self, text: &[u8]) {
+        if let Some(((source, file), urdf)) = self.add(text).zip(self.urdf.as_ref()) {
+            self.said.extend(srdf::read(&source, file, urdf).1);
         }
     }
 
@@ -181,7 +189,7 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "urdf", "scene", "state", "domain", "pddl"].contains(&word) => {
+                    None if ["card", "urdf", "srdf", "scene", "state", "domain", "pddl"].contains(&word) => {
                         role = word
                     }
                     Some(_) | None => return Err(format!("what is `{word}`?")),
@@ -190,6 +198,7 @@ impl Case {
             match role {
                 "card" => self.card(text, None),
                 "urdf" => self.urdf(&bytes),
+                "srdf" => self.srdf(&bytes),
                 "scene" => self.scene(&bytes),
                 "state" => self.state(&bytes),
                 "pddl" => {

@@ -4,6 +4,7 @@
 //! `primitives.motet`. [`read`] makes a [`Robot`] of it.
 
 mod body;
+mod draft;
 mod embedded;
 mod errors;
 pub mod model;
@@ -14,6 +15,7 @@ mod shape;
 pub mod wire;
 
 pub use body::fit;
+pub use draft::draft;
 pub use embedded::{embedded, embedded_urdf};
 pub use errors::CODES;
 pub use model::*;
