@@ -190,6 +190,21 @@ pub(crate) enum RobotsCommand {
         #[arg(value_name = "NAME|FOLDER")]
         name: String,
     },
+    /// Check a robot's card, its URDF, and whether they fit each other
+    Check {
+        /// A built-in name, or a folder with a robot.toml
+        #[arg(value_name = "NAME|FOLDER")]
+        name: String,
+    },
+    /// Write a first card for a robot of which there is a URDF, beside it
+    Add {
+        /// The URDF
+        #[arg(value_name = "URDF")]
+        urdf: PathBuf,
+        /// Where to write robot.toml; the URDF's folder where not given
+        #[arg(long, value_name = "FOLDER")]
+        to: Option<PathBuf>,
+    },
 }
 
 /// `motet explain`

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{Options, Session, State, codes};
-use motet_robots::{card, scene, urdf};
+use motet_robots::{card, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -93,6 +93,9 @@ struct Case {
     sources: Sources,
     said: Vec<Diagnostic>,
     robot: Option<card::Robot>,
+    /// The text of its card, and which file that is.
+    card: Option<(Source, FileId)>,
+    urdf: Option<urdf::Urdf>,
     scene: Option<scene::Scene>,
     state: Option<State>,
     options: Options,
@@ -121,12 +124,26 @@ impl Case {
             let (robot, said) = card::read(&source, file, declarations);
             self.said.extend(said);
             self.robot = robot;
+            self.card = Some((source, file));
         }
     }
 
     fn urdf(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
-            self.said.extend(urdf::read(&source, file).1);
+            let (urdf, said) = urdf::read(&source, file);
+            self.said.extend(said);
+            if let (Some(urdf), Some((card, file))) = (&urdf, &self.card)
+                && self.robot.as_ref().is_some_and(|robot| robot.model.is_some())
+            {
+                self.said.extend(card::fit(card, *file, urdf));
+            }
+            self.urdf = urdf;
+        }
+    }
+
+    fn srdf(&mut self, text: &[u8]) {
+        if let Some(((source, file), urdf)) = self.add(text).zip(self.urdf.as_ref()) {
+            self.said.extend(srdf::read(&source, file, urdf).1);
         }
     }
 
@@ -172,7 +189,7 @@ impl Case {
                         let rest: Vec<_> = words.by_ref().collect();
                         bytes = generated(&rest).ok_or_else(|| format!("cannot generate {rest:?}"))?;
                     }
-                    None if ["card", "urdf", "scene", "state", "domain", "pddl"].contains(&word) => {
+                    None if ["card", "urdf", "srdf", "scene", "state", "domain", "pddl"].contains(&word) => {
                         role = word
                     }
                     Some(_) | None => return Err(format!("what is `{word}`?")),
@@ -181,6 +198,7 @@ impl Case {
             match role {
                 "card" => self.card(text, None),
                 "urdf" => self.urdf(&bytes),
+                "srdf" => self.srdf(&bytes),
                 "scene" => self.scene(&bytes),
                 "state" => self.state(&bytes),
                 "pddl" => {

@@ -6,4 +6,5 @@
 
 pub mod card;
 pub mod scene;
+pub mod srdf;
 pub mod urdf;

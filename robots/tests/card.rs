@@ -136,7 +136,7 @@ fn wrong_keys_are_told_all_at_once() {
         "colour = 3",
         &[
             "M0413 [] the card has no `title` / add `title = …` at the top of the card",
-            "M0412 [colour] unknown key `colour` / possible here: `title` or `initially`",
+            "M0412 [colour] unknown key `colour` / possible here: `title`, `initially`, `model` or `postures`",
         ],
     );
 }
@@ -269,4 +269,61 @@ proptest! {
             prop_assert!(found.span.end as usize <= source.text.len());
         }
     }
+}
+
+#[test]
+fn built_in_cards_fit_their_urdfs() {
+    for (name, toml, _) in card::embedded() {
+        let urdf = card::embedded_urdf(name).unwrap();
+        let (urdf, found) = motet_robots::urdf::read(&Source::new("robot.urdf", urdf), FileId(0));
+        assert_eq!(found, [], "{name}");
+        assert_eq!(card::fit(&Source::new(*name, *toml), FileId(0), &urdf.unwrap()), [], "{name}");
+    }
+}
+
+const URDF: &str = "<robot name='cart'><link name='base'/><link name='palm'/><link name='eye_frame'/>
+    <joint name='lift' type='prismatic'><parent link='base'/><child link='palm'/>
+      <limit lower='0' upper='0.5' velocity='1' effort='1'/></joint>
+    <joint name='look' type='fixed'><parent link='base'/><child link='eye_frame'/></joint></robot>";
+
+/// `GOOD` with these lines added to the sections says exactly this of the URDF.
+fn check_fit(hand: &str, camera: &str, rest: &str, expected: &[&str]) {
+    let text = GOOD.replacen("[cameras.eye]", &format!("{hand}\n[cameras.eye]"), 1).replacen(
+        "[resources]",
+        &format!("{camera}\n{rest}\n[resources]"),
+        1,
+    );
+    let (robot, found, source) = read(&text);
+    assert_eq!(found, []);
+    assert!(robot.is_some());
+    let (urdf, _) = motet_robots::urdf::read(&Source::new("robot.urdf", URDF), FileId(0));
+    let found = card::fit(&source, FileId(0), &urdf.unwrap());
+    let told: Vec<String> = found.iter().map(|found| told(found, &source)).collect();
+    assert_eq!(told, expected);
+}
+
+#[test]
+fn a_card_and_its_urdf_agree() {
+    let model = "[model]\nurdf = 'robot.urdf'\nbase = 'base'\n[postures.home]\nlift = '20 cm'";
+    check_fit("tip = 'palm'", "frame = 'eye_frame'", model, &[]);
+    check_fit(
+        "tip = 'plam'",
+        "frame = 'eye_frame'",
+        model,
+        &["M0427 ['plam'] the URDF has no link `plam` / did you mean `palm`?"],
+    );
+    check_fit(
+        "tip = 'palm'",
+        "frame = 'eye_frame'",
+        &model.replace("20 cm", "60 cm"),
+        &["M0428 ['60 cm'] joint `lift` is put at 0.6, and goes from 0 to 0.5"],
+    );
+    check_fit(
+        "tip = 'palm'",
+        "frame = 'eye_frame'",
+        &model.replace("lift", "look"),
+        &["M0427 ['20 cm'] the URDF has no joint that moves by itself called `look`"],
+    );
+    let (_, found, _) = read(&GOOD.replacen("[cameras.eye]", "points = 'y'\n[cameras.eye]", 1));
+    assert_eq!(found[0].code.0, "M0429");
 }

@@ -11,6 +11,8 @@
 
 use std::path::{Path, PathBuf};
 
+use motet_robots::card::{self, Drive};
+use motet_robots::srdf;
 use motet_robots::urdf::{self, JointKind, Shape, Urdf, mesh};
 use motet_syntax::{Diagnostic, FileId, Source};
 use proptest::prelude::*;
@@ -368,4 +370,70 @@ proptest! {
             prop_assert!(said.span.end as usize <= text.len(), "{said:?}");
         }
     }
+}
+
+#[test]
+fn a_first_card_can_be_read_and_fits() {
+    for path in files() {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let urdf = read(&text).0.unwrap();
+        let toml = Source::new("robot.toml", card::draft(&urdf, "robot.urdf"));
+        let (robot, found) = card::read(&toml, FileId(0), None);
+        assert_eq!(found, [], "{}\n{}", path.display(), toml.text);
+        assert_eq!(card::fit(&toml, FileId(0), &urdf), [], "{}", path.display());
+        let model = robot.unwrap().model.unwrap();
+        assert_eq!(model.urdf, "robot.urdf");
+    }
+}
+
+#[test]
+fn a_first_card_finds_the_parts() {
+    for (name, drive, tip, frame) in [
+        ("hsr", Drive::Fixed, "hand_palm_link", Some("head_rgbd_sensor_link")),
+        ("anymal_z1", Drive::Legged, "hand_tip", Some("wrist_camera")),
+        ("panda", Drive::Fixed, "panda_hand_tcp", Some("wrist_camera")),
+    ] {
+        let urdf = read(card::embedded_urdf(name).unwrap()).0.unwrap();
+        let robot =
+            card::read(&Source::new(name, card::draft(&urdf, "robot.urdf")), FileId(0), None).0.unwrap();
+        let found = robot.hands.first().and_then(|(_, hand)| hand.tip.as_deref());
+        assert_eq!((robot.base.drive, found), (drive, Some(tip)), "{name}");
+        assert_eq!(robot.cameras.first().and_then(|(_, camera)| camera.frame.as_deref()), frame, "{name}");
+    }
+    let block = read("<robot name='7 up!'><link name='base'/></robot>").0.unwrap();
+    let card = card::draft(&block, "robot.urdf");
+    let robot = card::read(&Source::new("card", card), FileId(0), None).0.unwrap();
+    assert_eq!((robot.name.as_str(), robot.hands.len()), ("robot_7_up", 0));
+}
+
+#[test]
+fn a_srdf_is_read_against_its_urdf() {
+    let (urdf, _, _) = read(GOOD);
+    let urdf = urdf.unwrap();
+    let srdf = |text: &str| {
+        let source = Source::new("robot.srdf", text);
+        let (srdf, found) = srdf::read(&source, FileId(0), &urdf);
+        let told: Vec<String> = found
+            .iter()
+            .map(|found| format!("{} [{}] {}", found.code, source.slice(found.span), found.message))
+            .collect();
+        (srdf, told)
+    };
+    let text = "<robot name='arm'>
+        <group name='arm'><chain base_link='base' tip_link='tip'/><joint name='lift'/></group>
+        <group name='hand'><link name='tip'/></group><group name='all'><group name='arm'/></group>
+        <end_effector name='gripper' group='hand' parent_link='upper'/>
+        <disable_collisions link1='tip' link2='upper' reason='Adjacent'/>
+        <disable_collisions link1='upper' link2='tip'/></robot>";
+    let (found, told) = srdf(text);
+    assert!(told.is_empty(), "{told:?}");
+    let found = found.unwrap();
+    assert_eq!((found.groups["arm"].chains[0], found.groups["arm"].joints[0]), ([0, 2], 0));
+    assert_eq!(found.groups["all"].groups, ["arm"]);
+    assert_eq!((found.end_effectors["gripper"].parent, found.disabled), (1, vec![[1, 2]]));
+    let (_, told) = srdf(&text.replace("parent_link='upper'", "parent_link='uper'"));
+    assert_eq!(told, ["M0472 [uper] there is no link `uper`"]);
+    let (_, told) = srdf(&text.replace("group='hand'", "group='hands'"));
+    assert_eq!(told, ["M0472 [hands] there is no group `hands`"]);
+    assert_eq!(srdf("<sdf/>").1, ["M0471 [<sdf] the root element is `<sdf>`, a SRDF starts with `<robot>`"]);
 }

@@ -24,7 +24,7 @@ fn the_standard_library_alone() {
 
 #[test]
 fn every_robot_in_every_scene() {
-    for robot in ["hsr", "anymal_z1"] {
+    for robot in ["hsr", "anymal_z1", "panda"] {
         for scene in [None, Some("kitchen"), Some("living_room"), Some("lab")] {
             check(Some(robot), scene);
         }

@@ -1,4 +1,7 @@
-//! `motet robots`: the robots that are built in, and what one of them can do.
+//! `motet robots`: the robots that are built in, what one of them can do, and cards of one's own.
+
+mod add;
+mod check;
 
 use motet_robots::card::{Drive, Range, Robot};
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
@@ -21,6 +24,8 @@ pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
     let result = match &args.command {
         None | Some(RobotsCommand::List) => list(&mut report),
         Some(RobotsCommand::Show { name }) => show(name, &mut report),
+        Some(RobotsCommand::Check { name }) => check::run(name, &mut report),
+        Some(RobotsCommand::Add { urdf, to }) => add::run(urdf, to.as_deref(), &mut report),
     };
     report.close(result)
 }

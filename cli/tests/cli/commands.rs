@@ -11,6 +11,9 @@ fn answers() {
         ("robots list", 0, &["out:hsr"]),
         ("robots show hsr", 0, &["out:action pick(", "out:/// ", "out:perception detect("]),
         ("robots show anymal_z1", 0, &["out:wake_up", "out:contains camera"]),
+        ("robots check hsr", 0, &["out:no errors", "out:closed form, a lift"]),
+        ("robots check anymal_z1", 0, &["out:closed form, six joints"]),
+        ("robots check panda", 0, &["out:solved in steps"]),
         ("robots show hs", 2, &["err:did you mean `hsr`?"]),
         ("explain", 0, &["out:M0501"]),
         ("explain M0501", 0, &["out:M0501"]),
@@ -37,4 +40,28 @@ fn describes_the_formats() {
         assert!(schema["$schema"].is_string(), "{of}");
         assert!(schema["properties"][key].is_object(), "{of} has {key}");
     }
+}
+
+const URDF: &str = "<robot name='Crane'><link name='base'/><link name='boom'/>
+  <joint name='turn' type='revolute'><parent link='base'/><child link='boom'/>
+  <limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>";
+
+#[test]
+fn writes_a_first_card_and_checks_it() {
+    let place = Place::new("robots_add")
+        .file("crane/crane.urdf", URDF)
+        .file("broken/robot.urdf", URDF.replace("base'/><child", "boom'/><child"))
+        .file("sloppy/robot.urdf", URDF);
+    place.run("robots add crane/crane.urdf").check(0, &["out:guesses", "out:motet robots check crane"]);
+    assert!(place.read("crane/robot.toml").contains("urdf = \"crane.urdf\""));
+    place.run("robots check crane").check(0, &["out:Crane (crane): no errors", "out:2 links"]);
+    place.run("robots add crane/crane.urdf").check(2, &["err:is there already"]);
+    place.run("robots add crane/crane.urdf --to other").check(0, &[]);
+    place.run("robots check other").check(0, &["out:2 links"]);
+    place.run("robots add broken/robot.urdf").check(1, &["out:M0461"]);
+    place.run("robots add nothing.urdf").check(2, &["err:cannot read"]);
+    place.run("robots add sloppy/robot.urdf").check(0, &[]);
+    let card = place.read("sloppy/robot.toml").replace("base = \"base\"", "base = \"bass\"");
+    let place = place.file("sloppy/robot.toml", card);
+    place.run("robots check sloppy").check(1, &["out:M0427", "out:did you mean `base`?"]);
 }

@@ -1,4 +1,5 @@
-//! The geometry of robots: where their links are, and which joint positions put a hand somewhere.
+//! The geometry of robots: where their links are, which joint positions put a hand somewhere, and how
+//! far capsules are from what stands around.
 //!
 //! It takes the URDFs that `motet-robots` reads. Everything is in metres and radians, in `f64`, in right-handed frames
 //! with z up; `a_from_b` is the pose of frame `b` in frame `a`, so that transforms read as products:
@@ -7,6 +8,7 @@
 //! The same inputs give the same bits on every machine: sines come from `libm` and not from the platform, no product is
 //! fused with a sum, and sums have one order.
 
+pub mod collision;
 pub mod inverse;
 pub mod kinematics;
 mod trigonometry;

@@ -9,6 +9,7 @@
 
 use std::f64::consts::PI;
 
+use motet_geometry::inverse::manifold::Manifold;
 use motet_geometry::inverse::{LiftArm, ParallelArm, Tolerance, numeric};
 use motet_geometry::kinematics::{Chain, Tree, planar};
 use motet_robots::urdf;
@@ -161,4 +162,45 @@ fn what_is_out_of_reach_is_not_found() {
     assert!(ParallelArm::detect(&z1()).unwrap().solve(&far).is_empty());
     let high = nalgebra::Isometry3::translation(0.0, 0.0, 3.0);
     assert!(LiftArm::detect(&hsr()).unwrap().solve(&high, 0.0, -1.0).is_empty());
+}
+
+/// Every candidate of the fast path is a solution of the exact one, to what `f32` can tell, and the other way round.
+#[test]
+fn the_fast_path_finds_what_the_exact_one_finds() {
+    let arm = LiftArm::detect(&hsr()).unwrap();
+    let manifold = Manifold::new(arm.clone(), 8, 8);
+    let wanted = planar(2.0, -1.0, 0.7) * arm.chain().base_from_tip(&[0.35, -1.2, 0.4, -0.9, 0.3]);
+    let centre = wanted * nalgebra::Point3::from(centre_in_tip(&arm));
+    let (mut blocks, mut fast, mut exact, mut same) = (0, 0, 0, 0);
+    manifold.sweep(&wanted, |block| {
+        blocks += 1;
+        let base = block.base.map(|lanes| lanes.to_array());
+        for (lane, yaw) in block.yaws.into_iter().enumerate() {
+            let solutions = arm.solve(&wanted, yaw, block.shoulder);
+            exact += solutions.len();
+            for branch in block.branches.iter().filter(|branch| branch.allowed >> lane & 1 == 1) {
+                fast += 1;
+                let values = branch.values.map(|lanes| f64::from(lanes.to_array()[lane]));
+                let near = |a: f64, b: f64| (a - b).abs() < 5e-6;
+                let found = solutions.iter().any(|placed| {
+                    near(placed.base[0], centre.x + f64::from(base[0][lane]))
+                        && near(placed.base[1], centre.y + f64::from(base[1][lane]))
+                        && near(placed.values[0], block.lift)
+                        && (0..3).all(|at| near(placed.values[at + 2], values[at]))
+                });
+                same += usize::from(found);
+            }
+        }
+        true
+    });
+    assert!(blocks > 20 && fast > 100, "{blocks} blocks, {fast} candidates");
+    assert_eq!((fast, exact), (same, same));
+}
+
+/// The wrist's centre: what the last three joints of the HSR leave where it is.
+fn centre_in_tip(arm: &LiftArm) -> nalgebra::Vector3<f64> {
+    let chain = arm.chain();
+    let roll =
+        chain.joints.iter().take(3).fold(nalgebra::Isometry3::identity(), |pose, joint| pose * joint.before);
+    chain.base_from_tip(&[0.0; 5]).inverse_transform_point(&roll.translation.vector.into()).coords
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot card (M0411 to M0429).
+//! What can be wrong with a robot card (M0411 to M0430).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
@@ -110,6 +110,27 @@ motet_syntax::mistakes! {
     TakenName("M0426", Error) { name: String }
     message(m) { format!("`{}` is both a hand and a camera", m.name) }
     help(_m) { Some("name one of them differently: both are resources".to_owned()) }
+
+    /// A link or a joint that the robot's URDF does not have.
+    NotInUrdf("M0427", Error) { what: &'static str, name: String, near: Option<String> }
+    message(m) { format!("the URDF has no {} `{}`", m.what, m.name) }
+    help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
+
+    /// A position that a joint cannot take.
+    BeyondLimit("M0428", Error) { joint: String, value: f64, least: f64, greatest: f64 }
+    message(m) {
+        format!("joint `{}` is put at {}, and goes from {} to {}", m.joint, m.value, m.least, m.greatest)
+    }
+
+    /// Fingers that close in the direction in which they point.
+    SameAxis("M0429", Error) { hand: String }
+    message(m) { format!("the fingers of `{}` point and close along the same axis", m.hand) }
+    help(_m) { Some("fingers close across the direction in which they point: give `points` and `closes`".to_owned()) }
+
+    /// A hand or a camera of which the card does not say where it is.
+    NoPlace("M0430", Warning) { what: &'static str, name: String, key: &'static str }
+    message(m) { format!("no link of the URDF is named for the {} `{}`, so no motion with it can be computed", m.what, m.name) }
+    help(m) { Some(format!("add `{} = \"…\"`", m.key)) }
 }
 
 fn known_or_near(near: Option<&str>, known: &[String]) -> String {

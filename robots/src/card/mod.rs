@@ -3,6 +3,8 @@
 //! A card is a folder with a `robot.toml` ([`wire`]) and, where the robot's primitives differ from the standard ones, a
 //! `primitives.motet`. [`read`] makes a [`Robot`] of it.
 
+mod body;
+mod draft;
 mod embedded;
 mod errors;
 pub mod model;
@@ -12,7 +14,9 @@ mod resources;
 mod shape;
 pub mod wire;
 
-pub use embedded::embedded;
+pub use body::fit;
+pub use draft::draft;
+pub use embedded::{embedded, embedded_urdf};
 pub use errors::CODES;
 pub use model::*;
 pub use read::read;

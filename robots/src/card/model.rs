@@ -16,6 +16,10 @@ pub struct Robot {
     pub hands: IndexMap<SmolStr, Hand>,
     /// Its cameras, by resource name.
     pub cameras: IndexMap<SmolStr, Camera>,
+    /// Its body, where the card names a URDF.
+    pub model: Option<Model>,
+    /// Named postures: positions of joints by name, in rad or m.
+    pub postures: IndexMap<SmolStr, IndexMap<SmolStr, f64>>,
     /// Exclusive resources and what each contains, directly (`arm` contains `camera` on a robot with a wrist camera).
     /// Hands and cameras are resources too and always listed here.
     pub resources: IndexMap<SmolStr, Vec<SmolStr>>,
@@ -61,6 +65,23 @@ pub enum Drive {
     Legged,
 }
 
+/// A robot's body.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Model {
+    /// The URDF, a path as seen from the card's folder.
+    pub urdf: String,
+    /// The SRDF, likewise.
+    pub srdf: Option<String>,
+    /// The link whose pose is that of the base; the root where none is named.
+    pub base: Option<SmolStr>,
+    /// How high above the floor that link is, in m.
+    pub height_m: f64,
+    /// Positions of joints where no posture says otherwise, in rad or m.
+    pub rest: IndexMap<SmolStr, f64>,
+    /// Folders that hold ROS packages, as seen from the card's.
+    pub packages: Vec<String>,
+}
+
 /// A hand.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Hand {
@@ -72,6 +93,12 @@ pub struct Hand {
     pub reach_m: f64,
     /// Heights above the floor in m at which it serves a thing.
     pub heights_m: Range,
+    /// Its link in the URDF: what it holds is where the link's origin is.
+    pub tip: Option<SmolStr>,
+    /// The direction in the link's frame in which the fingers point; along one axis.
+    pub points: [f64; 3],
+    /// The direction in the link's frame along which they close; along another axis.
+    pub closes: [f64; 3],
 }
 
 /// A camera.
@@ -81,6 +108,8 @@ pub struct Camera {
     pub range_m: f64,
     /// Full horizontal angle of view in rad.
     pub view_rad: f64,
+    /// Its link in the URDF, which looks along z with y down.
+    pub frame: Option<SmolStr>,
 }
 
 /// A closed interval in SI units; `least <= greatest`.

@@ -68,6 +68,12 @@ impl Reader {
             base,
             hands,
             cameras,
+            model: card.model.as_ref().map(|model| self.model(model)),
+            postures: card
+                .postures
+                .iter()
+                .map(|(name, joints)| (name.into(), self.positions("postures", joints.get())))
+                .collect(),
             resources,
             observes: self.observes(&card.observes),
             observe_within_secs,
@@ -104,12 +110,16 @@ impl Reader {
 
     fn hand(&mut self, name: &str, hand: &wire::Hand) -> Hand {
         let key = |field: &str| format!("hands.{name}.{field}");
+        let (points, closes) = self.directions(name, hand);
         let numbers = &mut self.numbers;
         Hand {
             payload_kg: numbers.of(&key("payload"), &hand.payload, Dimension::MASS, Sign::Positive),
             opening_m: numbers.of(&key("opening"), &hand.opening, Dimension::LENGTH, Sign::Positive),
             reach_m: numbers.of(&key("reach"), &hand.reach, Dimension::LENGTH, Sign::Positive),
             heights_m: numbers.range(&key("heights"), hand.heights.get(), Some(Dimension::LENGTH)),
+            tip: hand.tip.as_ref().map(|tip| tip.get().into()),
+            points,
+            closes,
         }
     }
 
@@ -118,6 +128,7 @@ impl Reader {
         Camera {
             range_m: self.numbers.of(&key("range"), &camera.range, Dimension::LENGTH, Sign::Positive),
             view_rad: self.numbers.of(&key("view"), &camera.view, Dimension::ANGLE, Sign::Positive),
+            frame: camera.frame.as_ref().map(|frame| frame.get().into()),
         }
     }
 

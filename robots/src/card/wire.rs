@@ -74,6 +74,13 @@ pub struct Card {
     /// Its cameras by the name of their resource.
     #[serde(default)]
     pub cameras: IndexMap<String, At<Camera>>,
+    /// The robot's body: without it, no motion can be computed.
+    #[serde(default)]
+    #[schemars(with = "Model")]
+    pub model: Option<Model>,
+    /// Named postures: positions of joints, in rad or m. `home` and `start` are those of the standard primitives.
+    #[serde(default)]
+    pub postures: IndexMap<String, At<IndexMap<String, At<Quantity>>>>,
     /// Exclusive resources, each with what it contains: using one is using what it contains.
     pub resources: IndexMap<String, At<Vec<At<String>>>>,
     /// Other numbers that contracts may use as `robot.NAME`; a text with a unit gives the type of the quantity.
@@ -111,6 +118,55 @@ pub enum Drive {
     Legged,
 }
 
+/// The robot's body.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Model {
+    /// The URDF, a file beside the card.
+    pub urdf: At<String>,
+    /// Its link whose pose is that of the base, x forward; its root where none is named.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub base: Option<At<String>>,
+    /// How high above the floor that link is, in m.
+    #[serde(default)]
+    #[schemars(with = "Quantity")]
+    pub height: Option<At<Quantity>>,
+    /// Positions of joints where no posture says otherwise, in rad or m; 0 for the others.
+    #[serde(default)]
+    pub rest: IndexMap<String, At<Quantity>>,
+    /// The SRDF, a file beside the card: which links may touch.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub srdf: Option<At<String>>,
+    /// Folders, as seen from the card's, that hold ROS packages: where `package://` is looked for.
+    #[serde(default)]
+    pub packages: Vec<At<String>>,
+}
+
+/// A direction along an axis of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum Direction {
+    /// Along x.
+    #[serde(rename = "x")]
+    X,
+    /// Against x.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Along y.
+    #[serde(rename = "y")]
+    Y,
+    /// Against y.
+    #[serde(rename = "-y")]
+    MinusY,
+    /// Along z.
+    #[serde(rename = "z")]
+    Z,
+    /// Against z.
+    #[serde(rename = "-z")]
+    MinusZ,
+}
+
 /// A hand.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -123,6 +179,18 @@ pub struct Hand {
     pub reach: At<Quantity>,
     /// Heights above the floor in m at which it serves a thing.
     pub heights: At<Range>,
+    /// Its link in the URDF: what it holds is where the link's origin is.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub tip: Option<At<String>>,
+    /// The direction of that link in which the fingers point; z where none is given.
+    #[serde(default)]
+    #[schemars(with = "Direction")]
+    pub points: Option<At<Direction>>,
+    /// The direction of that link along which they close; y where none is given.
+    #[serde(default)]
+    #[schemars(with = "Direction")]
+    pub closes: Option<At<Direction>>,
 }
 
 /// A camera.
@@ -133,6 +201,10 @@ pub struct Camera {
     pub range: At<Quantity>,
     /// Full horizontal angle of view in rad; what a head that turns sees without moving the base counts.
     pub view: At<Quantity>,
+    /// Its link in the URDF, which looks along z with y down.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub frame: Option<At<String>>,
 }
 
 /// A closed interval.

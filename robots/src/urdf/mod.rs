@@ -18,3 +18,5 @@ mod tree;
 pub use errors::CODES;
 pub use model::*;
 pub use read::read;
+
+pub(crate) use document::{Document, Places, children};

@@ -5,7 +5,9 @@
 //! joints of which the inner three are parallel. [`numeric`] takes any chain. What is returned is within the limits, and
 //! forward kinematics confirms it.
 
+mod lanes;
 mod lift_arm;
+pub mod manifold;
 pub mod numeric;
 mod parallel_arm;
 mod screw;

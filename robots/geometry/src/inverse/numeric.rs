@@ -4,7 +4,7 @@
 use nalgebra::{Isometry3, Vector6};
 
 use super::Tolerance;
-use crate::kinematics::Chain;
+use crate::kinematics::{Chain, spread};
 use crate::trigonometry::rotation_vector;
 
 /// How long to look.
@@ -33,7 +33,7 @@ pub fn solve(
     from: &[f64],
     settings: Settings,
 ) -> Option<Vec<f64>> {
-    let spread = (1..settings.starts).map(|index| seed(chain, index));
+    let spread = (1..settings.starts).map(|index| spread(&chain.variables, index));
     std::iter::once(from.to_vec())
         .chain(spread)
         .find_map(|start| refined(chain, base_from_tip, &start, settings.steps, settings.tolerance))
@@ -188,25 +188,4 @@ fn solved(mut rows: [[f64; 6]; 6], mut right: [f64; 6]) -> Option<[f64; 6]> {
         *solution.get_mut(at)? = value;
     }
     Some(solution)
-}
-
-/// Seed `index` of a low-discrepancy sequence over the limits (Roberts 2018: multiples of powers of a generalised golden
-/// ratio); a turn or a metre either way where there are none.
-fn seed(chain: &Chain, index: usize) -> Vec<f64> {
-    let count = chain.variables.len();
-    // The root of x^(n+1) = x + 1, to which this iteration closes in from any start.
-    let mut ratio = 1.5_f64;
-    for _ in 0..40 {
-        ratio = libm::pow(1.0 + ratio, 1.0 / (count as f64 + 1.0));
-    }
-    let mut power = 1.0;
-    let values = chain.variables.iter().map(|variable| {
-        power /= ratio;
-        let part = 0.5 + power * index as f64;
-        let part = part - libm::floor(part);
-        let free = if variable.is_turn { std::f64::consts::PI } else { 1.0 };
-        let (lower, upper) = variable.limits.unwrap_or((-free, free));
-        lower + part * (upper - lower)
-    });
-    values.collect()
 }

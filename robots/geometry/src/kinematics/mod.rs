@@ -2,9 +2,11 @@
 
 mod chain;
 mod forward;
+mod spread;
 mod tree;
 
 pub use chain::{Chain, ChainJoint};
+pub use spread::spread;
 pub use tree::{Tree, UnknownName, Variable};
 
 pub use crate::trigonometry::planar;

@@ -1,0 +1,65 @@
+//! How long kinematics takes: the family of solutions of the HSR on a grid, a candidate confirmed, and other arms.
+
+#![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use motet_geometry::inverse::manifold::Manifold;
+use motet_geometry::inverse::{LiftArm, ParallelArm, numeric};
+use motet_geometry::kinematics::{Chain, Tree, planar};
+use motet_robots::{card, urdf};
+use motet_syntax::{FileId, Source};
+
+fn tree(robot: &str) -> Tree {
+    let text = card::embedded_urdf(robot).unwrap();
+    Tree::new(&urdf::read(&Source::new(robot, text), FileId(0)).0.unwrap())
+}
+
+fn chain(robot: &str, base: &str, tip: &str) -> Chain {
+    let tree = tree(robot);
+    Chain::new(&tree, tree.link(base).unwrap(), tree.link(tip).unwrap()).unwrap()
+}
+
+fn inverse(criterion: &mut Criterion) {
+    let arm = LiftArm::detect(&chain("hsr", "base_footprint", "hand_palm_link")).unwrap();
+    let values = [0.35, -1.2, 0.4, -0.9, 0.3];
+    let wanted = planar(2.0, -1.0, 0.7) * arm.chain().base_from_tip(&values);
+    let manifold = Manifold::new(arm.clone(), 8, 8);
+    let mut blocks = 0;
+    manifold.sweep(&wanted, |_| {
+        blocks += 1;
+        true
+    });
+    criterion.bench_function(&format!("hsr: the family, {} candidates", blocks * 16), |bencher| {
+        bencher.iter(|| {
+            let mut allowed = 0_u32;
+            manifold.sweep(black_box(&wanted), |block| {
+                let block = black_box(block);
+                allowed += block.branches.iter().map(|branch| branch.allowed.count_ones()).sum::<u32>();
+                true
+            });
+            allowed
+        });
+    });
+    criterion.bench_function("hsr: one yaw and shoulder in f64, confirmed", |bencher| {
+        bencher.iter(|| arm.solve(black_box(&wanted), 0.7, -1.2));
+    });
+    let z1 = ParallelArm::detect(&chain("anymal_z1", "link00", "hand_tip")).unwrap();
+    let wanted = z1.chain().base_from_tip(&[0.3, 1.5, -1.0, -0.5, 0.4, 0.2]);
+    criterion.bench_function("z1: all solutions", |bencher| bencher.iter(|| z1.solve(black_box(&wanted))));
+    let panda = chain("panda", "panda_link0", "panda_hand_tcp");
+    let wanted = panda.base_from_tip(&[0.3, -0.5, 0.2, -2.0, 0.1, 1.8, 0.5]);
+    let from = [0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8];
+    criterion.bench_function("panda: one solution by steps", |bencher| {
+        bencher.iter(|| numeric::solve(&panda, black_box(&wanted), &from, numeric::Settings::default()));
+    });
+    let hsr = tree("hsr");
+    let configuration = hsr.neutral();
+    criterion.bench_function("hsr: poses of all links", |bencher| {
+        bencher.iter(|| hsr.root_from_links(black_box(&configuration)));
+    });
+}
+
+criterion_group!(benches, inverse);
+criterion_main!(benches);

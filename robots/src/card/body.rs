@@ -1,0 +1,143 @@
+//! The robot's body: what a card says of its URDF, and whether the URDF agrees.
+
+use indexmap::IndexMap;
+use motet_syntax::unit::Dimension;
+use motet_syntax::{Diagnostic, FileId, Source, suggest};
+use smol_str::SmolStr;
+
+use super::errors::{BeyondLimit, NoPlace, NotInUrdf, SameAxis};
+use super::model::Model;
+use super::quantity::{Numbers, Sign};
+use super::read::Reader;
+use super::wire::{self, At, Direction, Quantity};
+use crate::urdf::{Joint, Urdf};
+
+impl Reader {
+    pub(super) fn model(&mut self, model: &wire::Model) -> Model {
+        let height = model.height.as_ref();
+        Model {
+            urdf: model.urdf.get().clone(),
+            srdf: model.srdf.as_ref().map(|file| file.get().clone()),
+            base: model.base.as_ref().map(|link| link.get().into()),
+            height_m: height.map_or(0.0, |height| {
+                self.numbers.of("model.height", height, Dimension::LENGTH, Sign::NotNegative)
+            }),
+            rest: self.positions("model.rest", &model.rest),
+            packages: model.packages.iter().map(|folder| folder.get().clone()).collect(),
+        }
+    }
+
+    /// Positions of joints, in rad or m.
+    pub(super) fn positions(
+        &mut self,
+        key: &str,
+        joints: &IndexMap<String, At<Quantity>>,
+    ) -> IndexMap<SmolStr, f64> {
+        let positions = joints.iter().filter_map(|(name, position)| {
+            let key = format!("{key}.{name}");
+            let (value, _) = self.numbers.any(&key, position)?;
+            let span = self.numbers.span(position);
+            Some((name.into(), self.numbers.checked(&key, span, value, Sign::Any)))
+        });
+        positions.collect()
+    }
+
+    /// Where the fingers of a hand point, and along what they close.
+    pub(super) fn directions(&mut self, name: &str, hand: &wire::Hand) -> ([f64; 3], [f64; 3]) {
+        let points = hand.points.as_ref().map_or(Direction::Z, |at| *at.get());
+        let closes = hand.closes.as_ref().map_or(Direction::Y, |at| *at.get());
+        let (points, closes) = (vector(points), vector(closes));
+        let along: f64 = points.iter().zip(closes).map(|(one, other)| one * other).sum();
+        if let Some(at) = hand.points.as_ref().or(hand.closes.as_ref()).filter(|_| along != 0.0) {
+            let span = self.numbers.span(at);
+            self.numbers.found.push(SameAxis { span, hand: name.to_owned() }.into());
+        }
+        (points, closes)
+    }
+}
+
+fn vector(direction: Direction) -> [f64; 3] {
+    match direction {
+        Direction::X => [1.0, 0.0, 0.0],
+        Direction::MinusX => [-1.0, 0.0, 0.0],
+        Direction::Y => [0.0, 1.0, 0.0],
+        Direction::MinusY => [0.0, -1.0, 0.0],
+        Direction::Z => [0.0, 0.0, 1.0],
+        Direction::MinusZ => [0.0, 0.0, -1.0],
+    }
+}
+
+/// Whether a card that [`super::read`] takes without an error fits its URDF: the links and joints that it names are
+/// there, positions are within limits, and hands and cameras have a place. O(bytes + links).
+#[must_use]
+pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
+    let Ok(card) = toml::from_str::<wire::Card>(&toml.text) else { return vec![] };
+    let mut fit = Fit { numbers: Numbers { file, found: Vec::new() }, urdf };
+    if let Some(model) = &card.model {
+        fit.link(model.base.as_ref());
+        fit.positions(&model.rest);
+    }
+    for (name, hand) in &card.hands {
+        fit.place("hand", name, hand, hand.get().tip.as_ref(), "tip");
+    }
+    for (name, camera) in &card.cameras {
+        fit.place("camera", name, camera, camera.get().frame.as_ref(), "frame");
+    }
+    for posture in card.postures.values() {
+        fit.positions(posture.get());
+    }
+    let mut found = fit.numbers.found;
+    found.sort_by_key(|diagnostic| diagnostic.span);
+    found
+}
+
+struct Fit<'u> {
+    numbers: Numbers,
+    urdf: &'u Urdf,
+}
+
+impl Fit<'_> {
+    fn link(&mut self, link: Option<&At<String>>) {
+        let Some(link) = link.filter(|link| self.urdf.link(link.get()).is_none()) else { return };
+        let known = self.urdf.links.iter().map(|link| link.name.as_str());
+        let near = suggest::closest(link.get(), known).map(str::to_owned);
+        let (span, name) = (self.numbers.span(link), link.get().clone());
+        self.numbers.found.push(NotInUrdf { span, what: "link", name, near }.into());
+    }
+
+    fn place<T>(
+        &mut self,
+        what: &'static str,
+        name: &str,
+        part: &At<T>,
+        link: Option<&At<String>>,
+        key: &'static str,
+    ) {
+        if link.is_none() {
+            let span = self.numbers.span(part);
+            self.numbers.found.push(NoPlace { span, what, name: name.to_owned(), key }.into());
+        }
+        self.link(link);
+    }
+
+    fn positions(&mut self, positions: &IndexMap<String, At<Quantity>>) {
+        let moves = |joint: &&Joint| joint.kind.has_one_position() && joint.mimic.is_none();
+        for (name, position) in positions {
+            let span = self.numbers.span(position);
+            let Some(joint) = self.urdf.joints.iter().filter(moves).find(|joint| joint.name == *name) else {
+                let known = self.urdf.joints.iter().filter(moves).map(|joint| joint.name.as_str());
+                let near = suggest::closest(name, known).map(str::to_owned);
+                let what = "joint that moves by itself called";
+                self.numbers.found.push(NotInUrdf { span, what, name: name.clone(), near }.into());
+                continue;
+            };
+            let Some((limits, (value, _))) = joint.limits.zip(self.numbers.any(name, position)) else {
+                continue;
+            };
+            if !(limits.lower..=limits.upper).contains(&value) {
+                let (joint, least, greatest) = (name.clone(), limits.lower, limits.upper);
+                self.numbers.found.push(BeyondLimit { span, joint, value, least, greatest }.into());
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! A first card for a robot of which there is only a URDF. What can be told from the URDF is told, what cannot is
+//! guessed, and every guess says so in a comment.
+
+mod parts;
+
+use std::fmt::Write;
+
+use crate::urdf::{Shape, Urdf};
+use parts::{Hand, Parts};
+
+/// The text of a card for the robot of a URDF. `file` is the URDF's path as seen from the card's folder.
+///
+/// The card can be read by [`super::read`], and fits the URDF. O(links × joints).
+#[must_use]
+pub fn draft(urdf: &Urdf, file: &str) -> String {
+    let parts = Parts::find(urdf);
+    let name = identifier(&urdf.name);
+    let mut card = String::new();
+    // Writing to a string does not fail.
+    let _ = write_card(&mut card, urdf, file, &name, &parts);
+    card
+}
+
+fn write_card(card: &mut String, urdf: &Urdf, file: &str, name: &str, parts: &Parts) -> std::fmt::Result {
+    let (drive, why) = parts.drive;
+    let speed = if drive == "fixed" { ("0", "0") } else { ("\"0.3 m/s\"", "0.5") };
+    writeln!(
+        card,
+        "# Written from the URDF. A line with `guessed` is to be looked at: nothing in the URDF says so."
+    )?;
+    writeln!(card, "name = {name:?}")?;
+    writeln!(card, "title = {:?}", if urdf.name.is_empty() { name } else { &urdf.name })?;
+    writeln!(card, "observe_within = \"500 ms\"  # guessed")?;
+    writeln!(card, "# What the robot can tell by itself: guessed.")?;
+    writeln!(
+        card,
+        "observes = [\n    \"holding\", \"free\", \"visible\", \"located\", \"reachable\", \"at\", \"near\", \"on\", \"in\","
+    )?;
+    writeln!(card, "    \"open\", \"locked\", \"clear\", \"lifted\", \"visited\", \"distance\",\n]")?;
+    writeln!(card, "\n[base]\ndrive = \"{drive}\"  # guessed: {why}")?;
+    writeln!(card, "speed = {}  # guessed\nturn = {}  # guessed", speed.0, speed.1)?;
+    writeln!(
+        card,
+        "radius = {:.2}  # guessed: around the shapes of `{}`",
+        radius(urdf, parts.base),
+        link(urdf, parts.base)
+    )?;
+    if let Some(hand) = &parts.hand {
+        write_hand(card, urdf, hand)?;
+    }
+    if let Some((camera, why)) = parts.camera {
+        writeln!(card, "\n[cameras.camera]\nrange = \"3 m\"  # guessed\nview = \"60 deg\"  # guessed")?;
+        writeln!(card, "frame = {:?}  # guessed: {why}", link(urdf, camera))?;
+    }
+    writeln!(
+        card,
+        "\n[model]\nurdf = {file:?}\nbase = {:?}  # guessed: {}",
+        link(urdf, parts.base),
+        parts.base_why
+    )?;
+    writeln!(card, "height = \"0 m\"  # guessed: how high above the floor the base's link is")?;
+    writeln!(card, "\n# Where every joint is in the posture in which the robot drives, and looks: guessed.")?;
+    for posture in ["home", "start"] {
+        writeln!(card, "[postures.{posture}]")?;
+        for (joint, position) in parts.hand.iter().flat_map(|hand| hand.arm.iter()) {
+            writeln!(card, "{joint:?} = {position}")?;
+        }
+        writeln!(card)?;
+    }
+    writeln!(card, "[resources]\nbase = []")?;
+    let carried = parts.camera.filter(|_| parts.camera_is_on_arm);
+    writeln!(card, "arm = [{}]", if carried.is_some() { "\"camera\"" } else { "" })?;
+    let owned = [("hand", parts.hand.is_some()), ("camera", parts.camera.is_some())];
+    for (resource, _) in owned.iter().filter(|(_, is_there)| *is_there) {
+        writeln!(card, "{resource} = []")?;
+    }
+    writeln!(card, "voice = []\n\n# What its driver carries out: guessed.\n[primitives]")?;
+    let driving: &[&str] = if drive == "fixed" { &[] } else { &["go"] };
+    let handling: &[&str] =
+        if parts.hand.is_some() { &["home", "start_pose", "pick", "place", "handover"] } else { &[] };
+    let seeing: &[&str] = if parts.camera.is_some() { &["detect", "detect_all", "locate"] } else { &[] };
+    for primitive in driving.iter().chain(handling).chain(seeing).chain(&["say", "ask"]) {
+        writeln!(card, "{primitive} = {{}}")?;
+    }
+    Ok(())
+}
+
+fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
+    writeln!(card, "\n[hands.hand]\npayload = \"0.5 kg\"  # guessed")?;
+    match hand.opening {
+        Some(opening) => writeln!(card, "opening = {opening:.3}  # guessed: the travel of the fingers")?,
+        None => writeln!(card, "opening = \"8 cm\"  # guessed")?,
+    }
+    writeln!(card, "reach = {:.2}  # guessed: four fifths of the stretched arm", hand.reach * 0.8)?;
+    let (least, greatest) = ((hand.shoulder - hand.reach * 0.8).max(0.0), hand.shoulder + hand.reach * 0.8);
+    writeln!(
+        card,
+        "heights = {{ least = {least:.2}, greatest = {greatest:.2} }}  # guessed: as far above and below the shoulder"
+    )?;
+    writeln!(card, "tip = {:?}  # guessed: {}", link(urdf, hand.tip), hand.why)?;
+    writeln!(card, "points = {:?}  # guessed: away from the arm", hand.points)?;
+    writeln!(card, "closes = {:?}  # guessed", hand.closes)
+}
+
+fn link(urdf: &Urdf, at: usize) -> &str {
+    urdf.links.get(at).map_or("", |link| link.name.as_str())
+}
+
+/// A name that a policy can write.
+fn identifier(name: &str) -> String {
+    let mut word: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
+    if !word.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        word.insert_str(0, "robot_");
+    }
+    word.trim_end_matches('_').to_owned()
+}
+
+/// The radius of the disc around the shapes of a link; 0.3 m where it has none that tells.
+fn radius(urdf: &Urdf, link: usize) -> f64 {
+    let solids = urdf.links.get(link).map_or(&[][..], |link| link.collisions.as_slice());
+    let reach = solids.iter().filter_map(|solid| {
+        let size = match solid.shape {
+            Shape::Box([x, y, _]) => libm::hypot(x, y) / 2.0,
+            Shape::Cylinder { radius, .. } | Shape::Sphere { radius } => radius,
+            Shape::Capsule { radius, length } => radius + length / 2.0,
+            Shape::Mesh { .. } => return None,
+        };
+        let [x, y, _] = solid.link_from_shape.xyz;
+        Some(libm::hypot(x, y) + size)
+    });
+    let reach = reach.fold(0.0, f64::max);
+    if reach > 0.01 { reach } else { 0.3 }
+}
