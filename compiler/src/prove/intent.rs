@@ -129,7 +129,7 @@ impl Prover<'_> {
         let is = |value: Value| if change.truth { value.is_true() } else { value.is_false() };
         let mut holds = change.is_sure()
             && (is(self.facts.get(change.fluent, change.key)) || (!change.truth && made(change.key)));
-        if change.key.is_pattern() {
+        if holds && change.key.is_pattern() {
             self.facts.entries(change.fluent, change.key, |key, value| {
                 holds &= is(value) || (!change.truth && made(key));
             });

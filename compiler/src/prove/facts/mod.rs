@@ -138,28 +138,41 @@ impl<'w> Facts<'w> {
 
     /// Sets a fact, or a pattern and all that it covers.
     pub(crate) fn set(&mut self, fluent: Fluent, key: Key, value: Value) {
+        if !key.is_pattern() {
+            return self.set_single(fluent, key, value);
+        }
         let before = self.get(fluent, key);
-        if key.is_pattern() {
-            let mut trail = std::mem::take(&mut self.trail);
-            self.unhidden(fluent, key, |cell| {
-                let (key, before) = (cell.key, cell.value);
-                trail.push(Entry { fluent, key, undo: Undo::Hidden, before });
-            });
-            self.crossings(fluent, key, |key| {
-                trail.push(Entry { fluent, key, undo: Undo::Hidden, before: self.get(fluent, key) });
-            });
-            self.trail = trail;
-        }
+        let mut trail = std::mem::take(&mut self.trail);
+        self.unhidden(fluent, key, |cell| {
+            let (key, before) = (cell.key, cell.value);
+            trail.push(Entry { fluent, key, undo: Undo::Hidden, before });
+        });
+        self.crossings(fluent, key, |key| {
+            trail.push(Entry { fluent, key, undo: Undo::Hidden, before: self.get(fluent, key) });
+        });
+        self.trail = trail;
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
-        if key.is_pattern() {
-            table.drop_covered(key, |cell| {
-                let undo = Undo::Put(cell.value, cell.time);
-                self.trail.push(Entry { fluent, key: cell.key, undo, before: cell.value });
-            });
-        }
+        table.drop_covered(key, |cell| {
+            let undo = Undo::Put(cell.value, cell.time);
+            self.trail.push(Entry { fluent, key: cell.key, undo, before: cell.value });
+        });
         let time = u32::try_from(self.trail.len()).unwrap_or(u32::MAX);
         let old = table.put(Cell { key, value, time });
         let undo = old.map_or(Undo::Drop, |old| Undo::Put(old.value, old.time));
+        self.trail.push(Entry { fluent, key, undo, before });
+    }
+
+    fn set_single(&mut self, fluent: Fluent, key: Key, value: Value) {
+        let time = u32::try_from(self.trail.len()).unwrap_or(u32::MAX);
+        let start = self.start;
+        let Some(table) = self.tables.get_mut(fluent.index()) else { return };
+        let (undo, before) = match table.put(Cell { key, value, time }) {
+            Some(old) => (Undo::Put(old.value, old.time), old.value),
+            None => {
+                let below = || start.get(fluent.index())?.get(key);
+                (Undo::Drop, table.covering(key).or_else(below).unwrap_or(table.default))
+            }
+        };
         self.trail.push(Entry { fluent, key, undo, before });
     }
 

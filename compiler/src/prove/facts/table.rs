@@ -22,6 +22,8 @@ type Row = SmallVec<[Cell; 2]>;
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     rows: FxHashMap<u16, Row>,
+    /// How many patterns there are among the rows.
+    patterns: usize,
     /// Patterns whose first argument is `any`.
     wide: Vec<Cell>,
     /// What is known of the rest, where nothing lies below.
@@ -30,7 +32,7 @@ pub(super) struct Table {
 
 impl Table {
     pub(super) fn new(default: Value) -> Self {
-        Self { rows: FxHashMap::default(), wide: Vec::new(), default }
+        Self { rows: FxHashMap::default(), patterns: 0, wide: Vec::new(), default }
     }
 
     fn row(&self, key: Key) -> &[Cell] {
@@ -48,18 +50,19 @@ impl Table {
             if cell.key == key {
                 return Some(cell.value);
             }
-            if cell.key.covers(key) && found.is_none_or(|found| found.time < cell.time) {
+            if self.patterns > 0 && cell.key.covers(key) && found.is_none_or(|found| found.time < cell.time) {
                 found = Some(cell);
             }
         }
-        if key.head().is_some() {
-            for cell in &self.wide {
-                if cell.key.covers(key) && found.is_none_or(|found| found.time < cell.time) {
-                    found = Some(cell);
-                }
-            }
-        }
-        found.map(|cell| cell.value)
+        let wide = self.wide.iter().filter(|cell| cell.key != key && cell.key.covers(key));
+        found.into_iter().chain(wide).max_by_key(|cell| cell.time).map(|cell| cell.value)
+    }
+
+    /// What the latest pattern says that covers a fact, whatever its own entry.
+    pub(super) fn covering(&self, key: Key) -> Option<Value> {
+        let row = if self.patterns > 0 { self.row(key) } else { &[] };
+        let patterns = row.iter().chain(&self.wide).filter(|cell| cell.key != key && cell.key.covers(key));
+        patterns.max_by_key(|cell| cell.time).map(|cell| cell.value)
     }
 
     /// The entry of a fact or a pattern itself.
@@ -87,6 +90,7 @@ impl Table {
         };
         visit(&self.wide);
         match pattern.head() {
+            _ if self.patterns == 0 => {}
             Some(_) => visit(self.row(pattern)),
             None => self.rows.values().for_each(|row| visit(row)),
         }
@@ -100,6 +104,7 @@ impl Table {
                 let old = replace(row, cell);
                 if old.is_none() {
                     row.push(cell);
+                    self.patterns += usize::from(cell.key.is_pattern());
                 }
                 old
             }
@@ -117,28 +122,33 @@ impl Table {
     pub(super) fn drop(&mut self, key: Key) -> Option<Cell> {
         let at = self.row(key).iter().position(|cell| cell.key == key)?;
         match key.head() {
-            Some(head) => self.rows.get_mut(&head).map(|row| row.swap_remove(at)),
+            Some(head) => {
+                self.patterns -= usize::from(key.is_pattern());
+                self.rows.get_mut(&head).map(|row| row.swap_remove(at))
+            }
             None => Some(self.wide.swap_remove(at)),
         }
     }
 
     /// Drops all entries that a pattern covers, and tells of each.
     pub(super) fn drop_covered(&mut self, pattern: Key, mut tell: impl FnMut(Cell)) {
+        let patterns = &mut self.patterns;
         let mut keep = |cell: &mut Cell| {
             let stays = !pattern.covers(cell.key);
             if !stays {
+                *patterns -= usize::from(cell.key.is_pattern() && cell.key.head().is_some());
                 tell(*cell);
             }
             stays
         };
         match pattern.head() {
             Some(head) => {
-                if let Some(row) = self.rows.get_mut(&head) {
+                if let Some(row) = self.rows.get_mut(&head).filter(|row| !row.is_empty()) {
                     row.retain(keep);
                 }
             }
             None => {
-                self.rows.values_mut().for_each(|row| row.retain(&mut keep));
+                self.rows.values_mut().filter(|row| !row.is_empty()).for_each(|row| row.retain(&mut keep));
                 self.wide.retain_mut(keep);
             }
         }
