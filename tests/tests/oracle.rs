@@ -1,7 +1,7 @@
 //! The prover beside an interpreter that walks every path: what it accepts without a guard never breaks a need, what it
 //! refutes does break one, and what it defers is unobserved on some path.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a test fails by panicking")]
 
 use motet_compiler::{Options, Session};
 use motet_graph::{NodeKind, Verdict};
