@@ -98,7 +98,7 @@ impl Ran {
 }
 
 /// A policy that is right.
-pub(crate) const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(user)\n    handover(mug, user)\n}\n";
+pub(crate) const GOOD: &str = "policy tidy for hsr {\n    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    pick(mug)\n    go(counter)\n    place(mug, counter)\n}\n";
 
 /// The same in JSON.
 pub(crate) const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "hsr", "steps": [

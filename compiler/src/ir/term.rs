@@ -1,0 +1,73 @@
+//! Values and conditions.
+
+use motet_syntax::ast::{ArithOp, CompareOp};
+use smol_str::SmolStr;
+
+use super::{BindingId, Entity, EnumId, Fluent, Measure};
+
+/// Something that has a value.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Term {
+    /// `true`
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A number in SI units.
+    Number(f64),
+    /// A text.
+    Text(SmolStr),
+    /// A case of an enumeration.
+    Case(EnumId, u16),
+    /// An entity.
+    Entity(Entity),
+    /// A list.
+    List(Vec<Term>),
+    /// A binding.
+    Binding(BindingId),
+    /// A parameter of the contract it stands in.
+    Param(u16),
+    /// The result of the contract it stands in.
+    Result,
+    /// The variable of a quantified entry of a contract.
+    Each,
+    /// A field of an entity.
+    Field(Box<Term>, SmolStr),
+    /// A measure.
+    Measure(Measure, Vec<Term>),
+    /// Arithmetic.
+    Arith(ArithOp, Box<Term>, Box<Term>),
+    /// After an error.
+    Unknown,
+}
+
+/// A condition.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Condition {
+    /// `true`
+    Literal(bool),
+    /// A fluent.
+    Fact(Fact),
+    /// A comparison.
+    Compare(CompareOp, Term, Term),
+    /// An enclosing monitor watches this measure.
+    MonitoredMeasure(Measure),
+    /// An enclosing monitor watches this fluent.
+    MonitoredFluent(Fluent),
+    /// Negation.
+    Not(Box<Condition>),
+    /// All of them.
+    All(Vec<Condition>),
+    /// At least one of them.
+    AnyOf(Vec<Condition>),
+    /// After an error: nothing is known of it and nothing is said about it.
+    Unknown,
+}
+
+/// A fluent applied to arguments.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Fact {
+    /// The fluent.
+    pub(crate) fluent: Fluent,
+    /// Its arguments; none stands for `any`.
+    pub(crate) args: Vec<Option<Term>>,
+}
