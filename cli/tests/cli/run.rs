@@ -32,7 +32,7 @@ fn ends_with_the_right_code() {
             0,
             &["out:✓ tidy: done", "out:5 steps done, 0 failed", "out:▶ pick(mug"][..],
         ),
-        (format!("run good.motet {max} --seed 7"), 0, &["out:✓ handover(mug, user)"]),
+        (format!("run good.motet {max} --seed 7"), 0, &["out:✓ place(mug, counter)"]),
         (format!("run bad.motet {max}"), 1, &["out:M0201", "err:refused: 1 error"]),
         (
             format!("run gives_up.motet {max}"),

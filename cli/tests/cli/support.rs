@@ -105,8 +105,8 @@ pub(crate) const GOOD_JSON: &str = r#"{"motet": 1, "policy": "tidy", "robot": "h
   {"do": "go", "to": "kitchen_table"},
   {"do": "detect", "what": "red mug", "as": "mug"},
   {"do": "pick", "object": "$mug"},
-  {"do": "go", "to": "user"},
-  {"do": "handover", "object": "$mug", "to": "user"}]}
+  {"do": "go", "to": "counter"},
+  {"do": "place", "object": "$mug", "on": "counter"}]}
 "#;
 
 /// A policy with a misspelled primitive.

@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use super::{Binding, BindingId, FluentId, Measure, MeasureId, Value};
+use super::{BindingId, FluentId, MeasureId, Value};
 
 /// A fluent applied to arguments.
 #[derive(Clone, PartialEq, Debug)]
