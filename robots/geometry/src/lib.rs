@@ -1,5 +1,5 @@
-//! The geometry of robots: where their links are, which joint positions put a hand somewhere, and how
-//! far capsules are from what stands around.
+//! The geometry of robots: where their links are, which joint positions put a hand somewhere, how far they are from what
+//! stands around, and which motions there are among it.
 //!
 //! It takes the URDFs that `motet-robots` reads. Everything is in metres and radians, in `f64`, in right-handed frames
 //! with z up; `a_from_b` is the pose of frame `b` in frame `a`, so that transforms read as products:
@@ -11,6 +11,7 @@
 pub mod collision;
 pub mod inverse;
 pub mod kinematics;
+pub mod query;
 mod trigonometry;
 
 pub use kinematics::{Tree, Variable};

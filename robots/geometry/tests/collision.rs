@@ -1,92 +1,96 @@
-//! Distances against parry3d.
+//! Distances against parry3d, and what touches what on the built-in robots.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use glamx::{DPose3, DVec3};
-use motet_geometry::collision::{Capsule, Obstacle, ObstacleShape};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use motet_geometry::Tree;
+use motet_geometry::collision::{Body, Shape, Solid};
+use motet_robots::{card, urdf};
+use motet_syntax::{FileId, Source};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::query;
-use parry3d_f64::shape::{self, Shape};
+use parry3d_f64::shape;
 use proptest::prelude::*;
 
-fn point() -> impl Strategy<Value = Point3<f64>> {
-    prop::array::uniform3(-2.0..2.0_f64).prop_map(|[x, y, z]| Point3::new(x, y, z))
-}
-
 fn pose() -> impl Strategy<Value = Isometry3<f64>> {
-    (point(), prop::array::uniform3(-3.0..3.0_f64)).prop_map(|(at, turn)| {
-        Isometry3::from_parts(
-            Translation3::from(at.coords),
-            UnitQuaternion::from_scaled_axis(Vector3::from(turn)),
-        )
-    })
-}
-
-fn capsule() -> impl Strategy<Value = Capsule> {
-    (point(), point(), 0.01..0.4_f64, 0..4_u8).prop_map(|(one, other, radius, kind)| Capsule {
-        // Now and then a sphere, or parallel to an axis.
-        ends: match kind {
-            0 => [one, one],
-            1 => [one, Point3::new(one.x, one.y, other.z)],
-            _ => [one, other],
+    (prop::array::uniform3(-1.5..1.5_f64), prop::array::uniform3(-3.0..3.0_f64), 0..4_u8).prop_map(
+        |(at, turn, kind)| {
+            // Now and then parallel to the axes.
+            let turn = if kind == 0 { [0.0; 3] } else { turn };
+            Isometry3::from_parts(
+                Translation3::from(Vector3::from(at)),
+                UnitQuaternion::from_scaled_axis(Vector3::from(turn)),
+            )
         },
-        radius,
-    })
+    )
 }
 
-fn shape() -> impl Strategy<Value = ObstacleShape> {
-    let size = 0.02..1.0_f64;
+fn any_shape() -> impl Strategy<Value = Shape> {
+    let size = 0.02..0.8_f64;
     prop_oneof![
-        (size.clone(), size.clone(), size.clone())
-            .prop_map(|(x, y, z)| ObstacleShape::Box(Vector3::new(x, y, z))),
-        (size.clone(), size.clone()).prop_map(|(radius, half)| ObstacleShape::Cylinder { radius, half }),
-        (size.clone(), size).prop_map(|(radius, half)| ObstacleShape::Capsule { radius, half }),
+        (size.clone(), size.clone(), size.clone()).prop_map(|(x, y, z)| Shape::Box(Vector3::new(x, y, z))),
+        (size.clone(), size.clone()).prop_map(|(radius, half)| Shape::Cylinder { radius, half }),
+        (size.clone(), size.clone()).prop_map(|(radius, half)| Shape::Capsule { radius, half }),
+        size.prop_map(|radius| Shape::Capsule { radius, half: 0.0 }),
+        Just(Shape::HalfSpace),
     ]
 }
 
-fn vector(point: &Point3<f64>) -> DVec3 {
-    DVec3::new(point.x, point.y, point.z)
-}
-
-/// parry's distance; 0 where they overlap.
-fn oracle(capsule: &Capsule, obstacle: &Obstacle) -> f64 {
-    let [one, other] = &capsule.ends;
-    let own: Box<dyn Shape> = if one == other {
-        Box::new(shape::Ball::new(capsule.radius))
-    } else {
-        Box::new(shape::Capsule::new(vector(one), vector(other), capsule.radius))
-    };
-    let at =
-        if one == other { Isometry3::from(Translation3::from(one.coords)) } else { Isometry3::identity() };
-    let mut pose = obstacle.map_from_shape;
-    let theirs: Box<dyn Shape> = match obstacle.shape {
-        ObstacleShape::Box(half) => Box::new(shape::Cuboid::new(DVec3::new(half.x, half.y, half.z))),
-        ObstacleShape::Cylinder { radius, half } => {
+/// parry's own form of a shape.
+fn theirs(shape: Shape, pose: &Isometry3<f64>) -> (DPose3, Box<dyn shape::Shape>) {
+    let mut pose = *pose;
+    let shape: Box<dyn shape::Shape> = match shape {
+        Shape::Box(half) => Box::new(shape::Cuboid::new(DVec3::new(half.x, half.y, half.z))),
+        Shape::Cylinder { radius, half } => {
             // parry's cylinder lies along y.
             pose *= UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2);
             Box::new(shape::Cylinder::new(half, radius))
         }
-        ObstacleShape::Capsule { radius, half } => Box::new(shape::Capsule::new_z(half, radius)),
-        ObstacleShape::HalfSpace => Box::new(shape::HalfSpace::new(DVec3::Z)),
+        Shape::Capsule { radius, half: 0.0 } => Box::new(shape::Ball::new(radius)),
+        Shape::Capsule { radius, half } => Box::new(shape::Capsule::new_z(half, radius)),
+        Shape::HalfSpace => Box::new(shape::HalfSpace::new(DVec3::Z)),
     };
-    query::distance(&DPose3::from(at), own.as_ref(), &DPose3::from(pose), theirs.as_ref()).unwrap().distance
+    (DPose3::from(pose), shape)
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
-    fn distances_are_those_of_the_oracle(capsule in capsule(), shape in shape(), map_from_shape in pose()) {
-        let obstacle = Obstacle { map_from_shape, shape };
-        let (ours, theirs) = (capsule.to_obstacle(&obstacle), oracle(&capsule, &obstacle));
+    fn distances_are_those_of_the_oracle(
+        (one, other) in (any_shape(), any_shape()), (here, there) in (pose(), pose()),
+    ) {
+        prop_assume!(one != Shape::HalfSpace || other != Shape::HalfSpace);
+        let (a, b) = (Solid::new(&here, one), Solid::new(&there, other));
+        let (ours, back) = (a.distance(&b), b.distance(&a));
+        let (here, own) = theirs(one, &here);
+        let (there, their) = theirs(other, &there);
+        let oracle = query::distance(&here, own.as_ref(), &there, their.as_ref()).unwrap().distance;
         // Its search for curved shapes ends at about 1e-5 m.
-        prop_assert!((ours.max(0.0) - theirs).abs() < 1e-4, "{ours} and {theirs}");
+        prop_assert!((ours.max(0.0) - oracle).abs() < 2e-4, "{ours} and {oracle}");
+        prop_assert!((ours.max(0.0) - back.max(0.0)).abs() < 1e-6, "{ours} and {back}");
+        for metres in [0.0, ours / 2.0, ours + 1e-6, 0.1] {
+            prop_assert_eq!(a.is_farther(&b, metres), ours > metres);
+        }
     }
+}
 
-    #[test]
-    fn two_capsules_are_as_far_either_way(one in capsule(), other in capsule(), by in pose()) {
-        let distance = one.to_capsule(&other);
-        prop_assert!((distance - other.to_capsule(&one)).abs() < 1e-9);
-        prop_assert!((distance - one.moved(&by).to_capsule(&other.moved(&by))).abs() < 1e-9);
+fn robot(name: &str) -> (Tree, Body) {
+    let text = card::embedded_urdf(name).unwrap();
+    let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
+    let tree = Tree::new(&urdf);
+    let body = Body::new(&urdf, &tree, &[]);
+    (tree, body)
+}
+
+#[test]
+fn an_arm_against_the_body_is_seen() {
+    let (tree, body) = robot("hsr");
+    let mut configuration = tree.neutral();
+    // The arm hangs straight down with its hand turned back against the base.
+    for (joint, position) in [("arm_flex_joint", -2.6), ("arm_lift_joint", 0.1), ("wrist_flex_joint", -1.9)] {
+        configuration[tree.variable(joint).unwrap()] = position;
     }
+    let near = body.to_itself(&body.placed(&tree.root_from_links(&configuration))).unwrap();
+    assert!(near.metres <= 0.0, "{near:?}");
 }

@@ -79,6 +79,7 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     }
     for (name, hand) in &card.hands {
         fit.place("hand", name, hand, hand.get().tip.as_ref(), "tip");
+        fit.positions(&hand.get().open);
     }
     for (name, camera) in &card.cameras {
         fit.place("camera", name, camera, camera.get().frame.as_ref(), "frame");

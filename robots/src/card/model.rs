@@ -99,6 +99,8 @@ pub struct Hand {
     pub points: [f64; 3],
     /// The direction in the link's frame along which they close; along another axis.
     pub closes: [f64; 3],
+    /// Positions of its own joints when it is open, in rad or m.
+    pub open: IndexMap<SmolStr, f64>,
 }
 
 /// A camera.

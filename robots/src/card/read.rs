@@ -111,6 +111,7 @@ impl Reader {
     fn hand(&mut self, name: &str, hand: &wire::Hand) -> Hand {
         let key = |field: &str| format!("hands.{name}.{field}");
         let (points, closes) = self.directions(name, hand);
+        let open = self.positions(&key("open"), &hand.open);
         let numbers = &mut self.numbers;
         Hand {
             payload_kg: numbers.of(&key("payload"), &hand.payload, Dimension::MASS, Sign::Positive),
@@ -120,6 +121,7 @@ impl Reader {
             tip: hand.tip.as_ref().map(|tip| tip.get().into()),
             points,
             closes,
+            open,
         }
     }
 

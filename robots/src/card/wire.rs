@@ -191,6 +191,9 @@ pub struct Hand {
     #[serde(default)]
     #[schemars(with = "Direction")]
     pub closes: Option<At<Direction>>,
+    /// Positions of its own joints when it is open, in rad or m; every joint that is not named stays at rest.
+    #[serde(default)]
+    pub open: IndexMap<String, At<Quantity>>,
 }
 
 /// A camera.

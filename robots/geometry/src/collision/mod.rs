@@ -1,5 +1,11 @@
-//! How far a capsule is from another shape: exact, in `f64`. A robot's parts are capsules here, obstacles keep their shapes.
+//! What touches what, in `f64`: solids and the distance between two, and the solids of a robot.
 
+mod body;
 mod distance;
+mod part;
+mod simplex;
+mod solid;
 
-pub use distance::{Capsule, Obstacle, ObstacleShape};
+pub use body::{Body, Near};
+pub use part::Part;
+pub use solid::{Shape, Solid};

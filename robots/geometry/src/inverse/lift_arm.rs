@@ -138,6 +138,42 @@ impl LiftArm {
         planar(x, y, yaw) * self.chain.base_from_tip(&placed.values)
     }
 
+    /// The wrist's centre for a pose of the tip.
+    #[must_use]
+    pub fn centre(&self, map_from_tip: &Isometry3<f64>) -> nalgebra::Point3<f64> {
+        map_from_tip * nalgebra::Point3::from(self.centre_in_tip)
+    }
+
+    /// The heights, in m, between which the wrist's centre can be, with every value of the shoulder within the limits.
+    #[must_use]
+    pub fn heights(&self) -> [f64; 2] {
+        let range = |at: usize| self.chain.variables.get(at).and_then(|variable| variable.limits);
+        let place = |at: usize, value: f64| {
+            let mut values = [0.0; 2];
+            if let Some(slot) = values.get_mut(at) {
+                *slot = value;
+            }
+            self.chain.joints.get(at).map_or(0.0, |joint| joint.driver.position(&values))
+        };
+        let (lower, upper) = range(0).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let lifts = [place(0, lower) * self.up, place(0, upper) * self.up];
+        let Shoulder { axis, point, to_wrist } = self.shoulder;
+        let height = |angle: f64| point.z + turned(&axis, angle, &to_wrist).z;
+        let (first, last) = range(1)
+            .map_or((-std::f64::consts::PI, std::f64::consts::PI), |(l, u)| (place(1, l), place(1, u)));
+        // As the shoulder turns the height is a wave: its ends, and its crests where they are within.
+        let across = axis.cross(&to_wrist);
+        let crest = crate::trigonometry::atan2(across.z, (to_wrist - axis * axis.dot(&to_wrist)).z);
+        let crests = (-4..=4).map(|half| crest + std::f64::consts::PI * f64::from(half));
+        let (from, to) = (first.min(last), first.max(last));
+        let angles = crests.filter(|angle| (from..=to).contains(angle)).chain([from, to]);
+        let (low, high) = angles
+            .map(height)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+        let [one, other] = lifts;
+        [low + one.min(other), high + one.max(other)]
+    }
+
     /// The same family of solutions seen from a base that is raised: its frame is `height` above the floor.
     #[must_use]
     pub fn raised(mut self, height: f64) -> Self {

@@ -2,10 +2,12 @@
 
 mod chain;
 mod forward;
+mod lever;
 mod spread;
 mod tree;
 
 pub use chain::{Chain, ChainJoint};
+pub use lever::Lever;
 pub use spread::spread;
 pub use tree::{Tree, UnknownName, Variable};
 

@@ -1,0 +1,166 @@
+//! The solids of a robot, and which pairs of them may not touch.
+
+use motet_robots::urdf::{JointKind, Urdf};
+use nalgebra::Isometry3;
+
+use super::part::{Part, parts};
+use super::solid::Solid;
+use crate::kinematics::{Tree, spread};
+
+/// Configurations that are looked at to find links which always touch.
+const SAMPLES: usize = 64;
+
+/// What of a robot can touch something. Poses are those of [`Tree::root_from_links`], in any frame.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Body {
+    parts: Vec<Part>,
+    /// Pairs of parts, by index, that may not touch.
+    pairs: Vec<[usize; 2]>,
+    /// For each link the links that it is fixed to, by the first of them.
+    groups: Vec<usize>,
+    unseen: Vec<usize>,
+}
+
+/// What is nearest.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Near {
+    /// Distance in m; 0 or less where they overlap.
+    pub metres: f64,
+    /// Index of one part.
+    pub part: usize,
+    /// Index of the other part, or of the obstacle.
+    pub other: usize,
+}
+
+impl Body {
+    /// The body of a URDF; its shapes as they are, but for meshes.
+    ///
+    /// Parts of a link and of links that are fixed to each other never count, nor links next to each other at a joint, nor
+    /// those which the SRDF allows to touch (`allowed`). Two links that touch in each of 64 configurations spread over
+    /// the limits are built into each other, and do not count either. O(parts² × 64).
+    #[must_use]
+    pub fn new(urdf: &Urdf, tree: &Tree, allowed: &[[usize; 2]]) -> Self {
+        let (groups, next_to) = groups(urdf);
+        let mut body = Self { parts: vec![], pairs: vec![], groups, unseen: vec![] };
+        for (link, at) in urdf.links.iter().zip(0..) {
+            let (found, is_complete) = parts(link, at);
+            body.parts.extend(found);
+            body.unseen.extend((!is_complete).then_some(at));
+        }
+        let mut links: Vec<[usize; 2]> = Vec::new();
+        for (one, at) in body.parts.iter().zip(0..) {
+            links.extend(body.parts.iter().skip(at + 1).map(|other| [one.link, other.link]));
+        }
+        links.sort_unstable();
+        links.dedup();
+        links.retain(|[one, other]| {
+            let (a, b) = (body.group(*one), body.group(*other));
+            let listed = |pairs: &[[usize; 2]], one, other| {
+                pairs.contains(&[one, other]) || pairs.contains(&[other, one])
+            };
+            a != b && !listed(&next_to, a, b) && !listed(allowed, *one, *other)
+        });
+        let poses: Vec<_> =
+            (0..SAMPLES).map(|sample| tree.root_from_links(&spread(tree.variables(), sample))).collect();
+        let placed: Vec<Vec<Solid>> = poses.iter().map(|poses| body.placed(poses)).collect();
+        links.retain(|pair| {
+            let pairs = body.between(&[*pair]);
+            let touches = |solids: &Vec<Solid>| pairs.iter().any(|pair| !is_clear(solids, pair, 0.0));
+            !placed.iter().all(touches)
+        });
+        body.pairs = body.between(&links);
+        body
+    }
+
+    /// The body with one more solid that a link carries. It may touch no link but those of `exempt`.
+    #[must_use]
+    pub fn carrying(&self, part: Part, exempt: impl Fn(usize) -> bool) -> Self {
+        let mut body = self.clone();
+        let at = body.parts.len();
+        let others = self.parts.iter().zip(0..).filter(|(other, _)| !exempt(other.link));
+        body.pairs.extend(others.map(|(_, other)| [other, at]));
+        body.parts.push(part);
+        body
+    }
+
+    /// Pairs of parts of these pairs of links, which are sorted.
+    fn between(&self, links: &[[usize; 2]]) -> Vec<[usize; 2]> {
+        let mut pairs = Vec::new();
+        for (one, at) in self.parts.iter().zip(0..) {
+            for (other, beyond) in self.parts.iter().zip(0..).skip(at + 1) {
+                if links.binary_search(&[one.link, other.link]).is_ok() {
+                    pairs.push([at, beyond]);
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The parts.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Pairs of parts, by index, that may not touch.
+    #[must_use]
+    pub fn pairs(&self) -> &[[usize; 2]] {
+        &self.pairs
+    }
+
+    /// Whether two links are one, or fixed to each other.
+    #[must_use]
+    pub fn is_rigid(&self, one: usize, other: usize) -> bool {
+        self.group(one) == self.group(other)
+    }
+
+    fn group(&self, link: usize) -> usize {
+        self.groups.get(link).copied().unwrap_or(link)
+    }
+
+    /// Links with a mesh, which no solid stands for: what is said of the robot does not hold for them.
+    #[must_use]
+    pub fn unseen(&self) -> &[usize] {
+        &self.unseen
+    }
+
+    /// The parts where the links are, in their order.
+    #[must_use]
+    pub fn placed(&self, poses: &[Isometry3<f64>]) -> Vec<Solid> {
+        let pose = |link: usize| poses.get(link).copied().unwrap_or_default();
+        self.parts.iter().map(|part| part.solid.moved(&pose(part.link))).collect()
+    }
+
+    /// The two parts that are nearest to each other, of those that may not touch. O(pairs).
+    #[must_use]
+    pub fn to_itself(&self, placed: &[Solid]) -> Option<Near> {
+        let near = self.pairs.iter().filter_map(|[part, other]| {
+            let metres = placed.get(*part)?.distance(placed.get(*other)?);
+            Some(Near { metres, part: *part, other: *other })
+        });
+        near.reduce(|best, next| if next.metres < best.metres { next } else { best })
+    }
+}
+
+/// Whether two parts are farther from each other than `metres`.
+fn is_clear(placed: &[Solid], [one, other]: &[usize; 2], metres: f64) -> bool {
+    placed.get(*one).zip(placed.get(*other)).is_none_or(|(one, other)| one.is_farther(other, metres))
+}
+
+/// For each link the first of those that it is fixed to, and which of these hang on which.
+fn groups(urdf: &Urdf) -> (Vec<usize>, Vec<[usize; 2]>) {
+    // Joints are ordered from the root, so a parent's group is known before its children's.
+    let mut groups: Vec<usize> = (0..urdf.links.len()).collect();
+    let mut next_to = Vec::new();
+    for joint in &urdf.joints {
+        let parent = groups.get(joint.parent).copied().unwrap_or(joint.parent);
+        if matches!(joint.kind, JointKind::Fixed | JointKind::Floating) {
+            if let Some(group) = groups.get_mut(joint.child) {
+                *group = parent;
+            }
+        } else {
+            next_to.push([parent, joint.child]);
+        }
+    }
+    (groups, next_to)
+}

@@ -1,0 +1,230 @@
+//! What is asked, and what is answered.
+
+use smol_str::SmolStr;
+
+use super::state::State;
+
+/// From where a thing is grasped.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Side {
+    /// From above: within 35° of straight down.
+    Top,
+    /// From any side.
+    Side,
+    /// From the side on which the robot is: within 45° of the direction from its base.
+    Front,
+}
+
+/// A motion that is asked for. Names are ids of the scene.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Query {
+    /// To a standing place from which a thing is served.
+    GoTo(SmolStr),
+    /// A grasp of a thing, from a side where one is given.
+    Reach(SmolStr, Option<Side>),
+    /// To a posture of the card.
+    Posture(SmolStr),
+    /// Any other motion of the language, which is not computed: its name.
+    Other(SmolStr),
+}
+
+impl Query {
+    /// A query as it is written: `reach(mug_1)`, `reach(mug_1, top)`, `go_to(sink)`. `None` where it is none.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let (name, rest) = text.trim().split_once('(')?;
+        let mut args = rest.strip_suffix(')')?.split(',').map(|arg| arg.trim().trim_matches('`'));
+        let (first, second, third) = (args.next().filter(|arg| !arg.is_empty())?, args.next(), args.next());
+        let side = match second {
+            None | Some("auto") => None,
+            Some("top") => Some(Side::Top),
+            Some("side") => Some(Side::Side),
+            Some("front") => Some(Side::Front),
+            Some(_) => return matches!(name, "put" | "offer").then(|| Self::Other(name.into())),
+        };
+        match name {
+            _ if third.is_some() => None,
+            "reach" => Some(Self::Reach(first.into(), side)),
+            "go_to" if second.is_none() => Some(Self::GoTo(first.into())),
+            "posture" if second.is_none() => Some(Self::Posture(first.into())),
+            "pull" | "push" | "look" if second.is_none() => Some(Self::Other(name.into())),
+            _ => None,
+        }
+    }
+}
+
+impl std::fmt::Display for Query {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::GoTo(to) => write!(f, "go_to({to})"),
+            Self::Reach(object, None) => write!(f, "reach({object})"),
+            Self::Reach(object, Some(side)) => {
+                let side = match side {
+                    Side::Top => "top",
+                    Side::Side => "side",
+                    Side::Front => "front",
+                };
+                write!(f, "reach({object}, {side})")
+            }
+            Self::Posture(name) => write!(f, "posture({name})"),
+            Self::Other(name) => write!(f, "{name}(…)"),
+        }
+    }
+}
+
+/// How long to look; a larger one finds more and contradicts nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Budget {
+    /// Candidates for the base and the arm that are tried for each grasp.
+    pub candidates: usize,
+    /// Free candidates to which a path is looked for.
+    pub paths: usize,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { candidates: 512, paths: 64 }
+    }
+}
+
+/// The answer to a query.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Answer {
+    /// There is such a motion: this one.
+    Feasible(Box<Witness>),
+    /// There is none, or the search, which was not cut short, found none: see [`Infeasible::certified`].
+    Infeasible(Infeasible),
+    /// It is not known.
+    Unknown(Unknown),
+}
+
+/// A motion that was found.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Witness {
+    /// States from where the robot is to the last; between two the robot moves straight in base and joints.
+    pub path: Vec<State>,
+    /// The grasp, where one was asked for. The last leg of the path brings the hand to it from in front of the thing, which the
+    /// hand may touch on that leg.
+    pub grasp: Option<Grasp>,
+    /// How much room there is.
+    pub margins: Margins,
+}
+
+/// How a thing is held.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Grasp {
+    /// What.
+    pub object: SmolStr,
+    /// From where.
+    pub side: Side,
+    /// The pose of the hand's tip in the map.
+    pub map_from_tip: nalgebra::Isometry3<f64>,
+    /// The pose of the thing in the tip's frame.
+    pub tip_from_object: nalgebra::Isometry3<f64>,
+    /// How wide the hand has to be open, in m.
+    pub width: f64,
+}
+
+/// Room to spare.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Margins {
+    /// The least distance to what stands around and to the floor, in m and at most 1, at the way-points and half-way between
+    /// them; on the whole way it is at least [`super::GAP`].
+    pub clearance: f64,
+    /// Room of the last state to the nearest limit of a joint that the motion moved, in rad or m; `None` where none was.
+    pub limit: Option<f64>,
+    /// What the hand could carry beyond, in kg; `None` where no mass is known.
+    pub payload: Option<f64>,
+}
+
+/// Why there is no motion.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Infeasible {
+    /// The kind.
+    pub reason: Reason,
+    /// What would help, where something is known to.
+    pub change: Option<String>,
+    /// Whether it is proven, for every grasp that is considered; else the search ended without finding anything.
+    pub certified: bool,
+}
+
+/// The reasons of the language.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Reason {
+    /// It is too far away, too high or too low: what is needed and what is reached, both in m, and in which direction.
+    OutOfReach {
+        /// What is measured: `height` or `distance`.
+        what: &'static str,
+        /// What is needed.
+        needs: f64,
+        /// What is reached.
+        reach: f64,
+    },
+    /// Every configuration touches something: most often this.
+    NoFreePose {
+        /// What is touched most often.
+        by: Option<SmolStr>,
+    },
+    /// There are free configurations, and no way to one was found.
+    BlockedPath {
+        /// What is touched most often on the way.
+        by: Option<SmolStr>,
+    },
+    /// It weighs more than the hand carries, both in kg.
+    TooHeavy {
+        /// Its mass.
+        needs: f64,
+        /// The payload.
+        limit: f64,
+    },
+    /// It is wider than the hand opens, both in m.
+    TooWide {
+        /// Its least width.
+        needs: f64,
+        /// The opening.
+        limit: f64,
+    },
+}
+
+impl Reason {
+    /// Its name in the language.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::OutOfReach { .. } => "out_of_reach",
+            Self::NoFreePose { .. } => "no_free_pose",
+            Self::BlockedPath { .. } => "blocked_path",
+            Self::TooHeavy { .. } => "too_heavy",
+            Self::TooWide { .. } => "too_wide",
+        }
+    }
+}
+
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::OutOfReach { what, needs, reach } => {
+                write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
+            }
+            Self::NoFreePose { by: Some(by) } => write!(f, "`{by}` is in the way of every pose"),
+            Self::NoFreePose { by: None } => f.write_str("no pose of the robot serves it"),
+            Self::BlockedPath { by: Some(by) } => write!(f, "`{by}` blocks the way"),
+            Self::BlockedPath { by: None } => f.write_str("no way leads there"),
+            Self::TooHeavy { needs, limit } => {
+                write!(f, "weighs {needs:.2} kg, the hand carries {limit:.2} kg")
+            }
+            Self::TooWide { needs, limit } => {
+                write!(f, "is {needs:.3} m wide, the hand opens to {limit:.3} m")
+            }
+        }
+    }
+}
+
+/// Why nothing is known.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Unknown {
+    /// The search was cut short.
+    Budget,
+    /// The question cannot be asked of this robot in this scene, or not yet of any.
+    Because(String),
+}

@@ -1,0 +1,118 @@
+//! States of the whole robot that put the hand's tip at a pose, one after the other in an order that spreads over all.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use super::machine::{Hand, Solver};
+use super::room::Room;
+use super::state::State;
+use crate::inverse::{Tolerance, numeric};
+use crate::kinematics::{planar, spread};
+
+/// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
+const STEPS: usize = 5;
+
+/// The fraction of `at` times the `n`-th power of the inverse of the root of x^(d+1) = x + 1 (Roberts 2018).
+fn part(at: usize, n: i32, ratio: f64) -> f64 {
+    let value = 0.5 + at as f64 * libm::pow(ratio, -f64::from(n));
+    value - libm::floor(value)
+}
+
+impl Room<'_> {
+    /// Candidate `at` for a pose of the tip: no state, or some.
+    pub(super) fn candidates(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, at: usize) -> Vec<State> {
+        const PLANE: f64 = 1.324_717_957_244_746;
+        const SPACE: f64 = 1.220_744_084_605_759_5;
+        if let Solver::Lift(arm) = &hand.solver {
+            let yaw = (part(at, 1, PLANE) - 0.5) * TAU;
+            let limits = hand.solver.chain().variables.get(1).and_then(|variable| variable.limits);
+            let (lower, upper) = limits.unwrap_or((-PI, PI));
+            let shoulder = lower + part(at, 2, PLANE) * (upper - lower);
+            let placed = arm.solve(map_from_tip, yaw, shoulder).into_iter();
+            return placed.map(|placed| self.with(hand, placed.base, &placed.values)).collect();
+        }
+        let base = if self.machine.drives() {
+            let reach = hand.card.reach_m + self.machine.card().base.radius_m;
+            let (sin, cos) = libm::sincos(part(at, 1, SPACE) * TAU);
+            let far = 0.2 + (reach - 0.2).max(0.1) * part(at, 2, SPACE);
+            let (x, y) = (map_from_tip.translation.x + cos * far, map_from_tip.translation.y + sin * far);
+            [x, y, (part(at, 3, SPACE) - 0.5) * TAU]
+        } else {
+            self.world.robot.base
+        };
+        let base_from_tip = self.map_from_base(base).inverse() * map_from_tip;
+        let values: Vec<Vec<f64>> = match &hand.solver {
+            Solver::Parallel(arm) => arm.solve(&base_from_tip).into_iter().map(Into::into).collect(),
+            Solver::Lift(_) => vec![],
+            Solver::Steps(chain) => {
+                let start = spread(&chain.variables, at);
+                numeric::refined(chain, &base_from_tip, &start, 60, Tolerance::EXACT).into_iter().collect()
+            }
+        };
+        values.into_iter().map(|values| self.with(hand, base, &values)).collect()
+    }
+
+    /// States on the straight line of the hand that ends at `state`, the first `back` m before it; `None` where the arm cannot
+    /// follow. `state` itself is the last.
+    pub(super) fn approach(
+        &self,
+        hand: &Hand,
+        state: &State,
+        map_from_tip: &Isometry3<f64>,
+        back: f64,
+    ) -> Option<Vec<State>> {
+        let points = Vector3::from(hand.card.points);
+        let before = |far: f64| map_from_tip * Translation3::from(-points * far);
+        if let Solver::Lift(arm) = &hand.solver {
+            // With all else still, the base and the lift alone move the hand along any line.
+            let shift = before(back).translation.vector - map_from_tip.translation.vector;
+            let chain = hand.solver.chain();
+            let (joint, variable) = (chain.joints.first()?, chain.variables.first()?);
+            let mut first = state.clone();
+            let lift = first.joints.get_mut(*chain.in_tree.first()?)?;
+            *lift += shift.z * arm.up / joint.driver.multiplier;
+            if !variable.allows(*lift) {
+                return None;
+            }
+            let [x, y, yaw] = first.base;
+            first.base = [x + shift.x, y + shift.y, yaw];
+            return Some(vec![first, state.clone()]);
+        }
+        let map_from_base = self.map_from_base(state.base);
+        let chain = hand.solver.chain();
+        let mut values: Vec<f64> =
+            chain.in_tree.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect();
+        let mut states = vec![state.clone()];
+        for step in 1..=STEPS {
+            let wanted = map_from_base.inverse() * before(back * step as f64 / STEPS as f64);
+            let next = numeric::refined(chain, &wanted, &values, 20, Tolerance::EXACT)?;
+            let jump = next.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // Another branch of the arm is no straight line.
+            if jump > 0.5 {
+                return None;
+            }
+            values = next;
+            states.push(self.with(hand, state.base, &values));
+        }
+        states.reverse();
+        Some(states)
+    }
+
+    /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
+    fn with(&self, hand: &Hand, base: [f64; 3], values: &[f64]) -> State {
+        let mut joints = hand.opened(&self.world.robot.joints);
+        for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
+            if let Some(slot) = joints.get_mut(*at) {
+                *slot = *value;
+            }
+        }
+        State { base, joints }
+    }
+
+    /// The pose of the base's link.
+    fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
+        let height = self.machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
+        planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
+    }
+}

@@ -1,0 +1,148 @@
+//! `go_to`: a standing place from which a thing is served, and the way there; `posture`: the arm to a named posture.
+
+use nalgebra::Vector3;
+
+use super::answer::{Answer, Budget, Infeasible, Reason, Unknown, Witness};
+use super::reach::certain;
+use super::room::Room;
+use super::state::State;
+use super::touch::Allowed;
+use super::travel::Tally;
+use crate::collision::{Shape, Solid};
+
+/// Directions around a thing in which places are looked for.
+const DIRECTIONS: usize = 32;
+/// How near a place counts as being at it, in m.
+const AT_PLACE: f64 = 0.5;
+/// How far from its final place the base may turn to come in straight, in m.
+const BACK: [f64; 3] = [0.15, 0.3, 0.5];
+
+impl Room<'_> {
+    /// A standing place at an entity.
+    pub(super) fn go_to(&self, id: &str, _budget: Budget) -> Answer {
+        let unknown = |why: String| Answer::Unknown(Unknown::Because(why));
+        let Some((index, entity)) = self.entity(id) else { return unknown(format!("there is no `{id}`")) };
+        let Some(pose) = self.world.pose(entity) else {
+            return unknown(format!("the place of `{id}` is not known"));
+        };
+        if !self.machine.drives() {
+            return unknown("the robot's base does not drive".into());
+        }
+        let reach = match (entity.kind.as_str(), self.machine.hand()) {
+            ("Place", _) | (_, None) => AT_PLACE,
+            (_, Some(hand)) => hand.card.reach_m,
+        };
+        // A thing is served by its centre; what things stand on, in or with, by its outline.
+        let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
+        let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
+        let centre = pose.translation.vector;
+        let far = |x: f64, y: f64| {
+            let solids = outline.iter().map(|solid| beside(solid, x, y));
+            solids.reduce(f64::min).unwrap_or_else(|| libm::hypot(x - centre.x, y - centre.y))
+        };
+        let start = &self.world.robot;
+        let [start_x, start_y, _] = start.base;
+        if far(start_x, start_y) <= reach && self.touch(start, Allowed::default()).is_none() {
+            return self.gone(vec![start.clone()]);
+        }
+        let towards = libm::atan2(start_y - centre.y, start_x - centre.x);
+        let (mut met, mut is_free_somewhere) = (Tally::default(), false);
+        for share in [1.0, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2, 0.0] {
+            for step in 0..DIRECTIONS {
+                // From the side of the robot outwards, both ways.
+                let turn = step.div_ceil(2) as f64 * if step % 2 == 0 { 1.0 } else { -1.0 };
+                let angle = towards + turn * std::f64::consts::TAU / DIRECTIONS as f64;
+                let (sin, cos) = libm::sincos(angle);
+                let Some(out) = along(|out| far(centre.x + cos * out, centre.y + sin * out), reach * share)
+                else {
+                    continue;
+                };
+                let yaw = crate::trigonometry::wrapped(angle + std::f64::consts::PI);
+                let place = start.at([centre.x + cos * out, centre.y + sin * out, yaw]);
+                if self.is_drivable(&place)
+                    && let Some(path) = self.drive(&place)
+                {
+                    return self.gone(path);
+                }
+                if let Some(touch) = self.touch(&place, Allowed::default()) {
+                    met.add(&touch);
+                    continue;
+                }
+                is_free_somewhere = true;
+                for back in BACK {
+                    let [x, y, yaw] = place.base;
+                    let before = place.at([x + cos * back, y + sin * back, yaw]);
+                    if self.is_drivable(&before)
+                        && self
+                            .edge(&before, &place, Allowed::default())
+                            .map_err(|touch| met.add(&touch))
+                            .is_ok()
+                        && let Some(mut path) = self.drive(&before)
+                    {
+                        let last = path.last().unwrap_or(start).clone();
+                        path.push(place.after(&last));
+                        return self.gone(path);
+                    }
+                }
+            }
+        }
+        let by = met.most();
+        let reason =
+            if is_free_somewhere { Reason::BlockedPath { by: None } } else { Reason::NoFreePose { by } };
+        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+    }
+
+    /// The arm to a posture of the card, the base where it is.
+    pub(super) fn to_posture(&self, name: &str) -> Answer {
+        let start = &self.world.robot;
+        let Some(joints) = self.machine.posture(name, &start.joints) else {
+            return Answer::Unknown(Unknown::Because(format!("the card has no posture `{name}`")));
+        };
+        let goal = State { base: start.base, joints };
+        if let Some(touch) = self.touch(&goal, Allowed::default()) {
+            return certain(Reason::NoFreePose { by: Some(touch.other) }, None);
+        }
+        let mut met = Tally::default();
+        match self.unfold(start, &goal, &mut met) {
+            Some(path) => self.gone(path),
+            None => Answer::Infeasible(Infeasible {
+                reason: Reason::BlockedPath { by: met.most() },
+                change: None,
+                certified: false,
+            }),
+        }
+    }
+
+    fn gone(&self, path: Vec<State>) -> Answer {
+        let margins = self.margins(&path, Allowed::default());
+        Answer::Feasible(Box::new(Witness { path, grasp: None, margins }))
+    }
+}
+
+/// The distance in the plane from a place to a solid, whatever its height.
+fn beside(solid: &Solid, x: f64, y: f64) -> f64 {
+    let up = solid.extent(&Vector3::z());
+    let vertical = Solid {
+        centre: Vector3::new(x, y, solid.centre.z),
+        axes: [Vector3::x(), Vector3::y(), Vector3::z()],
+        shape: Shape::Capsule { radius: 0.0, half: up },
+    };
+    solid.distance(&vertical).max(0.0)
+}
+
+/// How far out a distance that grows by at most 1 for 1 comes down to `wanted`, seen from afar.
+fn along(distance: impl Fn(f64) -> f64, wanted: f64) -> Option<f64> {
+    let mut out = 12.0;
+    for _ in 0..200 {
+        let left = distance(out) - wanted;
+        if left <= 1e-4 {
+            // No farther than what was asked for.
+            return Some(out - 1e-4);
+        }
+        out -= left;
+        if out < 0.0 {
+            return None;
+        }
+    }
+    None
+}

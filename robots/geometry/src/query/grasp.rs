@@ -1,0 +1,191 @@
+//! How a thing can be held: poses of the hand's tip, from the shape of the thing and the opening of the hand.
+//!
+//! The fingers close across the thing on a line through its axis or its centre; its near face is as close to the palm as it can
+//! be, but no nearer than where its centre is between the finger tips.
+
+use std::f64::consts::{FRAC_PI_6, TAU};
+
+use nalgebra::{Isometry3, Translation3, Unit, Vector3};
+
+use super::answer::Side;
+use super::machine::Hand;
+use crate::collision::{Shape, Solid};
+use crate::trigonometry::{sin_cos, turn};
+
+/// How far the fingers have to reach along a thing with flat faces, in m.
+const GRIP: f64 = 0.01;
+/// How far they may stay behind the widest place of a round thing, as a share of its radius: the sine of the angle of friction
+/// of rubber on most things, with some to spare.
+const SHORT: f64 = 0.35;
+
+/// A pose of the hand.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Hold {
+    pub(super) map_from_tip: Isometry3<f64>,
+    /// The direction in which the fingers point.
+    pub(super) approach: Vector3<f64>,
+    pub(super) side: Side,
+    pub(super) width: f64,
+}
+
+/// Every pose that is considered, in a fixed order, and the least width across which the thing could be held.
+pub(super) fn holds(hand: &Hand, thing: &Solid, side: Option<Side>, base: [f64; 3]) -> (Vec<Hold>, f64) {
+    let mut found = Found { hand, thing, holds: vec![], least: f64::INFINITY };
+    let [x, _, z] = thing.axes;
+    match thing.shape {
+        Shape::Box(half) => found.of_box(&half),
+        Shape::Cylinder { radius, half } => {
+            found.around(&z, radius, half);
+            // By its rim, across its height: so is a plate held.
+            for step in 0..16 {
+                let out = turn(&Unit::new_normalize(z), TAU * f64::from(step) / 16.0) * x;
+                found.add(&-out, &z, 2.0 * half, Grip::Flat, Vector3::zeros());
+                found.add(&-out, &-z, 2.0 * half, Grip::Flat, Vector3::zeros());
+            }
+        }
+        Shape::Capsule { radius, half } if half > 0.0 => found.around(&z, radius, half),
+        Shape::Capsule { radius, .. } => found.around(&Vector3::z(), radius, 0.0),
+        Shape::HalfSpace => {}
+    }
+    let [base_x, base_y, _] = base;
+    let ahead = Vector3::new(thing.centre.x - base_x, thing.centre.y - base_y, 0.0);
+    let (least, mut holds) = (found.least, found.holds);
+    holds.retain(|hold| {
+        let flat = Vector3::new(hold.approach.x, hold.approach.y, 0.0);
+        let is_front = flat.dot(&ahead) >= std::f64::consts::FRAC_1_SQRT_2 * flat.norm() * ahead.norm();
+        match side {
+            None => true,
+            Some(Side::Top) => hold.side == Side::Top,
+            Some(Side::Side) => hold.side != Side::Top,
+            Some(Side::Front) => hold.side != Side::Top && is_front,
+        }
+    });
+    (holds, least)
+}
+
+/// What the fingers meet.
+#[derive(Clone, Copy, PartialEq)]
+enum Grip {
+    /// It is widest at its centre.
+    Round,
+    /// It is as wide all along.
+    Flat,
+}
+
+struct Found<'a> {
+    hand: &'a Hand,
+    thing: &'a Solid,
+    holds: Vec<Hold>,
+    least: f64,
+}
+
+impl Found<'_> {
+    /// Around an axis, level and bent down towards its lower end, and along it from either end.
+    fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
+        // Downwards, where the axis stands.
+        let down = if axis.z > 0.0 { -axis } else { *axis };
+        let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
+        let first = square.normalize();
+        let ball = half == 0.0;
+        let heights: &[f64] = if half > 0.03 { &[0.0, 0.5, -0.5] } else { &[0.0] };
+        for tilt in [0.0, FRAC_PI_6, 2.0 * FRAC_PI_6] {
+            for step in 0..16 {
+                let out = turn(&Unit::new_normalize(*axis), TAU * f64::from(step) / 16.0) * first;
+                let (sin, cos) = sin_cos(tilt);
+                let approach = down * sin - out * cos;
+                let along = axis.cross(&out);
+                for height in heights {
+                    let shift = axis * (half * height);
+                    // Bent, the fingers still close across the axis, and meet it where it is widest.
+                    self.add(&approach, &along, 2.0 * radius, Grip::Round, shift);
+                    self.add(&approach, &-along, 2.0 * radius, Grip::Round, shift);
+                }
+            }
+        }
+        for step in 0..16 {
+            let along = turn(&Unit::new_normalize(*axis), TAU * f64::from(step) / 16.0) * first;
+            self.add(
+                &down,
+                &along,
+                2.0 * radius,
+                if ball { Grip::Round } else { Grip::Flat },
+                Vector3::zeros(),
+            );
+        }
+    }
+
+    fn of_box(&mut self, half: &Vector3<f64>) {
+        let axes: Vec<(Vector3<f64>, f64)> =
+            self.thing.axes.iter().copied().zip(half.iter().copied()).collect();
+        for (at, (along, wide)) in axes.iter().enumerate() {
+            for (other, (approach, _)) in axes.iter().enumerate() {
+                if other == at {
+                    continue;
+                }
+                let third = axes.iter().enumerate().find(|(third, _)| *third != at && *third != other);
+                let shifts = third.map_or(vec![0.0], |(_, (_, half))| {
+                    if *half > 0.04 { vec![0.0, half * 0.5, half * -0.5] } else { vec![0.0] }
+                });
+                let direction = third.map_or(Vector3::zeros(), |(_, (axis, _))| *axis);
+                for shift in shifts {
+                    for (approach, along) in
+                        [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)]
+                    {
+                        self.add(&approach, &along, 2.0 * wide, Grip::Flat, direction * shift);
+                    }
+                }
+            }
+        }
+    }
+
+    fn add(
+        &mut self,
+        approach: &Vector3<f64>,
+        along: &Vector3<f64>,
+        width: f64,
+        grip: Grip,
+        shift: Vector3<f64>,
+    ) {
+        // From below there is no way for a hand.
+        if approach.z > 0.5 {
+            return;
+        }
+        self.least = self.least.min(width);
+        if width > self.hand.card.opening_m {
+            return;
+        }
+        let half = match grip {
+            Grip::Flat => self.thing.extent(approach),
+            // Bent towards a long thing the palm meets its side, not its end.
+            Grip::Round => (width / 2.0).max(self.thing.extent(approach).min(self.side_extent(approach))),
+        };
+        let depth = (self.hand.palm + half).max(0.0);
+        let is_held = match grip {
+            Grip::Round => self.hand.fingers >= depth - SHORT * width / 2.0,
+            Grip::Flat => self.hand.fingers - (depth - half) >= GRIP.min(half),
+        };
+        if !is_held {
+            return;
+        }
+        let at = self.thing.centre + shift - approach * depth;
+        let side = if approach.z < -0.819 { Side::Top } else { Side::Side };
+        let map_from_tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(approach, along));
+        self.holds.push(Hold { map_from_tip, approach: *approach, side, width });
+    }
+
+    /// How far the thing extends against a direction on the line through its middle.
+    fn side_extent(&self, approach: &Vector3<f64>) -> f64 {
+        let [_, _, z] = &self.thing.axes;
+        match self.thing.shape {
+            Shape::Cylinder { radius, half } | Shape::Capsule { radius, half } => {
+                let along = approach.dot(z).abs();
+                let aside = (1.0 - along * along).max(0.0).sqrt();
+                let out = if aside > 1e-9 { radius / aside } else { f64::INFINITY };
+                let end = if along > 1e-9 { half / along } else { f64::INFINITY };
+                // A ball, and a round end, are met sooner than a flat one.
+                if half > 0.0 { out.min(end) } else { radius }
+            }
+            Shape::Box(_) | Shape::HalfSpace => self.thing.extent(approach),
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! A robot made ready for queries: its card, its kinematics, its body, and how its hand is solved. Made once.
+
+use motet_robots::card::{Drive, Hand as HandCard, Robot};
+use motet_robots::srdf::Srdf;
+use motet_robots::urdf::Urdf;
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use smol_str::SmolStr;
+
+use super::state::State;
+use crate::collision::{Body, Shape, Solid};
+use crate::inverse::{LiftArm, ParallelArm};
+use crate::kinematics::{Chain, Lever, Tree, planar};
+
+/// How far in front of the palm a thing is held, in m.
+const PALM_GAP: f64 = 0.005;
+
+/// A robot of which motions can be asked.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    card: Robot,
+    tree: Tree,
+    body: Body,
+    floor_from_root: Isometry3<f64>,
+    /// For each link the joints that move it.
+    levers: Vec<Vec<Lever>>,
+    hand: Option<Hand>,
+    rest: Vec<f64>,
+}
+
+/// A hand and the arm that carries it.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    /// Its name in the card.
+    pub name: SmolStr,
+    /// What the card says of it.
+    pub card: HandCard,
+    /// Index of its tip's link.
+    pub tip: usize,
+    /// How joint positions are found.
+    pub solver: Solver,
+    /// How far the palm reaches along the direction in which the fingers point, from the tip's origin, in m.
+    pub palm: f64,
+    /// How far the open fingers reach, likewise.
+    pub fingers: f64,
+    /// The variables of its own joints with their values when it is open.
+    pub open: Vec<(usize, f64)>,
+    /// For each link whether it belongs to the hand: rigid with the tip, or carried by it.
+    pub members: Vec<bool>,
+    /// For each link whether a joint of the arm moves it.
+    pub carried: Vec<bool>,
+}
+
+/// How an arm is solved.
+#[derive(Clone, Debug)]
+pub enum Solver {
+    /// A lift with a spherical wrist on a base that drives anywhere.
+    Lift(LiftArm),
+    /// Six joints of which three are parallel.
+    Parallel(ParallelArm),
+    /// Any other chain, in steps.
+    Steps(Chain),
+}
+
+impl Solver {
+    /// The arm's chain, from the base's link to the tip.
+    #[must_use]
+    pub fn chain(&self) -> &Chain {
+        match self {
+            Self::Lift(arm) => arm.chain(),
+            Self::Parallel(arm) => arm.chain(),
+            Self::Steps(chain) => chain,
+        }
+    }
+}
+
+impl Machine {
+    /// A robot from its card, a URDF that fits it and, where there is one, its SRDF. O(parts²).
+    ///
+    /// The fingers of a hand may touch each other: that is what they are for.
+    #[must_use]
+    pub fn new(card: &Robot, urdf: &Urdf, srdf: Option<&Srdf>) -> Self {
+        let tree = Tree::new(urdf);
+        let model = card.model.as_ref();
+        let link = |name: Option<&SmolStr>| name.and_then(|name| tree.link(name).ok());
+        let base = link(model.and_then(|model| model.base.as_ref())).unwrap_or(tree.root());
+        let mut rest = tree.neutral();
+        let positions = model
+            .into_iter()
+            .flat_map(|model| &model.rest)
+            .chain(card.postures.get("home").into_iter().flatten());
+        for (joint, position) in positions {
+            set(&tree, &mut rest, joint, *position);
+        }
+        let height = model.map_or(0.0, |model| model.height_m);
+        let floor_from_root = Translation3::new(0.0, 0.0, height) * tree.pose(&rest, base, tree.root());
+        let levers: Vec<Vec<Lever>> = (0..tree.links().len()).map(|link| tree.levers(link)).collect();
+        let mut allowed = srdf.map_or_else(Vec::new, |srdf| srdf.disabled.clone());
+        for tip in card.hands.values().filter_map(|hand| link(hand.tip.as_ref())) {
+            let fingers: Vec<usize> =
+                (0..levers.len()).filter(|at| is_carried_by(&tree, &levers, tip, *at)).collect();
+            allowed.extend(fingers.iter().flat_map(|one| fingers.iter().map(|other| [*one, *other])));
+        }
+        let body = Body::new(urdf, &tree, &allowed);
+        let mut machine = Self { card: card.clone(), tree, body, floor_from_root, levers, hand: None, rest };
+        machine.hand = card.hands.iter().find_map(|(name, hand)| machine.hand_of(name, hand, base, height));
+        machine
+    }
+
+    fn hand_of(&self, name: &SmolStr, card: &HandCard, base: usize, height: f64) -> Option<Hand> {
+        let tip = self.tree.link(card.tip.as_deref()?).ok()?;
+        let chain = Chain::new(&self.tree, base, tip)?;
+        let drives_anywhere = matches!(self.card.base.drive, Drive::Omnidirectional | Drive::Legged);
+        let lift =
+            LiftArm::detect(&chain).filter(|_| drives_anywhere).map(|arm| Solver::Lift(arm.raised(height)));
+        let parallel = || ParallelArm::detect(&chain).map(Solver::Parallel);
+        let solver = lift.or_else(parallel).unwrap_or_else(|| Solver::Steps(chain.clone()));
+        let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
+        let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
+        let links = 0..self.levers.len();
+        let members =
+            links.map(|at| self.body.is_rigid(tip, at) || is_carried_by(&self.tree, &self.levers, tip, at));
+        let members: Vec<bool> = members.collect();
+        let points = Vector3::from(card.points);
+        let open = card.open.iter().filter_map(|(joint, at)| Some((self.tree.variable(joint).ok()?, *at)));
+        let open: Vec<(usize, f64)> = open.collect();
+        let poses = self.tree.root_from_links(&opened(&self.rest, &open));
+        let tip_from_root = poses.get(tip)?.inverse();
+        let parts = self.body.parts().iter().filter(|part| members.get(part.link) == Some(&true));
+        let placed = parts.filter_map(|part| {
+            Some((
+                self.body.is_rigid(tip, part.link),
+                part.solid.moved(&(tip_from_root * poses.get(part.link)?)),
+            ))
+        });
+        let (mut palm, mut fingers) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for (is_palm, solid) in placed {
+            let end = solid.centre.dot(&points) + solid.extent(&points);
+            if is_palm {
+                palm = palm.max(front(&solid, &points));
+            } else {
+                fingers = fingers.max(end);
+            }
+        }
+        let palm = if palm.is_finite() { palm + PALM_GAP } else { 0.0 };
+        let fingers = if fingers.is_finite() { fingers } else { 0.02 };
+        Some(Hand {
+            name: name.clone(),
+            card: card.clone(),
+            tip,
+            solver,
+            palm,
+            fingers,
+            open,
+            members,
+            carried,
+        })
+    }
+
+    /// The card.
+    #[must_use]
+    pub fn card(&self) -> &Robot {
+        &self.card
+    }
+
+    /// The kinematics.
+    #[must_use]
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The body.
+    #[must_use]
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The hand that is meant where only one is: the first of the card's that the base's link carries.
+    #[must_use]
+    pub fn hand(&self) -> Option<&Hand> {
+        self.hand.as_ref()
+    }
+
+    /// The configuration where nothing else is said: at rest, in the posture `home`.
+    #[must_use]
+    pub fn rest(&self) -> &[f64] {
+        &self.rest
+    }
+
+    /// The configuration of a posture, with everything that it does not name as in `from`.
+    #[must_use]
+    pub fn posture(&self, name: &str, from: &[f64]) -> Option<Vec<f64>> {
+        let mut joints = from.to_vec();
+        for (joint, position) in self.card.postures.get(name)? {
+            set(&self.tree, &mut joints, joint, *position);
+        }
+        Some(joints)
+    }
+
+    /// Whether the base drives.
+    #[must_use]
+    pub fn drives(&self) -> bool {
+        self.card.base.drive != Drive::Fixed
+    }
+
+    /// The pose of every link in the map.
+    #[must_use]
+    pub fn map_from_links(&self, state: &State) -> Vec<Isometry3<f64>> {
+        let [x, y, yaw] = state.base;
+        let map_from_root = planar(x, y, yaw) * self.floor_from_root;
+        let mut poses = self.tree.root_from_links(&state.joints);
+        for pose in &mut poses {
+            *pose = map_from_root * *pose;
+        }
+        poses
+    }
+
+    pub(super) fn levers(&self, link: usize) -> &[Lever] {
+        self.levers.get(link).map_or(&[], Vec::as_slice)
+    }
+}
+
+impl Hand {
+    /// A configuration with the hand open.
+    #[must_use]
+    pub fn opened(&self, joints: &[f64]) -> Vec<f64> {
+        opened(joints, &self.open)
+    }
+
+    /// The rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`, which is
+    /// square to it; both of length 1.
+    #[must_use]
+    pub fn turned(&self, approach: &Vector3<f64>, along: &Vector3<f64>) -> UnitQuaternion<f64> {
+        let (points, closes) = (Vector3::from(self.card.points), Vector3::from(self.card.closes));
+        let own = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
+        let wanted = Matrix3::from_columns(&[*approach, *along, approach.cross(along)]);
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(wanted * own.transpose()))
+    }
+}
+
+fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {
+    let mut joints = joints.to_vec();
+    for (at, value) in open {
+        if let Some(slot) = joints.get_mut(*at) {
+            *slot = *value;
+        }
+    }
+    joints
+}
+
+fn set(tree: &Tree, joints: &mut [f64], joint: &str, position: f64) {
+    if let Some(slot) = tree.variable(joint).ok().and_then(|at| joints.get_mut(at)) {
+        *slot = position;
+    }
+}
+
+/// Whether a link hangs on another by way of a joint that moves.
+fn is_carried_by(tree: &Tree, levers: &[Vec<Lever>], tip: usize, link: usize) -> bool {
+    let own = levers.get(tip).map_or(0, Vec::len);
+    levers.get(link).is_some_and(|levers| levers.len() > own)
+        && Chain::new(tree, tip_group(tree, levers, tip), link).is_some_and(|chain| !chain.joints.is_empty())
+}
+
+/// The link after the last moving joint before the tip: everything on it is rigid with the tip.
+fn tip_group(tree: &Tree, levers: &[Vec<Lever>], tip: usize) -> usize {
+    levers.get(tip).and_then(|levers| levers.last()).map_or(tree.root(), |last| last.frame)
+}
+
+/// Where a ray against a direction through the origin meets a solid, along the direction; −∞ where it passes by.
+fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
+    let far = 2.0;
+    let mut at = far;
+    while at > -far {
+        let probe = Solid {
+            centre: direction * at,
+            axes: solid.axes,
+            shape: Shape::Capsule { radius: 0.0, half: 0.0 },
+        };
+        let distance = solid.distance(&probe);
+        if distance < 1e-6 {
+            return at;
+        }
+        at -= distance;
+    }
+    f64::NEG_INFINITY
+}

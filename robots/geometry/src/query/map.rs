@@ -1,0 +1,292 @@
+//! Where the base can drive with the arm as it is: the robot as a stack of discs about the base's axis, so that its yaw does
+//! not matter. For each obstacle only the parts between its heights count.
+//!
+//! The clearance of a place changes by no more than the way between two places, so a straight way is certified by steps as
+//! long as the clearance where each begins.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use nalgebra::Vector3;
+
+use super::room::{GAP, Room};
+use super::state::State;
+use super::touch::about_vertical;
+use crate::collision::{Shape, Solid};
+
+/// A cell's side in m, where the room is not too large for it.
+const CELL: f64 = 0.05;
+/// The most cells along a side.
+const CELLS: usize = 400;
+/// How far beyond everything the map goes, in m.
+const MARGIN: f64 = 1.5;
+
+/// The map of a room for one configuration of the arm.
+#[derive(Clone, Debug)]
+pub(super) struct Map {
+    outlines: Vec<Outline>,
+    origin: [f64; 2],
+    cell: f64,
+    size: [usize; 2],
+    clearance: Vec<f64>,
+    component: Vec<u32>,
+}
+
+/// An obstacle seen from above, and the radius of the robot between its heights.
+#[derive(Clone, Copy, Debug)]
+struct Outline {
+    centre: [f64; 2],
+    /// Direction of its first side.
+    side: [f64; 2],
+    half: [f64; 2],
+    /// How much is added around.
+    round: f64,
+    keep_off: f64,
+}
+
+impl Map {
+    pub(super) fn new(room: &Room<'_>, joints: &[f64]) -> Self {
+        let state = State { base: [0.0; 3], joints: joints.to_vec() };
+        let placed = room.body.placed(&room.machine.map_from_links(&state));
+        let discs: Vec<(f64, [f64; 2])> =
+            placed.iter().map(|solid| about_vertical(solid, 0.0, 0.0)).collect();
+        let outlines: Vec<Outline> =
+            room.things.iter().filter_map(|thing| Outline::new(&thing.solid, &discs)).collect();
+        let [x, y, _] = room.world.robot.base;
+        let (mut low, mut high) = ([x, y], [x, y]);
+        for outline in &outlines {
+            let reach = libm::hypot(outline.half[0], outline.half[1]) + outline.round;
+            for ((low, high), at) in low.iter_mut().zip(&mut high).zip(outline.centre) {
+                (*low, *high) = (low.min(at - reach), high.max(at + reach));
+            }
+        }
+        let origin = low.map(|low| low - MARGIN);
+        let span = [high[0] - low[0] + 2.0 * MARGIN, high[1] - low[1] + 2.0 * MARGIN];
+        let cell = CELL.max(span[0].max(span[1]) / CELLS as f64);
+        let size = span.map(|span| (libm::ceil(span / cell) as usize + 1).min(CELLS + 2));
+        let mut map = Self { outlines, origin, cell, size, clearance: vec![], component: vec![] };
+        map.clearance = (0..size[0] * size[1]).map(|at| map.at(map.centre(at))).collect();
+        map.component = map.components();
+        map
+    }
+
+    /// Clearance of a place in m; negative where the robot would touch something.
+    pub(super) fn at(&self, place: [f64; 2]) -> f64 {
+        self.outlines.iter().map(|outline| outline.distance(place)).fold(2.0, f64::min)
+    }
+
+    /// Whether a straight way is free.
+    pub(super) fn is_clear(&self, from: [f64; 2], to: [f64; 2]) -> bool {
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = libm::hypot(way[0], way[1]);
+        let mut gone = 0.0;
+        loop {
+            let part = if length > 0.0 { gone / length } else { 1.0 };
+            let clearance = self.at([from[0] + way[0] * part, from[1] + way[1] * part]);
+            // A way along which there is no room to speak of is not looked at any closer.
+            if clearance <= 0.001 && !(clearance > 0.0 && gone + clearance >= length) {
+                return false;
+            }
+            gone += clearance;
+            if gone >= length {
+                return true;
+            }
+        }
+    }
+
+    /// Whether a way leads from a place to another, straight or along the cells.
+    pub(super) fn is_connected(&self, from: [f64; 2], to: [f64; 2]) -> bool {
+        let component = |place| self.entry(place).and_then(|at| self.component.get(at).copied());
+        match (component(from), component(to)) {
+            (Some(one), Some(other)) if one == other => true,
+            _ => self.is_clear(from, to),
+        }
+    }
+
+    /// The corners of a free way between two places, both included; `None` where none was found.
+    pub(super) fn way(&self, from: [f64; 2], to: [f64; 2]) -> Option<Vec<[f64; 2]>> {
+        if self.is_clear(from, to) {
+            return Some(vec![from, to]);
+        }
+        let (start, goal) = (self.entry(from)?, self.entry(to)?);
+        let cells = self.search(start, goal)?;
+        let mut corners = vec![from];
+        let all: Vec<[f64; 2]> = cells.into_iter().map(|cell| self.centre(cell)).chain([to]).collect();
+        // From each corner to the farthest that can be seen; the next can be, by the cells' clearances.
+        let mut at = 0;
+        while at < all.len() {
+            let here = corners.last().copied().unwrap_or(from);
+            let seen = (at..all.len())
+                .rev()
+                .find(|next| all.get(*next).is_some_and(|next| self.is_clear(here, *next)));
+            let next = seen.unwrap_or(at);
+            corners.extend(all.get(next));
+            at = next + 1;
+        }
+        Some(corners)
+    }
+
+    fn centre(&self, at: usize) -> [f64; 2] {
+        let (row, column) = (at / self.size[0], at % self.size[0]);
+        [self.origin[0] + column as f64 * self.cell, self.origin[1] + row as f64 * self.cell]
+    }
+
+    fn free(&self, at: usize) -> f64 {
+        self.clearance.get(at).copied().unwrap_or(-1.0)
+    }
+
+    /// The nearest cell that is reached straight from a free place.
+    fn entry(&self, place: [f64; 2]) -> Option<usize> {
+        let index = |axis: usize| {
+            let at = libm::round((place.get(axis)? - self.origin.get(axis)?) / self.cell);
+            (at >= 1.0 && at + 2.0 <= *self.size.get(axis)? as f64).then_some(at as usize)
+        };
+        let (column, row) = (index(0)?, index(1)?);
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        for other in [row - 1, row, row + 1] {
+            for at in [column - 1, column, column + 1] {
+                let cell = other * self.size[0] + at;
+                let [x, y] = self.centre(cell);
+                near.push((libm::hypot(x - place[0], y - place[1]), cell));
+            }
+        }
+        near.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+        let here = self.at(place);
+        near.into_iter()
+            .find(|(far, cell)| here > 0.0 && self.free(*cell) > 0.0 && here + self.free(*cell) > *far)
+            .map(|(_, cell)| cell)
+    }
+
+    /// The neighbours of a cell to which the straight way is free, with its length.
+    fn next(&self, at: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (row, column) = ((at / self.size[0]) as i64, (at % self.size[0]) as i64);
+        let here = self.free(at);
+        let around = [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+        around.into_iter().filter_map(move |(down, right): (i64, i64)| {
+            let (row, column) = (usize::try_from(row + down).ok()?, usize::try_from(column + right).ok()?);
+            let cell = row * self.size[0] + column;
+            let far = self.cell * if down != 0 && right != 0 { std::f64::consts::SQRT_2 } else { 1.0 };
+            let is_free = row < self.size[1] && column < self.size[0] && self.free(cell) > 0.0;
+            (is_free && here + self.free(cell) > far).then_some((cell, far))
+        })
+    }
+
+    fn components(&self) -> Vec<u32> {
+        let mut component = vec![0; self.clearance.len()];
+        let mut count = 0;
+        for start in 0..component.len() {
+            if component.get(start) != Some(&0) || self.free(start) <= 0.0 {
+                continue;
+            }
+            count += 1;
+            let mut open = vec![start];
+            while let Some(at) = open.pop() {
+                for (cell, _) in self.next(at) {
+                    if let Some(slot) = component.get_mut(cell).filter(|slot| **slot == 0) {
+                        *slot = count;
+                        open.push(cell);
+                    }
+                }
+            }
+            if let Some(slot) = component.get_mut(start) {
+                *slot = count;
+            }
+        }
+        component
+    }
+
+    /// The shortest way from cell to cell (A*, with the straight distance as the bound).
+    fn search(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
+        if self.component.get(start) != self.component.get(goal) {
+            return None;
+        }
+        let [goal_x, goal_y] = self.centre(goal);
+        let left = |at: usize| {
+            let [x, y] = self.centre(at);
+            libm::hypot(goal_x - x, goal_y - y)
+        };
+        let mut cost = vec![f64::INFINITY; self.clearance.len()];
+        let mut from = vec![usize::MAX; self.clearance.len()];
+        let mut open = BinaryHeap::from([Open { bound: left(start), cell: start }]);
+        *cost.get_mut(start)? = 0.0;
+        while let Some(Open { cell, bound }) = open.pop() {
+            if cell == goal {
+                let mut way = vec![goal];
+                let mut at = goal;
+                while at != start {
+                    at = *from.get(at)?;
+                    way.push(at);
+                }
+                way.reverse();
+                return Some(way);
+            }
+            let here = *cost.get(cell)?;
+            if bound > here + left(cell) + 1e-9 {
+                continue;
+            }
+            for (next, far) in self.next(cell) {
+                let whole = here + far;
+                if let Some(known) = cost.get_mut(next).filter(|known| whole < **known) {
+                    *known = whole;
+                    *from.get_mut(next)? = cell;
+                    open.push(Open { bound: whole + left(next), cell: next });
+                }
+            }
+        }
+        None
+    }
+}
+
+impl Outline {
+    /// `None` where no part of the robot is between the solid's heights.
+    fn new(solid: &Solid, discs: &[(f64, [f64; 2])]) -> Option<Self> {
+        let up = solid.extent(&Vector3::z());
+        let (low, high) = (solid.centre.z - up - GAP, solid.centre.z + up + GAP);
+        let meets = discs.iter().filter(|(_, [least, greatest])| *greatest >= low && *least <= high);
+        let widest = meets.map(|(radius, _)| *radius).fold(f64::NEG_INFINITY, f64::max);
+        if widest < 0.0 {
+            return None;
+        }
+        let [x, _, z] = &solid.axes;
+        let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;
+        let (side, half, round) = match solid.shape {
+            Shape::Box(half) if is_upright => ([x.x, x.y], [half.x, half.y], 0.0),
+            Shape::Cylinder { radius, .. } | Shape::Capsule { radius, .. } if is_upright => {
+                ([1.0, 0.0], [0.0, 0.0], radius)
+            }
+            Shape::Capsule { .. } | Shape::Cylinder { .. } | Shape::Box(_) | Shape::HalfSpace => {
+                ([1.0, 0.0], [solid.extent(&Vector3::x()), solid.extent(&Vector3::y())], 0.0)
+            }
+        };
+        Some(Self { centre: [solid.centre.x, solid.centre.y], side, half, round, keep_off: widest + GAP })
+    }
+
+    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let (x, y) = (x - self.centre[0], y - self.centre[1]);
+        let [c, s] = self.side;
+        let a = ((x * c + y * s).abs() - self.half[0]).max(0.0);
+        let b = ((y * c - x * s).abs() - self.half[1]).max(0.0);
+        (a * a + b * b).sqrt() - self.round - self.keep_off
+    }
+}
+
+/// A cell to look at, the least bound first, then the lower index.
+#[derive(PartialEq)]
+struct Open {
+    bound: f64,
+    cell: usize,
+}
+
+impl Eq for Open {}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound).then(other.cell.cmp(&self.cell))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}

@@ -1,0 +1,47 @@
+//! Motion queries: whether a robot in a world can do a motion, with the motion as the witness.
+//!
+//! A [`Machine`] is made once for a robot, a [`Room`] once for a [`World`]; then [`Room::answer`] answers any number of queries.
+//! A feasible answer is a path of which every leg was certified free, so it holds for the shapes that the card and the scene
+//! give. An infeasible answer says whether it is proven. What is not computed is unknown, and says why.
+
+mod answer;
+mod arm;
+mod go;
+mod grasp;
+mod machine;
+mod map;
+mod obstacle;
+mod reach;
+mod room;
+mod state;
+mod touch;
+mod travel;
+mod world;
+
+pub use answer::{Answer, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
+pub use machine::{Hand, Machine, Solver};
+pub use room::{GAP, Room};
+pub use state::State;
+pub use touch::{Allowed, Touch};
+pub use world::World;
+
+impl Room<'_> {
+    /// Answers a query in this room. The same room, query and budget give the same answer, bit for bit.
+    #[must_use]
+    pub fn answer(&self, query: &Query, budget: Budget) -> Answer {
+        if let Some(why) = self.blind_spot() {
+            return Answer::Unknown(Unknown::Because(why));
+        }
+        let start = &self.world.robot;
+        if let Some(touch) = self.touch(start, Allowed::default()) {
+            let Touch { link, other, .. } = touch;
+            return Answer::Unknown(Unknown::Because(format!("at the start `{link}` touches `{other}`")));
+        }
+        match query {
+            Query::GoTo(to) => self.go_to(to, budget),
+            Query::Reach(object, side) => self.reach(object, *side, budget),
+            Query::Posture(name) => self.to_posture(name),
+            Query::Other(name) => Answer::Unknown(Unknown::Because(format!("`{name}` is not computed yet"))),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A room made ready: a robot in a world, with what stands around as solids, and the map of where its base can drive.
+
+use motet_robots::scene::{Entity, Scene, Shape};
+use smol_str::SmolStr;
+
+use super::machine::Machine;
+use super::map::Map;
+use super::obstacle::{solid_shape, solids};
+use super::world::World;
+use crate::collision::{Body, Part, Solid};
+
+/// How far everything stays from everything else, in m.
+pub const GAP: f64 = 0.002;
+
+/// A robot in a world. Made once for all queries of one world; O(obstacles × cells of the map).
+#[derive(Clone, Debug)]
+pub struct Room<'w> {
+    pub(super) machine: &'w Machine,
+    pub(super) scene: &'w Scene,
+    pub(super) world: &'w World,
+    /// With what is in the hand.
+    pub(super) body: Body,
+    /// Index of the part that is in the hand.
+    pub(super) held: Option<usize>,
+    pub(super) things: Vec<Thing>,
+    pub(super) map: Option<Map>,
+    /// Entities with a mesh for a shape.
+    unseen: Vec<SmolStr>,
+}
+
+/// A solid of an entity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Thing {
+    /// Index of the entity in the scene.
+    pub(super) entity: usize,
+    pub(super) solid: Solid,
+}
+
+impl<'w> Room<'w> {
+    /// Makes a room ready.
+    #[must_use]
+    pub fn new(machine: &'w Machine, scene: &'w Scene, world: &'w World) -> Self {
+        let mut things = Vec::new();
+        for (entity, at) in scene.entities.values().zip(0..) {
+            let parts = solids(entity, world).into_iter();
+            things.extend(parts.map(|solid| Thing { entity: at, solid }));
+        }
+        let mut body = machine.body().clone();
+        let mut held = None;
+        if let (Some((id, tip_from_object)), Some(hand)) = (&world.held, machine.hand())
+            && let Some(shape) = scene.entities.get(id).and_then(solid_shape)
+        {
+            held = Some(body.parts().len());
+            let part = Part { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
+            body = body.carrying(part, |link| hand.members.get(link) == Some(&true));
+        }
+        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(Shape::Mesh { .. }));
+        let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
+        let mut room = Self { machine, scene, world, body, held, things, map: None, unseen };
+        room.map = machine.drives().then(|| Map::new(&room, &world.robot.joints));
+        room
+    }
+
+    /// Why nothing can be said in this room, if so: something in it has a shape that is not known.
+    pub(super) fn blind_spot(&self) -> Option<String> {
+        if let Some(entity) = self.unseen.first() {
+            return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
+        }
+        let link = self.body.unseen().first().and_then(|link| self.machine.tree().links().get(*link))?;
+        Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
+    }
+
+    /// An entity with its index.
+    pub(super) fn entity(&self, id: &str) -> Option<(usize, &'w Entity)> {
+        let (at, _, entity) = self.scene.entities.get_full(id)?;
+        Some((at, entity))
+    }
+
+    /// The entity's solids, as they stand.
+    pub(super) fn solids_of(&self, entity: usize) -> impl Iterator<Item = &Solid> {
+        self.things.iter().filter(move |thing| thing.entity == entity).map(|thing| &thing.solid)
+    }
+
+    /// The name of an entity by index.
+    pub(super) fn name(&self, entity: usize) -> SmolStr {
+        self.scene.entities.get_index(entity).map(|(id, _)| id.clone()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,237 @@
+//! Motion queries: what is feasible holds under an independent check, and what is infeasible says why.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::unreachable,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    clippy::print_stderr,
+    missing_docs,
+    reason = "a test fails by panicking"
+)]
+
+mod verify;
+
+use std::collections::BTreeMap;
+
+use motet_geometry::query::{Allowed, Answer, Budget, Machine, Query, Reason, Room, Side, Unknown, World};
+use motet_robots::card;
+use motet_robots::scene::{self, Placement, Scene};
+use motet_robots::urdf::{self, Urdf};
+use motet_syntax::{FileId, Source};
+use proptest::prelude::*;
+
+fn machine(name: &str) -> (Machine, Urdf) {
+    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    (Machine::new(&card, &urdf, None), urdf)
+}
+
+fn embedded(name: &str) -> Scene {
+    let text = scene::embedded().iter().find(|(known, _)| *known == name).unwrap().1;
+    scene::read(&Source::new(name, text), FileId(0)).0.unwrap()
+}
+
+#[test]
+fn postures_are_free_of_the_robot_itself_and_of_the_floor() {
+    for (name, _, _) in card::embedded() {
+        let (machine, _) = machine(name);
+        assert!(machine.body().unseen().is_empty());
+        let scene = Scene::default();
+        let mut world = World::new(&machine, &scene);
+        for posture in machine.card().postures.keys() {
+            world.robot.joints = machine.posture(posture, machine.rest()).unwrap();
+            let room = Room::new(&machine, &scene, &world);
+            assert_eq!(room.touch(&world.robot, Allowed::default()), None, "{name}, {posture}");
+        }
+    }
+}
+
+/// Asks for every entity of a scene; what is feasible has to hold. The answers, by query.
+fn all(robot: &str, scene: &str) -> BTreeMap<String, Answer> {
+    let ((machine, urdf), scene) = (machine(robot), embedded(scene));
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let mut answers = BTreeMap::new();
+    for (id, entity) in &scene.entities {
+        let reach = (entity.kind == "Object").then(|| Query::Reach(id.clone(), None));
+        for query in [Query::GoTo(id.clone())].into_iter().chain(reach) {
+            let answer = room.answer(&query, Budget { candidates: 128, ..Budget::default() });
+            if let Answer::Feasible(witness) = &answer {
+                let faults = verify::faults(&machine, &urdf, &scene, &world, witness);
+                assert!(faults.is_empty(), "{robot}, {query}: {:?}", &faults[..faults.len().min(5)]);
+            }
+            answers.insert(query.to_string(), answer);
+        }
+    }
+    answers
+}
+
+#[test]
+fn the_hsr_in_the_kitchen() {
+    let answers = all("hsr", "kitchen");
+    let is_feasible = |query: &str| matches!(answers[query], Answer::Feasible(_));
+    for object in ["mug_1", "apple", "glass_1", "mug_2", "bottle", "coke"] {
+        assert!(
+            is_feasible(&format!("reach({object})")),
+            "{object}: {:?}",
+            answers[&format!("reach({object})")]
+        );
+    }
+    assert!(
+        answers.iter().filter(|(query, _)| query.starts_with("go_to")).all(|(query, _)| is_feasible(query))
+    );
+    // It lies flat: between it and the table there is no room for a finger.
+    let Answer::Infeasible(why) = &answers["reach(plate)"] else { panic!("{answers:?}") };
+    assert_eq!(why.reason, Reason::NoFreePose { by: Some("kitchen_table".into()) });
+    assert!(why.certified);
+}
+
+#[test]
+fn the_panda_at_the_workbench() {
+    let (machine, urdf) = machine("panda");
+    let mut scene = embedded("lab");
+    scene.robot.base = [1.45, 0.8, 0.0];
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let Answer::Feasible(witness) = room.answer(&Query::Reach("beaker".into(), None), Budget::default())
+    else {
+        panic!("the beaker")
+    };
+    let faults = verify::faults(&machine, &urdf, &scene, &world, &witness);
+    assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
+    // It stands on another bench.
+    let (why, certified) = reason(room.answer(&Query::Reach("sample".into(), None), Budget::default()));
+    assert!(matches!(why, Reason::OutOfReach { what: "distance", .. }) && certified, "{why:?}");
+}
+
+#[test]
+fn the_anymal_in_the_living_room() {
+    let answers = all("anymal_z1", "living_room");
+    let mut drives = answers.iter().filter(|(query, _)| query.starts_with("go_to"));
+    assert!(drives.all(|(_, answer)| matches!(answer, Answer::Feasible(_))));
+}
+
+fn changed(change: impl FnOnce(&mut Scene)) -> Scene {
+    let mut scene = embedded("kitchen");
+    change(&mut scene);
+    scene
+}
+
+fn ask(scene: &Scene, query: &str) -> Answer {
+    let (machine, _) = machine("hsr");
+    let world = World::new(&machine, scene);
+    let room = Room::new(&machine, scene, &world);
+    let query = Query::parse(query).unwrap();
+    let answer = room.answer(&query, Budget::default());
+    assert_eq!(room.answer(&query, Budget::default()), answer);
+    answer
+}
+
+fn reason(answer: Answer) -> (Reason, bool) {
+    let Answer::Infeasible(why) = answer else { panic!("{answer:?}") };
+    (why.reason, why.certified)
+}
+
+#[test]
+fn what_is_infeasible_says_why() {
+    let heavy = changed(|scene| scene.entities["mug_1"].mass_kg = Some(2.0));
+    assert_eq!(reason(ask(&heavy, "reach(mug_1)")), (Reason::TooHeavy { needs: 2.0, limit: 1.2 }, true));
+    let wide = changed(|scene| scene.entities["apple"].shape = Some(scene::Shape::Sphere { radius: 0.1 }));
+    assert_eq!(reason(ask(&wide, "reach(apple)")), (Reason::TooWide { needs: 0.2, limit: 0.13 }, true));
+    let high = changed(|scene| scene.entities["apple"].pose.as_mut().unwrap().xyz[2] = 2.5);
+    let (why, certified) = reason(ask(&high, "reach(apple)"));
+    assert!(matches!(why, Reason::OutOfReach { what: "height", needs: 2.5, .. }) && certified, "{why:?}");
+    // A wall around the robot, higher than it.
+    let walled = changed(|scene| {
+        for (at, (x, y)) in [(1.1, 0.0), (-1.1, 0.0), (0.0, 1.1), (0.0, -1.1)].into_iter().enumerate() {
+            let mut wall = scene.entities["shelf"].clone();
+            wall.id = format!("wall_{at}").into();
+            wall.pose.as_mut().unwrap().xyz = [x, y, 1.0];
+            wall.shape = Some(scene::Shape::Box([0.1 + 2.2 * y.abs(), 0.1 + 2.2 * x.abs(), 2.0]));
+            scene.entities.insert(wall.id.clone(), wall);
+        }
+    });
+    assert!(matches!(reason(ask(&walled, "go_to(sink)")).0, Reason::BlockedPath { .. }));
+    assert!(matches!(
+        reason(ask(&walled, "reach(coke)")).0,
+        Reason::NoFreePose { .. } | Reason::BlockedPath { .. }
+    ));
+}
+
+#[test]
+fn what_is_not_computed_is_unknown() {
+    for query in
+        ["pull(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "look(mug_1)", "posture(nowhere)"]
+    {
+        let answer = ask(&embedded("kitchen"), query);
+        assert!(matches!(answer, Answer::Unknown(Unknown::Because(_))), "{query}: {answer:?}");
+    }
+}
+
+#[test]
+fn a_side_that_is_asked_for_is_kept_to() {
+    for (side, wanted) in [("top", Side::Top), ("side", Side::Side), ("front", Side::Side)] {
+        let Answer::Feasible(witness) = ask(&embedded("kitchen"), &format!("reach(mug_1, {side})")) else {
+            panic!("{side}")
+        };
+        assert_eq!(witness.grasp.unwrap().side, wanted);
+    }
+}
+
+#[test]
+fn postures_are_reached() {
+    let Answer::Feasible(witness) = ask(&embedded("kitchen"), "posture(start)") else { panic!() };
+    let (machine, _) = machine("hsr");
+    assert_eq!(witness.path.last().unwrap().joints, machine.posture("start", machine.rest()).unwrap());
+}
+
+fn furniture() -> impl Strategy<Value = Vec<(f64, f64, f64, [f64; 3], bool)>> {
+    let size = (0.2..1.2_f64, 0.2..1.2_f64, 0.3..1.4_f64).prop_map(|(x, y, z)| [x, y, z]);
+    prop::collection::vec((-2.5..2.5_f64, -2.5..2.5_f64, -3.0..3.0_f64, size, any::<bool>()), 2..8)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// Furniture at random, a can on each piece: what is feasible holds, and stays so where a piece without a can goes.
+    #[test]
+    fn feasible_is_feasible(furniture in furniture()) {
+        let (machine, urdf) = machine("hsr");
+        let mut scene = Scene::default();
+        let kitchen = embedded("kitchen");
+        for ((x, y, yaw, size, has_can), at) in furniture.into_iter().zip(0..) {
+            // Not where the robot is.
+            if x.hypot(y) < 1.3 {
+                continue;
+            }
+            let mut table = kitchen.entities["kitchen_table"].clone();
+            table.id = format!("table_{at}").into();
+            table.pose = Some(Placement { xyz: [x, y, size[2] / 2.0], rpy: [0.0, 0.0, yaw] });
+            table.shape = Some(scene::Shape::Box(size));
+            scene.entities.insert(table.id.clone(), table);
+            if has_can {
+                let mut can = kitchen.entities["coke"].clone();
+                can.id = format!("can_{at}").into();
+                can.pose = Some(Placement { xyz: [x, y, size[2] + 0.061], rpy: [0.0; 3] });
+                scene.entities.insert(can.id.clone(), can);
+            }
+        }
+        let world = World::new(&machine, &scene);
+        let room = Room::new(&machine, &scene, &world);
+        for id in scene.entities.keys() {
+            for query in [Query::GoTo(id.clone()), Query::Reach(id.clone(), None)] {
+                if id.starts_with("table") && matches!(query, Query::Reach(..)) {
+                    continue;
+                }
+                let answer = room.answer(&query, Budget { candidates: 64, paths: 16 });
+                if let Answer::Feasible(witness) = &answer {
+                    let faults = verify::faults(&machine, &urdf, &scene, &world, witness);
+                    prop_assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);
+                }
+            }
+        }
+    }
+}

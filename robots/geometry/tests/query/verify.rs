@@ -1,0 +1,190 @@
+//! An independent check of a witness: own forward kinematics from the URDF's joints, own placing of its shapes, distances
+//! from parry3d, and samples along every leg no farther than 5 mm and 0.6° apart. Shared with the query are the reader of
+//! the URDF and which links may touch.
+
+use std::collections::BTreeSet;
+
+use glamx::{DPose3, DVec3};
+use motet_geometry::query::{Machine, State, Witness, World};
+use motet_robots::scene::{self, Scene};
+use motet_robots::urdf::{JointKind, Pose, Shape, Urdf};
+use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
+use parry3d_f64::query;
+use parry3d_f64::shape;
+
+type Solid = (Isometry3<f64>, Box<dyn shape::Shape>);
+
+pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
+    let [x, y, z] = pose.xyz;
+    let [i, j, k, w] = pose.quaternion_xyzw;
+    Isometry3::from_parts(
+        Translation3::new(x, y, z),
+        UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k)),
+    )
+}
+
+/// Poses of links in the map.
+fn links(machine: &Machine, urdf: &Urdf, state: &State) -> Vec<Isometry3<f64>> {
+    let value = |joint: usize| {
+        let (mut factor, mut offset, mut at) = (1.0, 0.0, joint);
+        while let Some(mimic) = urdf.joints[at].mimic {
+            offset += factor * mimic.offset;
+            factor *= mimic.multiplier;
+            at = mimic.joint;
+        }
+        let own = machine.tree().variable(&urdf.joints[at].name).map_or(0.0, |at| state.joints[at]);
+        factor * own + offset
+    };
+    let mut poses = vec![Isometry3::identity(); urdf.links.len()];
+    for (joint, at) in urdf.joints.iter().zip(0..) {
+        let axis = Unit::new_normalize(Vector3::from(joint.axis));
+        let moved = match joint.kind {
+            JointKind::Revolute | JointKind::Continuous => Isometry3::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::from_axis_angle(&axis, value(at)),
+            ),
+            JointKind::Prismatic => Translation3::from(axis.into_inner() * value(at)).into(),
+            _ => Isometry3::identity(),
+        };
+        poses[joint.child] = poses[joint.parent] * isometry(&joint.parent_from_joint) * moved;
+    }
+    let model = machine.card().model.as_ref().unwrap();
+    let base = model.base.as_ref().map_or(urdf.root, |base| urdf.link(base).unwrap());
+    let [x, y, yaw] = state.base;
+    let map_from_base = Isometry3::from_parts(
+        Translation3::new(x, y, model.height_m),
+        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw),
+    );
+    let map_from_root = map_from_base * poses[base].inverse();
+    poses.iter().map(|pose| map_from_root * pose).collect()
+}
+
+fn upright(pose: Isometry3<f64>) -> Isometry3<f64> {
+    // parry's cylinder lies along y.
+    pose * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2)
+}
+
+fn of_urdf(shape: &Shape, pose: Isometry3<f64>) -> Solid {
+    match *shape {
+        Shape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
+        Shape::Cylinder { radius, length } => {
+            (upright(pose), Box::new(shape::Cylinder::new(length / 2.0, radius)))
+        }
+        Shape::Capsule { radius, length } => (pose, Box::new(shape::Capsule::new_z(length / 2.0, radius))),
+        Shape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
+        Shape::Mesh { .. } => panic!("no meshes here"),
+    }
+}
+
+fn of_scene(shape: &scene::Shape, pose: Isometry3<f64>) -> Solid {
+    match *shape {
+        scene::Shape::Box([x, y, z]) => (pose, Box::new(shape::Cuboid::new(DVec3::new(x, y, z) / 2.0))),
+        scene::Shape::Cylinder { radius, height } => {
+            (upright(pose), Box::new(shape::Cylinder::new(height / 2.0, radius)))
+        }
+        scene::Shape::Capsule { radius, height } => {
+            (pose, Box::new(shape::Capsule::new_z(height / 2.0, radius)))
+        }
+        scene::Shape::Sphere { radius } => (pose, Box::new(shape::Ball::new(radius))),
+        scene::Shape::Mesh { .. } => panic!("no meshes here"),
+    }
+}
+
+fn distance(one: &Solid, other: &Solid) -> f64 {
+    let ball = |solid: &Solid| solid.1.compute_bounding_sphere(&DPose3::from(solid.0));
+    let (near, far) = (ball(one), ball(other));
+    let between = (near.center - far.center).length() - near.radius - far.radius;
+    if between.is_finite() && between > 0.01 {
+        return between;
+    }
+    query::distance(&DPose3::from(one.0), one.1.as_ref(), &DPose3::from(other.0), other.1.as_ref())
+        .unwrap()
+        .distance
+}
+
+/// What is wrong with a witness; nothing where it holds. Containers have to be closed.
+pub(crate) fn faults(
+    machine: &Machine,
+    urdf: &Urdf,
+    scene: &Scene,
+    world: &World,
+    witness: &Witness,
+) -> Vec<String> {
+    let mut faults = Vec::new();
+    let hand = machine.hand().unwrap();
+    let obstacles: Vec<(&str, Solid)> = scene
+        .entities
+        .values()
+        .filter(|entity| !world.holds(&entity.id))
+        .filter_map(|entity| {
+            Some((entity.id.as_str(), of_scene(entity.shape.as_ref()?, world.pose(entity)?)))
+        })
+        .collect();
+    let floor: Solid = (Isometry3::identity(), Box::new(shape::HalfSpace::new(DVec3::Z)));
+    let parts = machine.body().parts();
+    let pairs: BTreeSet<[usize; 2]> =
+        machine.body().pairs().iter().map(|[one, other]| [parts[*one].link, parts[*other].link]).collect();
+    let grasped = witness.grasp.as_ref().map(|grasp| grasp.object.as_str());
+    if witness.path.first() != Some(&world.robot) {
+        faults.push("does not begin where the robot is".into());
+    }
+    // Where the hand is in front of the thing: from there on it may touch it.
+    let near = witness.grasp.as_ref().map_or(usize::MAX, |grasp| {
+        let place = |state: &State| links(machine, urdf, state)[hand.tip].translation.vector;
+        let at = grasp.map_from_tip.translation.vector;
+        witness.path.iter().position(|state| (place(state) - at).norm() < 0.11).unwrap_or(usize::MAX)
+    });
+    for (pair, leg) in witness.path.windows(2).zip(0..) {
+        let [from, to] = pair else { unreachable!() };
+        let turn = (to.base[2] - from.base[2]).abs();
+        let drive = (to.base[0] - from.base[0]).hypot(to.base[1] - from.base[1]);
+        let joints = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let steps = (drive / 0.005).max(turn / 0.01).max(joints / 0.01).ceil().max(1.0) as usize;
+        for step in 0..=steps {
+            let state = from.towards(to, step as f64 / steps as f64);
+            if !machine.tree().allows(&state.joints) {
+                faults.push(format!("leg {leg}: beyond the limits"));
+            }
+            let poses = links(machine, urdf, &state);
+            let solids: Vec<(usize, Solid)> = (urdf.links.iter().enumerate())
+                .flat_map(|(at, link)| link.collisions.iter().map(move |solid| (at, solid)))
+                .map(|(at, solid)| (at, of_urdf(&solid.shape, poses[at] * isometry(&solid.link_from_shape))))
+                .collect();
+            for (at, solid) in &solids {
+                if !machine.drives() && !hand.carried[*at] {
+                    continue;
+                }
+                for (name, obstacle) in &obstacles {
+                    if grasped == Some(name) && hand.members[*at] && leg >= near {
+                        continue;
+                    }
+                    if distance(solid, obstacle) <= 0.001 {
+                        faults.push(format!("leg {leg}, step {step}: {} and {name}", urdf.links[*at].name));
+                    }
+                }
+                if hand.carried[*at] && distance(solid, &floor) <= 0.001 {
+                    faults.push(format!("leg {leg}, step {step}: {} and the floor", urdf.links[*at].name));
+                }
+            }
+            for (index, (one, solid)) in solids.iter().enumerate() {
+                for (other, beyond) in &solids[index + 1..] {
+                    if pairs.contains(&[*one, *other]) && distance(solid, beyond) <= 0.001 {
+                        let name = |at: usize| &urdf.links[at].name;
+                        faults.push(format!("leg {leg}, step {step}: {} and {}", name(*one), name(*other)));
+                    }
+                }
+            }
+        }
+    }
+    if let Some(grasp) = &witness.grasp {
+        let last = links(machine, urdf, witness.path.last().unwrap())[hand.tip];
+        let off = last.inverse() * grasp.map_from_tip;
+        if off.translation.vector.norm() > 1e-6 || off.rotation.angle() > 1e-6 {
+            faults.push("the hand does not end at the grasp".into());
+        }
+        if grasp.width > hand.card.opening_m {
+            faults.push("too wide".into());
+        }
+    }
+    faults
+}
