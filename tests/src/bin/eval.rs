@@ -1,17 +1,30 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json]`.
 //!
-//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1.
+//! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
+//! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
+//! of them are mended.
 
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use motet_tests::eval::{Judged, planbench, saycan, scenarios, summary};
+use motet_tests::eval::{Judged, planbench, repairs, saycan, scenarios, summary};
 
-/// Judges a line of a file.
-type Judge = fn(&str) -> Result<Judged, String>;
+/// What a suite has to say of the lines of a file.
+type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
 
-const SUITES: &[(&str, Judge)] =
-    &[("planbench", planbench::judge), ("scenarios", scenarios::judge), ("saycan", saycan::judge)];
+const SUITES: &[(&str, Suite)] = &[
+    ("planbench", |lines| judged(lines, planbench::judge)),
+    ("scenarios", |lines| judged(lines, scenarios::judge)),
+    ("saycan", |lines| judged(lines, saycan::judge)),
+    ("repairs", repaired),
+];
+
+/// Lines for people, and the summary.
+struct Report {
+    lines: Vec<String>,
+    summary: serde_json::Value,
+    is_good: bool,
+}
 
 fn main() -> ExitCode {
     match run() {
@@ -32,19 +45,42 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!("usage: eval {} FILE [--json]", names.join("|"))
     };
-    let [suite, file] = words.as_slice() else { return Err(usage()) };
-    let Some((_, judge)) = SUITES.iter().find(|(name, _)| name == suite) else { return Err(usage()) };
+    let [name, file] = words.as_slice() else { return Err(usage()) };
+    let Some((_, suite)) = SUITES.iter().find(|(known, _)| known == name) else { return Err(usage()) };
     let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
-    let mut rows = Vec::new();
-    for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
-        rows.push(judge(line).map_err(|error| format!("{file}:{}: {error}", index + 1))?);
-    }
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
+    let report = suite(&lines).map_err(|problem| format!("{file}:{problem}"))?;
     let mut out = std::io::stdout().lock();
-    let mut print = |line: String| writeln!(out, "{line}").map_err(|error| error.to_string());
-    for line in rows.iter().filter(|_| !only_json).filter_map(Judged::disagreement) {
-        print(line)?;
+    let summary = report.summary.to_string();
+    let shown = report.lines.iter().filter(|_| !only_json).chain([&summary]);
+    for line in shown {
+        writeln!(out, "{line}").map_err(|error| error.to_string())?;
     }
-    let summary = summary(&rows);
-    print(serde_json::to_string(&summary).map_err(|error| error.to_string())?)?;
-    Ok(summary.agree == summary.total)
+    Ok(report.is_good)
+}
+
+/// Runs over every line; a problem is named by its line.
+fn each<T>(lines: &[(usize, &str)], run: impl Fn(&str) -> Result<T, String>) -> Result<Vec<T>, String> {
+    lines.iter().map(|(number, line)| run(line).map_err(|problem| format!("{number}: {problem}"))).collect()
+}
+
+fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) -> Result<Report, String> {
+    let rows = each(lines, judge)?;
+    let sums = summary(&rows);
+    Ok(Report {
+        lines: rows.iter().filter_map(Judged::disagreement).collect(),
+        is_good: sums.agree == sums.total,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn repaired(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows: Vec<_> = each(lines, scenarios::repair)?.into_iter().flatten().collect();
+    let sums = repairs::summary(&rows);
+    Ok(Report {
+        lines: rows.iter().map(repairs::Repair::line).collect(),
+        is_good: sums.repaired * 2 >= sums.total,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
 }

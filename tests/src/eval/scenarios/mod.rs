@@ -16,13 +16,14 @@ use std::time::Instant;
 
 use motet_compiler::{Options, Session};
 use motet_robots::card::Robot;
-use motet_syntax::{Severity, Source, Sources};
+use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::Value;
 
 use self::policy::Written;
 use self::row::Row;
 use self::world::Names;
 use super::Judged;
+use super::repairs::{ROUNDS, Repair};
 
 const CONTRACT: &str = include_str!("contract.motet");
 
@@ -57,13 +58,7 @@ const WORDS: &[&str] = &[
 /// Where the line is no such row, or its scene is none.
 pub fn judge(line: &str) -> Result<Judged, String> {
     let row: Row = serde_json::from_str(line).map_err(|error| error.to_string())?;
-    let plan = row.plan()?;
-    let names = Names::of(&row.scene);
-    let written = policy::write(&row, &plan, &names)?;
-    let mut sources = Sources::default();
-    let (session, _) = session(&row, &names, &written, &mut sources)?;
-    let source = Source::new("plan.json", written.policy.to_string());
-    let file = sources.add(source.clone());
+    let Prepared { written, session, source, file } = prepare(&row)?;
     let begin = Instant::now();
     let said = session.check(&motet_syntax::read(&source, file));
     let took = begin.elapsed();
@@ -80,6 +75,47 @@ pub fn judge(line: &str) -> Result<Judged, String> {
         format!("{} at {}: {code} {message}", found.class, found.step)
     });
     Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, apart, note })
+}
+
+/// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row calls the plan
+/// right, or its verdict rests on something that is not static.
+///
+/// # Errors
+///
+/// Where the line is no such row, or its scene is none.
+pub fn repair(line: &str) -> Result<Option<Repair>, String> {
+    let row: Row = serde_json::from_str(line).map_err(|error| error.to_string())?;
+    if row.verdict == "ok" || row.needs.as_deref().is_some_and(|needs| needs != "static") {
+        return Ok(None);
+    }
+    let Prepared { written, session, source, file } = prepare(&row)?;
+    let fixed = motet_compiler::fix::fix(&session, &source, file, ROUNDS);
+    let said = session.check(&motet_syntax::read(&Source::new("plan.json", fixed.text), file));
+    let left = verdict::first(&said, &written).map(|found| {
+        let (code, message) = (found.said.code, &found.said.message);
+        format!("{} at {}: {code} {message}", found.class, found.said.path)
+    });
+    let done = fixed.applied.into_iter().map(|applied| applied.title).collect();
+    Ok(Some(Repair { id: row.id, class: row.class.unwrap_or_default(), done, left }))
+}
+
+/// A row as documents.
+struct Prepared {
+    written: Written,
+    session: Session,
+    source: Source,
+    file: FileId,
+}
+
+fn prepare(row: &Row) -> Result<Prepared, String> {
+    let plan = row.plan()?;
+    let names = Names::of(&row.scene);
+    let written = policy::write(row, &plan, &names)?;
+    let mut sources = Sources::default();
+    let (session, _) = session(row, &names, &written, &mut sources)?;
+    let source = Source::new("plan.json", written.policy.to_string());
+    let file = sources.add(source.clone());
+    Ok(Prepared { written, session, source, file })
 }
 
 /// The session of a row's robot, scene and contract.
