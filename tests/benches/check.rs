@@ -8,7 +8,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use motet_compiler::Session;
 use motet_syntax::{FileId, Source, Sources};
-use motet_tests::{generate, setup};
+use motet_tests::{depot, generate, setup};
 
 fn session() -> Session {
     let mut sources = Sources::default();
@@ -59,5 +59,30 @@ fn growth(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, twenty_steps, growth);
+/// A symbolic domain of 1,000 entities: long plans, right and with 500 mistakes, and policies of many ways.
+fn depot(c: &mut Criterion) {
+    const BOXES: usize = 995;
+    let mut sources = Sources::default();
+    let source = Source::new("depot.motet", depot::domain(BOXES));
+    let file = sources.add(source.clone());
+    let declared = motet_syntax::read(&source, file).file;
+    let (session, said) =
+        Session::new(None, &[declared], None, None, motet_compiler::Options::default(), &mut sources);
+    assert!(said.is_empty(), "the domain has no findings: {said:?}");
+    let mut group = c.benchmark_group("symbolic domain of 1,000 entities");
+    let right = depot::plan(BOXES, 10_000, None);
+    assert_eq!(check(&session, &right), 0, "the plan is right");
+    for (name, text) in [
+        ("a right plan of 10,000 steps", right),
+        ("a plan of 10,000 steps with 500 mistakes", depot::plan(BOXES, 10_000, Some(10))),
+        ("20 nested branches", depot::nested_branches(20)),
+        ("20 successive branches", depot::successive_branches(20)),
+        ("8 nested loops", depot::nested_loops(8)),
+    ] {
+        group.bench_function(name, |b| b.iter(|| check(&session, black_box(&text))));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, twenty_steps, growth, depot);
 criterion_main!(benches);

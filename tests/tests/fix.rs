@@ -59,7 +59,7 @@ fn missing_steps_are_inserted() {
     check(
         &session,
         "    go(drawer_1)\n    let mug = detect(\"red mug\")\n    pick(mug)\n",
-        "    go(drawer_1)\n    let mug = detect(\"red mug\")\n    go(mug)\n    pick(mug)\n",
+        "    go(drawer_1)\n    let mug = detect(\"red mug\")\n    go(mug)\n    pick(mug)\n    place(mug, kitchen_table)\n",
     );
     check(
         &session,
@@ -80,14 +80,16 @@ fn what_is_stale_is_perceived_again_and_what_is_dead_left_out() {
     check(
         &session,
         "    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    let pose = locate(mug)\n    go(counter)\n    go(kitchen_table)\n    grasp(mug, pose)\n",
-        "    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    go(counter)\n    go(kitchen_table)\n    let pose = locate(mug)\n    grasp(mug, pose)\n",
+        "    go(kitchen_table)\n    let mug = detect(\"red mug\")\n    go(counter)\n    go(kitchen_table)\n    let pose = locate(mug)\n    grasp(mug, pose)\n    place(mug, kitchen_table)\n",
     );
     // Where it is used elsewhere too, it is perceived twice.
     let first = "    go(kitchen_table)\n    let pose = locate(mug_1)\n    grasp(mug_1, pose)\n    place(mug_1, kitchen_table)\n    go(counter)\n    go(kitchen_table)\n";
     check(
         &session,
         &format!("{first}    grasp(mug_1, pose)\n"),
-        &format!("{first}    let pose_2 = locate(mug_1)\n    grasp(mug_1, pose_2)\n"),
+        &format!(
+            "{first}    let pose_2 = locate(mug_1)\n    grasp(mug_1, pose_2)\n    place(mug_1, kitchen_table)\n"
+        ),
     );
     check(&session, "    go(user)\n    done\n    say(\"x\")\n    go(user)\n", "    go(user)\n    done\n");
     check(
@@ -98,8 +100,41 @@ fn what_is_stale_is_perceived_again_and_what_is_dead_left_out() {
     check(
         &session,
         "    go(kitchen_table)\n    pick(mug_1)\n    pick(mug_1)\n",
-        "    go(kitchen_table)\n    pick(mug_1)\n",
+        "    go(kitchen_table)\n    pick(mug_1)\n    place(mug_1, kitchen_table)\n",
     );
+}
+
+/// What comes of a body has no errors, and these words in it.
+fn check_has(session: &Session, body: &str, words: &str) {
+    let policy = if body.starts_with('[') {
+        format!("{{\"motet\": 1, \"policy\": \"p\", \"robot\": \"hsr\", \"steps\": {body}}}")
+    } else {
+        format!("policy p for hsr {{\n{body}}}\n")
+    };
+    let fixed = mend(session, &policy);
+    assert!(fixed.text.contains(words), "{words} in {}\n{:#?}", fixed.text, fixed.diagnostics);
+    assert_eq!(errors(&fixed.diagnostics), 0, "{:#?}", fixed.diagnostics);
+}
+
+#[test]
+fn what_can_only_be_one_thing_is_written() {
+    let session = session();
+    let steps = r#"[{"do": "go", "to": "kitchen_table"}, {"do": "pick", "object": "$mug_1"}]"#;
+    check_has(&session, steps, r#""object": "mug_1""#);
+    let carry = "    go(kitchen_table)\n    pick(mug_1)\n    go(user)\n";
+    check_has(&session, &format!("{carry}    handover(mug_1)\n"), "handover(mug_1, to: user)");
+    check_has(&session, &format!("{carry}    handover(mug_1, counter)\n"), "handover(mug_1, user)");
+    let steps = r#"[{"do": "go", "to": "user"}, {"do": "go", "where": "counter"}]"#;
+    check_has(&session, steps, r#"{"do": "go", "to": "counter"}"#);
+}
+
+#[test]
+fn what_the_end_lacks_is_done_before_it() {
+    let session = session();
+    let held = "    go(kitchen_table)\n    pick(mug_1)\n    done\n";
+    check_has(&session, held, "    place(mug_1, kitchen_table)\n    done\n");
+    let left = "    go(drawer_1)\n    open(drawer_1)\n    done\n";
+    check_has(&session, left, "    close(drawer_1)\n    done\n");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use motet_tests::eval::{Judged, scenarios, summary};
+use motet_tests::eval::{Judged, repairs, scenarios, summary};
 use serde_json::{Value, json};
 
 /// Beside the checkout, where the reference data is kept.
@@ -23,6 +23,19 @@ fn every_verdict_is_that_of_the_contract() {
     assert!(wrong.is_empty(), "{wrong:#?}");
     let summary = summary(&rows);
     assert!(summary.total >= 46 && summary.class_total >= 31 && summary.step_total >= 31, "{summary:?}");
+}
+
+#[test]
+fn half_of_the_faulty_plans_are_mended() {
+    if !Path::new(DATA).exists() {
+        println!("skipped: {DATA} is not there");
+        return;
+    }
+    let text = std::fs::read_to_string(DATA).unwrap();
+    let rows: Vec<_> = text.lines().filter_map(|line| scenarios::repair(line).unwrap()).collect();
+    let summary = repairs::summary(&rows);
+    assert!(rows.iter().all(|row| row.done.len() <= repairs::ROUNDS));
+    assert!(summary.total > 0 && summary.repaired * 2 >= summary.total, "{summary:?}");
 }
 
 /// A home with a thing of every sort; `extra` replaces parts of it.

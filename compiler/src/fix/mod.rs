@@ -92,7 +92,7 @@ pub(crate) fn findings(
         });
         let mut fixes = offer.map(|offer| writer.fixes(offer)).unwrap_or_default().into_iter();
         if said.fix.is_none() {
-            said.fix = fixes.next().or_else(|| writer.leaving_out(said));
+            said.fix = fixes.next().or_else(|| writer.leaving_out(said)).or_else(|| writer.only_one(said));
         }
         found.others = fixes.collect();
     }

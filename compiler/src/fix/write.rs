@@ -2,12 +2,16 @@
 
 use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
 use motet_syntax::{Code, Diagnostic, Edit, Fix, Form, Parsed, Span, print};
+use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
-use crate::ir::{Program, Step, StepId, StepKind, Term};
+use crate::ir::{BindingId, Fluent, Program, Step, StepId, StepKind, Term};
 use crate::library::Library;
 use crate::prove::mend::{Mend, Offer, Proposed};
 use crate::world::World;
+
+/// Bindings by their new names.
+type Renamed = SmallVec<[(BindingId, SmolStr); 2]>;
 
 /// A document and what it means.
 pub(super) struct Writer<'a> {
@@ -26,25 +30,122 @@ impl Writer<'_> {
     fn fix(&self, mend: &Mend) -> Option<Fix> {
         match mend {
             Mend::Before(id, calls) => {
-                let calls: Vec<_> = calls.iter().map(|call| self.call(call)).collect::<Option<_>>()?;
+                let step = self.step(*id)?;
+                let (calls, renamed) = self.calls(calls)?;
                 let (title, texts) = (title("insert", &calls, "before"), self.texts(&calls));
-                Some(Fix { title, edits: vec![self.insert_before(self.step(*id)?.span, &texts)?] })
+                let mut edits = vec![self.insert_before(step.span, &texts)?];
+                edits.extend(self.in_place_of(step, &renamed));
+                Some(Fix { title, edits })
             }
             Mend::After(id, calls) => {
-                let calls: Vec<_> = calls.iter().map(|call| self.call(call)).collect::<Option<_>>()?;
+                let (calls, _) = self.calls(calls)?;
                 let (title, texts) = (title("add", &calls, "at the end"), self.texts(&calls));
                 Some(Fix { title, edits: vec![self.insert_after(self.step(*id)?.span, &texts)?] })
             }
+            Mend::Watch(id, fluent) => self.watched(*id, *fluent),
             Mend::Again { found, before, used } => self.again(*found, *before, *used),
             Mend::Drop(id) => {
-                let span = self.step(*id)?.span;
-                let edit = self.without(span)?;
+                let edit = self.without(self.step(*id)?.span)?;
                 Some(Fix {
                     title: "leave this step out: what it does is done already".to_owned(),
                     edits: vec![edit],
                 })
             }
         }
+    }
+
+    /// A monitor around a step that binds nothing which is used behind it.
+    fn watched(&self, id: StepId, fluent: Fluent) -> Option<Fix> {
+        let step = self.step(id)?;
+        if !matches!(&step.kind, StepKind::Call(call) if call.binds.is_none()) {
+            return None;
+        }
+        let name = &self.library.fluent(fluent)?.name;
+        let place = step.span;
+        let (before, after) = match self.parsed.form {
+            Form::Text => (format!("monitor when {}() then pause during {{ ", print::identifier(name)), " }"),
+            Form::Json => (
+                format!(
+                    "{{\"monitor\": [{{\"when\": {{\"is\": \"{name}\"}}, \"then\": {{\"react\": \"pause\"}}}}], \"during\": ["
+                ),
+                "]}",
+            ),
+        };
+        let edits = vec![
+            Edit { span: Span { end: place.start, ..place }, text: before },
+            Edit { span: Span { start: place.end, ..place }, text: after.to_owned() },
+        ];
+        Some(Fix { title: format!("watch `{name}` meanwhile, and pause"), edits })
+    }
+
+    /// The values that stand for bindings, by their new names, in the arguments of a step.
+    fn in_place_of(&self, step: &Step, renamed: &Renamed) -> Vec<Edit> {
+        let StepKind::Call(call) = &step.kind else { return Vec::new() };
+        let args = call.args.iter().zip(&call.spans);
+        let edits = args.filter_map(|(arg, span)| {
+            let (_, name) = renamed.iter().find(|(id, _)| *arg == Term::Binding(*id))?;
+            Some(Edit { span: *span, text: self.binding(name) })
+        });
+        edits.collect()
+    }
+
+    /// A binding as the form writes it.
+    fn binding(&self, name: &str) -> String {
+        match self.parsed.form {
+            Form::Text => print::identifier(name),
+            Form::Json => format!("\"${name}\""),
+        }
+    }
+
+    /// A name that nothing is bound to yet: `mug_2`.
+    fn fresh(&self, bound: &str) -> Option<SmolStr> {
+        let is_taken = |name: &SmolStr| self.program.bindings.iter().any(|other| other.name == *name);
+        (2..).map(|count| format_smolstr!("{bound}_{count}")).find(|name| !is_taken(name))
+    }
+
+    /// For a value that is missing, or of the wrong kind, where the world has just one entity that fits: that.
+    pub(super) fn only_one(&self, said: &Diagnostic) -> Option<Fix> {
+        let is_missing = match said.code.0 {
+            "M0303" => true,
+            "M0202" | "M0301" => false,
+            _ => return None,
+        };
+        let mut calls = self.program.steps.iter().filter_map(|step| match &step.kind {
+            StepKind::Call(call) => Some(call),
+            _ => None,
+        });
+        let (call, at) = calls.find_map(|call| {
+            let mut args = call.args.iter().zip(&call.spans);
+            let at = args.position(|(arg, span)| *arg == Term::Unknown && *span == said.span)?;
+            Some((call, at))
+        })?;
+        let param = self.library.primitive(call.primitive)?.params.get(at)?;
+        let kind = param.ty.kind().filter(|_| param.ty.lists == 0)?;
+        let mut fitting = self.world.entities().iter().filter(|row| self.library.is_kind(row.2, kind));
+        let (Some((_, name, _)), None) = (fitting.next(), fitting.next()) else { return None };
+        let written = match self.parsed.form {
+            Form::Text => print::identifier(name),
+            Form::Json => format!("\"{name}\""),
+        };
+        let edit = if is_missing {
+            self.argument(said.span, &param.name, &written)?
+        } else {
+            Edit { span: said.span, text: written }
+        };
+        Some(Fix { title: format!("write `{name}`, the only one there is"), edits: vec![edit] })
+    }
+
+    /// One more argument of a call.
+    fn argument(&self, call: Span, param: &str, written: &str) -> Option<Edit> {
+        let text = self.parsed.text.get(call.range())?;
+        let inside = text.strip_suffix([')', '}'])?;
+        let end = call.start + u32::try_from(inside.trim_end().len()).ok()?;
+        let comma = if inside.trim_end().ends_with(['(', '{', ',']) { "" } else { ", " };
+        let text = match self.parsed.form {
+            Form::Text => format!("{comma}{}: {written}", print::identifier(param)),
+            Form::Json => format!("{comma}\"{param}\": {written}"),
+        };
+        Some(Edit { span: Span { start: end, end, ..call }, text })
     }
 
     /// For a step that is never reached: it and all behind it in its block left out. The first of a block stays, since a
@@ -76,8 +177,9 @@ impl Writer<'_> {
         let StepKind::Call(call) = &found.kind else { return None };
         let binding = self.program.bindings.get(call.binds?.index())?;
         let bound = &binding.name;
-        let proposed = Proposed { primitive: call.primitive, args: call.args.clone() };
-        let mut step = self.call(&proposed)?;
+        let again = call.binds;
+        let proposed = Proposed { primitive: call.primitive, args: call.args.clone(), result: None, again };
+        let mut step = self.call(&proposed, &Renamed::new())?;
         let is_one_block = found.place.parent == before.place.parent && found.place.slot == before.place.slot;
         if binding.uses <= 1 && is_one_block {
             step.bind = Some(Name { text: bound.clone(), span: Span::default() });
@@ -85,13 +187,9 @@ impl Writer<'_> {
             let edits = vec![self.without(found.span)?, insert];
             return Some(Fix { title: format!("perceive `{bound}` just before it is used"), edits });
         }
-        let is_taken = |name: &SmolStr| self.program.bindings.iter().any(|other| other.name == *name);
-        let fresh = (2..).map(|count| format_smolstr!("{bound}_{count}")).find(|name| !is_taken(name))?;
+        let fresh = self.fresh(bound)?;
         step.bind = Some(Name { text: fresh.clone(), span: Span::default() });
-        let written = match self.parsed.form {
-            Form::Text => print::identifier(&fresh),
-            Form::Json => format!("\"${fresh}\""),
-        };
+        let written = self.binding(&fresh);
         let title = format!("perceive it again as `{fresh}`");
         let insert = self.insert_before(before.span, &self.texts(&[step]))?;
         Some(Fix { title, edits: vec![insert, Edit { span: used, text: written }] })
@@ -105,7 +203,10 @@ impl Writer<'_> {
             edit.text = match old.strip_prefix('"') {
                 None => print::identifier(&edit.text),
                 Some(rest) => {
-                    let sigil = if rest.starts_with('$') { "$" } else { "" };
+                    // The same name without its `$` is an entity where no binding is.
+                    let is_entity = rest.strip_prefix('$').and_then(|rest| rest.strip_suffix('"'))
+                        == Some(edit.text.as_str());
+                    let sigil = if rest.starts_with('$') && !is_entity { "$" } else { "" };
                     format!("\"{sigil}{}\"", edit.text.replace('\\', "\\\\").replace('"', "\\\""))
                 }
             };
@@ -120,8 +221,24 @@ impl Writer<'_> {
         calls.iter().map(|call| print::call(call, self.parsed.form)).collect()
     }
 
-    /// A call as the document would write it. Defaults are left unsaid.
-    fn call(&self, proposed: &Proposed) -> Option<Do> {
+    /// Calls as the document would write them, and the new names of what they perceive once more.
+    fn calls(&self, proposed: &[Proposed]) -> Option<(Vec<Do>, Renamed)> {
+        let mut renamed = Renamed::new();
+        let mut calls = Vec::with_capacity(proposed.len());
+        for call in proposed {
+            let mut step = self.call(call, &renamed)?;
+            if let Some(again) = call.again {
+                let name = self.fresh(&self.program.bindings.get(again.index())?.name)?;
+                step.bind = Some(Name { text: name.clone(), span: Span::default() });
+                renamed.push((again, name));
+            }
+            calls.push(step);
+        }
+        Some((calls, renamed))
+    }
+
+    /// A call as the document would write it, with bindings by their new names. Defaults are left unsaid.
+    fn call(&self, proposed: &Proposed, renamed: &Renamed) -> Option<Do> {
         let def = self.library.primitive(proposed.primitive)?;
         let span = Span::default();
         let mut args = Vec::new();
@@ -131,7 +248,7 @@ impl Writer<'_> {
                 is_plain = false;
                 continue;
             }
-            let value = Expr { kind: self.value(term)?, span };
+            let value = Expr { kind: self.value(term, renamed)?, span };
             let name = (!is_plain).then(|| Name { text: param.name.clone(), span });
             args.push(Arg { name, value, span });
         }
@@ -139,11 +256,16 @@ impl Writer<'_> {
         Some(Do { call, bind: None, within: None, retry: None })
     }
 
-    fn value(&self, term: &Term) -> Option<ExprKind> {
+    fn value(&self, term: &Term, renamed: &Renamed) -> Option<ExprKind> {
+        let new =
+            |id: &BindingId| renamed.iter().rev().find(|(old, _)| old == id).map(|(_, name)| name.clone());
         Some(match term {
             // A symbol has no name but that of a binding.
             Term::Entity(entity) => ExprKind::Name(self.world.entities().name(*entity)?.clone()),
-            Term::Binding(id) => ExprKind::Binding(self.program.bindings.get(id.index())?.name.clone()),
+            Term::Binding(id) => {
+                let bound = self.program.bindings.get(id.index())?;
+                ExprKind::Binding(new(id).unwrap_or_else(|| bound.name.clone()))
+            }
             Term::Case(of, case) => ExprKind::Name(self.library.case_name(*of, *case).into()),
             Term::Text(text) => ExprKind::Text(text.clone()),
             Term::Bool(value) => ExprKind::Bool(*value),

@@ -83,16 +83,42 @@ impl Prover<'_> {
     }
 
     fn change_each(&self, effect: &EffectDef, kind: Kind, frame: Frame<'_>, changes: &mut Vec<Change>) {
-        let (candidates, rest) = self.candidates(effect.when.as_ref(), kind, frame);
-        for candidate in candidates {
-            self.change(effect, Frame { each: Some(candidate), ..frame }, changes);
+        let (known, rest) = self.candidates(effect.when.as_ref(), kind, frame);
+        for candidate in &known {
+            self.change(effect, Frame { each: Some(*candidate), ..frame }, changes);
         }
-        // Those of which nothing is known by name: one pattern for all of them.
-        if let Some(sure) = rest
-            && let Some(key) = self.key(&effect.fact, Frame { each: None, ..frame })
-        {
-            changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+        let Some(sure) = rest else { return };
+        if self.covers(effect, kind) {
+            // Those of which nothing is known by name: one pattern for all of them.
+            if let Some(key) = self.key(&effect.fact, Frame { each: None, ..frame }) {
+                changes.push(Change { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+            }
+            return;
         }
+        // The fluent is also about entities of other kinds, which a pattern would take in: each by its name.
+        let named = self.of_kind(kind, usize::MAX).into_iter();
+        for entity in named.filter(|entity| known.binary_search(entity).is_err()) {
+            self.change(effect, Frame { each: Some(entity), ..frame }, changes);
+        }
+        for (entity, symbol) in self.symbols.iter() {
+            let first = changes.len();
+            if self.library.is_kind(symbol.kind, kind) || self.library.is_kind(kind, symbol.kind) {
+                self.change(effect, Frame { each: Some(entity), ..frame }, changes);
+            }
+            if !self.library.is_kind(symbol.kind, kind) {
+                // It may be of the kind.
+                changes.iter_mut().skip(first).for_each(|change| change.sure = Sure::Unknown);
+            }
+        }
+    }
+
+    /// Whether every entity that the fluent of an effect can be about, where the effect says `each`, is of a kind.
+    fn covers(&self, effect: &EffectDef, kind: Kind) -> bool {
+        let Some(def) = self.library.fluent(effect.fact.fluent) else { return true };
+        let mut places = effect.fact.args.iter().zip(&def.params);
+        places.all(|(arg, (_, ty))| {
+            *arg != Some(Term::Each) || ty.kind().is_none_or(|all| self.library.is_kind(all, kind))
+        })
     }
 
     /// The entities of a kind for which `when` may hold: by name, and whether it may hold for others too.

@@ -10,6 +10,7 @@ use super::errors::{
 };
 use super::eval::Frame;
 use super::facts::{Key, show};
+use super::mend::End;
 use super::value::{Cause, Value};
 use super::{Prover, Verdict};
 use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Slot, StepId, Term};
@@ -22,7 +23,7 @@ impl Prover<'_> {
     }
 
     /// Where the policy is done: what it still holds, and what it opened and did not close.
-    pub(crate) fn check_end(&mut self, span: Span) {
+    pub(crate) fn check_end(&mut self, end: Option<End>, span: Span) {
         let ends = |name: &str, of_a_step: bool| {
             let fluent = *self.library.names.fluents.get(name)?;
             let meant = self.program.achieves.as_ref().is_some_and(|(goal, _)| mentions(goal, fluent));
@@ -37,16 +38,19 @@ impl Prover<'_> {
                 }
             });
             found.map(|(key, cause)| {
-                (fluent, key, self.argument_name(fluent, 0, key.arg(0)), self.cause_span(cause))
+                let name = self.argument_name(fluent, 0, key.arg(0));
+                ((fluent, key, false), name, self.cause_span(cause))
             })
         };
         let (holding, open) = (ends("holding", false), ends("open", true));
-        if let Some((.., object, since)) = holding {
-            self.warn(EndsHolding { span, object, since }.into());
+        if let Some((want, object, since)) = holding {
+            let mistake: Diagnostic = EndsHolding { span, object, since }.into();
+            self.offer_ended(want, end, &mistake);
+            self.warn(mistake);
         }
-        if let Some((fluent, key, container, since)) = open {
+        if let Some((want, container, since)) = open {
             let mistake: Diagnostic = LeftOpen { span, container, since }.into();
-            self.offer_closed(fluent, key, &mistake);
+            self.offer_ended(want, end, &mistake);
             self.warn(mistake);
         }
     }

@@ -28,8 +28,7 @@ use smallvec::SmallVec;
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::facts::{Facts, Key, Split};
-use self::mend::Offer;
-use self::story::AtEnd;
+use self::mend::{End, Offer};
 use self::symbols::Symbols;
 use self::value::Value;
 use crate::ir::{Entity, Fluent, Measure, Program, StepId};
@@ -145,9 +144,11 @@ pub(crate) fn prove(
     };
     prover.block(&program.body);
     if prover.live {
-        prover.check_goal(AtEnd::Offer);
-        let last = program.body.last().and_then(|id| program.steps.get(id.index()));
-        prover.check_end(last.map_or(program.span, |step| step.span));
+        let last = program.body.last().copied();
+        let end = last.map(End::After);
+        prover.check_goal(end);
+        let last = last.and_then(|id| program.steps.get(id.index()));
+        prover.check_end(end, last.map_or(program.span, |step| step.span));
     }
     prover.report_unreached();
     (prover.proof, prover.diagnostics, prover.offers)

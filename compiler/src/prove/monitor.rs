@@ -204,7 +204,7 @@ impl Prover<'_> {
                     }
                     self.block(body);
                 }
-                Reaction::End { kind, of, .. } => self.end(*kind, *of, when.span),
+                Reaction::End { kind, of, .. } => self.end(None, *kind, *of, when.span),
             }
         } else if let Reaction::Resume { body, .. } = &when.reaction {
             // A condition that only the world can bring about still needs its block proved.

@@ -6,6 +6,7 @@ use smol_str::{SmolStr, format_smolstr};
 use super::Prover;
 use super::errors::GoalRefuted;
 use super::eval::Frame;
+use super::mend::End;
 use super::show::round;
 use super::value::Cause;
 use crate::ir::{Base, Condition, Entity, Fluent, Slot, StepId, StepKind, Term};
@@ -41,15 +42,6 @@ impl Blame {
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
-}
-
-/// Whether the end of the policy is a place where steps could be added.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum AtEnd {
-    /// It is: the last step has run.
-    Offer,
-    /// A `done` in the middle.
-    Tell,
 }
 
 impl Prover<'_> {
@@ -170,7 +162,7 @@ impl Prover<'_> {
     }
 
     /// Where the policy is done, its goal must not be refuted.
-    pub(crate) fn check_goal(&mut self, end: AtEnd) {
+    pub(crate) fn check_goal(&mut self, end: Option<End>) {
         let program = self.program;
         let Some((goal, span)) = &program.achieves else { return };
         let frame = Frame::default();
@@ -188,8 +180,8 @@ impl Prover<'_> {
             subject: blame.subject,
         };
         let mistake: Diagnostic = mistake.into();
-        if let (AtEnd::Offer, true) = (end, self.live) {
-            self.offer_goal(goal, *span, (mistake.code, mistake.message.clone()));
+        if let Some(end) = end.filter(|_| self.live) {
+            self.offer_goal(goal, end, &mistake);
         }
         if !self.diagnostics.contains(&mistake) {
             self.diagnostics.push(mistake);

@@ -65,6 +65,11 @@ impl Symbols {
         self.bindings.iter().position(|bound| *bound == Some(entity))
     }
 
+    /// The symbols, in the order of their bindings.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Entity, &Symbol)> {
+        (self.first..u16::MAX).map(Entity).zip(&self.symbols)
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.symbols.is_empty()
     }

@@ -9,7 +9,7 @@ use super::collect::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
 use super::eval::Frame;
 use super::facts::Delta;
-use super::story::AtEnd;
+use super::mend::End;
 use super::value::{Cause, Value};
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 
@@ -66,7 +66,7 @@ impl Prover<'_> {
                 );
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
-            StepKind::End { kind, of, .. } => self.end(*kind, *of, step.span),
+            StepKind::End { kind, of, .. } => self.end(Some(id), *kind, *of, step.span),
             StepKind::Unknown => self.forget_all(Cause::step(id)),
         }
     }
@@ -267,15 +267,16 @@ impl Prover<'_> {
     }
 
     /// Ends the policy, or the inlined policy `of`.
-    pub(crate) fn end(&mut self, kind: EndKind, of: Option<StepId>, span: Span) {
+    pub(crate) fn end(&mut self, id: Option<StepId>, kind: EndKind, of: Option<StepId>, span: Span) {
         let depth = self
             .enclosing
             .iter()
             .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
             (EndKind::Done, None, _) => {
-                self.check_goal(AtEnd::Tell);
-                self.check_end(span);
+                let end = id.map(End::Before);
+                self.check_goal(end);
+                self.check_end(end, span);
             }
             (EndKind::Done, Some(_), Some(depth)) => {
                 if let Some(Enclosing::Inline { exits, .. }) = self.enclosing.get_mut(depth) {

@@ -205,7 +205,8 @@ impl Steps<'_> {
                     Some(index) => index,
                     None => {
                         unknown += 1;
-                        let near = near(&name.text, formals.iter().map(|formal| formal.name.as_str()));
+                        let near = near(&name.text, formals.iter().map(|formal| formal.name.as_str()))
+                            .or_else(|| only_missing(call, formals));
                         let known = list(formals.iter().map(|formal| formal.name.clone()));
                         let (name, span) = (name.text.clone(), name.span);
                         self.resolver.say(UnknownParameter {
@@ -250,5 +251,19 @@ impl Steps<'_> {
             self.resolver.say(MissingArgument { span: call.call.span, callee, param, ty });
         }
         given
+    }
+}
+
+/// The one parameter without default that no argument of a call names: what an argument under a wrong name is meant for.
+fn only_missing(call: &Do, formals: &[Formal<'_>]) -> Option<SmolStr> {
+    let args = &call.call.args;
+    let is_given = |formal: &Formal<'_>| {
+        args.iter().any(|arg| arg.name.as_ref().is_some_and(|name| name.text == *formal.name))
+    };
+    let named = args.iter().all(|arg| arg.name.is_some());
+    let mut missing = formals.iter().filter(|formal| named && !formal.optional && !is_given(formal));
+    match (missing.next(), missing.next()) {
+        (Some(only), None) => Some(only.name.clone()),
+        _ => None,
     }
 }

@@ -51,9 +51,13 @@ motet_syntax::mistakes! {
     UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("nothing is bound to `{}` here", m.name) }
     help(m) {
-        write(m.near.as_ref())
+        let is_entity = m.near.as_ref() == Some(&m.name);
+        let entity = is_entity.then(|| format!("`{}` is an entity: write it without `$`", m.name));
+        entity
+            .or_else(|| write(m.near.as_ref()))
             .or_else(|| Some("a binding is visible from its step to the end of the block it stands in".to_owned()))
     }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// An argument for a parameter that does not exist.
     UnknownParameter("M0204", Error) { name: SmolStr, callee: SmolStr, near: Option<SmolStr>, known: String }

@@ -219,7 +219,8 @@ impl<'a> Resolver<'a> {
         if let Some(found) = self.in_scope(name) {
             return found;
         }
-        let near = near(name, self.scope.names().map(SmolStr::as_str));
+        let same = self.entities.find(name).map(|_| name.clone());
+        let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
         self.say(UnknownBinding { span, name: name.clone(), near });
         (Term::Unknown, Ty::UNKNOWN)
     }

@@ -11,7 +11,7 @@ use smol_str::{SmolStr, format_smolstr};
 use crate::Imported;
 use crate::actions::{Action, Effect};
 use crate::domain::{Domain, Vocabulary};
-use crate::formula::{Arg, Atom, Literal};
+use crate::formula::{Arg, Literal};
 use crate::name;
 use crate::plan::PlanStep;
 use crate::problem::Problem;
@@ -100,21 +100,8 @@ fn quantified(effect: &Effect, words: &Vocabulary) -> Quantified {
         )
     });
     let when: Vec<_> = effect.when.iter().map(|part| literal(part, &words.constants)).collect();
-    let when = match when.len() {
-        0 => effect.each.as_ref().filter(|each| is_narrower(each, &effect.literal.atom, words)).map(|_| {
-            // Without a condition an entry is about all that the fluent can be about, of whatever kind.
-            expr(ExprKind::Bool(true), Span::default())
-        }),
-        _ => conjunction(when),
-    };
+    let when = if when.is_empty() { None } else { conjunction(when) };
     Quantified { expr: literal(&effect.literal, &words.constants), each, when }
-}
-
-/// Whether the quantified type is another than the one that the predicate takes.
-fn is_narrower(each: &Typed, atom: &Atom, words: &Vocabulary) -> bool {
-    let params = atom.predicate.as_ref().and_then(|name| words.predicates.get(name));
-    let mut pairs = atom.args.iter().zip(params.into_iter().flatten());
-    pairs.any(|(arg, param)| *arg == Arg::Variable(each.name.clone()) && param.ty != each.ty)
 }
 
 /// Objects of one type in a row, as they stand in the file.

@@ -1,44 +1,109 @@
 //! Which calls make a fact.
 
-use motet_syntax::ast::CompareOp;
+use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
-use super::{MAX_PROPOSALS, Proposed, Want};
-use crate::ir::{Base, Condition, Entity, Primitive, Term, Ty};
+use super::{MAX_PROPOSALS, Maker, Proposed, Want};
+use crate::ir::{Base, BindingId, Condition, Entity, Primitive, StepKind, Term, Ty};
 use crate::library::{EffectDef, PrimitiveDef};
 use crate::prove::Prover;
 use crate::prove::eval::Frame;
 use crate::prove::facts::{ANY, Key};
 
-impl Prover<'_> {
-    /// Calls that make a fact, in the order of the library.
-    pub(super) fn makers(&self, want: Want) -> Vec<(Proposed, Want)> {
-        let mut found = Vec::new();
-        for (index, def) in self.library.primitives.iter().enumerate() {
+/// The arguments for which an effect is about a fact; those that it leaves open are none.
+pub(super) struct Unified {
+    args: Vec<Option<Term>>,
+    /// What a perception has to find.
+    result: Option<Entity>,
+}
+
+/// Whether an effect comes about.
+enum Applies<'e> {
+    Yes,
+    /// Under a condition that does not hold yet, for an entity.
+    Under(&'e Condition, Option<Entity>),
+    No,
+}
+
+impl<'a> Prover<'a> {
+    /// Calls that make a fact, in the order of the library; those of which an effect still stands under a condition last.
+    pub(super) fn makers(&self, want: Want) -> Vec<Maker<'a>> {
+        let library = self.library;
+        let mut found: Vec<Maker<'a>> = Vec::new();
+        let mut under = Vec::new();
+        for (index, def) in library.primitives.iter().enumerate() {
             let Some(primitive) = u16::try_from(index).ok().map(Primitive).filter(|_| def.provided) else {
                 continue;
             };
             for effect in
                 def.makes.iter().filter(|effect| effect.fact.fluent == want.0 && effect.value == want.2)
             {
-                let Some(args) = self.unify(def, effect, want.1) else { continue };
-                for args in self.fill(def, args) {
-                    let call = Proposed { primitive, args };
-                    if !found.iter().any(|(other, _)| *other == call) && self.applies(effect, &call, want.1) {
-                        found.push((call, want));
+                let Some(Unified { args, result }) = self.unify(def, effect, want.1) else { continue };
+                let calls = match def.result {
+                    Some(_) => self.perceive(primitive, def, args, result),
+                    None => {
+                        let all = self.fill(def, args).into_iter();
+                        all.map(|args| Proposed { primitive, args, result: None, again: None }).collect()
+                    }
+                };
+                for call in calls {
+                    if found.iter().any(|other| other.call == call) {
+                        continue;
+                    }
+                    match self.applies(effect, &call, want.1) {
+                        Applies::Yes => found.push(Maker { call, want, when: None }),
+                        Applies::Under(when, each) => {
+                            under.push(Maker { call, want, when: Some((when, each)) });
+                        }
+                        Applies::No => {}
                     }
                 }
             }
         }
+        under.retain(|maker| found.iter().all(|other| other.call != maker.call));
+        found.extend(under);
         found
     }
 
-    /// The arguments for which an effect is about a fact; those that it leaves open are none.
-    pub(super) fn unify(
+    /// Calls of a perception that finds one thing: what a description finds by the name of the thing, any other as it was
+    /// found before.
+    fn perceive(
         &self,
+        primitive: Primitive,
         def: &PrimitiveDef,
-        effect: &EffectDef,
-        key: Key,
-    ) -> Option<Vec<Option<Term>>> {
+        args: Vec<Option<Term>>,
+        result: Option<Entity>,
+    ) -> Vec<Proposed> {
+        let Some(found) = result.filter(|_| def.form == PrimitiveForm::Perception) else { return Vec::new() };
+        if let Some(binding) = self.symbols.binding_of(found) {
+            return self.as_before(primitive, found, binding).into_iter().collect();
+        }
+        let Some(kind) = def.result.and_then(|ty| ty.kind()) else { return Vec::new() };
+        let Some(name) = self.world.entities().name(found) else { return Vec::new() };
+        if self.world.described(self.library, name, kind) != [found] {
+            return Vec::new();
+        }
+        let mut args = args;
+        let described = def.params.iter().zip(&mut args).find(|(param, _)| param.ty == Ty::TEXT);
+        let Some((_, slot)) = described else { return Vec::new() };
+        *slot = Some(Term::Text(name.clone()));
+        let all = self.fill(def, args).into_iter();
+        all.map(|args| Proposed { primitive, args, result: Some(found), again: None }).collect()
+    }
+
+    /// The step that bound a symbol, once more.
+    fn as_before(&self, primitive: Primitive, found: Entity, binding: usize) -> Option<Proposed> {
+        let again = BindingId(u32::try_from(binding).ok()?);
+        let calls = self.program.steps.iter().filter_map(|step| match &step.kind {
+            StepKind::Call(call) => Some(call),
+            _ => None,
+        });
+        let call = calls.filter(|call| call.primitive == primitive).find(|call| call.binds == Some(again))?;
+        Some(Proposed { primitive, args: call.args.clone(), result: Some(found), again: Some(again) })
+    }
+
+    /// What makes an effect be about a fact.
+    pub(super) fn unify(&self, def: &PrimitiveDef, effect: &EffectDef, key: Key) -> Option<Unified> {
+        let mut result = None;
         let mut args: Vec<Option<Term>> = vec![None; def.params.len()];
         let mut each = None;
         for (index, term) in effect.fact.args.iter().enumerate() {
@@ -48,6 +113,11 @@ impl Prover<'_> {
                 Some(_) if value == ANY => {}
                 Some(Term::Param(at)) => self.bind_arg(def, &mut args, *at, value)?,
                 Some(Term::Each) => each = Some(value),
+                Some(Term::Result) => {
+                    let kind = self.symbols.kind(self.world, Entity(value))?;
+                    let is_it = self.library.fits(def.result?, Ty::plain(Base::Entity(kind)));
+                    result = Some(is_it.then_some(Entity(value))?);
+                }
                 Some(term) if self.argument(term, Frame::default()) == Some(value) => {}
                 Some(_) => return None,
             }
@@ -60,7 +130,7 @@ impl Prover<'_> {
                 _ => {}
             }
         }
-        Some(args)
+        Some(Unified { args, result })
     }
 
     pub(super) fn bind_arg(
@@ -88,7 +158,7 @@ impl Prover<'_> {
     }
 
     /// Whether the effect is about the fact at this call, in the state as it is.
-    pub(super) fn applies(&self, effect: &EffectDef, call: &Proposed, key: Key) -> bool {
+    fn applies<'e>(&self, effect: &'e EffectDef, call: &Proposed, key: Key) -> Applies<'e> {
         let place = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
         let each = place.map(|index| Entity(key.arg(index)));
         let is_of_kind = match (effect.each, each) {
@@ -97,8 +167,13 @@ impl Prover<'_> {
             }
             _ => true,
         };
-        let frame = Frame { args: &call.args, result: None, each };
-        is_of_kind && effect.when.as_ref().is_none_or(|when| self.evaluate(when, frame).is_true())
+        let frame = Frame { args: &call.args, result: call.result, each };
+        match &effect.when {
+            _ if !is_of_kind => Applies::No,
+            None => Applies::Yes,
+            Some(when) if self.evaluate(when, frame).is_true() => Applies::Yes,
+            Some(when) => Applies::Under(when, each),
+        }
     }
 
     /// What the open arguments may be: what the primitive's own needs say of them in the state as it is.
@@ -134,8 +209,15 @@ impl Prover<'_> {
         let Some(param) = def.params.get(index) else { return Vec::new() };
         let Some(kind) = param.ty.kind() else { return Vec::new() };
         let mut found = Vec::new();
-        for need in def.needs.iter().filter(|need| need.each.is_none()) {
-            let Condition::Fact(fact) = &need.condition else { continue };
+        let facts = def.needs.iter().flat_map(|need| match &need.condition {
+            Condition::AnyOf(parts) => parts.as_slice(),
+            only => std::slice::from_ref(only),
+        });
+        for fact in facts {
+            let Condition::Fact(fact) = fact else { continue };
+            if fact.args.contains(&Some(Term::Each)) {
+                continue;
+            }
             let is_it =
                 |term: &Option<Term>| matches!(term, Some(Term::Param(at)) if usize::from(*at) == index);
             let Some(place) = fact.args.iter().position(is_it) else { continue };

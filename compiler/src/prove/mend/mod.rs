@@ -12,7 +12,7 @@ mod search;
 use super::Prover;
 use super::eval::Frame;
 use super::facts::Key;
-use crate::ir::{BindingId, Condition, Fluent, Primitive, StepId, StepKind, Term};
+use crate::ir::{BindingId, Condition, Entity, Fact, Fluent, Primitive, StepId, StepKind, Term};
 use crate::library::{NeedDef, PrimitiveDef};
 
 /// How deep needs of needs are followed.
@@ -48,6 +48,17 @@ pub(crate) enum Mend {
     Again { found: StepId, before: StepId, used: Span },
     /// The step left out.
     Drop(StepId),
+    /// A monitor of a fluent without parameters around the step.
+    Watch(StepId, Fluent),
+}
+
+/// Where a policy is done, and steps may still be added.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum End {
+    /// Before a `done`.
+    Before(StepId),
+    /// Behind the last step.
+    After(StepId),
 }
 
 /// A call that is not there yet.
@@ -55,6 +66,19 @@ pub(crate) enum Mend {
 pub(crate) struct Proposed {
     pub(crate) primitive: Primitive,
     pub(crate) args: Vec<Term>,
+    /// What a perception is to find.
+    pub(crate) result: Option<Entity>,
+    /// The binding that it replaces: the value that it gave is stale.
+    pub(crate) again: Option<BindingId>,
+}
+
+/// A call that brings about a fact.
+#[derive(Clone, Debug)]
+pub(super) struct Maker<'l> {
+    pub(super) call: Proposed,
+    pub(super) want: Want,
+    /// What the effect stands under, and for which entity.
+    pub(super) when: Option<(&'l Condition, Option<Entity>)>,
 }
 
 /// A fact that is asked for: the fluent, its arguments, its truth.
@@ -81,6 +105,7 @@ impl Prover<'_> {
         if self.is_done(def, frame) {
             mends.push(Mend::Drop(id));
         }
+        mends.extend(self.unwatched(def, frame).map(|fluent| Mend::Watch(id, fluent)));
         let plans = self.plans(&def.needs, frame);
         let wants = self.first_refuted(&def.needs, frame);
         let direct: Vec<_> = wants.into_iter().flat_map(|want| self.makers(want)).collect();
@@ -88,8 +113,8 @@ impl Prover<'_> {
         // What cannot be done here, since the hand is full, say, may go before an earlier step.
         for earlier in self.siblings_before(id) {
             let place = self.program.steps.get(earlier.index()).map_or(span, |step| step.span);
-            for (call, _) in direct.iter().take(MAX_PROPOSALS) {
-                mends.push(Mend::Before(earlier, self.named(vec![call.clone()], place)));
+            for maker in direct.iter().take(MAX_PROPOSALS) {
+                mends.push(Mend::Before(earlier, self.named(vec![maker.call.clone()], place)));
             }
         }
         self.offers.push(Offer { code: finding.0, span, message: finding.1, mends });
@@ -106,29 +131,42 @@ impl Prover<'_> {
         siblings.filter_map(|(index, _)| u32::try_from(index).ok().map(StepId)).take(MAX_EARLIER).collect()
     }
 
-    /// Offers what would reach the goal behind the last step.
-    pub(crate) fn offer_goal(&mut self, goal: &Condition, span: Span, finding: (Code, String)) {
-        let Some(last) = self.program.body.last().copied() else { return };
-        if !self.live || self.offers.iter().any(|offer| offer.span == span) {
-            return;
-        }
-        let need = NeedDef { condition: goal.clone(), each: None, when: None, span };
-        let plans = self.plans(&[need], Frame::default());
-        let end = self
-            .program
-            .steps
-            .get(last.index())
-            .map_or(span, |step| Span { start: step.span.end, ..step.span });
-        let mends = plans.into_iter().map(|calls| Mend::After(last, self.named(calls, end))).collect();
-        self.offers.push(Offer { code: finding.0, span, message: finding.1, mends });
+    /// The fluent that no monitor around a step watches, though the step needs one to; only one without parameters,
+    /// of which it is plain what there is to watch.
+    fn unwatched(&self, def: &PrimitiveDef, frame: Frame<'_>) -> Option<Fluent> {
+        let refuted = def.needs.iter().find(|need| self.need(need, frame).0.no.is_some())?;
+        let Condition::MonitoredFluent(fluent) = &refuted.condition else { return None };
+        self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
     }
 
-    /// Offers what would close what a policy left open, behind its last step.
-    pub(crate) fn offer_closed(&mut self, fluent: Fluent, key: Key, finding: &Diagnostic) {
-        let Some(last) = self.program.body.last().copied().filter(|_| self.live) else { return };
-        let end = Span { start: finding.span.end, ..finding.span };
-        let calls = self.makers((fluent, key, false)).into_iter().map(|(call, _)| call);
-        let mends = calls.take(MAX_PROPOSALS).map(|call| Mend::After(last, self.named(vec![call], end)));
+    /// Offers what would reach the goal where the policy is done.
+    pub(crate) fn offer_goal(&mut self, goal: &Condition, end: End, finding: &Diagnostic) {
+        self.offer_at_end(goal.clone(), end, finding);
+    }
+
+    /// Offers what would undo a fact in which a policy ends: an object in the hand, a container left open.
+    pub(crate) fn offer_ended(&mut self, want: Want, end: Option<End>, finding: &Diagnostic) {
+        let Some(end) = end.filter(|_| self.live) else { return };
+        let (fluent, key, truth) = want;
+        let count = self.library.fluent(fluent).map_or(0, |def| def.params.len());
+        let args = (0..count).map(|index| Some(Term::Entity(Entity(key.arg(index))))).collect();
+        let fact = Condition::Fact(Fact { fluent, args });
+        let goal = if truth { fact } else { Condition::Not(Box::new(fact)) };
+        self.offer_at_end(goal, end, finding);
+    }
+
+    fn offer_at_end(&mut self, goal: Condition, end: End, finding: &Diagnostic) {
+        let (End::Before(id) | End::After(id)) = end;
+        let Some(span) = self.program.steps.get(id.index()).map(|step| step.span) else { return };
+        if self.offers.len() >= MAX_OFFERS || self.is_inlined(id) {
+            return;
+        }
+        let need = NeedDef { condition: goal, each: None, when: None, span };
+        let plans = self.plans(&[need], Frame::default());
+        let mends = plans.into_iter().map(|calls| match end {
+            End::Before(_) => Mend::Before(id, self.named(calls, span)),
+            End::After(_) => Mend::After(id, self.named(calls, Span { start: span.end, ..span })),
+        });
         let mends = mends.collect();
         self.offer(finding, mends);
     }

@@ -1,6 +1,8 @@
 //! Chaining backwards from what is wanted, with the facts as they would be.
 
-use super::{MAX_CALLS, MAX_DEPTH, MAX_PROPOSALS, MAX_TRIES, Proposed, Want};
+use motet_syntax::Span;
+
+use super::{MAX_CALLS, MAX_DEPTH, MAX_PROPOSALS, MAX_TRIES, Maker, Proposed, Want};
 use crate::ir::Condition;
 use crate::library::NeedDef;
 use crate::prove::Prover;
@@ -14,10 +16,10 @@ impl Prover<'_> {
         let mut plans = Vec::new();
         let mut tries = MAX_TRIES;
         for want in self.first_refuted(needs, frame) {
-            for (call, want) in self.makers(want) {
+            for maker in self.makers(want) {
                 let mark = self.facts.mark();
                 let mut calls = Vec::new();
-                let is_found = self.perform(&call, want, MAX_DEPTH, &mut tries, &mut calls)
+                let is_found = self.perform(&maker, MAX_DEPTH, &mut tries, &mut calls)
                     && self.satisfy(needs, frame, MAX_DEPTH, &mut tries, &mut calls);
                 self.back_to(mark);
                 if is_found && !plans.contains(&calls) {
@@ -50,9 +52,9 @@ impl Prover<'_> {
             }
             let before = calls.len();
             let is_found = wants.into_iter().any(|want| {
-                self.makers(want).into_iter().any(|(call, want)| {
+                self.makers(want).into_iter().any(|maker| {
                     let mark = self.facts.mark();
-                    let is_found = self.perform(&call, want, depth - 1, tries, calls);
+                    let is_found = self.perform(&maker, depth - 1, tries, calls);
                     if !is_found {
                         self.back_to(mark);
                         calls.truncate(before);
@@ -69,21 +71,31 @@ impl Prover<'_> {
     /// Brings about what a call needs, and does it. `false`, with facts and calls to be taken back, where that fails.
     pub(super) fn perform(
         &mut self,
-        call: &Proposed,
-        want: Want,
+        maker: &Maker<'_>,
         depth: usize,
         tries: &mut usize,
         calls: &mut Vec<Proposed>,
     ) -> bool {
         let library = self.library;
+        let Maker { call, want, when } = maker;
         let Some(def) = library.primitive(call.primitive) else { return false };
         let Some(left) = tries.checked_sub(1) else { return false };
         *tries = left;
-        let frame = Frame { args: &call.args, ..Frame::default() };
-        if calls.contains(call)
-            || !self.satisfy(&def.needs, frame, depth, tries, calls)
-            || calls.len() >= MAX_CALLS
-        {
+        if calls.contains(call) {
+            return false;
+        }
+        let frame = Frame { args: &call.args, result: call.result, each: None };
+        let is_met = match when {
+            None => self.satisfy(&def.needs, frame, depth, tries, calls),
+            // First what the effect stands under: it says which of several things is meant.
+            Some((when, each)) => {
+                let first =
+                    NeedDef { condition: (*when).clone(), each: None, when: None, span: Span::default() };
+                let needs: Vec<_> = std::iter::once(first).chain(def.needs.iter().cloned()).collect();
+                self.satisfy(&needs, Frame { each: *each, ..frame }, depth, tries, calls)
+            }
+        };
+        if !is_met || calls.len() >= MAX_CALLS {
             return false;
         }
         let (mut makes, mut unsettles): (Vec<Change>, Vec<Change>) = Default::default();
@@ -92,7 +104,7 @@ impl Prover<'_> {
         self.unsettle(&unsettles, Cause::NOTHING);
         self.make(&makes, Cause::NOTHING);
         calls.push(call.clone());
-        let (fluent, key, truth) = want;
+        let (fluent, key, truth) = *want;
         let holds = if key.is_pattern() { None } else { Some(self.read(fluent, key)) };
         holds.is_none_or(|value| if truth { value.is_true() } else { value.is_false() })
     }
@@ -103,6 +115,7 @@ impl Prover<'_> {
         for need in needs {
             let (value, each) = self.need(need, frame);
             if value.no.is_some() {
+                let each = each.or(frame.each);
                 self.wants(&need.condition, true, Frame { each, ..frame }, &mut wants);
                 break;
             }
