@@ -1,6 +1,6 @@
 //! Source files and places in them. Nothing here reads a file: the host hands the text over.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Index of a file in [`Sources`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
@@ -63,26 +63,23 @@ pub struct Source {
     pub name: Arc<str>,
     /// The whole text.
     pub text: Arc<str>,
-    /// Byte offset of the first byte of each line.
-    lines: Arc<[u32]>,
+    /// Byte offset of the first byte of each line, once a place is asked for: most documents have no mistake.
+    lines: OnceLock<Arc<[u32]>>,
 }
 
 impl Source {
     /// A source with the given name and text.
     #[must_use]
     pub fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
-        let text: Arc<str> = text.into();
-        let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let lines =
-            std::iter::once(0).chain(breaks.map(|(at, _)| Span::new(FileId(0), 0, at + 1).end)).collect();
-        Self { name: name.into(), text, lines }
+        Self { name: name.into(), text: text.into(), lines: OnceLock::new() }
     }
 
     /// Line and column, both from 1, of a byte offset; the column counts characters.
     #[must_use]
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
-        let line = self.lines.partition_point(|start| *start <= offset).max(1);
-        let start = self.lines.get(line - 1).copied().unwrap_or(0) as usize;
+        let lines = self.lines.get_or_init(|| line_starts(&self.text));
+        let line = lines.partition_point(|start| *start <= offset).max(1);
+        let start = lines.get(line - 1).copied().unwrap_or(0) as usize;
         let column = self.text.get(start..offset as usize).map_or(1, |before| before.chars().count() + 1);
         (line, column)
     }
@@ -92,6 +89,12 @@ impl Source {
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.range()).unwrap_or("")
     }
+}
+
+/// Byte offset of the first byte of each line.
+fn line_starts(text: &str) -> Arc<[u32]> {
+    let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+    std::iter::once(0).chain(breaks.map(|(at, _)| Span::new(FileId(0), 0, at + 1).end)).collect()
 }
 
 /// All files of one compilation, by [`FileId`].

@@ -175,6 +175,20 @@ fn duplicate_keys_are_refused_and_the_first_counts() {
 }
 
 #[test]
+fn strings_end_where_serde_json_ends_them() {
+    for before in 0..20 {
+        for after in [0, 1, 7, 8, 9] {
+            for mark in ["", "\\n", "\\\"", "é", "!", "#", "[", "]", "\u{7f}", "\u{1f}", "\n", " "] {
+                let text = format!("\"{}{mark}{}\" ", "ab".repeat(before), "\u{80}".repeat(after));
+                let source = Source::new("a.json", text.as_str());
+                let (value, _) = json::read::<String>(&source, FileId(0));
+                assert_eq!(value, serde_json::from_str(&text).ok(), "{text:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn broken_syntax_is_explained() {
     let message = |text: &str| findings(text).join("\n");
     for (text, expected) in [

@@ -32,6 +32,7 @@ impl<'de> de::SeqAccess<'de> for Elements<'_, 'de> {
         seed.deserialize(Value { context: self.context, at }).map(Some)
     }
 
+    #[inline]
     fn size_hint(&self) -> Option<usize> {
         let next = |at: &u32| Some(self.context.tree.next(*at));
         Some(std::iter::successors(Some(self.at), next).take_while(|at| *at < self.end).count())
@@ -67,6 +68,13 @@ impl<'de> de::MapAccess<'de> for Members<'_, 'de> {
         let at = self.at + 1;
         self.at = self.context.tree.next(at);
         seed.deserialize(Value { context: self.context, at })
+    }
+
+    /// Members that are left; one whose value is next is among them.
+    #[inline]
+    fn size_hint(&self) -> Option<usize> {
+        let next = |key: &u32| Some(self.context.tree.next(key + 1));
+        Some(std::iter::successors(Some(self.at), next).take_while(|key| *key < self.end).count())
     }
 }
 
@@ -105,6 +113,11 @@ impl<'de> de::MapAccess<'de> for Fields<'_, 'de> {
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
         self.members.next_value_seed(seed)
     }
+
+    #[inline]
+    fn size_hint(&self) -> Option<usize> {
+        self.members.size_hint()
+    }
 }
 
 /// A variant that is named by a key of an object.
@@ -121,6 +134,7 @@ pub(crate) struct Variant<'c, 's> {
 
 impl<'c, 's> Variant<'c, 's> {
     /// The value of the key, provided that the object has no other key.
+    #[inline]
     fn content(&self) -> Result<Value<'c, 's>, Fault> {
         let tree = &self.context.tree;
         for other in tree.keys(self.object).filter(|other| *other != self.key) {
@@ -135,16 +149,15 @@ impl<'c, 's> Variant<'c, 's> {
     }
 
     /// The whole object, if its only form is this variant or the struct has the other keys as fields.
+    #[inline]
     fn whole(&self, fields: &[&str]) -> Result<Value<'c, 's>, Fault> {
         let tree = &self.context.tree;
         let clash = |key: &u32| {
             let text = tree.text(*key);
-            *key != self.key
-                && self.variants.contains(&text)
-                && !fields.contains(&text)
-                && !fields.contains(&OPEN)
+            !fields.contains(&text) && self.variants.contains(&text)
         };
-        match tree.keys(self.object).find(clash) {
+        let is_open = fields.contains(&OPEN);
+        match tree.keys(self.object).filter(|key| !is_open && *key != self.key).find(clash) {
             Some(second) => Err(Fault::new(Reason::TwoForms { first: self.key, second }, second)),
             None => Ok(Value { context: self.context, at: self.object }),
         }
@@ -155,6 +168,7 @@ impl<'c, 'de> de::EnumAccess<'de> for Variant<'c, 'de> {
     type Error = Fault;
     type Variant = Self;
 
+    #[inline]
     fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Fault> {
         let name: StrDeserializer<'_, Fault> = self.context.tree.text(self.key).into_deserializer();
         seed.deserialize(name).map(|name| (name, self))
@@ -168,6 +182,7 @@ impl<'de> de::VariantAccess<'de> for Variant<'_, 'de> {
         de::Deserialize::deserialize(self.content()?)
     }
 
+    #[inline]
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Fault> {
         seed.deserialize(self)
     }
@@ -193,6 +208,7 @@ impl<'de> Deserializer<'de> for Variant<'_, 'de> {
         self.content()?.deserialize_any(visitor)
     }
 
+    #[inline]
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         name: &'static str,
@@ -246,7 +262,7 @@ impl<'c, 's> Place<'c, 's> {
 impl<'de> de::SeqAccess<'de> for Place<'_, 'de> {
     type Error = Fault;
 
-    #[inline]
+    #[inline(always)]
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         if !self.has_value {
             self.has_value = true;
@@ -271,7 +287,7 @@ impl<'c, 's> Recovery<'c, 's> {
 impl<'de> de::SeqAccess<'de> for Recovery<'_, 'de> {
     type Error = Fault;
 
-    #[inline]
+    #[inline(always)]
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
         match seed.deserialize(self.value) {
             Ok(value) => Ok(Some(value)),

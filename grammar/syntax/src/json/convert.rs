@@ -58,13 +58,13 @@ impl Converter {
                 break;
             }
             let span = step.span;
-            block.extend(self.step(step.value, span, depth).map(|kind| Step { kind, span }));
+            block.push(Step { kind: self.step(step.value, span, depth), span });
         }
         Block { steps: block, span }
     }
 
-    fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> Option<StepKind> {
-        Some(match step {
+    fn step(&mut self, step: wire::Step, span: Span, depth: usize) -> StepKind {
+        match step {
             wire::Step::Do(step) => StepKind::Do(self.call_step(step, span, depth)),
             wire::Step::Sequence(step) => {
                 StepKind::Sequence { name: self.name(step.sequence), body: self.block(step.steps, depth + 1) }
@@ -76,7 +76,7 @@ impl Converter {
             },
             wire::Step::Wait(step) => StepKind::Wait {
                 condition: self.condition(step.wait, depth),
-                within: step.within.map(|within| self.duration(within, depth)),
+                within: step.within.map(|within| self.duration(*within, depth)),
             },
             wire::Step::Monitor(step) => {
                 self.at_least_one(step.monitor.value.is_empty(), step.monitor.span, "monitor", "condition");
@@ -109,7 +109,7 @@ impl Converter {
                 StepKind::Parallel { branches: branches.map(|steps| self.block(steps, depth + 2)).collect() }
             }
             wire::Step::End(end) => StepKind::End(self.end(end, span, depth)),
-        })
+        }
     }
 
     fn call_step(&mut self, mut step: wire::Do, span: Span, depth: usize) -> Do {
@@ -123,9 +123,9 @@ impl Converter {
         });
         Do {
             call: self.call(step.r#do, step.args, span, depth + 1, false),
-            bind: step.r#as.map(|bind| self.name(bind)),
-            within: step.within.map(|within| self.duration(within, depth)),
-            retry: step.retry.map(|retry| self.count(retry, depth)),
+            bind: step.r#as.map(|bind| self.name(*bind)),
+            within: step.within.map(|within| self.duration(*within, depth)),
+            retry: step.retry.map(|retry| self.count(*retry, depth)),
         }
     }
 
@@ -207,12 +207,17 @@ impl Converter {
         End { kind, why: end.why.map(|why| self.term(why, depth + 1)), span }
     }
 
+    #[inline]
     pub(super) fn name(&mut self, name: Spanned<smol_str::SmolStr>) -> Name {
-        let Spanned { value, span } = name;
-        if !text::is_name(&value) {
-            self.found.push(BadName { span, name: value.clone() }.into());
+        if !text::is_name(&name.value) {
+            self.bad_name(&name);
         }
-        Name { text: value, span }
+        Name { text: name.value, span: name.span }
+    }
+
+    #[cold]
+    fn bad_name(&mut self, name: &Spanned<smol_str::SmolStr>) {
+        self.found.push(BadName { span: name.span, name: name.value.clone() }.into());
     }
 
     fn at_least_one(&mut self, is_empty: bool, span: Span, key: &str, what: &str) {

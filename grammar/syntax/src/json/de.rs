@@ -37,11 +37,13 @@ pub(crate) struct Value<'c, 's> {
 }
 
 impl<'s> Value<'_, 's> {
+    #[inline]
     fn kind(&self) -> Option<&Kind<'s>> {
         self.context.tree.get(self.at).map(|node| &node.kind)
     }
 
     /// How the value is called where another was expected.
+    #[cold]
     fn wrong<T>(self, expected: &str) -> Result<T, Fault> {
         let found = match self.kind() {
             Some(Kind::Null) | None => "`null`",
@@ -78,6 +80,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         result.map_err(|fault| fault.or_at(self.at))
     }
 
+    #[inline]
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         match self.kind() {
             Some(Kind::Null) => visitor.visit_none(),
@@ -103,6 +106,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         .map_err(|fault| fault.or_at(self.at))
     }
 
+    #[inline]
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _name: &'static str,
@@ -117,6 +121,7 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         }
     }
 
+    #[inline]
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         name: &'static str,

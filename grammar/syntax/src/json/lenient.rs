@@ -23,6 +23,7 @@ impl<T> From<T> for Lenient<T> {
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Lenient<T> {
+    #[inline]
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_newtype_struct(NAME, LenientVisitor(PhantomData))
     }
@@ -41,8 +42,9 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for LenientVisitor<T> {
         T::deserialize(deserializer).map(Lenient::from)
     }
 
+    #[inline]
     fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Lenient<T>, A::Error> {
-        access.next_element::<T>().map(Lenient)
+        access.next_element_seed(PhantomData::<T>).map(Lenient)
     }
 }
 

@@ -16,11 +16,14 @@ use crate::source::{FileId, Span};
 /// Objects with more keys than this look for duplicates in a hash set.
 const FEW_KEYS: usize = 16;
 
+/// A document without white space has about so many bytes for each key and value.
+const BYTES_PER_NODE: usize = 5;
+
 /// The tree of a document, where its syntax is right, and what is wrong with it.
 pub(crate) fn parse(text: &str, file: FileId) -> (Option<Tree<'_>>, Vec<Diagnostic>) {
     let mut parser = Parser {
         scanner: Scanner::new(text, file),
-        tree: Tree { nodes: Vec::with_capacity(text.len() / 12 + 4), file },
+        tree: Tree { nodes: Vec::with_capacity(text.len() / BYTES_PER_NODE + 4), file },
         open: Vec::with_capacity(16),
         found: Vec::new(),
     };
@@ -41,7 +44,7 @@ struct Open<'s> {
     /// Keys so far.
     count: usize,
     /// All keys, once there are many.
-    seen: FxHashSet<Cow<'s, str>>,
+    seen: Option<Box<FxHashSet<Cow<'s, str>>>>,
     /// Where the tree is cut back to when the value of a duplicate key is complete.
     discard: Option<usize>,
 }
@@ -68,8 +71,10 @@ impl<'s> Parser<'s> {
             if !opened {
                 self.close_finished()?;
             }
-            if self.open.is_empty() {
-                break;
+            match self.open.last() {
+                Some(open) if open.is_object => self.key()?,
+                Some(_) => {}
+                None => break,
             }
         }
         self.scanner.skip_space();
@@ -79,7 +84,8 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reads a scalar (`false`) or the opening of a container that is not empty (`true`), up to its first value.
+    /// Reads a scalar (`false`) or the opening of a container that is not empty (`true`), up to its first key or value.
+    #[inline]
     fn value(&mut self) -> Result<bool, Box<Diagnostic>> {
         let start = self.scanner.at;
         let kind = match self.scanner.peek() {
@@ -103,18 +109,16 @@ impl<'s> Parser<'s> {
         let node = self.push(start, if is_object { Kind::Object } else { Kind::Array });
         self.scanner.skip_space();
         let closing = if is_object { b'}' } else { b']' };
-        self.open.push(Open { node, is_object, count: 0, seen: FxHashSet::default(), discard: None });
+        self.open.push(Open { node, is_object, count: 0, seen: None, discard: None });
         if self.scanner.peek() == Some(closing) {
             self.close_finished_container();
             return Ok(false);
         }
-        if is_object {
-            self.key()?;
-        }
         Ok(true)
     }
 
-    /// After a value: reads `,` up to the next value, or closes what ends here.
+    /// After a value: reads `,` up to the next key or value, or closes what ends here.
+    #[inline]
     fn close_finished(&mut self) -> Step {
         loop {
             let Some(open) = self.open.last_mut() else { return Ok(()) };
@@ -131,7 +135,7 @@ impl<'s> Parser<'s> {
                     if matches!(self.scanner.peek(), Some(b'}' | b']')) {
                         return Err(self.scanner.fault_at(comma, comma + 1, SyntaxFault::TrailingComma));
                     }
-                    return if is_object { self.key() } else { Ok(()) };
+                    return Ok(());
                 }
                 Some(b'}') if is_object => self.close_finished_container(),
                 Some(b']') if !is_object => self.close_finished_container(),
@@ -150,6 +154,7 @@ impl<'s> Parser<'s> {
     }
 
     /// Steps over a closing bracket and completes its container.
+    #[inline]
     fn close_finished_container(&mut self) {
         self.scanner.at += 1;
         let next = self.count();
@@ -162,6 +167,7 @@ impl<'s> Parser<'s> {
     }
 
     /// Reads a key and its colon, up to the value.
+    #[inline(always)]
     fn key(&mut self) -> Step {
         let start = self.scanner.at;
         match self.scanner.peek() {
@@ -170,18 +176,9 @@ impl<'s> Parser<'s> {
             None => return Err(self.ended()),
         }
         let key = self.scanner.string()?;
-        let span = Span::new(self.tree.file, start, self.scanner.at);
-        let length = self.tree.nodes.len();
-        if let Some(first) = self.earlier(&key) {
-            self.found.push(DuplicateKey { key: key.as_ref().into(), span, first }.into());
-            if let Some(open) = self.open.last_mut() {
-                open.discard = Some(length);
-            }
-        } else if let Some(open) = self.open.last_mut() {
-            open.count += 1;
-            if open.count > FEW_KEYS {
-                open.seen.insert(key.clone());
-            }
+        match self.earlier(&key) {
+            Some(first) => self.duplicate(&key, start, first),
+            None => self.remember(&key),
         }
         self.push(start, Kind::Text(key));
         self.scanner.skip_space();
@@ -197,25 +194,55 @@ impl<'s> Parser<'s> {
     }
 
     /// Where the innermost open object already has this key.
-    fn earlier(&mut self, key: &str) -> Option<Span> {
-        let end = self.count();
-        let open = self.open.last_mut()?;
-        if open.count > FEW_KEYS && !open.seen.contains(key) {
+    #[inline]
+    fn earlier(&self, key: &str) -> Option<Span> {
+        let open = self.open.last()?;
+        if open.seen.as_ref().is_some_and(|seen| !seen.contains(key)) {
             return None;
         }
-        let first = open.node + 1;
-        let tree = &self.tree;
-        let mut keys =
-            std::iter::successors(Some(first), |at| Some(tree.next(at + 1))).take_while(|at| *at < end);
-        if open.count == FEW_KEYS {
-            open.seen.extend(keys.clone().filter_map(|at| match &tree.get(at)?.kind {
-                Kind::Text(text) => Some(text.clone()),
-                Kind::Null | Kind::Bool(_) | Kind::Number(_) | Kind::Array | Kind::Object => None,
-            }));
+        // What comes after the bracket is the object's members so far.
+        let mut at = open.node + 1;
+        while let Some(node) = self.tree.get(at) {
+            if matches!(&node.kind, Kind::Text(text) if text == key) {
+                return Some(self.tree.span(at));
+            }
+            at = self.tree.next(at + 1);
         }
-        keys.find(|at| tree.text(*at) == key).map(|at| tree.span(at))
+        None
     }
 
+    /// Counts a new key of the innermost open object.
+    #[inline]
+    #[expect(clippy::ptr_arg, reason = "a key without escapes is kept without a copy")]
+    fn remember(&mut self, key: &Cow<'s, str>) {
+        let Some(open) = self.open.last_mut() else { return };
+        open.count += 1;
+        if open.count > FEW_KEYS {
+            let (tree, first) = (&self.tree, open.node + 1);
+            let seen = open.seen.get_or_insert_with(|| {
+                let keys = std::iter::successors(Some(first), |at| Some(tree.next(at + 1)));
+                let texts = keys.map_while(|at| tree.get(at)).filter_map(|node| match &node.kind {
+                    Kind::Text(text) => Some(text.clone()),
+                    Kind::Null | Kind::Bool(_) | Kind::Number(_) | Kind::Array | Kind::Object => None,
+                });
+                Box::new(texts.collect())
+            });
+            seen.insert(key.clone());
+        }
+    }
+
+    /// Reports a key that its object already has; it is cut off again when its value is complete.
+    #[cold]
+    fn duplicate(&mut self, key: &str, start: usize, first: Span) {
+        let span = Span::new(self.tree.file, start, self.scanner.at);
+        self.found.push(DuplicateKey { key: key.into(), span, first }.into());
+        let length = self.tree.nodes.len();
+        if let Some(open) = self.open.last_mut() {
+            open.discard = Some(length);
+        }
+    }
+
+    #[inline]
     fn push(&mut self, start: usize, kind: Kind<'s>) -> u32 {
         let at = self.count();
         let span = Span::new(self.tree.file, start, self.scanner.at);
@@ -224,11 +251,13 @@ impl<'s> Parser<'s> {
     }
 
     /// How many nodes there are; documents of at most 16 MiB have fewer than 2^32.
+    #[inline]
     fn count(&self) -> u32 {
         u32::try_from(self.tree.nodes.len()).unwrap_or(u32::MAX)
     }
 
     /// The document ends where something is missing.
+    #[cold]
     fn ended(&self) -> Box<Diagnostic> {
         let opened = self.open.last().map(|open| {
             let start = self.tree.span(open.node).start as usize;

@@ -64,6 +64,7 @@ impl<T: std::hash::Hash> std::hash::Hash for Spanned<T> {
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Spanned<T> {
+    #[inline]
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_newtype_struct(NAME, SpannedVisitor(PhantomData))
     }
@@ -82,20 +83,23 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for SpannedVisitor<T> {
         T::deserialize(deserializer).map(Spanned::from)
     }
 
+    #[inline]
     fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Spanned<T>, A::Error> {
-        let Some(value) = access.next_element::<T>()? else {
+        let Some(value) = access.next_element_seed(PhantomData::<T>)? else {
             return Err(serde::de::Error::invalid_length(0, &self));
         };
-        let span = access.next_element::<u128>()?.map(unpack).unwrap_or_default();
+        let span = access.next_element_seed(PhantomData::<u128>)?.map(unpack).unwrap_or_default();
         Ok(Spanned { value, span })
     }
 }
 
 /// A span as one number, which is how it passes through serde.
+#[inline]
 pub(crate) fn pack(span: Span) -> u128 {
     (u128::from(span.file.0) << 64) | (u128::from(span.start) << 32) | u128::from(span.end)
 }
 
+#[inline]
 fn unpack(packed: u128) -> Span {
     let bits = |shift: u32| u32::try_from((packed >> shift) & u128::from(u32::MAX)).unwrap_or_default();
     Span { file: FileId(u16::try_from(bits(64)).unwrap_or_default()), start: bits(32), end: bits(0) }

@@ -1,6 +1,8 @@
 //! Conditions and terms in JSON, as they are read, written and described. Part of [`super::wire`].
 
+use std::borrow::Cow;
 use std::fmt;
+use std::marker::PhantomData;
 
 use schemars::JsonSchema;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
@@ -123,6 +125,7 @@ pub struct Duration(pub Spanned<Term>);
 pub struct Count(pub Spanned<Term>);
 
 impl<'de> Deserialize<'de> for Term {
+    #[inline]
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_newtype_struct(MIXED, TermVisitor)
     }
@@ -230,12 +233,17 @@ trait Applied: Sized {
 struct Parts {
     name: Option<Spanned<SmolStr>>,
     args: Vec<(Spanned<SmolStr>, Spanned<Term>)>,
-    within: Option<Duration>,
-    retry: Option<Count>,
-    bind: Option<Spanned<SmolStr>>,
+    within: Option<Box<Duration>>,
+    retry: Option<Box<Count>>,
+    bind: Option<Box<Spanned<SmolStr>>>,
 }
 
-struct AppliedVisitor<T>(std::marker::PhantomData<T>);
+/// A key, copied only where it has escapes: most of them only have to be told apart.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct Key<'s>(#[serde(borrow)] Cow<'s, str>);
+
+struct AppliedVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
     type Value = T;
@@ -247,14 +255,16 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
     fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<T, A::Error> {
         let head = T::KEYS.first().copied().unwrap_or("");
         let mut parts = Parts::default();
-        while let Some(key) = access.next_key::<Spanned<SmolStr>>()? {
-            if key.value == head {
+        while let Some(Spanned { value: Key(key), span }) =
+            access.next_key_seed(PhantomData::<Spanned<Key<'de>>>)?
+        {
+            if key == head {
                 parts.name = Some(access.next_value()?);
-            } else if !T::take(&mut parts, &key.value, &mut access)? {
+            } else if !T::take(&mut parts, &key, &mut access)? {
                 if parts.args.capacity() == 0 {
-                    parts.args.reserve(2);
+                    parts.args = Vec::with_capacity(access.size_hint().unwrap_or(1));
                 }
-                parts.args.push((key, access.next_value()?));
+                parts.args.push((Spanned::new(SmolStr::new(key), span), access.next_value()?));
             }
         }
         match parts.name.take() {
@@ -307,7 +317,7 @@ macro_rules! deserialize_applied {
     ($($name:ident)*) => {$(
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let visitor = AppliedVisitor::<Self>(std::marker::PhantomData);
+                let visitor = AppliedVisitor::<Self>(PhantomData);
                 deserializer.deserialize_struct(stringify!($name), <Self as Applied>::KEYS, visitor)
             }
         }

@@ -67,11 +67,13 @@ impl Number {
 
 impl<'s> Tree<'s> {
     /// The node with this index.
+    #[inline]
     pub(crate) fn get(&self, at: u32) -> Option<&Node<'s>> {
         self.nodes.get(at as usize)
     }
 
     /// Where a node stands.
+    #[inline]
     pub(crate) fn span(&self, at: u32) -> Span {
         self.get(at).map_or_else(Span::default, |node| Span {
             file: self.file,
@@ -81,11 +83,13 @@ impl<'s> Tree<'s> {
     }
 
     /// The index after the last node of the value at `at`.
+    #[inline]
     pub(crate) fn next(&self, at: u32) -> u32 {
         self.get(at).map_or(u32::MAX, |node| node.next)
     }
 
     /// The text of a string or key; empty for anything else.
+    #[inline]
     pub(crate) fn text(&self, at: u32) -> &str {
         match self.get(at).map(|node| &node.kind) {
             Some(Kind::Text(text)) => text,
@@ -94,6 +98,7 @@ impl<'s> Tree<'s> {
     }
 
     /// Indices of an object's keys; the value of a key is the node after it.
+    #[inline]
     pub(crate) fn keys(&self, object: u32) -> impl Iterator<Item = u32> {
         let end = self.next(object);
         let first = Some(object + 1).filter(|at| *at < end);

@@ -38,6 +38,7 @@ pub struct Document {
 /// Steps that run one after the other.
 pub type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 
+// What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved often.
 /// One step; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "an object that is a step", rename_all = "lowercase")]
@@ -48,7 +49,7 @@ pub enum Step {
     /// A named group.
     Sequence(Sequence),
     /// A choice.
-    If(If),
+    If(Box<If>),
     /// Waiting for a condition.
     Wait(Wait),
     /// Steps that are watched over.
@@ -56,9 +57,9 @@ pub enum Step {
     /// Steps whose failures are handled.
     Try(Try),
     /// A bounded loop.
-    Repeat(Repeat),
+    Repeat(Box<Repeat>),
     /// A bounded loop over a list.
-    Each(Each),
+    Each(Box<Each>),
     /// Steps at the same time.
     Parallel(Parallel),
     /// An ending.
@@ -75,13 +76,13 @@ pub struct Do {
     pub args: Args,
     /// The deadline.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub within: Option<Duration>,
+    pub within: Option<Box<Duration>>,
     /// How often it is tried again after a failure.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub retry: Option<Count>,
+    pub retry: Option<Box<Count>>,
     /// The name that its result is bound to; `"$name"` stands for it afterwards.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub r#as: Option<Spanned<SmolStr>>,
+    pub r#as: Option<Box<Spanned<SmolStr>>>,
 }
 
 /// A named group of steps.
@@ -115,7 +116,7 @@ pub struct Wait {
     pub wait: Condition,
     /// The deadline; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub within: Option<Duration>,
+    pub within: Option<Box<Duration>>,
 }
 
 /// Runs `during` while watching every condition.

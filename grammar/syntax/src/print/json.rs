@@ -68,14 +68,14 @@ impl Lowering {
             StepKind::Sequence { name: group, body } => {
                 wire::Step::Sequence(wire::Sequence { sequence: name(group), steps: self.block(body) })
             }
-            StepKind::If { condition, then, otherwise } => wire::Step::If(wire::If {
+            StepKind::If { condition, then, otherwise } => wire::Step::If(Box::new(wire::If {
                 r#if: self.condition(condition),
                 then: self.block(then),
                 r#else: otherwise.as_ref().map(|block| self.block(block)),
-            }),
+            })),
             StepKind::Wait { condition, within } => wire::Step::Wait(wire::Wait {
                 wait: self.condition(condition),
-                within: within.as_ref().map(|within| self.duration(within)),
+                within: within.as_ref().map(|within| Box::new(self.duration(within))),
             }),
             StepKind::Monitor { whens, body } => {
                 let whens: Vec<_> =
@@ -88,17 +88,17 @@ impl Lowering {
                     catches.iter().map(|catch| Lenient::from(Spanned::from(self.catch(catch)))).collect();
                 wire::Step::Try(wire::Try { r#try, catch: catch.into() })
             }
-            StepKind::Repeat { times, body, until } => wire::Step::Repeat(wire::Repeat {
+            StepKind::Repeat { times, body, until } => wire::Step::Repeat(Box::new(wire::Repeat {
                 repeat: self.count(times),
                 steps: self.block(body),
                 until: until.as_ref().map(|until| self.condition(until)),
-            }),
+            })),
             StepKind::Each { item, list, at_most, body } => {
                 let (r#in, at_most) = (self.term(list).into(), self.count(at_most));
                 self.scope.push(item.text.clone());
                 let steps = self.block(body);
                 self.scope.pop();
-                wire::Step::Each(wire::Each { each: name(item), r#in, at_most, steps })
+                wire::Step::Each(Box::new(wire::Each { each: name(item), r#in, at_most, steps }))
             }
             StepKind::Parallel { branches } => {
                 let branches: Vec<_> = branches.iter().map(|branch| self.block(branch)).collect();
@@ -112,9 +112,9 @@ impl Lowering {
         let lowered = wire::Do {
             r#do: name(&step.call.name),
             args: self.args(&step.call),
-            within: step.within.as_ref().map(|within| self.duration(within)),
-            retry: step.retry.as_ref().map(|retry| self.count(retry)),
-            r#as: step.bind.as_ref().map(name),
+            within: step.within.as_ref().map(|within| Box::new(self.duration(within))),
+            retry: step.retry.as_ref().map(|retry| Box::new(self.count(retry))),
+            r#as: step.bind.as_ref().map(|bind| Box::new(name(bind))),
         };
         self.scope.extend(step.bind.as_ref().map(|bind| bind.text.clone()));
         lowered

@@ -125,6 +125,6 @@ pub(crate) fn is_bare_name(text: &str) -> bool {
 
 /// Whether a text can stand as a name, in back-quotes if need be.
 pub(crate) fn is_name(text: &str) -> bool {
-    let is_barred = |byte: u8| byte == b'`' || byte.is_ascii_control() && byte != b'\t';
-    !text.is_empty() && !text.starts_with('$') && !text.bytes().any(is_barred)
+    let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);
+    text.as_bytes().first().is_some_and(|first| *first != b'$') && !text.as_bytes().iter().any(is_barred)
 }
