@@ -1,10 +1,12 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod duration;
+mod feasible;
 mod import;
 mod input;
 mod run;
 
+pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use run::{RunArgs, RunFormat, Speed};
@@ -57,6 +59,8 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
+    /// Find out whether a robot can do a motion in a scene
+    Feasible(FeasibleArgs),
     /// Show the robots that are built in
     Robots(RobotsArgs),
     /// Explain a diagnostic code

@@ -19,6 +19,7 @@ use crate::input::read_small;
 use crate::report::Report;
 
 pub(crate) use cards::{Card, robot_names};
+pub(crate) use scenes::read as read_scene;
 
 /// The id of the document in the sources of its setting. The files of the setting come after it.
 pub(crate) const DOCUMENT: FileId = FileId(0);

@@ -16,7 +16,7 @@ fn scene_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Reads a scene by the name of a built-in one or from a file.
-pub(super) fn read(name: &str, sources: &mut Sources, report: &mut Report) -> Result<Scene, Trouble> {
+pub(crate) fn read(name: &str, sources: &mut Sources, report: &mut Report) -> Result<Scene, Trouble> {
     let (name, bytes) = match scene::embedded().iter().find(|(known, _)| *known == name) {
         Some((name, text)) => (format!("{name}.json"), text.as_bytes().to_vec()),
         None if looks_like_file(name) => (name.to_owned(), read_small(Path::new(name))?),

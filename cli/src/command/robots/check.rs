@@ -1,9 +1,10 @@
 //! `motet robots check`: whether a card and its URDF are sound and fit each other, and what they come to.
 
-use motet_geometry::Tree;
 use motet_geometry::inverse::{LiftArm, ParallelArm};
 use motet_geometry::kinematics::Chain;
+use motet_geometry::query::{Allowed, Machine, Room, World};
 use motet_robots::card::{Drive, Robot};
+use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_syntax::Sources;
 
@@ -41,7 +42,8 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
 const NO_BODY: &str = "the card names no URDF under [model], so no motion can be computed";
 
 fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
-    let tree = Tree::new(urdf);
+    let machine = Machine::new(robot, urdf, None);
+    let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
     let mut lines = vec![format!(
         "body      {}, {}, of which {} by themselves, {} for collision",
@@ -57,11 +59,32 @@ fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
     let base = base.and_then(|base| tree.link(base).ok()).unwrap_or(tree.root());
     for (name, hand) in &robot.hands {
         let tip = hand.tip.as_deref().and_then(|tip| tree.link(tip).ok());
-        let Some(chain) = tip.and_then(|tip| Chain::new(&tree, base, tip)) else {
+        let Some(chain) = tip.and_then(|tip| Chain::new(tree, base, tip)) else {
             lines.push(format!("{name:8}  not carried by the base's link"));
             continue;
         };
         lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(robot, &chain)));
+    }
+    lines.extend(machine.body().unseen().iter().filter_map(|link| {
+        Some(format!("`{}` is a mesh, so no motion is computed", tree.links().get(*link)?))
+    }));
+    lines.extend(touching(&machine));
+    lines
+}
+
+/// Postures in which the robot touches itself or the floor.
+fn touching(machine: &Machine) -> Vec<String> {
+    let scene = Scene::default();
+    let mut world = World::new(machine, &scene);
+    let mut lines = Vec::new();
+    for posture in machine.card().postures.keys() {
+        let Some(joints) = machine.posture(posture, machine.rest()) else { continue };
+        world.robot.joints = joints;
+        let room = Room::new(machine, &scene, &world);
+        lines.push(match room.touch(&world.robot, Allowed::default()) {
+            Some(touch) => format!("{posture:8}  warning: `{}` touches `{}`", touch.link, touch.other),
+            None => format!("{posture:8}  touches neither itself nor the floor"),
+        });
     }
     lines
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod distance;
+mod outline;
 mod part;
 mod simplex;
 mod solid;

@@ -23,7 +23,7 @@ pub use machine::{Hand, Machine, Solver};
 pub use room::{GAP, Room};
 pub use state::State;
 pub use touch::{Allowed, Touch};
-pub use world::World;
+pub use world::{World, components};
 
 impl Room<'_> {
     /// Answers a query in this room. The same room, query and budget give the same answer, bit for bit.

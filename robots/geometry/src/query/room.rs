@@ -6,6 +6,7 @@ use smol_str::SmolStr;
 use super::machine::Machine;
 use super::map::Map;
 use super::obstacle::{solid_shape, solids};
+use super::state::State;
 use super::world::World;
 use crate::collision::{Body, Part, Solid};
 
@@ -59,6 +60,29 @@ impl<'w> Room<'w> {
         let mut room = Self { machine, scene, world, body, held, things, map: None, unseen };
         room.map = machine.drives().then(|| Map::new(&room, &world.robot.joints));
         room
+    }
+
+    /// The robot that is asked.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        self.machine
+    }
+
+    /// Where the robot is.
+    #[must_use]
+    pub fn start(&self) -> &State {
+        &self.world.robot
+    }
+
+    /// What stands around: ids of entities with a solid of theirs, in the order of the scene.
+    pub fn obstacles(&self) -> impl Iterator<Item = (SmolStr, &Solid)> {
+        self.things.iter().map(|thing| (self.name(thing.entity), &thing.solid))
+    }
+
+    /// The solids of the robot in a state, with what it holds.
+    #[must_use]
+    pub fn robot_at(&self, state: &State) -> Vec<Solid> {
+        self.body.placed(&self.machine.map_from_links(state))
     }
 
     /// Why nothing can be said in this room, if so: something in it has a shape that is not known.

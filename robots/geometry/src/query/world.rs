@@ -89,6 +89,12 @@ impl World {
     }
 }
 
+/// A pose as numbers: x, y and z in m, and the unit quaternion x, y, z, w.
+#[must_use]
+pub fn components(pose: &Isometry3<f64>) -> ([f64; 3], [f64; 4]) {
+    (pose.translation.vector.into(), pose.rotation.coords.into())
+}
+
 /// A scene's placement: roll, pitch and yaw about fixed axes, with one sine for every machine.
 pub(super) fn isometry(placement: &Placement) -> Isometry3<f64> {
     use crate::trigonometry::turn;

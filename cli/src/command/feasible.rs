@@ -1,0 +1,122 @@
+//! `motet feasible`: whether a robot can do a motion in a scene, with the path or the reason.
+
+mod drawing;
+mod wire;
+
+use motet_geometry::query::{Answer, Budget, Machine, Query, Reason, Room, Unknown, World};
+use motet_robots::scene::Scene;
+use motet_syntax::Sources;
+
+use crate::args::{FeasibleArgs, FeasibleFormat, Format};
+use crate::exit::{Exit, Trouble};
+use crate::out::Colors;
+use crate::report::Report;
+use crate::workbench::{Card, read_scene};
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// The robot, the scene or a motion cannot be read, or the drawing not be written.
+pub(crate) fn run(args: &FeasibleArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let format = match args.format {
+        FeasibleFormat::Human => Format::Human,
+        FeasibleFormat::Json => Format::Json,
+    };
+    let mut report = Report::new(format, colors);
+    let result = answer(args, &mut report);
+    report.close(result)
+}
+
+fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
+    let mut sources = Sources::default();
+    let card = Card::find(&args.robot)?;
+    let robot = card.read(&mut sources, report)?;
+    let Some(urdf) = card.body(&robot, &mut sources, report)? else {
+        return Err(Trouble::Other(format!("the card of `{}` names no URDF under [model]", robot.name)));
+    };
+    let scene = read_scene(&args.scene, &mut sources, report)?;
+    let machine = Machine::new(&robot, &urdf, None);
+    let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions)? };
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let mut found = Vec::new();
+    let mut exit = Exit::Clean;
+    for query in queries {
+        let answer = room.answer(&query, Budget::default());
+        match args.format {
+            FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
+            FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
+        }
+        match answer {
+            Answer::Feasible(witness) => found.push((query, *witness)),
+            Answer::Infeasible(_) | Answer::Unknown(_) if !args.all => exit = Exit::Findings,
+            Answer::Infeasible(_) | Answer::Unknown(_) => {}
+        }
+    }
+    if let Some(path) = &args.svg {
+        let drawing = drawing::top_view(&room, &found);
+        std::fs::write(path, drawing).map_err(|source| Trouble::Write { path: path.clone(), source })?;
+    }
+    Ok(exit)
+}
+
+fn asked(motions: &[String]) -> Result<Vec<Query>, Trouble> {
+    let queries = motions.iter().map(|motion| {
+        Query::parse(motion).ok_or_else(|| Trouble::Unknown {
+            what: "motion",
+            name: motion.clone(),
+            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front) or posture(NAME)"
+                .to_owned(),
+        })
+    });
+    queries.collect()
+}
+
+/// Every motion that can be asked for in a scene.
+fn all(machine: &Machine, scene: &Scene) -> Vec<Query> {
+    let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(Query::GoTo);
+    let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == "Object");
+    let reaches = objects.map(|(id, _)| Query::Reach(id.clone(), None));
+    let postures = machine.card().postures.keys().cloned().map(Query::Posture);
+    drives.chain(reaches).chain(postures).collect()
+}
+
+fn told(query: &Query, answer: &Answer) -> String {
+    match answer {
+        Answer::Feasible(witness) => {
+            let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
+            let mut line = format!(
+                "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {} legs, {:.3} m clear",
+                yaw.to_degrees(),
+                witness.path.len().saturating_sub(1),
+                witness.margins.clearance,
+            );
+            if let Some(limit) = witness.margins.limit {
+                line.push_str(&format!(", {limit:.2} from a joint's limit"));
+            }
+            if let Some(payload) = witness.margins.payload {
+                line.push_str(&format!(", {payload:.2} kg to spare"));
+            }
+            line + "\n"
+        }
+        Answer::Infeasible(why) => {
+            let proof = if why.certified { "proven" } else { "the search ended" };
+            let help = why.change.as_ref().map_or_else(String::new, |change| format!("  help: {change}\n"));
+            format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
+        }
+        Answer::Unknown(Unknown::Budget) => format!("{query}: unknown, the search was cut short\n"),
+        Answer::Unknown(Unknown::Because(why)) => format!("{query}: unknown, {why}\n"),
+    }
+}
+
+/// The numbers of a reason, by name.
+fn numbers(reason: &Reason) -> Vec<(&'static str, f64)> {
+    match reason {
+        Reason::OutOfReach { needs, reach, .. } => vec![("needs", *needs), ("reach", *reach)],
+        Reason::TooHeavy { needs, limit } | Reason::TooWide { needs, limit } => {
+            vec![("needs", *needs), ("limit", *limit)]
+        }
+        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => vec![],
+    }
+}
