@@ -196,7 +196,7 @@ fn furniture() -> impl Strategy<Value = Vec<(f64, f64, f64, [f64; 3], bool)>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// Furniture at random, a can on each piece: what is feasible holds, and stays so where a piece without a can goes.
+    /// Furniture at random, a can on each piece: what is feasible passes the independent check.
     #[test]
     fn feasible_is_feasible(furniture in furniture()) {
         let (machine, urdf) = machine("hsr");
