@@ -103,8 +103,8 @@ fn simulate(
 fn start(scene: Option<&Scene>) -> StartState {
     let entities = scene.iter().flat_map(|scene| &scene.entities);
     StartState {
-        facts: Vec::new(),
         entities: entities.map(|(id, entity)| (id.clone(), entity.kind.clone())).collect(),
+        ..StartState::default()
     }
 }
 

@@ -14,6 +14,9 @@ impl Engine {
                 format!("start {goal} {command} for {}, until {deadline}", self.path(*node))
             }
             Effect::Cancel { goal } => format!("cancel {goal}"),
+            Effect::Update { goal, node, command, deadline } => {
+                format!("update {goal} to {command} for {}, until {deadline}", self.path(*node))
+            }
             Effect::Hold { goal } => format!("hold {goal}"),
             Effect::Proceed { goal } => format!("proceed {goal}"),
             Effect::SafeStop { goal } => format!("safe stop {goal}"),
@@ -50,6 +53,9 @@ impl Engine {
                 format!("watch {watch} of {} fired: {truth}", self.path(*node))
             }
             Happening::WentOn { node, watch } => format!("{} went on after watch {watch}", self.path(*node)),
+            Happening::Swapped { policy } => format!("swapped to {policy}"),
+            Happening::Kept { node, goal } => format!("{goal} goes on for {}", self.path(*node)),
+            Happening::Updated { node, goal } => format!("{goal} updated for {}", self.path(*node)),
             Happening::Bound { binding, value } => format!("bound {} = {value}", self.name(*binding)),
         }
     }
@@ -90,6 +96,7 @@ impl std::fmt::Display for Cause {
             Self::Person => "a person",
             Self::Driver => "the driver",
             Self::Swap => "a new policy",
+            Self::Lost => "lost by the driver",
         })
     }
 }

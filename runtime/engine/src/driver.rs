@@ -4,6 +4,8 @@ use crate::effect::Command;
 use crate::event::{DriverEvent, GoalId};
 use crate::query::Query;
 use crate::time::Time;
+use smol_str::SmolStr;
+use std::collections::BTreeSet;
 
 /// What moves the robot. The host loop ([`crate::run`]) passes it the engine's effects and feeds the engine with what it
 /// reports.
@@ -20,12 +22,22 @@ use crate::time::Time;
 /// 5. Every observation is answered by one [`DriverEvent::Observed`], within the card's `observe_within`. A watch is
 ///    answered at once and then whenever the answer differs from the last; watching twice is watching once.
 /// 6. Time never runs backwards, and with the same calls at the same times it reports the same events at the same times.
-/// 7. It never reports from within a call: everything goes out through [`Driver::advance`].
+/// 7. A goal is updated only where [`Driver::capabilities`] says so. From then on it pursues the new arguments, under the
+///    same number and deadline rules; where it cannot, it ends in a failure.
+/// 8. What it cannot answer for it reports as [`DriverEvent::Lost`], or [`DriverEvent::DriverLost`] for everything: an
+///    answer that never comes means unknown, not refused. A safe stop of a lost goal is answered like any other.
+/// 9. It never reports from within a call: everything goes out through [`Driver::advance`].
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);
     /// Ends a goal early.
     fn cancel(&mut self, now: Time, goal: GoalId);
+    /// What it can do beside starting and ending goals. The same all through a run.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::default()
+    }
+    /// Gives a running goal new arguments of the same primitive. Called only where [`Driver::capabilities`] says so.
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command);
     /// Keeps a goal still until [`Driver::proceed`].
     fn hold(&mut self, now: Time, goal: GoalId);
     /// Lets a held goal go on.
@@ -42,4 +54,40 @@ pub trait Driver {
     /// with its time, at most `until`, or nothing where `until` was reached without one. With [`Time::NEVER`], nothing
     /// means that nothing will ever happen. A driver of a real robot blocks here.
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
+}
+
+/// What a driver can do beside starting and ending goals.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Capabilities {
+    /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again after it.
+    pub hold: Primitives,
+    /// Primitives whose goals take new arguments while they run. Others are cancelled by a swap that changes them.
+    pub update: Primitives,
+}
+
+impl Default for Capabilities {
+    /// Everything can be held, or is said not to be by [`DriverEvent::NotHeld`]; nothing can be updated.
+    fn default() -> Self {
+        Self { hold: Primitives::All, update: Primitives::Only(BTreeSet::new()) }
+    }
+}
+
+/// A choice of primitives.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Primitives {
+    /// Every one.
+    All,
+    /// Those of these names.
+    Only(BTreeSet<SmolStr>),
+}
+
+impl Primitives {
+    /// Whether a primitive is among them.
+    #[must_use]
+    pub fn contains(&self, primitive: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Only(names) => names.contains(primitive),
+        }
+    }
 }

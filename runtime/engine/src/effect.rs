@@ -29,6 +29,19 @@ pub enum Effect {
         /// Which.
         goal: GoalId,
     },
+    /// Do this instead: the goal goes on under its old number with new arguments of the same primitive. Sent only for
+    /// primitives that the driver says it can update ([`crate::Capabilities`]), and only while the goal runs. Not
+    /// acknowledged; a driver that cannot after all ends the goal in a failure.
+    Update {
+        /// Which.
+        goal: GoalId,
+        /// The step that it is for from now on.
+        node: NodeId,
+        /// What to do.
+        command: Arc<Command>,
+        /// When the engine will cancel it.
+        deadline: Time,
+    },
     /// Keep still without ending, until [`Effect::Proceed`]. Not acknowledged; a driver that cannot says
     /// [`crate::DriverEvent::NotHeld`].
     Hold {

@@ -1,10 +1,12 @@
 //! The engine: a graph, the state of its run, and one way in.
 
+use crate::driver::Capabilities;
 use crate::effect::Effect;
 use crate::event::Event;
 use crate::plan::Plan;
 use crate::query::Pattern;
 use crate::settings::Settings;
+use crate::snapshot::Snapshot;
 use crate::start::{self, StartState};
 use crate::state::Run;
 use crate::time::Time;
@@ -23,6 +25,7 @@ pub struct Engine {
     run: Run,
     settings: Settings,
     verifier: Arc<dyn Verifier>,
+    capabilities: Capabilities,
 }
 
 impl Engine {
@@ -41,6 +44,7 @@ impl Engine {
             run,
             settings: Settings::default(),
             verifier: Arc::new(LeaveToDriver),
+            capabilities: Capabilities::default(),
         })
     }
 
@@ -56,11 +60,17 @@ impl Engine {
         Self { verifier, ..self }
     }
 
+    /// With what the driver can do. They are part of what the effects follow from, so a replay needs the same.
+    #[must_use]
+    pub fn with_capabilities(self, capabilities: Capabilities) -> Self {
+        Self { capabilities, ..self }
+    }
+
     /// Takes in one event that happened at `now` and appends what is to be done about it to `out`. All transitions that
     /// the event enables are made in document order, monitors first. What was due before `now` is done before it. A time
     /// before that of the last event counts as that. After [`Effect::Finished`] nothing happens any more.
     pub fn handle(&mut self, now: Time, event: Event, out: &mut Vec<Effect>) {
-        Turn::new(&self.plan, &mut self.run, &self.settings, &*self.verifier, out).handle(now, event);
+        self.turn(out).handle(now, event);
     }
 
     /// When the engine wants to be woken by [`Event::Tick`], if nothing happens before.
@@ -72,7 +82,7 @@ impl Engine {
     /// The run cannot go on, because nothing is left to wait for: ends it with [`crate::Fault::Stalled`].
     pub fn give_up(&mut self, out: &mut Vec<Effect>) {
         let fault = crate::effect::Fault::Stalled;
-        Turn::new(&self.plan, &mut self.run, &self.settings, &*self.verifier, out).fault(fault);
+        self.turn(out).fault(fault);
     }
 
     /// Whether [`Effect::Finished`] went out.
@@ -103,5 +113,22 @@ impl Engine {
     #[must_use]
     pub fn believes(&self, fluent: &str, args: &[Pattern]) -> Truth {
         self.run.beliefs.fact(fluent, args).0
+    }
+
+    /// The state as it is now, for a compiler to prove a new policy from, for a journal, and for people.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot::of(&self.plan, &self.run)
+    }
+
+    fn turn<'a>(&'a mut self, out: &'a mut Vec<Effect>) -> Turn<'a> {
+        Turn {
+            plan: &self.plan,
+            run: &mut self.run,
+            settings: &self.settings,
+            verifier: &*self.verifier,
+            capabilities: &self.capabilities,
+            out,
+        }
     }
 }

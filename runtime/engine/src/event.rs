@@ -76,6 +76,15 @@ pub enum DriverEvent {
         /// Which.
         goal: GoalId,
     },
+    /// The driver does not know what became of the goal: a start or a cancel was never answered, or what carries it out
+    /// went silent. It may have moved, and may still. The engine asks for a safe stop; until that is acknowledged by
+    /// [`DriverEvent::Stopped`], nobody else gets its resources.
+    Lost {
+        /// Which.
+        goal: GoalId,
+    },
+    /// The driver itself is gone or speaks nonsense: every goal that is live is lost.
+    DriverLost,
     /// An answer to an observation or a watch, or something noticed in passing. It is true at the event's time.
     Observed {
         /// The question.
@@ -104,6 +113,8 @@ impl fmt::Display for DriverEvent {
             Self::Ended { goal, outcome } => write!(f, "ended {goal}: {outcome}"),
             Self::NotHeld { goal } => write!(f, "not held {goal}"),
             Self::Stopped { goal } => write!(f, "stopped {goal}"),
+            Self::Lost { goal } => write!(f, "lost {goal}"),
+            Self::DriverLost => f.write_str("driver lost"),
             Self::Observed { query, answer } => write!(f, "observed {query} = {answer}"),
         }
     }

@@ -88,6 +88,7 @@ fn carry_out(
         match effect {
             Effect::Start { goal, command, .. } => driver.start(now, goal, &command),
             Effect::Cancel { goal } => driver.cancel(now, goal),
+            Effect::Update { goal, command, .. } => driver.update(now, goal, &command),
             Effect::Hold { goal } => driver.hold(now, goal),
             Effect::Proceed { goal } => driver.proceed(now, goal),
             Effect::SafeStop { goal } => driver.safe_stop(now, goal),

@@ -4,6 +4,7 @@ use crate::event::GoalId;
 use crate::time::Time;
 use crate::truth::Truth;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
+use smol_str::SmolStr;
 
 /// Something that happened in a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -85,6 +86,25 @@ pub enum Happening {
         /// The place of the watch in the monitor.
         watch: u32,
     },
+    /// A new policy has taken over. Its ids are those of this record's revision.
+    Swapped {
+        /// Its name.
+        policy: SmolStr,
+    },
+    /// A goal that the old policy started goes on for a step of the new one, untouched.
+    Kept {
+        /// The call in the new policy.
+        node: NodeId,
+        /// The goal.
+        goal: GoalId,
+    },
+    /// A goal that the old policy started goes on for a step of the new one, with new arguments.
+    Updated {
+        /// The call in the new policy.
+        node: NodeId,
+        /// The goal.
+        goal: GoalId,
+    },
     /// A name was bound.
     Bound {
         /// Which.
@@ -134,4 +154,6 @@ pub enum Cause {
     Driver,
     /// The policy was replaced.
     Swap,
+    /// The driver lost it, and stopped safely what it may have moved.
+    Lost,
 }

@@ -1,17 +1,20 @@
 //! What is known when a run begins: what stands in the graph, and what a host adds.
 
 use crate::belief::{Beliefs, Change};
-use crate::query::{Pattern, Query};
+use crate::query::{Answer, Pattern, Query};
 use crate::time::Time;
 use crate::truth::Truth;
-use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, NodeKind, Term, Type, Value};
+use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, NodeKind, Term, Type, Value};
 use smol_str::SmolStr;
 
 /// What a host knows at the start. Facts and kinds that the graph does not mention are left out.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct StartState {
-    /// Facts with their value, in order: a later one wins. Queries that are no facts are ignored.
-    pub facts: Vec<(Query, bool)>,
+    /// Facts with what is known of them, in order: a later one wins, and one with `any` is meant of every entity. Queries
+    /// that are no facts are ignored.
+    pub facts: Vec<(Query, Truth)>,
+    /// Facts with `any` that hold of some entity, where it is not known of which.
+    pub some: Vec<Query>,
     /// Entities with the name of their kind. Effects that quantify over a kind range over these and over every entity
     /// that a graph, a result or an observation names.
     pub entities: Vec<(SmolStr, SmolStr)>,
@@ -35,7 +38,7 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
         });
         let fluent = graph.fluents.get(fact.fluent.index());
         if let (Some(args), Some(fluent)) = (args.collect::<Option<Vec<_>>>(), fluent) {
-            tell(&mut beliefs, &fluent.name, args, *value);
+            tell(&mut beliefs, &fluent.name, args, Truth::from(*value));
         }
     }
     for (query, value) in &start.facts {
@@ -45,12 +48,20 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
             tell(&mut beliefs, fluent, args.clone(), *value);
         }
     }
+    for query in &start.some {
+        if let Query::Fact { fluent, .. } = query
+            && beliefs.fluents.contains_key(fluent)
+        {
+            let cell = beliefs.intern(query.clone());
+            beliefs.observe(cell, Answer::Truth(true), Time::ZERO);
+        }
+    }
     beliefs.changed.clear();
     beliefs
 }
 
-fn tell(beliefs: &mut Beliefs, fluent: &SmolStr, args: Vec<Pattern>, value: bool) {
-    let change = Change { fluent: fluent.clone(), args, value: Truth::from(value), sure: true, rest: false };
+fn tell(beliefs: &mut Beliefs, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
+    let change = Change { fluent: fluent.clone(), args, value, sure: true, rest: false };
     beliefs.apply(&change, Time::ZERO);
 }
 
@@ -62,8 +73,7 @@ struct Ears<'a> {
 
 impl Ears<'_> {
     fn hear(&mut self, id: &SmolStr, kind: &str) {
-        let kind = self.graph.kinds.iter().position(|known| known.name == kind);
-        self.beliefs.entities.hear(self.graph, id, kind.map(|index| KindId(index as u32)));
+        self.beliefs.entities.hear(self.graph, id, Some(kind));
     }
 
     fn value(&mut self, value: &Value, ty: Option<&Type>) {

@@ -1,7 +1,7 @@
 //! Everything that changes during a run, in flat tables by node, region, watch and binding.
 
 use crate::belief::{Beliefs, CellId};
-use crate::effect::RunEnd;
+use crate::effect::{Command, RunEnd};
 use crate::event::GoalId;
 use crate::goals::Goals;
 use crate::plan::Plan;
@@ -72,6 +72,8 @@ pub(crate) enum Wish {
     None,
     /// To hold.
     Hold,
+    /// The driver lost it: it fails once it is safe.
+    Lose,
     /// It is interrupted and starts again later.
     Suspend,
     /// It took too long.
@@ -178,6 +180,8 @@ pub(crate) struct Run {
     pub(crate) lists: Vec<(NodeId, Arc<[Value]>)>,
     pub(crate) beliefs: Beliefs,
     pub(crate) goals: Goals,
+    /// Commands of live goals whose arguments had to be worked out.
+    pub(crate) commands: Vec<(NodeId, Arc<Command>)>,
     pub(crate) timers: Timers,
     /// Resources that are held, as bits.
     pub(crate) held: u128,
@@ -239,6 +243,7 @@ impl Run {
             lists: Vec::new(),
             beliefs,
             goals: Goals::default(),
+            commands: Vec::new(),
             timers: Timers::new(plan.keys()),
             held: 0,
             queue: Vec::new(),
@@ -252,5 +257,11 @@ impl Run {
             walk: Vec::new(),
             missing: Vec::new(),
         }
+    }
+
+    /// What the goal of a call does; none where it has no goal.
+    pub(crate) fn command(&self, plan: &Plan, node: NodeId) -> Option<Arc<Command>> {
+        let worked_out = self.commands.iter().find(|(of, _)| *of == node).map(|(_, command)| command);
+        worked_out.or(plan.step(node).command.as_ref()).cloned()
     }
 }

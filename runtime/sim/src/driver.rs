@@ -4,8 +4,9 @@ use crate::deed::Deed;
 use crate::motion::Motion;
 use crate::sim::Sim;
 use crate::task::{Next, Stage, Stageplay, Task};
-use motet_runtime::{Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Primitives, Query, Time};
 use smol_str::SmolStr;
+use std::collections::BTreeSet;
 
 impl Driver for Sim {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
@@ -43,6 +44,32 @@ impl Driver for Sim {
         if self.drop_task(goal) {
             self.report(DriverEvent::Ended { goal, outcome: Outcome::Interrupted });
         }
+    }
+
+    /// It can hold everything, and `go` somewhere else on the way.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            update: Primitives::Only(BTreeSet::from([SmolStr::new_static("go")])),
+            ..Capabilities::default()
+        }
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.pass(now);
+        let Some(place) = self.tasks.iter().position(|task| task.goal == goal) else { return };
+        let mut task = self.tasks.remove(place);
+        let hangs = task.stage == Stage::Working(Time::NEVER);
+        if matches!(task.stage, Stage::Driving(_)) {
+            self.world.motion = None;
+        }
+        task.deed = Deed::of(command);
+        if hangs {
+            self.tasks.push(task);
+        } else {
+            task.step = 0;
+            self.go_on(task);
+        }
+        self.look();
     }
 
     fn hold(&mut self, now: Time, goal: GoalId) {

@@ -50,7 +50,7 @@ pub fn run(row: &Row) -> (Result<(), String>, Duration) {
         }
         let graph = compiled.graph.ok_or("no graph")?;
         let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
-        let start = StartState { facts: Vec::new(), entities: entities.collect() };
+        let start = StartState { entities: entities.collect(), ..StartState::default() };
         let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
         let mut sim = Sim::new(&robot, &scene, Options::default());
         let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);

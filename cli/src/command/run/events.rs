@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, Value};
-use motet_runtime::{Cause, Effect, Happening, NodeEnding, Record, RunEnd, Time, Truth};
+use motet_runtime::{Cause, Command, Effect, GoalId, Happening, NodeEnding, Record, RunEnd, Time, Truth};
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
@@ -76,6 +76,15 @@ impl Events {
             Happening::WentOn { node, watch } => {
                 self.write(at, "went_on", Some(*node), json!({"watch": watch}));
             }
+            Happening::Swapped { policy } => {
+                self.write(at, "swapped", None, json!({"policy": policy.as_str()}));
+            }
+            Happening::Kept { node, goal } => {
+                self.write(at, "kept", Some(*node), json!({"goal": goal.to_string()}));
+            }
+            Happening::Updated { node, goal } => {
+                self.write(at, "updated", Some(*node), json!({"goal": goal.to_string()}));
+            }
             Happening::Bound { binding, value: bound } => {
                 let name = graph.bindings.get(binding.index()).map_or("_", |binding| binding.name.as_str());
                 self.write(at, "bound", None, json!({"binding": name, "value": value(bound)}));
@@ -88,15 +97,10 @@ impl View for Events {
     fn effect(&mut self, now: Time, effect: &Effect) {
         match effect {
             Effect::Start { goal, node, command, deadline } => {
-                let args: Map<_, _> =
-                    command.args.iter().map(|(name, arg)| (name.to_string(), value(arg))).collect();
-                let more = json!({
-                    "goal": goal.to_string(),
-                    "primitive": command.primitive.as_str(),
-                    "args": args,
-                    "deadline": deadline.secs(),
-                });
-                self.write(now, "command", Some(*node), more);
+                self.write(now, "command", Some(*node), commanded(*goal, command, *deadline));
+            }
+            Effect::Update { goal, node, command, deadline } => {
+                self.write(now, "update", Some(*node), commanded(*goal, command, *deadline));
             }
             Effect::Report(record) => self.record(record),
             Effect::Cancel { goal } => self.write(now, "cancel", None, json!({"goal": goal.to_string()})),
@@ -145,6 +149,16 @@ pub(super) fn diagnostics(said: &[Diagnostic], sources: &Sources, out: &mut Out)
     }
 }
 
+fn commanded(goal: GoalId, command: &Command, deadline: Time) -> serde_json::Value {
+    let args: Map<_, _> = command.args.iter().map(|(name, arg)| (name.to_string(), value(arg))).collect();
+    json!({
+        "goal": goal.to_string(),
+        "primitive": command.primitive.as_str(),
+        "args": args,
+        "deadline": deadline.secs(),
+    })
+}
+
 fn ended(graph: &Graph, ending: NodeEnding, cause: Cause) -> serde_json::Value {
     let cause = match cause {
         Cause::Completed => "completed",
@@ -160,6 +174,7 @@ fn ended(graph: &Graph, ending: NodeEnding, cause: Cause) -> serde_json::Value {
         Cause::Person => "person",
         Cause::Driver => "driver",
         Cause::Swap => "swap",
+        Cause::Lost => "lost",
     };
     match ending {
         NodeEnding::Success => json!({"ending": "success", "cause": cause}),

@@ -29,9 +29,10 @@ impl Lines {
             Happening::Entered { node } => !self.is_call(*node),
             Happening::Started { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => true,
             Happening::GoalEnded { .. } | Happening::Tested { .. } => true,
+            Happening::Kept { .. } | Happening::Updated { .. } => true,
             Happening::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
             Happening::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
-            Happening::Bound { .. } => false,
+            Happening::Swapped { .. } | Happening::Bound { .. } => false,
         };
         if let (true, Some(row)) = (is_told, self.tree.row(node)) {
             let line = self.line(row, record.at);

@@ -131,6 +131,9 @@ impl Tree {
                 (*node, Some(format!("fired: {}", watched(&graph, *node, *watch))))
             }
             Happening::WentOn { node, .. } => (*node, Some("went on".to_owned())),
+            Happening::Swapped { .. } => return None,
+            Happening::Kept { node, .. } => (*node, Some("goes on".to_owned())),
+            Happening::Updated { node, .. } => (*node, Some("updated".to_owned())),
             Happening::Bound { binding, value } => {
                 let binds = |kind: &NodeKind| match kind {
                     NodeKind::Call(call) => call.binds == Some(*binding),

@@ -106,6 +106,16 @@ impl Beliefs {
         self.find(query_hash(query), |known| known == query)
     }
 
+    /// The last readings of measures and fields.
+    pub(crate) fn readings(&self) -> impl Iterator<Item = (Query, Value, Time)> + '_ {
+        self.cells.iter().filter_map(|cell| match (&*cell.query, &cell.answer) {
+            (Query::Measure { .. } | Query::Field { .. }, Answer::Value(value)) => {
+                Some(((*cell.query).clone(), value.clone(), cell.at))
+            }
+            (Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. }, _) => None,
+        })
+    }
+
     /// Whether a fact that nobody asked for may still be kept.
     pub(crate) fn has_room(&self) -> bool {
         self.cells.len() < MAX_IN_PASSING

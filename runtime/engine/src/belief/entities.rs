@@ -4,12 +4,17 @@ use motet_graph::{Graph, KindId, Type, Value};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
-/// Entities in the order in which they were first heard of.
+/// Entities in the order in which they were first heard of. Kinds are kept by name, so that they outlast their graph.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Entities {
-    list: Vec<(SmolStr, Option<KindId>)>,
+    /// Each with the place of its kind among `kinds`.
+    list: Vec<(SmolStr, Option<u32>)>,
     index: FxHashMap<SmolStr, u32>,
+    kinds: Vec<SmolStr>,
 }
+
+/// Of each kind of [`Entities`], and last of none: whether its members are of a certain kind.
+pub(crate) struct Sorting(Vec<OfKind>);
 
 /// Whether an entity is of a kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,26 +29,45 @@ pub(crate) enum OfKind {
 
 impl Entities {
     /// An entity was heard of as a member of a kind. The narrowest kind that it was heard of as is kept.
-    pub(crate) fn hear(&mut self, graph: &Graph, id: &SmolStr, kind: Option<KindId>) {
-        if let Some(known) = self.index.get(id) {
-            if let Some((_, old)) = self.list.get_mut(*known as usize)
-                && let Some(new) = kind
-                && old.is_none_or(|old| is_kind(graph, new, old))
-            {
-                *old = Some(new);
-            }
+    pub(crate) fn hear(&mut self, graph: &Graph, id: &SmolStr, kind: Option<&str>) {
+        let Some(known) = self.index.get(id).copied() else {
+            self.index.insert(id.clone(), self.list.len() as u32);
+            let kind = kind.map(|kind| self.kind(kind));
+            self.list.push((id.clone(), kind));
             return;
+        };
+        let Some(new) = kind else { return };
+        let old = self.list.get(known as usize).and_then(|(_, old)| *old);
+        let old = old.and_then(|old| self.kinds.get(old as usize));
+        let is_narrower = old.is_none_or(|old| match (find(graph, new), find(graph, old)) {
+            (Some(new), Some(old)) => is_kind(graph, new, old),
+            // A kind that the graph does not know says nothing in it.
+            (Some(_), None) => true,
+            (None, Some(_) | None) => false,
+        });
+        if is_narrower {
+            let new = self.kind(new);
+            if let Some((_, kind)) = self.list.get_mut(known as usize) {
+                *kind = Some(new);
+            }
         }
-        self.index.insert(id.clone(), self.list.len() as u32);
-        self.list.push((id.clone(), kind));
+    }
+
+    fn kind(&mut self, name: &str) -> u32 {
+        let known = self.kinds.iter().position(|known| known == name);
+        known.unwrap_or_else(|| {
+            self.kinds.push(SmolStr::new(name));
+            self.kinds.len() - 1
+        }) as u32
     }
 
     /// All entities in a value of a type were heard of.
     pub(crate) fn hear_value(&mut self, graph: &Graph, value: &Value, ty: Option<&Type>) {
         match value {
             Value::Entity(id) => {
-                let kind = if let Some(Type::Entity(kind)) = ty { Some(*kind) } else { None };
-                self.hear(graph, id, kind);
+                let kind =
+                    if let Some(Type::Entity(kind)) = ty { graph.kinds.get(kind.index()) } else { None };
+                self.hear(graph, id, kind.map(|kind| kind.name.as_str()));
             }
             Value::List(items) => {
                 let inner = if let Some(Type::List(inner)) = ty { Some(&**inner) } else { None };
@@ -61,19 +85,41 @@ impl Entities {
         self.list.len()
     }
 
-    /// An entity, and whether it is of a kind.
-    pub(crate) fn get(&self, graph: &Graph, index: usize, kind: KindId) -> Option<(SmolStr, OfKind)> {
-        let (id, known) = self.list.get(index)?;
-        let of_kind = match known {
-            Some(known) if is_kind(graph, *known, kind) => OfKind::Surely,
-            Some(known) if is_kind(graph, kind, *known) => OfKind::Perhaps,
+    /// Which entities are of a kind of a graph.
+    pub(crate) fn sorting(&self, graph: &Graph, kind: KindId) -> Sorting {
+        let of_kind = |name: &SmolStr| match find(graph, name) {
+            Some(known) if is_kind(graph, known, kind) => OfKind::Surely,
+            Some(known) if is_kind(graph, kind, known) => OfKind::Perhaps,
             Some(_) => OfKind::No,
-            // The root of the tree takes everything.
-            None if graph.kinds.get(kind.index()).is_some_and(|kind| kind.parent.is_none()) => OfKind::Surely,
-            None => OfKind::Perhaps,
+            None => of_none(graph, kind),
         };
-        Some((id.clone(), of_kind))
+        let mut sorts: Vec<OfKind> = self.kinds.iter().map(of_kind).collect();
+        sorts.push(of_none(graph, kind));
+        Sorting(sorts)
     }
+
+    /// An entity, and whether it is of the kind of a sorting.
+    pub(crate) fn get(&self, index: usize, sorting: &Sorting) -> Option<(SmolStr, OfKind)> {
+        let (id, kind) = self.list.get(index)?;
+        let place = kind.map_or(sorting.0.len().checked_sub(1)?, |kind| kind as usize);
+        Some((id.clone(), sorting.0.get(place).copied().unwrap_or(OfKind::Perhaps)))
+    }
+
+    /// All with the name of their kind; without those of unknown kind.
+    pub(crate) fn named(&self) -> impl Iterator<Item = (SmolStr, SmolStr)> + '_ {
+        let kind = |kind: &Option<u32>| self.kinds.get(kind.as_ref().copied()? as usize).cloned();
+        self.list.iter().filter_map(move |(id, of)| Some((id.clone(), kind(of)?)))
+    }
+}
+
+/// What an entity is of which no kind is known: the root of the tree takes everything.
+fn of_none(graph: &Graph, kind: KindId) -> OfKind {
+    let is_root = graph.kinds.get(kind.index()).is_some_and(|kind| kind.parent.is_none());
+    if is_root { OfKind::Surely } else { OfKind::Perhaps }
+}
+
+fn find(graph: &Graph, name: &str) -> Option<KindId> {
+    graph.kinds.iter().position(|known| known.name == name).map(|index| KindId(index as u32))
 }
 
 /// Whether a kind is another or below it.

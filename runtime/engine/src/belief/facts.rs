@@ -80,7 +80,7 @@ impl Beliefs {
     }
 
     /// What pattern writes say of a fact or a pattern that has no cell.
-    pub(super) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, u64) {
+    pub(crate) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, u64) {
         let unknown = (Answer::Unknown, 0);
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
         for wide in facts.wides.iter().rev() {
@@ -194,7 +194,7 @@ impl Beliefs {
 }
 
 /// The truth that an answer to a fact gives.
-pub(super) fn truth_of(answer: &Answer) -> Truth {
+pub(crate) fn truth_of(answer: &Answer) -> Truth {
     match answer {
         Answer::Truth(truth) => Truth::from(*truth),
         Answer::Unknown | Answer::Value(_) => Truth::Unknown,

@@ -8,7 +8,7 @@ mod entities;
 mod eval;
 mod facts;
 
-pub(crate) use cells::{Beliefs, CellId};
+pub(crate) use cells::{Beliefs, CellId, Facts};
 pub(crate) use entities::OfKind;
 pub(crate) use eval::{Freshness, Judge};
-pub(crate) use facts::Change;
+pub(crate) use facts::{Change, truth_of};

@@ -207,6 +207,9 @@ impl Turn<'_> {
         state.wish = Wish::None;
         state.goal = Some(goal);
         let attempt = state.count;
+        if plan.step(node).command.is_none() {
+            self.run.commands.push((node, command.clone()));
+        }
         self.report(Happening::Started { node, goal, attempt });
         self.emit(|| Effect::Start { goal, node, command, deadline });
     }

@@ -66,9 +66,9 @@ impl Turn<'_> {
             return if asked { judge.condition(&need.condition) } else { Truth::True };
         };
         let mut truth = Truth::True;
+        let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
-            let graph = &self.plan.graph;
-            let Some((id, of_kind)) = self.run.beliefs.entities.get(graph, index, kind) else { continue };
+            let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
             if of_kind == OfKind::No {
                 continue;
             }
@@ -104,9 +104,9 @@ impl Turn<'_> {
         };
         // For those nobody has heard of it is the new default, before what is said of single ones.
         self.expand_rest(entry, changes);
+        let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
-            let graph = &self.plan.graph;
-            let Some((id, of_kind)) = self.run.beliefs.entities.get(graph, index, kind) else { continue };
+            let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
             if of_kind != OfKind::No {
                 self.expand_for(entry, Some(Value::Entity(id)), of_kind, changes);
             }

@@ -38,6 +38,11 @@ impl Turn<'_> {
                 self.goal_ended(goal, end);
             }
             DriverEvent::Stopped { goal } => self.goal_ended(goal, End::Interrupted),
+            DriverEvent::Lost { goal } => self.lost(goal),
+            DriverEvent::DriverLost => {
+                let live: Vec<GoalId> = self.run.goals.live().map(|(goal, _)| goal).collect();
+                live.into_iter().for_each(|goal| self.lost(goal));
+            }
             DriverEvent::NotHeld { goal } => {
                 if let Some(node) = self.run.goals.node(goal)
                     && self.run.nodes.at(node.index()).phase == Phase::Held
@@ -60,7 +65,7 @@ impl Turn<'_> {
                 state.phase = Phase::Held;
                 self.out.push(Effect::Hold { goal });
             }
-            Wish::Suspend | Wish::Expire | Wish::Stop => {
+            Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop => {
                 state.phase = Phase::Cancelling;
                 self.out.push(Effect::Cancel { goal });
             }
@@ -98,14 +103,29 @@ impl Turn<'_> {
         let Some(goal) = state.goal else { return };
         match (state.phase, state.wish) {
             (Phase::SafeStopping, _) => self.fault(Fault::NotStopped { node }),
-            (Phase::Cancelling, _) | (Phase::Starting, Wish::Suspend | Wish::Expire | Wish::Stop) => {
-                state.phase = Phase::SafeStopping;
-                let key = self.plan.node_key(node);
-                self.run.timers.set(key, self.run.now.after(self.settings.safe_stop_within));
-                self.out.push(Effect::SafeStop { goal });
+            (Phase::Cancelling, _)
+            | (Phase::Starting, Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop) => {
+                self.stop_safely(node, goal);
             }
             (_, _) => self.cancel(node, Wish::Expire),
         }
+    }
+
+    /// Nobody knows what a goal does: everything that it may use is stopped safely before anybody else gets it.
+    fn lost(&mut self, goal: GoalId) {
+        let Some(node) = self.run.goals.node(goal) else { return };
+        let state = self.run.nodes.at_mut(node.index());
+        state.wish = stronger(state.wish, Wish::Lose);
+        if state.phase != Phase::SafeStopping {
+            self.stop_safely(node, goal);
+        }
+    }
+
+    fn stop_safely(&mut self, node: NodeId, goal: GoalId) {
+        self.run.nodes.at_mut(node.index()).phase = Phase::SafeStopping;
+        let key = self.plan.node_key(node);
+        self.run.timers.set(key, self.run.now.after(self.settings.safe_stop_within));
+        self.out.push(Effect::SafeStop { goal });
     }
 
     fn goal_ended(&mut self, goal: GoalId, end: End) {
@@ -113,19 +133,22 @@ impl Turn<'_> {
         self.run.goals.close(goal);
         self.run.timers.clear(self.plan.node_key(node));
         self.release(node);
+        if self.plan.step(node).command.is_none() {
+            self.run.commands.retain(|(of, _)| *of != node);
+        }
         let state = self.run.nodes.at_mut(node.index());
         let wish = std::mem::replace(&mut state.wish, Wish::None);
         state.goal = None;
         match end {
             End::Success(value) => self.goal_succeeded(node, goal, value),
             End::Failure(failure, cause) => self.goal_failed(node, goal, failure, cause),
-            End::Interrupted => {
-                if wish == Wish::Expire {
-                    self.goal_failed(node, goal, TIMEOUT, Cause::Deadline);
-                } else {
+            End::Interrupted => match wish {
+                Wish::Expire => self.goal_failed(node, goal, TIMEOUT, Cause::Deadline),
+                Wish::Lose => self.goal_failed(node, goal, TIMEOUT, Cause::Lost),
+                Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop => {
                     self.goal_interrupted(node, goal, wish);
                 }
-            }
+            },
         }
         self.check_clearing();
     }
@@ -165,7 +188,7 @@ impl Turn<'_> {
         let cause = match (stopped, wish) {
             (Some(cause), _) => cause,
             (None, Wish::Suspend) => Cause::Monitor,
-            (None, Wish::None | Wish::Hold | Wish::Expire | Wish::Stop) => Cause::Driver,
+            (None, Wish::None | Wish::Hold | Wish::Lose | Wish::Expire | Wish::Stop) => Cause::Driver,
         };
         let ending = NodeEnding::Interrupted;
         self.report(Happening::GoalEnded { node, goal, ending, cause });
@@ -221,9 +244,10 @@ fn stronger(a: Wish, b: Wish) -> Wish {
     let strength = |wish: Wish| match wish {
         Wish::None => 0,
         Wish::Hold => 1,
-        Wish::Suspend => 2,
-        Wish::Expire => 3,
-        Wish::Stop => 4,
+        Wish::Lose => 2,
+        Wish::Suspend => 3,
+        Wish::Expire => 4,
+        Wish::Stop => 5,
     };
     if strength(b) > strength(a) { b } else { a }
 }

@@ -16,6 +16,7 @@ mod suspend;
 mod watch;
 
 use crate::belief::{Freshness, Judge};
+use crate::driver::Capabilities;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::event::Event;
 use crate::plan::{Key, Plan};
@@ -30,24 +31,15 @@ use std::cmp::Reverse;
 
 /// The engine while it handles one event.
 pub(crate) struct Turn<'a> {
-    plan: &'a Plan,
-    run: &'a mut Run,
-    settings: &'a Settings,
-    verifier: &'a dyn Verifier,
-    out: &'a mut Vec<Effect>,
+    pub(crate) plan: &'a Plan,
+    pub(crate) run: &'a mut Run,
+    pub(crate) settings: &'a Settings,
+    pub(crate) verifier: &'a dyn Verifier,
+    pub(crate) capabilities: &'a Capabilities,
+    pub(crate) out: &'a mut Vec<Effect>,
 }
 
-impl<'a> Turn<'a> {
-    pub(crate) fn new(
-        plan: &'a Plan,
-        run: &'a mut Run,
-        settings: &'a Settings,
-        verifier: &'a dyn Verifier,
-        out: &'a mut Vec<Effect>,
-    ) -> Self {
-        Self { plan, run, settings, verifier, out }
-    }
-
+impl Turn<'_> {
     /// Takes an event in.
     pub(crate) fn handle(&mut self, now: Time, event: Event) {
         if self.run.over {

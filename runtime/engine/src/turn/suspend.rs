@@ -48,6 +48,7 @@ impl Turn<'_> {
 
     fn suspend_node(&mut self, node: Option<NodeId>, wish: Wish) {
         let Some(node) = node else { return };
+        let wish = if wish == Wish::Hold && !self.can_hold(node) { Wish::Suspend } else { wish };
         let key = self.plan.node_key(node);
         let now = self.run.now;
         let state = self.run.nodes.at_mut(node.index());
@@ -84,6 +85,13 @@ impl Turn<'_> {
             Phase::Deciding | Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending => {}
             Phase::Inside | Phase::Cancelling | Phase::SafeStopping | Phase::Suspended => {}
         }
+    }
+
+    /// Whether the driver can hold the goal of a call.
+    fn can_hold(&self, node: NodeId) -> bool {
+        let primitive =
+            self.plan.call(node).and_then(|call| self.plan.graph.primitives.get(call.primitive.index()));
+        primitive.is_none_or(|primitive| self.capabilities.hold.contains(&primitive.name))
     }
 
     fn go_on_node(&mut self, node: Option<NodeId>) {

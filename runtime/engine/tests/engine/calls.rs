@@ -1,7 +1,9 @@
 //! The life of a call: start, acknowledgement, end; deadlines, retries, guards, results; cancels that are not answered.
 
 use crate::check;
-use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, NotHeld, Refused, Stop, Stopped, Tick};
+use crate::script::Feed::{
+    Ack, Done, DriverLost, Fails, Gives, Interrupted, Lost, NotHeld, Refused, Stop, Stopped, Tick,
+};
 use crate::script::{at, entity, holding, holding_any};
 use motet_graph::Value;
 use motet_graph::arbitrary::vocabulary as v;
@@ -155,4 +157,24 @@ fn events_about_ended_goals_are_ignored() {
 #[test]
 fn what_is_seen_in_passing_is_believed() {
     check!([Step::Call(pick("mug"))], [(0.5, at("table", true)), (1.0, Done(1))]);
+}
+
+#[test]
+fn a_lost_goal_is_stopped_safely_and_fails() {
+    let go = Call::new(v::GO, vec![v::entity("table")]).retry(1);
+    check!(
+        [Step::Call(go)],
+        [(0.1, Ack(1)), (1.0, Lost(1)), (1.1, Lost(1)), (1.5, Stopped(1)), (2.0, Lost(2))]
+    );
+}
+
+#[test]
+fn a_lost_driver_loses_every_goal() {
+    let both = Step::Parallel(vec![vec![Step::go("table")], vec![Step::detect("mug")]]);
+    check!([both], [(0.1, Ack(1)), (1.0, DriverLost), (1.5, Stopped(2)), (1.6, Stopped(1))]);
+}
+
+#[test]
+fn the_end_of_a_lost_goal_counts() {
+    check!([Step::go("table")], [(1.0, Lost(1)), (1.5, Done(1))]);
 }

@@ -22,6 +22,7 @@ impl Driver for TwoSeconds {
         self.due.retain(|(_, other, _)| *other != goal);
         self.due.push((now.after(Time::from_secs(0.1)), goal, Outcome::Interrupted));
     }
+    fn update(&mut self, _now: Time, _goal: GoalId, _command: &Command) {}
     fn hold(&mut self, _now: Time, _goal: GoalId) {}
     fn proceed(&mut self, _now: Time, _goal: GoalId) {}
     fn safe_stop(&mut self, _now: Time, _goal: GoalId) {}

@@ -14,3 +14,4 @@ mod host;
 mod monitors;
 mod random;
 mod script;
+mod snapshot;

@@ -20,6 +20,7 @@ enum Act {
     Refuse(u8),
     NotHeld(u8),
     Stopped(u8),
+    Lost(u8),
     Answer(u8, u8),
     ToWake,
     Nothing,
@@ -35,6 +36,7 @@ fn acts() -> impl Strategy<Value = Vec<(u64, Act)>> {
         1 => any::<u8>().prop_map(Act::Refuse),
         2 => any::<u8>().prop_map(Act::NotHeld),
         2 => any::<u8>().prop_map(Act::Stopped),
+        1 => any::<u8>().prop_map(Act::Lost),
         20 => (any::<u8>(), any::<u8>()).prop_map(|(query, answer)| Act::Answer(query, answer)),
         6 => Just(Act::ToWake),
         1 => Just(Act::Nothing),
@@ -95,6 +97,7 @@ impl Ledger {
                     assert!(goal.acknowledged && !goal.cancelled, "a cancel too early or twice");
                     goal.cancelled = true;
                 }
+                Effect::Update { .. } => panic!("an update without a swap"),
                 Effect::Hold { goal } => {
                     let goal = self.live.get_mut(goal).expect("a hold of a goal that is not live");
                     assert!(goal.acknowledged && !goal.cancelled && !goal.held, "a hold out of place");
@@ -128,6 +131,9 @@ impl Ledger {
                     }
                     Happening::Guard { .. } | Happening::Tested { .. } | Happening::Fired { .. } => {}
                     Happening::WentOn { .. } | Happening::Bound { .. } => {}
+                    Happening::Swapped { .. } | Happening::Kept { .. } | Happening::Updated { .. } => {
+                        panic!("a swap that nobody asked for")
+                    }
                 },
                 Effect::Finished(end) => {
                     if !matches!(**end, RunEnd::Fault(_)) {
@@ -188,6 +194,8 @@ impl Ledger {
                 self.live.remove(&goal);
                 DriverEvent::Stopped { goal }
             }
+            Act::Lost(0) => DriverEvent::DriverLost,
+            Act::Lost(number) => DriverEvent::Lost { goal: self.pick(*number)? },
             Act::Answer(number, answer) => {
                 let open: Vec<&Query> = self.watched.iter().chain(&self.asked).collect();
                 let query = (*open.get(usize::from(*number).checked_rem(open.len())?)?).clone();

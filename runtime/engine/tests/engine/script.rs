@@ -18,6 +18,8 @@ pub(crate) enum Feed {
     Refused(u32, &'static str),
     Stopped(u32),
     NotHeld(u32),
+    Lost(u32),
+    DriverLost,
     See(Query, Answer),
     Tick,
     Stop,
@@ -51,6 +53,8 @@ pub(crate) fn transcript_of(graph: Graph, script: Vec<(f64, Feed)>) -> String {
             Feed::Refused(number, kind) => DriverEvent::Refused { goal: goal(number), failure: kind.into() },
             Feed::Stopped(number) => DriverEvent::Stopped { goal: goal(number) },
             Feed::NotHeld(number) => DriverEvent::NotHeld { goal: goal(number) },
+            Feed::Lost(number) => DriverEvent::Lost { goal: goal(number) },
+            Feed::DriverLost => DriverEvent::DriverLost,
             Feed::See(query, answer) => DriverEvent::Observed { query, answer },
             Feed::Tick => {
                 step(&mut engine, at, Event::Tick, "tick", &mut goals, &mut text);

@@ -1,0 +1,176 @@
+//! The state of a run as plain data: what a compiler proves a new policy from, and what a trace shows.
+
+use crate::belief::{Beliefs, Facts, truth_of};
+use crate::effect::Command;
+use crate::event::GoalId;
+use crate::plan::Plan;
+use crate::query::{Answer, Pattern, Query};
+use crate::start::StartState;
+use crate::state::Run;
+use crate::time::Time;
+use crate::truth::Truth;
+use motet_graph::Value;
+use smol_str::SmolStr;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// A state between two events.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Snapshot {
+    /// Of when.
+    pub at: Time,
+    /// The number of the graph that runs.
+    pub revision: u32,
+    /// The policy that runs.
+    pub policy: SmolStr,
+    /// The robot that it is for.
+    pub robot: SmolStr,
+    /// What is believed: in order, a later one wins, and one with `any` is meant of every entity. What stands in no line is
+    /// unknown.
+    pub facts: Vec<(Query, Truth)>,
+    /// Facts with `any` that hold of some entity, where it is not known of which.
+    pub some: Vec<Query>,
+    /// The last readings of measures and fields, with their times, by query.
+    pub readings: Vec<(Query, Value, Time)>,
+    /// Entities that the engine has heard of, with the name of their kind where it is known.
+    pub entities: Vec<(SmolStr, SmolStr)>,
+    /// Names that are bound, in the order of the graph.
+    pub bindings: Vec<(SmolStr, Value)>,
+    /// What runs, by start.
+    pub goals: Vec<LiveGoal>,
+}
+
+/// A goal that has not ended.
+#[derive(Clone, PartialEq, Debug)]
+pub struct LiveGoal {
+    /// Its number.
+    pub goal: GoalId,
+    /// What it does.
+    pub command: Arc<Command>,
+    /// The path of the step that started it, in the graph of its time.
+    pub path: SmolStr,
+}
+
+impl Snapshot {
+    /// The same as a start for another engine.
+    #[must_use]
+    pub fn start_state(&self) -> StartState {
+        StartState { facts: self.facts.clone(), some: self.some.clone(), entities: self.entities.clone() }
+    }
+
+    /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what is unknown
+    /// though something before it says otherwise is none. Only facts about entities and cases can be said.
+    #[must_use]
+    pub fn state(&self) -> Vec<(String, Option<bool>)> {
+        let said = self.facts.iter().filter_map(|(query, truth)| Some((fact_text(query)?, known(*truth))));
+        said.collect()
+    }
+
+    pub(crate) fn of(plan: &Plan, run: &Run) -> Self {
+        let graph = &plan.graph;
+        let mut fluents: Vec<(&SmolStr, &Facts)> = run.beliefs.fluents.iter().collect();
+        fluents.sort_by_key(|(name, _)| *name);
+        let mut facts = Vec::new();
+        for (name, own) in &fluents {
+            let wide = own.wides.iter().map(|wide| {
+                let query = Query::Fact { fluent: (*name).clone(), args: wide.args.clone() };
+                (query, truth_of(&wide.answer))
+            });
+            facts.extend(wide);
+            facts.extend(singles(&run.beliefs, name, own));
+        }
+        let some =
+            fluents.iter().flat_map(|(_, own)| own.patterns.iter()).filter_map(|id| run.beliefs.cell(*id));
+        let some = some.filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| (*cell.query).clone());
+        let mut readings: Vec<_> = run.beliefs.readings().collect();
+        readings.sort_by_cached_key(|(query, ..)| query.to_string());
+        let bindings = graph.bindings.iter().zip(&run.bindings);
+        let mut goals: Vec<LiveGoal> = Vec::new();
+        for (goal, node) in run.goals.live() {
+            if let Some(command) = run.command(plan, node) {
+                goals.push(LiveGoal { goal, command, path: plan.node(node).path.clone() });
+            }
+        }
+        goals.sort_by_key(|live| live.goal);
+        Self {
+            at: run.now,
+            revision: run.revision,
+            policy: graph.policy.clone(),
+            robot: graph.robot.clone(),
+            facts,
+            some: some.collect(),
+            readings,
+            entities: run.beliefs.entities.named().collect(),
+            bindings: bindings
+                .filter_map(|(binding, value)| Some((binding.name.clone(), value.clone()?)))
+                .collect(),
+            goals,
+        }
+    }
+}
+
+/// Single facts of which something else is believed than of all that the same patterns cover.
+fn singles(beliefs: &Beliefs, fluent: &SmolStr, own: &Facts) -> Vec<(Query, Truth)> {
+    let mut singles = Vec::new();
+    for cell in own.cells.iter().filter_map(|id| beliefs.cell(*id)) {
+        if let Query::Fact { args, .. } = &*cell.query {
+            let (wide, _) = beliefs.wide_answer(fluent, args);
+            if truth_of(&wide) != truth_of(&cell.answer) {
+                singles.push(((*cell.query).clone(), truth_of(&cell.answer)));
+            }
+        }
+    }
+    singles.sort_by_cached_key(|(query, _)| query.to_string());
+    singles
+}
+
+const fn known(truth: Truth) -> Option<bool> {
+    match truth {
+        Truth::True => Some(true),
+        Truth::False => Some(false),
+        Truth::Unknown => None,
+    }
+}
+
+/// A fact as it is written in a policy; none where an argument is no name.
+fn fact_text(query: &Query) -> Option<String> {
+    let Query::Fact { fluent, args } = query else { return None };
+    let mut text = String::new();
+    name(&mut text, fluent);
+    text.push('(');
+    for (index, arg) in args.iter().enumerate() {
+        if index > 0 {
+            text.push_str(", ");
+        }
+        match arg {
+            Pattern::Any => text.push_str("any"),
+            Pattern::Is(Value::Entity(id) | Value::Case(id)) => name(&mut text, id),
+            Pattern::Is(Value::Bool(value)) => write!(text, "{value}").ok()?,
+            Pattern::Is(Value::Int(value)) => write!(text, "{value}").ok()?,
+            Pattern::Is(Value::Number(_) | Value::Text(_) | Value::Pose(_) | Value::List(_)) => return None,
+        }
+    }
+    text.push(')');
+    Some(text)
+}
+
+/// The words of the language, which are never bare names.
+const WORDS: [&str; 25] = [
+    "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
+    "repeat", "each", "parallel", "done", "fail", "replan", "and", "or", "not", "true", "false", "any", "",
+];
+
+/// A name, in back-quotes where it would not be read as one without.
+fn name(text: &mut String, id: &str) {
+    let mut letters = id.chars();
+    let plain = !WORDS.contains(&id)
+        && letters.next().is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
+        && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
+    if plain {
+        text.push_str(id);
+    } else {
+        text.push('`');
+        text.push_str(id);
+        text.push('`');
+    }
+}
