@@ -43,6 +43,8 @@ mod engine;
 mod event;
 mod goals;
 mod host;
+pub mod journal;
+pub mod memory;
 mod plan;
 mod query;
 mod record;
@@ -56,6 +58,7 @@ mod timers;
 mod truth;
 mod turn;
 mod verifier;
+pub mod wire;
 mod work;
 
 pub use driver::{Capabilities, Driver, Primitives};

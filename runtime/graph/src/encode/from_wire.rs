@@ -77,16 +77,21 @@ fn ty(of: w::Type) -> m::Type {
     }
 }
 
-fn value(of: w::Value) -> m::Value {
-    match of {
-        w::Value::Bool(value) => m::Value::Bool(value),
-        w::Value::Int(value) => m::Value::Int(value),
-        w::Value::Number(value) => m::Value::Number(value),
-        w::Value::Text(value) => m::Value::Text(text(value)),
-        w::Value::Entity(id) => m::Value::Entity(text(id)),
-        w::Value::Case(name) => m::Value::Case(text(name)),
-        w::Value::Pose { xyz, quaternion } => m::Value::Pose(m::Pose { xyz, quaternion }),
-        w::Value::List(items) => m::Value::List(list(items, value)),
+impl From<w::Value> for m::Value {
+    fn from(of: w::Value) -> Self {
+        match of {
+            w::Value::Bool(value) => Self::Bool(value),
+            w::Value::Int(value) => Self::Int(value),
+            w::Value::Number(value) => Self::Number(value.0),
+            w::Value::Text(value) => Self::Text(text(value)),
+            w::Value::Entity(id) => Self::Entity(text(id)),
+            w::Value::Case(name) => Self::Case(text(name)),
+            w::Value::Pose { xyz, quaternion } => Self::Pose(m::Pose {
+                xyz: xyz.map(|number| number.0),
+                quaternion: quaternion.map(|number| number.0),
+            }),
+            w::Value::List(items) => Self::List(list(items, Self::from)),
+        }
     }
 }
 
@@ -234,7 +239,7 @@ fn condition(of: w::Condition) -> m::Condition {
 
 fn term(of: w::Term) -> m::Term {
     match of {
-        w::Term::Literal(of) => m::Term::Literal(value(of)),
+        w::Term::Literal(of) => m::Term::Literal(of.into()),
         w::Term::Binding(id) => m::Term::Binding(m::BindingId(id)),
         w::Term::Each => m::Term::Each,
         w::Term::Field(of, field) => m::Term::Field(Box::new(term(*of)), text(field)),

@@ -20,13 +20,19 @@ pub const VERSION: u32 = 1;
 /// The largest document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;
 
-/// A graph as a JSON document. A number that is not finite, which no valid graph holds, is written as `null` and is not
+/// A graph as a JSON document. A duration that is not finite, which no valid graph holds, is written as `null` and is not
 /// read again.
 #[must_use]
 pub fn encode(graph: &Graph) -> String {
+    json(&document(graph))
+}
+
+/// A graph as a document with its hash, to stand within another one.
+#[must_use]
+pub fn document(graph: &Graph) -> Document {
     let mut document = to_wire::document(graph);
     document.hash = hash_of(&document);
-    json(&document)
+    document
 }
 
 /// The graph in a JSON document.
@@ -44,7 +50,18 @@ pub fn decode(text: &str) -> Result<Graph, DecodeError> {
     if version != u64::from(VERSION) {
         return Err(DecodeError::Version { found: version, expected: VERSION });
     }
-    let mut document: Document = serde_json::from_str(text)?;
+    from_document(serde_json::from_str(text)?)
+}
+
+/// The graph in a document that stood within another one.
+///
+/// # Errors
+///
+/// Where it is of another version, or its hash is not that of its content.
+pub fn from_document(mut document: Document) -> Result<Graph, DecodeError> {
+    if document.motet_graph != VERSION {
+        return Err(DecodeError::Version { found: document.motet_graph.into(), expected: VERSION });
+    }
     let stated = std::mem::take(&mut document.hash);
     let actual = hash_of(&document);
     if stated != actual {

@@ -79,16 +79,20 @@ fn ty(of: &m::Type) -> w::Type {
     }
 }
 
-fn value(of: &m::Value) -> w::Value {
-    match of {
-        m::Value::Bool(value) => w::Value::Bool(*value),
-        m::Value::Int(value) => w::Value::Int(*value),
-        m::Value::Number(value) => w::Value::Number(*value),
-        m::Value::Text(value) => w::Value::Text(text(value)),
-        m::Value::Entity(id) => w::Value::Entity(text(id)),
-        m::Value::Case(name) => w::Value::Case(text(name)),
-        m::Value::Pose(pose) => w::Value::Pose { xyz: pose.xyz, quaternion: pose.quaternion },
-        m::Value::List(items) => w::Value::List(list(items, value)),
+impl From<&m::Value> for w::Value {
+    fn from(of: &m::Value) -> Self {
+        match of {
+            m::Value::Bool(value) => Self::Bool(*value),
+            m::Value::Int(value) => Self::Int(*value),
+            m::Value::Number(value) => Self::Number(w::Float(*value)),
+            m::Value::Text(value) => Self::Text(text(value)),
+            m::Value::Entity(id) => Self::Entity(text(id)),
+            m::Value::Case(name) => Self::Case(text(name)),
+            m::Value::Pose(pose) => {
+                Self::Pose { xyz: pose.xyz.map(w::Float), quaternion: pose.quaternion.map(w::Float) }
+            }
+            m::Value::List(items) => Self::List(list(items, |item| Self::from(item))),
+        }
     }
 }
 
@@ -224,7 +228,7 @@ fn condition(of: &m::Condition) -> w::Condition {
 
 fn term(of: &m::Term) -> w::Term {
     match of {
-        m::Term::Literal(of) => w::Term::Literal(value(of)),
+        m::Term::Literal(of) => w::Term::Literal(of.into()),
         m::Term::Binding(id) => w::Term::Binding(id.0),
         m::Term::Each => w::Term::Each,
         m::Term::Field(of, field) => w::Term::Field(Box::new(term(of)), text(field)),

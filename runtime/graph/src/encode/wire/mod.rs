@@ -1,9 +1,11 @@
 //! What stands in a document. Field by field the same as the model, with ids as plain numbers.
 
+mod float;
 mod step;
 mod table;
 mod term;
 
+pub use float::Float;
 pub use step::*;
 pub use table::*;
 pub use term::*;

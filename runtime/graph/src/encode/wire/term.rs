@@ -1,5 +1,6 @@
 //! Values, terms and conditions.
 
+use super::Float;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,7 @@ pub enum Value {
     /// A whole number.
     Int(i64),
     /// A number in SI units.
-    Number(f64),
+    Number(Float),
     /// Text.
     Text(String),
     /// An entity's id.
@@ -22,9 +23,9 @@ pub enum Value {
     /// A pose.
     Pose {
         /// Position in metres.
-        xyz: [f64; 3],
+        xyz: [Float; 3],
         /// Unit quaternion x, y, z, w.
-        quaternion: [f64; 4],
+        quaternion: [Float; 4],
     },
     /// A list.
     List(Vec<Value>),

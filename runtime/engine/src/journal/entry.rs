@@ -1,0 +1,89 @@
+//! What stands in a line.
+
+use crate::wire::{Capabilities, Document, Effect, Event, Settings, StartState};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An entry of a journal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Entry {
+    /// The first: what the engine was made from.
+    Head(Box<Head>),
+    /// An event and the effects that followed.
+    Step(Step),
+    /// Nothing was left to wait for: the engine gave up. No event stands here.
+    GaveUp(Step),
+    /// The process ended before the run did, and another one went on. The engine took no part in it.
+    Resumed(Resumed),
+}
+
+/// What an engine was made from.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Head {
+    /// The version of the journal, 1.
+    pub motet_journal: u32,
+    /// The version of the wire forms, 1.
+    pub wire: u32,
+    /// When the run began by the host's clock, in ns since 1970; for people and tools, the engine does not know it.
+    pub began_unix_ns: u64,
+    /// The engine's time then.
+    pub from: u64,
+    /// What a person asked for, in their words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instruction: Option<String>,
+    /// The graph.
+    pub graph: Document,
+    /// What was known.
+    pub start: StartState,
+    /// How patient the engine is.
+    pub settings: Settings,
+    /// What the driver can do.
+    pub capabilities: Capabilities,
+    /// What the host needs to come to the same driver again; its own affair.
+    pub driver: serde_json::Value,
+}
+
+/// An event and the effects that followed.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// The engine's time.
+    pub at: u64,
+    /// What it took in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub event: Option<Event>,
+    /// What it gave out.
+    pub effects: Vec<Effect>,
+}
+
+/// Another process went on.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Resumed {
+    /// When by the host's clock, in ns since 1970.
+    pub unix_ns: u64,
+    /// Bytes of a line that was not written to its end and was cut off.
+    pub cut_bytes: u64,
+}
+
+impl Head {
+    /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known beside what
+    /// the graph says.
+    #[must_use]
+    pub fn new(graph: &motet_graph::Graph) -> Self {
+        Self {
+            motet_journal: super::VERSION,
+            wire: crate::wire::VERSION,
+            began_unix_ns: 0,
+            from: 0,
+            instruction: None,
+            graph: motet_graph::encode::document(graph),
+            start: StartState::default(),
+            settings: crate::Settings::default().into(),
+            capabilities: (&crate::Capabilities::default()).into(),
+            driver: serde_json::Value::Null,
+        }
+    }
+}

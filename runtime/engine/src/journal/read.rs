@@ -1,0 +1,165 @@
+//! Reading lines: what holds, where a torn tail begins, and where a journal is damaged.
+
+use super::chain::Chain;
+use super::entry::Entry;
+use super::line::{self, LineError};
+use super::{MAX_LINE_BYTES, VERSION};
+use std::fmt;
+use thiserror::Error;
+
+/// Which segment is read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// Others follow: it has to be whole.
+    Middle,
+    /// The last one: what was being written when the process ended may be torn.
+    Last,
+}
+
+/// How a segment ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ending {
+    /// With a whole line.
+    Whole,
+    /// With a line that was not written to its end.
+    Torn {
+        /// How many bytes hold; what follows is to be cut off before anything is appended.
+        good_bytes: u64,
+        /// How many bytes follow.
+        torn_bytes: u64,
+    },
+}
+
+/// A journal that cannot be trusted, with the place of the first line that is wrong.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub struct Damage {
+    /// The segment's name.
+    pub segment: String,
+    /// The line in the segment, from 1.
+    pub line: u64,
+    /// Where the line begins, in bytes from the beginning of the segment.
+    pub offset: u64,
+    /// What is wrong.
+    pub wrong: Wrong,
+}
+
+/// What is wrong with a line of a journal.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum Wrong {
+    /// The line in itself.
+    #[error("{0}")]
+    Line(LineError),
+    /// A segment that others follow ends in the middle of a line.
+    #[error("it is not written to its end, though another segment follows")]
+    Unfinished,
+    /// It is too long.
+    #[error("it is longer than {} MiB", MAX_LINE_BYTES >> 20)]
+    TooLong,
+    /// A line before it is missing, or it stands there twice.
+    #[error("it has number {found}, number {expected} was to come")]
+    Order {
+        /// Its number.
+        found: u64,
+        /// The number that was to come.
+        expected: u64,
+    },
+    /// The line before it was changed.
+    #[error("it does not follow from the line before: that one was changed, or belongs to another journal")]
+    Chain,
+    /// The first line is no head, or another one is.
+    #[error("{0}")]
+    Head(&'static str),
+    /// A version that this program does not read.
+    #[error("the journal has version {found}; this program reads version {VERSION}")]
+    Version {
+        /// Its version.
+        found: u32,
+    },
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { segment, line, offset, wrong } = self;
+        write!(f, "the journal is damaged in {segment}, line {line} (byte {offset}): {wrong}")
+    }
+}
+
+/// Reads the segments of a journal, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Reader {
+    chain: Chain,
+}
+
+impl Reader {
+    /// Reads a segment and gives every entry with its number to `take`. Tells how the segment ended.
+    ///
+    /// A last line without a line feed is torn. So is one with it whose checksum fails and that holds a NUL byte: a block
+    /// that the file system had made room for and never written. Any other line that does not hold is damage.
+    ///
+    /// # Errors
+    ///
+    /// The first line that is wrong. Entries before it were given.
+    pub fn segment(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+        place: Place,
+        take: &mut dyn FnMut(u64, Entry),
+    ) -> Result<Ending, Damage> {
+        let (mut rest, mut offset, mut number) = (bytes, 0_usize, 0_u64);
+        while !rest.is_empty() {
+            number += 1;
+            let at = |wrong| Damage { segment: name.to_owned(), line: number, offset: offset as u64, wrong };
+            let torn = Ending::Torn { good_bytes: offset as u64, torn_bytes: rest.len() as u64 };
+            let Some(end) = rest.iter().position(|byte| *byte == b'\n') else {
+                return if place == Place::Last { Ok(torn) } else { Err(at(Wrong::Unfinished)) };
+            };
+            let (line, after) = rest.split_at(end);
+            let after = after.split_first().map_or(&[][..], |(_, after)| after);
+            match self.line(line) {
+                Ok((seq, entry)) => take(seq, entry),
+                Err(Wrong::Line(LineError::Checksum { .. } | LineError::NoChecksum))
+                    if place == Place::Last && after.is_empty() && line.contains(&0) =>
+                {
+                    return Ok(torn);
+                }
+                Err(wrong) => return Err(at(wrong)),
+            }
+            offset += end + 1;
+            rest = after;
+        }
+        Ok(Ending::Whole)
+    }
+
+    /// The end of what was read, to append to.
+    #[must_use]
+    pub fn into_chain(self) -> Chain {
+        self.chain
+    }
+
+    fn line(&mut self, line: &[u8]) -> Result<(u64, Entry), Wrong> {
+        if line.len() > MAX_LINE_BYTES {
+            return Err(Wrong::TooLong);
+        }
+        let (seq, prev, entry) = line::decode(line).map_err(Wrong::Line)?;
+        if seq != self.chain.next_seq() {
+            return Err(Wrong::Order { found: seq, expected: self.chain.next_seq() });
+        }
+        if prev != self.chain.prev() {
+            return Err(Wrong::Chain);
+        }
+        match (&entry, seq) {
+            (Entry::Head(head), 0) => {
+                let found = if head.motet_journal == VERSION { head.wire } else { head.motet_journal };
+                if found != VERSION {
+                    return Err(Wrong::Version { found });
+                }
+            }
+            (Entry::Head(_), _) => return Err(Wrong::Head("a journal has one head, and here is another")),
+            (_, 0) => return Err(Wrong::Head("a journal begins with its head")),
+            (Entry::Step(_) | Entry::GaveUp(_) | Entry::Resumed(_), _) => {}
+        }
+        self.chain.advance(line);
+        Ok((seq, entry))
+    }
+}

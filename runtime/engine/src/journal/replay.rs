@@ -1,0 +1,118 @@
+//! Steps an engine through a journal again, and tells where what it does differs.
+
+use super::entry::{Entry, Head, Step};
+use crate::effect::Effect;
+use crate::engine::Engine;
+use crate::event::Event;
+use crate::time::Time;
+use crate::wire;
+use thiserror::Error;
+
+/// An engine on its way through a journal.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    engine: Engine,
+    now: Time,
+    out: Vec<Effect>,
+}
+
+/// Why a replay cannot begin or go on.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum CannotReplay {
+    /// The graph in the journal was changed, or is of another version.
+    #[error("the graph in the journal cannot be read: {0}")]
+    Graph(String),
+    /// The graph is not valid.
+    #[error("the graph in the journal is not valid: {0}")]
+    Invalid(String),
+}
+
+/// Where a replay differs from the journal.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Difference {
+    /// The place of the first effect that differs, from 0.
+    pub index: usize,
+    /// The effect in the journal, as JSON; none where the replay has more.
+    pub journal: Option<String>,
+    /// The effect of the replay; none where the journal has more.
+    pub replay: Option<String>,
+}
+
+impl Replay {
+    /// An engine made from a head.
+    ///
+    /// # Errors
+    ///
+    /// The graph cannot be used.
+    pub fn new(head: &Head) -> Result<Self, CannotReplay> {
+        let graph = graph(&head.graph)?;
+        let engine = Engine::new(graph, &head.start.clone().into()).map_err(|wrong| {
+            CannotReplay::Invalid(wrong.first().map_or_else(String::new, ToString::to_string))
+        })?;
+        let engine =
+            engine.with_settings(head.settings.into()).with_capabilities(head.capabilities.clone().into());
+        Ok(Self { engine, now: Time::from_nanos(head.from), out: Vec::new() })
+    }
+
+    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as bytes.
+    ///
+    /// # Errors
+    ///
+    /// It is a swap that the engine refuses.
+    pub fn take(&mut self, entry: &Entry) -> Result<Option<Difference>, CannotReplay> {
+        self.out.clear();
+        match entry {
+            Entry::Head(_) | Entry::Resumed(_) => Ok(None),
+            Entry::Step(step) | Entry::GaveUp(step) => {
+                self.step(step);
+                Ok(self.compare(&step.effects))
+            }
+        }
+    }
+
+    /// The engine as it is now.
+    #[must_use]
+    pub const fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// The time of the last entry.
+    #[must_use]
+    pub const fn now(&self) -> Time {
+        self.now
+    }
+
+    /// The effects of the last entry.
+    #[must_use]
+    pub fn effects(&self) -> &[Effect] {
+        &self.out
+    }
+
+    /// The engine, to go on with.
+    #[must_use]
+    pub fn into_engine(self) -> Engine {
+        self.engine
+    }
+
+    fn step(&mut self, step: &Step) {
+        self.now = Time::from_nanos(step.at);
+        match &step.event {
+            Some(event) => self.engine.handle(self.now, Event::from(event.clone()), &mut self.out),
+            None => self.engine.give_up(&mut self.out),
+        }
+    }
+
+    fn compare(&self, journal: &[wire::Effect]) -> Option<Difference> {
+        let length = journal.len().max(self.out.len());
+        (0..length).find_map(|index| {
+            let was = journal.get(index).map(wire::json);
+            let is = self.out.get(index).map(|effect| wire::json(&wire::Effect::from(effect)));
+            (was != is).then_some(Difference { index, journal: was, replay: is })
+        })
+    }
+}
+
+fn graph(document: &wire::Document) -> Result<motet_graph::Graph, CannotReplay> {
+    motet_graph::encode::from_document(document.clone())
+        .map_err(|error| CannotReplay::Graph(error.to_string()))
+}

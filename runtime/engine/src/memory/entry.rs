@@ -1,0 +1,144 @@
+//! One thing that is remembered.
+
+use crate::wire::{Cause, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Something that is remembered.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Entry {
+    /// When it was over, in seconds since the run's origin.
+    pub at_secs: f64,
+    /// The number of the policy that ran: 0, and one more with each swap.
+    pub revision: u32,
+    /// What.
+    pub what: Remembered,
+}
+
+/// What is remembered.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Remembered {
+    /// A person said what to do.
+    Instruction {
+        /// In their words.
+        text: String,
+    },
+    /// A primitive was carried out, or tried, or could not be started.
+    Step {
+        /// The call, such as `pick(object: mug_1)`.
+        call: String,
+        /// JSON Pointer to the step in its policy.
+        path: String,
+        /// How long it took.
+        took_secs: f64,
+        /// How it ended.
+        ended: HowEnded,
+    },
+    /// A step that is no call failed by itself: a wait, a loop.
+    Stuck {
+        /// JSON Pointer to the step in its policy.
+        path: String,
+        /// The failure kind.
+        kind: String,
+        /// Why.
+        cause: Cause,
+    },
+    /// A person was asked.
+    Question {
+        /// What.
+        question: String,
+        /// What they said; none where they did not answer.
+        answer: Option<String>,
+    },
+    /// A new policy took over.
+    Swap {
+        /// Its name.
+        policy: String,
+    },
+    /// A run ended.
+    Ended {
+        /// How, in words.
+        how: String,
+        /// Whether it reached what it was for.
+        done: bool,
+    },
+}
+
+/// How a step ended.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum HowEnded {
+    /// It did what it was for; with its result where it has one.
+    Success(Option<Value>),
+    /// It failed.
+    Failure {
+        /// The failure kind.
+        kind: String,
+        /// Why.
+        cause: Cause,
+    },
+    /// It was interrupted.
+    Interrupted(Cause),
+}
+
+/// A step that runs now.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Doing {
+    /// The call.
+    pub call: String,
+    /// JSON Pointer to the step in its policy.
+    pub path: String,
+    /// Since when, in seconds since the run's origin.
+    pub since_secs: f64,
+}
+
+impl Entry {
+    /// Whether it is something that went wrong.
+    #[must_use]
+    pub const fn is_failure(&self) -> bool {
+        match &self.what {
+            Remembered::Step { ended: HowEnded::Failure { .. }, .. } | Remembered::Stuck { .. } => true,
+            Remembered::Ended { done, .. } => !*done,
+            Remembered::Step { ended: HowEnded::Success(_) | HowEnded::Interrupted(_), .. }
+            | Remembered::Instruction { .. }
+            | Remembered::Question { .. }
+            | Remembered::Swap { .. } => false,
+        }
+    }
+}
+
+impl fmt::Display for Entry {
+    /// A line for a prompt, without its time.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.what {
+            Remembered::Instruction { text } => write!(f, "instruction: {text}"),
+            Remembered::Step { call, ended, .. } => write!(f, "{call}: {ended}"),
+            Remembered::Stuck { path, kind, cause } => {
+                write!(f, "step {path}: failed with {kind} ({})", crate::Cause::from(*cause))
+            }
+            Remembered::Question { question, answer: Some(answer) } => {
+                write!(f, "asked {question:?}: answered {answer:?}")
+            }
+            Remembered::Question { question, answer: None } => write!(f, "asked {question:?}: no answer"),
+            Remembered::Swap { policy } => write!(f, "new policy `{policy}`"),
+            Remembered::Ended { how, .. } => write!(f, "the policy ended: {how}"),
+        }
+    }
+}
+
+impl fmt::Display for HowEnded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Success(None) => f.write_str("done"),
+            Self::Success(Some(value)) => write!(f, "done, gave {}", motet_graph::Value::from(value.clone())),
+            Self::Failure { kind, cause } => {
+                write!(f, "failed with {kind} ({})", crate::Cause::from(*cause))
+            }
+            Self::Interrupted(cause) => write!(f, "interrupted ({})", crate::Cause::from(*cause)),
+        }
+    }
+}

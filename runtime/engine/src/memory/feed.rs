@@ -1,0 +1,228 @@
+//! How a memory learns: from the events that go into an engine and the effects that come out.
+
+use super::entry::{HowEnded, Remembered};
+use super::store::Memory;
+use crate::effect::{Command, Effect, RunEnd};
+use crate::event::{DriverEvent, Event, GoalId, Outcome};
+use crate::record::{Cause, Happening, NodeEnding, Record};
+use crate::time::Time;
+use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
+use std::sync::Arc;
+
+/// A goal that has not ended.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Open {
+    pub(super) node: NodeId,
+    pub(super) call: String,
+    pub(super) path: String,
+    pub(super) since: Time,
+    /// What it asks a person.
+    question: Option<String>,
+    /// What the driver said came of it.
+    result: Option<Value>,
+    /// The failure that the driver named.
+    kind: Option<String>,
+}
+
+impl Memory {
+    /// A policy is about to run as this revision. Call it before the first event, and before the effects of a swap. A
+    /// revision above 0 is remembered as a swap.
+    pub fn policy(&mut self, at: Time, revision: u32, graph: Arc<Graph>) {
+        self.revision = revision;
+        if revision > 0 {
+            let entry = self.entry(at, Remembered::Swap { policy: self.cut(&graph.policy) });
+            self.push(entry);
+        }
+        self.graph = Some(graph);
+    }
+
+    /// An event that goes into the engine.
+    pub fn event(&mut self, _at: Time, event: &Event) {
+        let Event::Driver(event) = event else { return };
+        match event {
+            DriverEvent::Ended { goal, outcome: Outcome::Success(value) } => {
+                if let Some(open) = self.running.get_mut(&goal.number()) {
+                    open.result.clone_from(value);
+                }
+            }
+            DriverEvent::Ended { goal, outcome: Outcome::Failure(kind) }
+            | DriverEvent::Refused { goal, failure: kind } => {
+                if let Some(open) = self.running.get_mut(&goal.number()) {
+                    open.kind = Some(kind.to_string());
+                }
+            }
+            DriverEvent::Ended { outcome: Outcome::Interrupted, .. }
+            | DriverEvent::Acknowledged { .. }
+            | DriverEvent::NotHeld { .. } => {}
+            DriverEvent::Stopped { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+            DriverEvent::Observed { .. } => {}
+        }
+    }
+
+    /// An effect that comes out of the engine.
+    pub fn effect(&mut self, at: Time, effect: &Effect) {
+        match effect {
+            Effect::Start { goal, node, command, .. } => self.started(at, *goal, *node, command),
+            Effect::Update { goal, node, command, .. } => {
+                let (call, path) = (self.cut(&command.to_string()), self.path(*node));
+                if let Some(open) = self.running.get_mut(&goal.number()) {
+                    (open.call, open.path, open.node) = (call, path, *node);
+                }
+            }
+            Effect::Report(record) => self.record(record),
+            Effect::Finished(end) => self.finished(at, end),
+            Effect::Cancel { .. } | Effect::Hold { .. } | Effect::Proceed { .. } => {}
+            Effect::SafeStop { .. } => {}
+            Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } => {}
+        }
+    }
+
+    fn started(&mut self, at: Time, goal: GoalId, node: NodeId, command: &Command) {
+        let asks = self.limits.questions.contains(&command.primitive);
+        let question = command.arg("question").filter(|_| asks).map(|question| self.cut(&plain(question)));
+        let open = Open {
+            node,
+            call: self.cut(&command.to_string()),
+            path: self.path(node),
+            since: at,
+            question,
+            result: None,
+            kind: None,
+        };
+        self.running.insert(goal.number(), open);
+        while self.running.len() > self.limits.running {
+            self.running.pop_first();
+        }
+    }
+
+    fn record(&mut self, record: &Record) {
+        match &record.what {
+            Happening::GoalEnded { goal, ending, cause, .. } => {
+                if let Some(open) = self.running.remove(&goal.number()) {
+                    self.ended(record.at, open, *ending, *cause);
+                }
+            }
+            Happening::Ended { node, ending, cause } => {
+                let live = self.running.iter().find(|(_, open)| open.node == *node).map(|(goal, _)| *goal);
+                if let Some(open) = live.and_then(|goal| self.running.remove(&goal)) {
+                    self.ended(record.at, open, *ending, *cause);
+                } else if let NodeEnding::Failure(kind) = ending {
+                    self.stuck(record.at, *node, *kind, *cause);
+                }
+            }
+            Happening::Kept { node, goal } => {
+                let path = self.path(*node);
+                if let Some(open) = self.running.get_mut(&goal.number()) {
+                    (open.node, open.path) = (*node, path);
+                }
+            }
+            Happening::Entered { .. } | Happening::Started { .. } | Happening::Guard { .. } => {}
+            Happening::Tested { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => {}
+            Happening::Swapped { .. } | Happening::Updated { .. } | Happening::Bound { .. } => {}
+        }
+    }
+
+    fn ended(&mut self, at: Time, open: Open, ending: NodeEnding, cause: Cause) {
+        if let Some(question) = open.question {
+            let answer = open.result.clone().filter(|_| ending == NodeEnding::Success);
+            let answer = answer.map(|answer| self.cut(&plain(&answer)));
+            let entry = self.entry(at, Remembered::Question { question, answer });
+            self.push(entry);
+            if ending == NodeEnding::Success {
+                return;
+            }
+        }
+        let ended = match ending {
+            NodeEnding::Success => HowEnded::Success(open.result.as_ref().map(|value| self.small(value))),
+            NodeEnding::Failure(kind) => {
+                HowEnded::Failure { kind: self.kind(kind, open.kind, cause), cause: cause.into() }
+            }
+            NodeEnding::Interrupted => HowEnded::Interrupted(cause.into()),
+        };
+        let took_secs = at.since(open.since).secs();
+        let step = Remembered::Step { call: open.call, path: open.path, took_secs, ended };
+        let entry = self.entry(at, step);
+        self.push(entry);
+    }
+
+    /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by itself.
+    fn stuck(&mut self, at: Time, node: NodeId, kind: FailureId, cause: Cause) {
+        let own = match cause {
+            Cause::GuardRefuted | Cause::Deadline | Cause::Exhausted | Cause::BadValue => true,
+            // What failed was told of already.
+            Cause::Completed | Cause::Failed | Cause::Refused | Cause::Monitor | Cause::SiblingFailed => {
+                false
+            }
+            Cause::ParentEnded | Cause::Person | Cause::Driver | Cause::Swap | Cause::Lost => false,
+        };
+        let told = self.entries.back().is_some_and(|last| match &last.what {
+            Remembered::Step { path, .. } => last.is_failure() && *path == self.path(node),
+            Remembered::Instruction { .. } | Remembered::Stuck { .. } | Remembered::Question { .. } => false,
+            Remembered::Swap { .. } | Remembered::Ended { .. } => false,
+        });
+        if !own || told {
+            return;
+        }
+        let (path, kind) = (self.path(node), self.kind(kind, None, cause));
+        let call = self.graph.as_ref().and_then(|graph| called(graph, node));
+        let what = match call {
+            Some(call) => Remembered::Step {
+                call,
+                path,
+                took_secs: 0.0,
+                ended: HowEnded::Failure { kind, cause: cause.into() },
+            },
+            None => Remembered::Stuck { path, kind, cause: cause.into() },
+        };
+        let entry = self.entry(at, what);
+        self.push(entry);
+    }
+
+    fn finished(&mut self, at: Time, end: &RunEnd) {
+        let how = self.cut(&end.to_string());
+        let done = matches!(end, RunEnd::Done { .. });
+        // A failure that nothing caught was told of with its step.
+        let told = matches!(end, RunEnd::Failed { why: None, .. });
+        let latest = self.latest_failure.clone().filter(|_| told);
+        let entry = self.entry(at, Remembered::Ended { how, done });
+        self.push(entry);
+        if latest.is_some() {
+            self.latest_failure = latest;
+        }
+        self.running.clear();
+    }
+
+    fn path(&self, node: NodeId) -> String {
+        let graph = self.graph.as_ref();
+        let node = graph.and_then(|graph| graph.nodes.get(node.index()));
+        node.map_or_else(String::new, |node| self.cut(&node.path))
+    }
+
+    /// A failure's name: the graph's, else what the driver said, else the engine's own.
+    fn kind(&self, kind: FailureId, said: Option<String>, cause: Cause) -> String {
+        let graph = self.graph.as_ref();
+        let named = graph.and_then(|graph| graph.failures.get(kind.index())).map(ToString::to_string);
+        let own = if cause == Cause::Exhausted { "exhausted" } else { "failed" };
+        self.cut(&named.or(said).unwrap_or_else(|| own.to_owned()))
+    }
+
+    /// A value whose text is within the limit; another one as a text that is cut.
+    fn small(&self, value: &Value) -> crate::wire::Value {
+        let wire = crate::wire::Value::from(value);
+        if crate::wire::json(&wire).len() <= self.limits.text_bytes {
+            return wire;
+        }
+        crate::wire::Value::Text(self.cut(&value.to_string()))
+    }
+}
+
+/// The name of the primitive that a step calls, as a call of which the arguments are not known.
+fn called(graph: &Graph, node: NodeId) -> Option<String> {
+    let NodeKind::Call(call) = &graph.nodes.get(node.index())?.kind else { return None };
+    graph.primitives.get(call.primitive.index()).map(|primitive| format!("{}(…)", primitive.name))
+}
+
+/// A value as a person would say it: a text without its quotes.
+fn plain(value: &Value) -> String {
+    if let Value::Text(text) = value { text.to_string() } else { value.to_string() }
+}

@@ -1,0 +1,25 @@
+//! What a run remembers for people and for models: instructions, steps with their results, failures, questions and answers,
+//! new policies, endings. Bounded, with what was dropped counted.
+//!
+//! A [`Memory`] is fed with the events and effects of a run, by its host, and changes nothing. It has two views for a
+//! language model: [`Short`], the first request and the latest failure, as InteLiPlan keeps it, and
+//! [`Working`], the state and the executed steps, as VLP keeps its working memory; and [`Whole`], everything.
+//!
+//! ```
+//! use motet_runtime::memory::{Limits, Memory};
+//! use motet_runtime::Time;
+//!
+//! let mut memory = Memory::new(Limits::default());
+//! memory.instruct(Time::ZERO, "bring me the red mug");
+//! // … for each event: memory.event(now, &event), and memory.effect(now, &effect) for each effect.
+//! assert_eq!(memory.short().to_string(), "request: bring me the red mug\n");
+//! ```
+
+mod entry;
+mod feed;
+mod store;
+mod view;
+
+pub use entry::{Doing, Entry, HowEnded, Remembered};
+pub use store::{Dropped, Limits, Memory};
+pub use view::{Short, Whole, Working};

@@ -1,0 +1,111 @@
+//! What a run remembers, and how it is bounded.
+
+use crate::ready::{Run, goal, run, success};
+use motet_graph::arbitrary::{Step, graph};
+use motet_runtime::memory::{Limits, Memory, Remembered};
+use motet_runtime::{Answer, Outcome, Time};
+use std::sync::Arc;
+
+/// A memory that was fed with a run.
+fn fed(run: &Run, limits: Limits) -> Memory {
+    let mut memory = Memory::new(limits);
+    memory.instruct(Time::ZERO, "bring me the mug");
+    memory.policy(Time::ZERO, 0, Arc::new(run.engine.graph().clone()));
+    for (at, event, effects) in &run.steps {
+        memory.event(*at, event);
+        effects.iter().for_each(|effect| memory.effect(*at, effect));
+    }
+    memory
+}
+
+fn lines(memory: &Memory) -> Vec<String> {
+    memory.entries().map(ToString::to_string).collect()
+}
+
+fn slips(number: usize, primitive: &str) -> Outcome {
+    if number == 2 { Outcome::Failure("unreachable".into()) } else { success(primitive) }
+}
+
+#[test]
+fn steps_with_their_results_and_the_latest_failure() {
+    let steps = [Step::go("table"), Step::detect("mug"), Step::say("never")];
+    let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
+    let memory = fed(&run, Limits::default());
+    assert_eq!(
+        lines(&memory),
+        [
+            "instruction: bring me the mug",
+            "go(to: table): done",
+            "detect(what: \"mug\"): failed with unreachable (failed)",
+            "the policy ended: failed with `unreachable`",
+        ]
+    );
+    assert_eq!(
+        memory.short().to_string(),
+        "request: bring me the mug\nlatest failure: detect(what: \"mug\"): failed with unreachable (failed)\n"
+    );
+    assert_eq!(memory.running().count(), 0);
+    let working = memory.working(&run.engine.snapshot()).to_string();
+    assert!(working.contains("state: at(robot, table) is true\n"), "{working}");
+    assert!(working.ends_with("done: the policy ended: failed with `unreachable`\n"), "{working}");
+}
+
+#[test]
+fn what_has_no_question_is_a_step() {
+    let limits = Limits { questions: vec!["detect".into()], ..Limits::default() };
+    let run = run(graph(&[Step::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
+    // The test vocabulary has no `ask`; what is no parameter `question` is no question.
+    assert_eq!(lines(&fed(&run, limits))[1], "detect(what: \"mug\"): done, gave mug_1");
+}
+
+#[test]
+fn what_runs_is_told_with_its_start() {
+    let run =
+        run(graph(&[Step::go("table"), Step::say("on")]), |_, name| success(name), |_, _| Answer::Unknown, 2);
+    let memory = fed(&run, Limits::default());
+    let doing: Vec<_> = memory.running().map(|doing| (doing.call, doing.path, doing.since_secs)).collect();
+    assert_eq!(doing, [("say(text: \"on\")".to_owned(), "/steps/1".to_owned(), 1.0)]);
+    assert_eq!(goal(&run, 2).to_string(), "#2");
+}
+
+#[test]
+fn old_entries_are_dropped_and_counted() {
+    let steps: Vec<Step> = (0..20).map(|number| Step::say(&format!("number {number}"))).collect();
+    let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
+    let all = fed(&run, Limits::default());
+    for limits in [
+        Limits { entries: 2, ..Limits::default() },
+        Limits { bytes: 200, ..Limits::default() },
+        Limits { entries: 0, ..Limits::default() },
+    ] {
+        let memory = fed(&run, limits.clone());
+        let dropped = memory.dropped();
+        let kept = memory.entries().len();
+        assert!(kept <= limits.entries && memory.bytes() <= limits.bytes, "{limits:?}: {kept}");
+        let lost = dropped.instructions + dropped.steps + dropped.failures + dropped.endings;
+        assert_eq!(lost as usize + kept, all.entries().len());
+        assert_eq!(dropped.instructions, 1);
+        assert_eq!(memory.short(), all.short(), "the first request and the latest failure stay");
+    }
+}
+
+#[test]
+fn long_texts_are_cut_between_letters() {
+    let mut memory = Memory::new(Limits { text_bytes: 10, ..Limits::default() });
+    memory.instruct(Time::ZERO, "größer als erlaubt");
+    let Some(Remembered::Instruction { text }) = memory.entries().next().map(|entry| entry.what.clone())
+    else {
+        panic!("no instruction")
+    };
+    assert_eq!(text, "größe…");
+    assert!(text.len() <= 10);
+}
+
+#[test]
+fn views_are_data_too() {
+    let run = run(graph(&[Step::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
+    let memory = fed(&run, Limits::default());
+    let whole = memory.whole(&run.engine.snapshot());
+    let text = serde_json::to_string(&whole).unwrap();
+    assert_eq!(serde_json::from_str::<motet_runtime::memory::Whole>(&text).unwrap(), whole);
+}

@@ -1,0 +1,153 @@
+//! Wire forms lose nothing, and the same value gives the same bytes.
+
+use motet_graph::{NodeId, Pose, Value};
+use motet_runtime::{
+    Answer, Cause, Command, DriverEvent, Effect, Event, Fault, GoalId, Happening, NodeEnding, Outcome,
+    Pattern, Query, Record, RunEnd, Time, Truth, wire,
+};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// There and back: the same bytes, and the same value where numbers can be compared.
+macro_rules! there_and_back {
+    ($wire:ty, $model:ty, $value:expr) => {{
+        let value: $model = $value;
+        let json = serde_json::to_string(&<$wire>::from(&value)).unwrap();
+        let read: $wire = serde_json::from_str(&json).unwrap();
+        let back = <$model>::from(read);
+        assert_eq!(format!("{value:?}"), format!("{back:?}"));
+        assert_eq!(json, serde_json::to_string(&<$wire>::from(&back)).unwrap());
+    }};
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        any::<u64>().prop_map(f64::from_bits),
+        prop_oneof![Just(-0.0), Just(f64::NAN), Just(f64::INFINITY), Just(f64::NEG_INFINITY), Just(0.1)],
+        any::<i32>().prop_map(f64::from),
+    ]
+    // One NaN is as good as another.
+    .prop_map(|number| if number.is_nan() { f64::NAN } else { number })
+}
+
+fn value() -> impl Strategy<Value = Value> {
+    let leaf = prop_oneof![
+        any::<bool>().prop_map(Value::Bool),
+        any::<i64>().prop_map(Value::Int),
+        number().prop_map(Value::Number),
+        any::<String>().prop_map(|text| Value::Text(text.into())),
+        any::<String>().prop_map(|text| Value::Entity(text.into())),
+        any::<String>().prop_map(|text| Value::Case(text.into())),
+        vec(number(), 7).prop_map(|n| {
+            Value::Pose(Pose { xyz: [n[0], n[1], n[2]], quaternion: [n[3], n[4], n[5], n[6]] })
+        }),
+    ];
+    leaf.prop_recursive(3, 12, 4, |inner| vec(inner, 0..4).prop_map(Value::List))
+}
+
+fn query() -> impl Strategy<Value = Query> {
+    let text = || any::<String>().prop_map(smol_str::SmolStr::from);
+    let pattern = prop_oneof![Just(Pattern::Any), value().prop_map(Pattern::Is)];
+    prop_oneof![
+        (text(), vec(pattern, 0..3)).prop_map(|(fluent, args)| Query::Fact { fluent, args }),
+        (text(), vec(value(), 0..3)).prop_map(|(measure, args)| Query::Measure { measure, args }),
+        (text(), text()).prop_map(|(entity, field)| Query::Field { entity, field }),
+    ]
+}
+
+fn driver_event() -> impl Strategy<Value = DriverEvent> {
+    let goal = || any::<u64>().prop_map(GoalId::from_number);
+    let outcome = prop_oneof![
+        proptest::option::of(value()).prop_map(Outcome::Success),
+        any::<String>().prop_map(|kind| Outcome::Failure(kind.into())),
+        Just(Outcome::Interrupted),
+    ];
+    let answer = prop_oneof![
+        Just(Answer::Unknown),
+        any::<bool>().prop_map(Answer::Truth),
+        value().prop_map(Answer::Value)
+    ];
+    prop_oneof![
+        goal().prop_map(|goal| DriverEvent::Acknowledged { goal }),
+        (goal(), any::<String>())
+            .prop_map(|(goal, kind)| DriverEvent::Refused { goal, failure: kind.into() }),
+        (goal(), outcome).prop_map(|(goal, outcome)| DriverEvent::Ended { goal, outcome }),
+        goal().prop_map(|goal| DriverEvent::NotHeld { goal }),
+        goal().prop_map(|goal| DriverEvent::Stopped { goal }),
+        goal().prop_map(|goal| DriverEvent::Lost { goal }),
+        Just(DriverEvent::DriverLost),
+        (query(), answer).prop_map(|(query, answer)| DriverEvent::Observed { query, answer }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn events(event in driver_event()) {
+        there_and_back!(wire::Event, Event, Event::Driver(event));
+    }
+
+    #[test]
+    fn starts(goal: u64, node: u32, args in vec((any::<String>(), value()), 0..4), deadline: u64) {
+        let command = Command {
+            primitive: "pick".into(),
+            args: args.into_iter().map(|(name, value)| (name.into(), value)).collect(),
+            uses: vec!["hand".into()],
+            deadline_secs: 20.1,
+        };
+        let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));
+        let deadline = Time::from_nanos(deadline);
+        let start = Effect::Start { goal, node, command: Arc::clone(&command), deadline };
+        there_and_back!(wire::Effect, Effect, start);
+        there_and_back!(wire::Effect, Effect, Effect::Update { goal, node, command, deadline });
+    }
+
+    #[test]
+    fn questions(query in query()) {
+        there_and_back!(wire::Effect, Effect, Effect::Watch { query: Arc::new(query) });
+    }
+}
+
+#[test]
+fn records_and_ends() {
+    let (node, goal) = (NodeId(7), GoalId::from_number(u64::MAX));
+    let (ending, cause) = (NodeEnding::Failure(motet_graph::FailureId(3)), Cause::Lost);
+    for what in [
+        Happening::Entered { node },
+        Happening::Ended { node, ending, cause },
+        Happening::Started { node, goal, attempt: 2 },
+        Happening::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: Cause::Swap },
+        Happening::Guard { node, need: 1, truth: Truth::Unknown },
+        Happening::Tested { node, truth: Truth::True },
+        Happening::Fired { node, watch: 1, truth: Truth::False },
+        Happening::WentOn { node, watch: 0 },
+        Happening::Swapped { policy: "b".into() },
+        Happening::Kept { node, goal },
+        Happening::Updated { node, goal },
+        Happening::Bound { binding: motet_graph::BindingId(1), value: Box::new(Value::Number(f64::NAN)) },
+    ] {
+        let record = Record { at: Time::NEVER, revision: 1, what };
+        there_and_back!(wire::Effect, Effect, Effect::Report(record));
+    }
+    let why = Some("because".to_owned());
+    for end in [
+        RunEnd::Done { why: None },
+        RunEnd::Failed { kind: "slipped".into(), why: why.clone(), node },
+        RunEnd::Replan { why },
+        RunEnd::Interrupted,
+        RunEnd::Fault(Fault::NotStopped { node }),
+        RunEnd::Fault(Fault::StepBudget { steps: 1 }),
+        RunEnd::Fault(Fault::Stalled),
+    ] {
+        there_and_back!(wire::Effect, Effect, Effect::Finished(Box::new(end)));
+    }
+}
+
+#[test]
+fn unknown_keys_are_refused() {
+    let wrong = r#"{"driver":{"acknowledged":{"goal":1,"gaol":2}}}"#;
+    let error = serde_json::from_str::<wire::Event>(wrong).unwrap_err().to_string();
+    assert!(error.contains("unknown field `gaol`"), "{error}");
+}
