@@ -1,6 +1,6 @@
 //! The driver: what moves the robot, or pretends to.
 
-use crate::effect::Command;
+use crate::effect::{Command, Effect};
 use crate::event::{DriverEvent, GoalId};
 use crate::query::Query;
 use crate::time::Time;
@@ -54,6 +54,22 @@ pub trait Driver {
     /// with its time, at most `until`, or nothing where `until` was reached without one. With [`Time::NEVER`], nothing
     /// means that nothing will ever happen. A driver of a real robot blocks here.
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
+
+    /// Carries an effect out by the call that is meant by it. Records and the end of the run are none of its affair.
+    fn carry_out(&mut self, now: Time, effect: &Effect) {
+        match effect {
+            Effect::Start { goal, command, .. } => self.start(now, *goal, command),
+            Effect::Cancel { goal } => self.cancel(now, *goal),
+            Effect::Update { goal, command, .. } => self.update(now, *goal, command),
+            Effect::Hold { goal } => self.hold(now, *goal),
+            Effect::Proceed { goal } => self.proceed(now, *goal),
+            Effect::SafeStop { goal } => self.safe_stop(now, *goal),
+            Effect::Observe { query } => self.observe(now, query),
+            Effect::Watch { query } => self.watch(now, query),
+            Effect::Unwatch { query } => self.unwatch(now, query),
+            Effect::Report(_) | Effect::Finished(_) => {}
+        }
+    }
 }
 
 /// What a driver can do beside starting and ending goals.

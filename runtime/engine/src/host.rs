@@ -3,13 +3,22 @@
 use crate::driver::Driver;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::engine::Engine;
-use crate::event::Event;
+use crate::event::{DriverEvent, Event};
 use crate::time::Time;
+use smol_str::SmolStr;
+use std::collections::VecDeque;
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Onlooker {
     /// An event is about to be handled.
     fn event(&mut self, _now: Time, _event: &Event) {}
+
+    /// An event was handled, or else the engine gave up, and these effects are about to be carried out, all together. Who
+    /// keeps a journal writes here. Where this says [`Control::Stop`], nothing is started or changed any more: starts are
+    /// taken back as refused, what runs is stopped.
+    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> Control {
+        Control::GoOn
+    }
 
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
@@ -39,65 +48,100 @@ pub enum Control {
 
 /// Runs an engine to its end. Starts at `from`, the driver's present time.
 pub fn run(engine: &mut Engine, driver: &mut dyn Driver, onlooker: &mut dyn Onlooker, from: Time) -> RunEnd {
-    let mut out = Vec::new();
-    let (mut now, mut stopped) = (from, false);
-    let mut event = Event::Begin;
+    go_on(engine, driver, onlooker, from, vec![Event::Begin])
+}
+
+/// Goes on with an engine that has begun, to its end: first with these events at `from`, then with what the driver reports.
+pub fn go_on(
+    engine: &mut Engine,
+    driver: &mut dyn Driver,
+    onlooker: &mut dyn Onlooker,
+    from: Time,
+    events: Vec<Event>,
+) -> RunEnd {
+    let mut host =
+        Host { driver, onlooker, now: from, first: events.into(), out: Vec::new(), stopped: false };
     loop {
-        onlooker.event(now, &event);
-        engine.handle(now, event, &mut out);
-        if let Some(end) = carry_out(driver, onlooker, now, &mut out) {
-            return end;
-        }
-        let wake = engine.wake_at();
-        let until = wake.unwrap_or(Time::NEVER).min(now.after(onlooker.at_least_every()));
-        event = match driver.advance(until) {
-            Some((at, report)) => {
-                now = at.max(now);
-                Event::Driver(report)
-            }
-            None if until == Time::NEVER => {
-                engine.give_up(&mut out);
-                return carry_out(driver, onlooker, now, &mut out).unwrap_or(RunEnd::Fault(Fault::Stalled));
-            }
-            None => {
-                now = until.max(now);
-                Event::Tick
-            }
-        };
-        if !stopped && onlooker.reached(now) == Control::Stop {
-            stopped = true;
-            onlooker.event(now, &event);
-            engine.handle(now, event, &mut out);
-            if let Some(end) = carry_out(driver, onlooker, now, &mut out) {
+        if let Some(event) = host.first.pop_front() {
+            host.onlooker.event(host.now, &event);
+            engine.handle(host.now, event, &mut host.out);
+            if let Some(end) = host.carry_out() {
                 return end;
             }
-            event = Event::Stop;
+            continue;
+        }
+        if let Some(event) = host.next(engine) {
+            host.first.push_back(event);
+        } else {
+            engine.give_up(&mut host.out);
+            return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
+        }
+        if !host.stopped && host.onlooker.reached(host.now) == Control::Stop {
+            host.stop();
         }
     }
 }
 
-fn carry_out(
-    driver: &mut dyn Driver,
-    onlooker: &mut dyn Onlooker,
+struct Host<'a> {
+    driver: &'a mut dyn Driver,
+    onlooker: &'a mut dyn Onlooker,
     now: Time,
-    out: &mut Vec<Effect>,
-) -> Option<RunEnd> {
-    let mut end = None;
-    for effect in out.drain(..) {
-        onlooker.effect(now, &effect);
-        match effect {
-            Effect::Start { goal, command, .. } => driver.start(now, goal, &command),
-            Effect::Cancel { goal } => driver.cancel(now, goal),
-            Effect::Update { goal, command, .. } => driver.update(now, goal, &command),
-            Effect::Hold { goal } => driver.hold(now, goal),
-            Effect::Proceed { goal } => driver.proceed(now, goal),
-            Effect::SafeStop { goal } => driver.safe_stop(now, goal),
-            Effect::Observe { query } => driver.observe(now, &query),
-            Effect::Watch { query } => driver.watch(now, &query),
-            Effect::Unwatch { query } => driver.unwatch(now, &query),
-            Effect::Report(_) => {}
-            Effect::Finished(ending) => end = Some(*ending),
+    /// Events that come before anything that the driver reports.
+    first: VecDeque<Event>,
+    out: Vec<Effect>,
+    stopped: bool,
+}
+
+impl Host<'_> {
+    /// The next event. None where nothing will ever happen.
+    fn next(&mut self, engine: &Engine) -> Option<Event> {
+        let wake = engine.wake_at().unwrap_or(Time::NEVER);
+        let until = wake.min(self.now.after(self.onlooker.at_least_every()));
+        match self.driver.advance(until) {
+            Some((at, report)) => {
+                self.now = at.max(self.now);
+                Some(Event::Driver(report))
+            }
+            None if until == Time::NEVER => None,
+            None => {
+                self.now = until.max(self.now);
+                Some(Event::Tick)
+            }
         }
     }
-    end
+
+    fn stop(&mut self) {
+        if !std::mem::replace(&mut self.stopped, true) {
+            self.first.push_back(Event::Stop);
+        }
+    }
+
+    /// Carries out the effects of one event. Gives the run's end, if it is among them.
+    fn carry_out(&mut self) -> Option<RunEnd> {
+        let now = self.now;
+        let control = self.onlooker.commit(now, &self.out);
+        if control == Control::Stop {
+            self.stop();
+        }
+        let mut end = None;
+        for effect in self.out.drain(..) {
+            match (&effect, control) {
+                (Effect::Start { goal, .. }, Control::Stop) => {
+                    let failure = SmolStr::new_static("failed");
+                    let refused = DriverEvent::Refused { goal: *goal, failure };
+                    self.first.push_back(Event::Driver(refused));
+                    continue;
+                }
+                (Effect::Update { .. }, Control::Stop) => continue,
+                (_, Control::Stop | Control::GoOn) => {}
+            }
+            self.onlooker.effect(now, &effect);
+            match effect {
+                Effect::Report(_) => {}
+                Effect::Finished(ending) => end = Some(*ending),
+                command => self.driver.carry_out(now, &command),
+            }
+        }
+        end
+    }
 }

@@ -65,7 +65,7 @@ pub use driver::{Capabilities, Driver, Primitives};
 pub use effect::{Command, Effect, Fault, RunEnd};
 pub use engine::Engine;
 pub use event::{DriverEvent, Event, GoalId, Outcome};
-pub use host::{Control, Onlooker, run};
+pub use host::{Control, Onlooker, go_on, run};
 pub use query::{Answer, Pattern, Query};
 pub use record::{Cause, Happening, NodeEnding, Record};
 pub use settings::Settings;

@@ -12,15 +12,19 @@
 mod chain;
 mod crc;
 mod entry;
+mod ledger;
 mod line;
 mod read;
 mod replay;
+mod retrace;
 
 pub use chain::Chain;
 pub use entry::{Entry, Head, Resumed, Step};
+pub use ledger::{Ledger, Open};
 pub use line::{LineError, decode};
 pub use read::{Damage, Ending, Place, Reader, Wrong};
 pub use replay::{CannotReplay, Difference, Replay};
+pub use retrace::{Astray, Retrace};
 
 use crate::effect::Effect;
 

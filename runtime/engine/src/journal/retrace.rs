@@ -1,0 +1,87 @@
+//! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a simulator has
+//! whose process ended.
+
+use super::entry::{Entry, Step};
+use crate::driver::Driver;
+use crate::effect::Effect;
+use crate::event::DriverEvent;
+use crate::time::Time;
+use crate::wire;
+use std::fmt;
+
+/// Gives a driver the commands of a journal at their times, and compares what it reports with what it reported then.
+#[derive(Clone, Debug, Default)]
+pub struct Retrace {
+    now: Time,
+}
+
+/// The driver reports something else than it did then.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Astray {
+    /// When.
+    pub at: Time,
+    /// What it reported then; none where nothing happened.
+    pub journal: Option<DriverEvent>,
+    /// What it reports now, with its time.
+    pub driver: Option<(Time, DriverEvent)>,
+}
+
+impl fmt::Display for Astray {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {} the driver ", self.at)?;
+        match &self.driver {
+            Some((at, event)) => write!(f, "reports at {at} `{event}`")?,
+            None => f.write_str("reports nothing")?,
+        }
+        match &self.journal {
+            Some(event) => write!(f, ", and reported `{event}`"),
+            None => f.write_str(", and reported nothing"),
+        }
+    }
+}
+
+impl Retrace {
+    /// Takes an entry in.
+    ///
+    /// # Errors
+    ///
+    /// The driver does not do the same again.
+    pub fn take(&mut self, driver: &mut dyn Driver, entry: &Entry) -> Result<(), Astray> {
+        match entry {
+            Entry::Head(head) => {
+                self.now = Time::from_nanos(head.from);
+                Ok(())
+            }
+            Entry::Step(step) | Entry::GaveUp(step) => self.step(driver, step),
+            Entry::Resumed(_) => Ok(()),
+        }
+    }
+
+    fn step(&mut self, driver: &mut dyn Driver, step: &Step) -> Result<(), Astray> {
+        let at = Time::from_nanos(step.at);
+        match &step.event {
+            Some(wire::Event::Driver(event)) => {
+                let journal = DriverEvent::from(event.clone());
+                let report = driver.advance(at);
+                // Bytes, because a NaN is not equal to itself.
+                let same = |(_, now): &(Time, DriverEvent)| {
+                    wire::json(&wire::DriverEvent::from(now)) == wire::json(event)
+                };
+                if !report.as_ref().is_some_and(same) {
+                    return Err(Astray { at, journal: Some(journal), driver: report });
+                }
+            }
+            Some(wire::Event::Tick) if at > self.now => {
+                if let Some(report) = driver.advance(at) {
+                    return Err(Astray { at, journal: None, driver: Some(report) });
+                }
+            }
+            Some(wire::Event::Begin | wire::Event::Tick | wire::Event::Stop) | None => {}
+        }
+        self.now = self.now.max(at);
+        for effect in &step.effects {
+            driver.carry_out(at, &Effect::from(effect.clone()));
+        }
+        Ok(())
+    }
+}
