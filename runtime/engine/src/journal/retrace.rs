@@ -46,7 +46,7 @@ impl Retrace {
     /// # Errors
     ///
     /// The driver does not do the same again.
-    pub fn take(&mut self, driver: &mut dyn Driver, entry: &Entry) -> Result<(), Astray> {
+    pub fn take(&mut self, driver: &mut dyn Driver, entry: &Entry) -> Result<(), Box<Astray>> {
         match entry {
             Entry::Head(head) => {
                 self.now = Time::from_nanos(head.from);
@@ -57,7 +57,7 @@ impl Retrace {
         }
     }
 
-    fn step(&mut self, driver: &mut dyn Driver, step: &Step) -> Result<(), Astray> {
+    fn step(&mut self, driver: &mut dyn Driver, step: &Step) -> Result<(), Box<Astray>> {
         let at = Time::from_nanos(step.at);
         match &step.event {
             Some(wire::Event::Driver(event)) => {
@@ -68,12 +68,12 @@ impl Retrace {
                     wire::json(&wire::DriverEvent::from(now)) == wire::json(event)
                 };
                 if !report.as_ref().is_some_and(same) {
-                    return Err(Astray { at, journal: Some(journal), driver: report });
+                    return Err(Box::new(Astray { at, journal: Some(journal), driver: report }));
                 }
             }
             Some(wire::Event::Tick) if at > self.now => {
                 if let Some(report) = driver.advance(at) {
-                    return Err(Astray { at, journal: None, driver: Some(report) });
+                    return Err(Box::new(Astray { at, journal: None, driver: Some(report) }));
                 }
             }
             Some(wire::Event::Begin | wire::Event::Tick | wire::Event::Stop) | None => {}
