@@ -15,6 +15,7 @@ mod prove;
 mod resolve;
 mod session;
 mod settle;
+pub mod signature;
 mod world;
 
 pub use library::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
@@ -22,4 +23,5 @@ pub use prove::MAX_FIXPOINTS;
 pub use resolve::{MAX_COUNT, MAX_NODES, MAX_SECONDS};
 pub use session::{Compiled, Options, Session};
 pub use settle::settle;
+pub use signature::Signatures;
 pub use world::{MAX_ENTITIES, State, World};

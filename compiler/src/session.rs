@@ -11,6 +11,7 @@ use crate::fix::Finding;
 use crate::ir::{Program, StepKind};
 use crate::library::{Library, LibraryBuilder};
 use crate::prove::Proof;
+use crate::signature::Signatures;
 use crate::world::{State, World};
 
 /// Settings of a check.
@@ -67,6 +68,12 @@ impl Session {
     #[must_use]
     pub fn library(&self) -> &Library {
         &self.library
+    }
+
+    /// What a policy for this robot, scene and state can be made of.
+    #[must_use]
+    pub fn signatures(&self) -> Signatures {
+        Signatures::new(&self.library, &self.world)
     }
 
     /// Everything there is to say about a document: its front end's findings and those of every policy in it.

@@ -3,6 +3,7 @@
 
 pub mod depot;
 pub mod eval;
+pub mod examples;
 pub mod generate;
 pub mod oracle;
 pub mod saycan;

@@ -2,36 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use std::path::{Path, PathBuf};
-
 use motet_compiler::{Session, settle};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Form, Source, Sources, print};
+use motet_tests::examples::{examples, read};
 use motet_tests::setup;
-
-const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
-
-/// The examples in text, with the robot and the scene that their first lines name.
-fn examples() -> Vec<(PathBuf, String, String)> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(EXAMPLES).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "motet") {
-            let text = std::fs::read_to_string(&path).unwrap();
-            let (_, rest) = text.split_once("Robot ").unwrap();
-            let (robot, rest) = rest.split_once(", scene ").unwrap();
-            let (scene, _) = rest.split_once('.').unwrap();
-            found.push((path, robot.to_owned(), scene.to_owned()));
-        }
-    }
-    found.sort();
-    assert!(found.len() >= 8, "there are {} examples", found.len());
-    found
-}
-
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap()
-}
 
 /// The graph of a document, as text.
 fn graph(session: &Session, text: &str) -> String {

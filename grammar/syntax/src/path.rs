@@ -185,6 +185,20 @@ impl Walk {
             ExprKind::AnyOf(members) => {
                 self.group("any", |walk| walk.members(members));
             }
+            // Written in one object, the value has the object's place.
+            ExprKind::Compare(_, left, right) if left.span == expr.span => {
+                if !self.expr("than", right) {
+                    match &left.kind {
+                        ExprKind::Call(call) => {
+                            self.args(call);
+                        }
+                        ExprKind::Field(of, _) => {
+                            self.expr("of", of);
+                        }
+                        _ => {}
+                    }
+                }
+            }
             ExprKind::Compare(op, left, right) => {
                 self.group(compare_key(*op), |walk| {
                     let _ = walk.expr("0", left) || walk.expr("1", right);

@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use motet_syntax::json::{self, Lenient, Spanned};
-use motet_syntax::{FileId, Source};
+use motet_syntax::{FileId, Source, read};
 use serde::Deserialize;
 
 #[derive(Deserialize, Debug, PartialEq)]
@@ -229,4 +229,20 @@ fn depth_is_limited() {
     for text in ["[".repeat(100_000), "{\"a\":".repeat(100_000)] {
         assert!(findings(&text)[0].starts_with("M0111"), "{}", findings(&text)[0]);
     }
+}
+
+#[test]
+fn a_comparison_can_be_written_in_one_object() {
+    let flat = r#"{"motet": 1, "policy": "p", "steps": [
+        {"wait": {"get": "distance", "to": "user", "is": "less", "than": 0.5}},
+        {"wait": {"field": "mass", "of": "mug", "is": "at_least", "than": "1 kg"}}]}"#;
+    let paired = r#"{"motet": 1, "policy": "p", "steps": [
+        {"wait": {"less": [{"get": "distance", "to": "user"}, 0.5]}},
+        {"wait": {"at_least": [{"field": "mass", "of": "mug"}, "1 kg"]}}]}"#;
+    let [flat, paired] = [flat, paired].map(|text| read(&Source::new("test", text), FileId(0)));
+    assert!(flat.diagnostics.is_empty(), "{:?}", flat.diagnostics);
+    assert!(motet_syntax::ast::same(&flat.file, &paired.file));
+    let half = r#"{"motet": 1, "policy": "p", "steps": [{"wait": {"field": "mass", "of": "mug", "is": "less"}}]}"#;
+    let half = read(&Source::new("test", half), FileId(0));
+    assert_eq!(half.diagnostics[0].message, "the key `than` is missing here");
 }

@@ -187,9 +187,10 @@ impl Converter {
         let Spanned { value: catch, span } = catch;
         let Spanned { value: on, span: place } = catch.on;
         self.at_least_one(on.is_empty(), place, "catch", "kind of failure");
-        let on = match on.as_slice() {
-            [only] if only.value == "any" => CatchOn::Any(only.span),
-            _ => CatchOn::Kinds(on.into_iter().map(|kind| self.name(kind)).collect()),
+        // Every kind, whatever stands beside it.
+        let on = match on.iter().find(|kind| kind.value == "any") {
+            Some(any) => CatchOn::Any(any.span),
+            None => CatchOn::Kinds(on.into_iter().map(|kind| self.name(kind)).collect()),
         };
         Catch { on, body: self.block(catch.steps, depth + 1), span }
     }

@@ -5,8 +5,8 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::Spanned;
 use super::convert::Converter;
-use super::errors::{BadValue, WrongType};
-use super::term::{Args, Condition, Count, Duration, Form, Pair, Term};
+use super::errors::{BadValue, MissingKey, WrongType};
+use super::term::{Args, Condition, Count, Duration, Form, Pair, Relation, Term};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
 use crate::errors::TooDeep;
 use crate::source::Span;
@@ -117,10 +117,14 @@ impl Converter {
         use {ArithOp as A, CompareOp as C};
         match form {
             Form::Is(form) => ExprKind::Call(self.call(form.is, form.args, span, level, true)),
-            Form::Get(form) => ExprKind::Call(self.call(form.get, form.args, span, level, true)),
+            Form::Get(form) => {
+                let call = ExprKind::Call(self.call(form.get, form.args, span, level, true));
+                self.related(call, form.is, form.than, span, level)
+            }
             Form::Field(form) => {
                 let of = self.term(form.of, level + 1);
-                ExprKind::Field(Box::new(of), self.name(form.field))
+                let field = ExprKind::Field(Box::new(of), self.name(form.field));
+                self.related(field, form.is, form.than, span, level)
             }
             Form::Not(inner) => ExprKind::Not(Box::new(self.condition_at(inner, level + 1))),
             Form::All(members) => ExprKind::All(self.conditions(members, level + 1)),
@@ -136,6 +140,39 @@ impl Converter {
             Form::Multiply(pair) => self.arithmetic(A::Multiply, pair, level),
             Form::Divide(pair) => self.arithmetic(A::Divide, pair, level),
         }
+    }
+
+    /// A value, compared where its object says so. Both the value and the comparison have the object's place.
+    fn related(
+        &mut self,
+        value: ExprKind,
+        is: Option<Box<Spanned<Relation>>>,
+        than: Option<Box<Spanned<Term>>>,
+        span: Span,
+        level: usize,
+    ) -> ExprKind {
+        let (relation, than) = match (is, than) {
+            (Some(relation), Some(than)) => (relation, than),
+            (None, None) => return value,
+            (Some(_), None) => {
+                self.found.push(MissingKey { key: "than", span }.into());
+                return value;
+            }
+            (None, Some(_)) => {
+                self.found.push(MissingKey { key: "is", span }.into());
+                return value;
+            }
+        };
+        let op = match relation.value {
+            Relation::Less => CompareOp::Less,
+            Relation::AtMost => CompareOp::AtMost,
+            Relation::Equal => CompareOp::Equal,
+            Relation::More => CompareOp::More,
+            Relation::AtLeast => CompareOp::AtLeast,
+            Relation::Unequal => CompareOp::Unequal,
+        };
+        let value = Expr { kind: value, span };
+        ExprKind::Compare(op, Box::new(value), Box::new(self.term(*than, level + 1)))
     }
 
     fn conditions(&mut self, members: Vec<Condition>, level: usize) -> Vec<Expr> {
@@ -184,8 +221,9 @@ fn duration_help(text: &str) -> String {
     }
 }
 
-/// `"20 cm"`: a number, perhaps spaces, and a unit.
-pub(crate) fn quantity(text: &str) -> Option<(f64, Unit)> {
+/// `"20 cm"`: a number, perhaps spaces, and a unit; none where the text is anything else.
+#[must_use]
+pub fn quantity(text: &str) -> Option<(f64, Unit)> {
     let text = text.trim();
     let sign = usize::from(text.starts_with('-'));
     let digits = text.get(sign..).map_or(0, text::token::number);

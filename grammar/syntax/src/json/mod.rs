@@ -40,7 +40,7 @@ use std::cell::RefCell;
 
 use serde::Deserialize;
 
-pub(crate) use convert_term::quantity;
+pub use convert_term::quantity;
 pub use lenient::Lenient;
 pub use spanned::Spanned;
 pub(crate) use tree::push_escaped;

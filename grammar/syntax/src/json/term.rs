@@ -85,7 +85,7 @@ pub struct Is {
     pub args: Args,
 }
 
-/// The value of a measure. Every other key is an argument.
+/// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
 pub struct Get {
     /// The measure.
@@ -93,9 +93,15 @@ pub struct Get {
     /// The arguments.
     #[serde(flatten)]
     pub args: Args,
+    /// How the value is compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub is: Option<Box<Spanned<Relation>>>,
+    /// With what.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub than: Option<Box<Spanned<Term>>>,
 }
 
-/// The value of a field of an entity.
+/// The value of a field of an entity. With `is` and `than` it is a condition: a comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
@@ -103,6 +109,31 @@ pub struct Field {
     pub field: Spanned<SmolStr>,
     /// The entity.
     pub of: Spanned<Term>,
+    /// How the value is compared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub is: Option<Box<Spanned<Relation>>>,
+    /// With what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub than: Option<Box<Spanned<Term>>>,
+}
+
+/// How two values are compared, where the comparison is written in one object: `{"get": "distance", "to": "user", "is":
+/// "less", "than": 0.5}`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Relation {
+    /// `<`
+    Less,
+    /// `<=`
+    AtMost,
+    /// `==`
+    Equal,
+    /// `>`
+    More,
+    /// `>=`
+    AtLeast,
+    /// `!=`
+    Unequal,
 }
 
 /// Arguments by the names of their parameters, in the order written.
@@ -236,6 +267,8 @@ struct Parts {
     within: Option<Box<Duration>>,
     retry: Option<Box<Count>>,
     bind: Option<Box<Spanned<SmolStr>>>,
+    is: Option<Box<Spanned<Relation>>>,
+    than: Option<Box<Spanned<Term>>>,
 }
 
 /// A key, copied only where it has escapes: most of them only have to be told apart.
@@ -304,12 +337,21 @@ impl Applied for Is {
 }
 
 impl Applied for Get {
-    const KEYS: &'static [&'static str] = &["get", super::de::OPEN];
-    fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
-        Ok(false)
+    const KEYS: &'static [&'static str] = &["get", "is", "than", super::de::OPEN];
+
+    fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
+        match key {
+            "is" => parts.is = access.next_value()?,
+            // Without `is` before it, it is an argument like any other.
+            "than" if parts.is.is_some() => parts.than = access.next_value()?,
+            _ => return Ok(false),
+        }
+        Ok(true)
     }
+
     fn make(name: Spanned<SmolStr>, parts: Parts) -> Self {
-        Self { get: name, args: Args(parts.args) }
+        let Parts { args, is, than, .. } = parts;
+        Self { get: name, args: Args(args), is, than }
     }
 }
 

@@ -235,10 +235,13 @@ impl Lowering {
                 let (head, args) = (name(&call.name), self.args(call));
                 match kind {
                     Kind::Condition => Form::Is(Is { is: head, args }),
-                    Kind::Term => Form::Get(Get { get: head, args }),
+                    Kind::Term => Form::Get(Get { get: head, args, is: None, than: None }),
                 }
             }
-            ExprKind::Field(of, field) => Form::Field(Field { field: name(field), of: self.term(of).into() }),
+            ExprKind::Field(of, field) => {
+                let (field, of) = (name(field), self.term(of).into());
+                Form::Field(Field { field, of, is: None, than: None })
+            }
             ExprKind::Not(inner) => Form::Not(self.condition(inner)),
             ExprKind::All(members) => Form::All(self.conditions(members)),
             ExprKind::AnyOf(members) => Form::Any(self.conditions(members)),
