@@ -2,7 +2,6 @@
 
 mod branch;
 mod events;
-mod label;
 mod lines;
 mod pace;
 mod screen;

@@ -1,8 +1,7 @@
 //! What lies within a step: its regions, with a heading where there are several.
 
+use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, Reaction, RegionId};
-
-use super::label;
 
 /// What is still to be laid out, on a stack.
 pub(super) enum Open {
@@ -34,7 +33,7 @@ pub(super) fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut 
             open.push(Open::Region(*body, inner));
             for watch in watches {
                 if let Reaction::Resume { body, .. } = &watch.reaction {
-                    let test = label::condition(graph, &watch.condition);
+                    let test = Names(graph).condition(&watch.condition);
                     open.push(Open::Heading(format!("when {test}"), depth));
                     open.push(Open::Region(*body, inner));
                 }
@@ -45,7 +44,7 @@ pub(super) fn branches(graph: &Graph, kind: &NodeKind, depth: usize, open: &mut 
             for handler in handlers {
                 let names = handler.on.as_ref().map_or_else(
                     || "any".to_owned(),
-                    |on| on.iter().map(|id| label::failure(graph, *id)).collect::<Vec<_>>().join(", "),
+                    |on| on.iter().map(|id| Names(graph).failure(*id)).collect::<Vec<_>>().join(", "),
                 );
                 open.push(Open::Heading(format!("catch {names}"), depth));
                 open.push(Open::Region(handler.body, inner));

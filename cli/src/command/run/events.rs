@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, Value};
 use motet_runtime::{Cause, Command, Effect, GoalId, Happening, NodeEnding, Record, RunEnd, Time, Truth};
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
+use super::tree;
 use super::view::View;
-use super::{label, tree};
 use crate::out::Out;
 
 /// Writes events.
@@ -30,7 +31,7 @@ impl Events {
             line.insert("node".to_owned(), json!(id.0));
             if let Some(node) = self.graph.nodes.get(id.index()) {
                 line.insert("path".to_owned(), json!(node.path.as_str()));
-                line.insert("step".to_owned(), json!(label::node(&self.graph, node)));
+                line.insert("step".to_owned(), json!(Names(&self.graph).brief(&node.kind)));
             }
         }
         if let serde_json::Value::Object(more) = more {
@@ -179,7 +180,7 @@ fn ended(graph: &Graph, ending: NodeEnding, cause: Cause) -> serde_json::Value {
     match ending {
         NodeEnding::Success => json!({"ending": "success", "cause": cause}),
         NodeEnding::Failure(kind) => {
-            json!({"ending": "failure", "failure": label::failure(graph, kind), "cause": cause})
+            json!({"ending": "failure", "failure": Names(graph).failure(kind), "cause": cause})
         }
         NodeEnding::Interrupted => json!({"ending": "interrupted", "cause": cause}),
     }

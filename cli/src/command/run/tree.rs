@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT};
 use motet_runtime::{Happening, NodeEnding, Record, Time};
 
 use super::branch::{Open, branches};
-use super::label;
 
 /// What has become of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,7 +72,7 @@ impl Tree {
                     if tree.places.get(id.index()).is_none_or(|place| place.is_some()) {
                         continue;
                     }
-                    tree.push(Some(id), depth, label::node(&graph, node));
+                    tree.push(Some(id), depth, Names(&graph).brief(&node.kind));
                     open.extend(node.next.map(|next| Open::Node(next, depth)));
                     let mut parts = Vec::new();
                     branches(&graph, &node.kind, depth, &mut parts);
@@ -193,7 +193,7 @@ impl Tree {
 fn why(graph: &Graph, ending: NodeEnding) -> Option<String> {
     match ending {
         NodeEnding::Success => None,
-        NodeEnding::Failure(kind) => Some(label::failure(graph, kind).to_owned()),
+        NodeEnding::Failure(kind) => Some(Names(graph).failure(kind).to_owned()),
         NodeEnding::Interrupted => Some("interrupted".to_owned()),
     }
 }
@@ -204,7 +204,7 @@ fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
         Some(NodeKind::Call(call)) => call
             .needs
             .get(need as usize)
-            .map_or_else(|| "?".to_owned(), |need| label::condition(graph, &need.condition)),
+            .map_or_else(|| "?".to_owned(), |need| Names(graph).condition(&need.condition)),
         Some(_) | None => "?".to_owned(),
     }
 }
@@ -214,7 +214,7 @@ pub(super) fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
     match graph.nodes.get(node.index()).map(|node| &node.kind) {
         Some(NodeKind::Monitor { watches, .. }) => watches
             .get(watch as usize)
-            .map_or_else(|| "?".to_owned(), |watch| label::condition(graph, &watch.condition)),
+            .map_or_else(|| "?".to_owned(), |watch| Names(graph).condition(&watch.condition)),
         Some(_) | None => "?".to_owned(),
     }
 }

@@ -1,9 +1,9 @@
 //! What a run looks like: a trait for its three shapes, and what they say alike.
 
 use motet_graph::Graph;
+use motet_graph::draw::Names;
 use motet_runtime::{Effect, RunEnd, Time};
 
-use super::label;
 use super::tree::{Status, Tree};
 
 /// Shows a run.
@@ -58,7 +58,7 @@ pub(super) fn summary(graph: &Graph, tree: &Tree, now: Time, end: &RunEnd, is_co
         RunEnd::Failed { kind, why, node } => {
             let place = graph.nodes.get(node.index());
             let at = place.map_or_else(String::new, |node| {
-                format!(" in `{}` ({})", label::node(graph, node), node.path)
+                format!(" in `{}` ({})", Names(graph).brief(&node.kind), node.path)
             });
             (Status::Failed, format!("failed with `{kind}`{at}"), why.clone())
         }

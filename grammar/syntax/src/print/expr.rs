@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use crate::ast::{ArithOp, Call, CompareOp, Expr, ExprKind, Name};
+use crate::ast::{ArithOp, Call, Expr, ExprKind, Name};
 use crate::json::quantity;
 use crate::text::is_bare_name;
 use crate::unit::Unit;
@@ -116,18 +116,16 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::All(members) | ExprKind::AnyOf(members) => joined(text, members, "", Level::Or),
         ExprKind::Compare(op, left, right) => {
             at(text, left, Level::Sum);
-            text.push_str(compare_mark(*op));
+            spaced(text, op.symbol());
             at(text, right, Level::Sum);
         }
         ExprKind::Arith(op, left, right) => {
-            let (mark, left_least, right_least) = match op {
-                ArithOp::Add => (" + ", Level::Sum, Level::Product),
-                ArithOp::Subtract => (" - ", Level::Sum, Level::Product),
-                ArithOp::Multiply => (" * ", Level::Product, Level::Atom),
-                ArithOp::Divide => (" / ", Level::Product, Level::Atom),
+            let (left_least, right_least) = match op {
+                ArithOp::Add | ArithOp::Subtract => (Level::Sum, Level::Product),
+                ArithOp::Multiply | ArithOp::Divide => (Level::Product, Level::Atom),
             };
             at(text, left, left_least);
-            text.push_str(mark);
+            spaced(text, op.symbol());
             at(text, right, right_least);
         }
     }
@@ -142,15 +140,10 @@ fn joined(text: &mut String, members: &[Expr], separator: &str, least: Level) {
     }
 }
 
-fn compare_mark(op: CompareOp) -> &'static str {
-    match op {
-        CompareOp::Equal => " == ",
-        CompareOp::Unequal => " != ",
-        CompareOp::Less => " < ",
-        CompareOp::AtMost => " <= ",
-        CompareOp::More => " > ",
-        CompareOp::AtLeast => " >= ",
-    }
+fn spaced(text: &mut String, symbol: &str) {
+    text.push(' ');
+    text.push_str(symbol);
+    text.push(' ');
 }
 
 /// Appends `pick(mug, from: top)`.

@@ -9,6 +9,7 @@ mod text;
 
 pub use dot::dot;
 pub use mermaid::mermaid;
+pub use names::Names;
 pub use text::text;
 
 use crate::model::{Graph, NodeId, NodeKind, Reaction, RegionId};
@@ -18,7 +19,7 @@ const DEEPEST: usize = crate::validate::MAX_DEPTH + 1;
 
 /// The regions of a node with what each is for.
 fn parts(graph: &Graph, kind: &NodeKind) -> Vec<(String, RegionId)> {
-    let names = names::Names(graph);
+    let names = Names(graph);
     match kind {
         NodeKind::Call(_) | NodeKind::Wait { .. } | NodeKind::End { .. } => Vec::new(),
         NodeKind::Sequence { body, .. }

@@ -1,19 +1,21 @@
 //! Conditions, terms and steps in words, with the names that a graph's tables give.
 
 use crate::model::{
-    Arithmetic, BindingId, CallNode, Comparison, Condition, Effect, Ending, Fact, FactArg, FailureId, Graph,
-    Handler, KindId, Motion, Need, NodeKind, Reaction, Term, Unsettled, Watch,
+    BindingId, CallNode, Condition, Effect, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId, Motion,
+    Need, NodeKind, Reaction, Term, Unsettled, Watch,
 };
 
-/// Names things by a graph's tables.
-pub(super) struct Names<'a>(pub(super) &'a Graph);
+/// Names things by a graph's tables, any graph's: an id that names nothing is `?`.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a>(pub &'a Graph);
 
 /// Where a table has no such entry.
 const NOBODY: &str = "?";
 
-impl Names<'_> {
-    /// A step in one line.
-    pub(super) fn step(&self, kind: &NodeKind) -> String {
+impl<'a> Names<'a> {
+    /// A step in one line with all that it says itself, arguments by name.
+    #[must_use]
+    pub fn step(&self, kind: &NodeKind) -> String {
         match kind {
             NodeKind::Call(call) => self.call(call),
             NodeKind::Sequence { name, .. } => format!("sequence {name}"),
@@ -33,6 +35,33 @@ impl Names<'_> {
             }
             NodeKind::Parallel { .. } => "parallel".to_owned(),
             NodeKind::End { how, of, why } => self.ending(*how, of.is_some(), why.as_ref()),
+        }
+    }
+
+    /// A step in one line as a person would write it: arguments by position, neither deadline nor retries.
+    #[must_use]
+    pub fn brief(&self, kind: &NodeKind) -> String {
+        match kind {
+            NodeKind::Call(call) => {
+                let name =
+                    self.0.primitives.get(call.primitive.index()).map_or(NOBODY, |primitive| &primitive.name);
+                let binds = call.binds.map(|id| self.binding(id)).filter(|name| *name != "_");
+                let binds = binds.map_or_else(String::new, |name| format!("let {name} = "));
+                format!("{binds}{name}({})", self.terms(&call.args))
+            }
+            NodeKind::Monitor { watches, .. } => {
+                let watched: Vec<_> = watches.iter().map(|watch| self.condition(&watch.condition)).collect();
+                format!("monitor {}", watched.join("; "))
+            }
+            NodeKind::End { how, why, .. } => self.ending(*how, false, why.as_ref()),
+            NodeKind::Sequence { .. }
+            | NodeKind::Inline { .. }
+            | NodeKind::If { .. }
+            | NodeKind::Wait { .. }
+            | NodeKind::Try { .. }
+            | NodeKind::Repeat { .. }
+            | NodeKind::Each { .. }
+            | NodeKind::Parallel { .. } => self.step(kind),
         }
     }
 
@@ -110,11 +139,13 @@ impl Names<'_> {
         format!("catch {on}")
     }
 
-    fn failure(&self, failure: FailureId) -> &str {
+    /// A failure kind.
+    #[must_use]
+    pub fn failure(&self, failure: FailureId) -> &'a str {
         self.0.failures.get(failure.index()).map_or(NOBODY, |name| name)
     }
 
-    fn binding(&self, binding: BindingId) -> &str {
+    fn binding(&self, binding: BindingId) -> &'a str {
         self.0.bindings.get(binding.index()).map_or(NOBODY, |binding| &binding.name)
     }
 
@@ -127,40 +158,45 @@ impl Names<'_> {
         format!("{name}({})", args.collect::<Vec<_>>().join(", "))
     }
 
-    pub(super) fn condition(&self, condition: &Condition) -> String {
+    /// A condition.
+    #[must_use]
+    pub fn condition(&self, condition: &Condition) -> String {
         match condition {
             Condition::Literal(value) => value.to_string(),
             Condition::Fact(fact) => self.fact(fact),
             Condition::Compare(comparison, left, right) => {
-                let sign = match comparison {
-                    Comparison::Equal => "==",
-                    Comparison::Unequal => "!=",
-                    Comparison::Less => "<",
-                    Comparison::AtMost => "<=",
-                    Comparison::More => ">",
-                    Comparison::AtLeast => ">=",
-                };
-                format!("{} {sign} {}", self.term(left), self.term(right))
+                format!("{} {} {}", self.term(left), comparison.symbol(), self.term(right))
             }
-            Condition::Not(inner) => format!("not {}", self.inner(inner)),
-            Condition::All(parts) => self.joined(parts, " and ", "true"),
-            Condition::AnyOf(parts) => self.joined(parts, " or ", "false"),
+            Condition::Not(inner) => match **inner {
+                Condition::Compare(..) => format!("not ({})", self.condition(inner)),
+                Condition::Literal(_)
+                | Condition::Fact(_)
+                | Condition::Not(_)
+                | Condition::All(_)
+                | Condition::AnyOf(_) => format!("not {}", self.inner(inner)),
+            },
+            Condition::All(parts) if parts.is_empty() => "true".to_owned(),
+            Condition::AnyOf(parts) if parts.is_empty() => "false".to_owned(),
+            Condition::All(parts) => self.joined(parts, " and "),
+            Condition::AnyOf(parts) => self.joined(parts, " or "),
         }
     }
 
-    fn joined(&self, parts: &[Condition], sign: &str, none: &str) -> String {
-        if parts.is_empty() {
-            return none.to_owned();
-        }
-        parts.iter().map(|part| self.inner(part)).collect::<Vec<_>>().join(sign)
+    fn joined(&self, parts: &[Condition], word: &str) -> String {
+        parts.iter().map(|part| self.inner(part)).collect::<Vec<_>>().join(word)
     }
 
-    /// In parentheses where it has parts of its own.
+    /// In parentheses where it is joined of parts of its own.
     fn inner(&self, condition: &Condition) -> String {
         let text = self.condition(condition);
         match condition {
-            Condition::Literal(_) | Condition::Fact(_) | Condition::Not(_) => text,
-            Condition::Compare(..) | Condition::All(_) | Condition::AnyOf(_) => format!("({text})"),
+            Condition::All(parts) | Condition::AnyOf(parts) if parts.len() > 1 => format!("({text})"),
+            Condition::Literal(_)
+            | Condition::Fact(_)
+            | Condition::Compare(..)
+            | Condition::Not(_)
+            | Condition::All(_)
+            | Condition::AnyOf(_) => text,
         }
     }
 
@@ -180,13 +216,7 @@ impl Names<'_> {
             }
             Term::List(items) => format!("[{}]", self.terms(items)),
             Term::Arith(operation, left, right) => {
-                let sign = match operation {
-                    Arithmetic::Add => '+',
-                    Arithmetic::Subtract => '-',
-                    Arithmetic::Multiply => '*',
-                    Arithmetic::Divide => '/',
-                };
-                format!("({} {sign} {})", self.term(left), self.term(right))
+                format!("({} {} {})", self.term(left), operation.symbol(), self.term(right))
             }
         }
     }

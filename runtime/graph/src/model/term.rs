@@ -56,6 +56,21 @@ pub enum Comparison {
     AtLeast,
 }
 
+impl Comparison {
+    /// As the text form writes it.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Equal => "==",
+            Self::Unequal => "!=",
+            Self::Less => "<",
+            Self::AtMost => "<=",
+            Self::More => ">",
+            Self::AtLeast => ">=",
+        }
+    }
+}
+
 /// Something that has a value.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Term {
@@ -86,4 +101,17 @@ pub enum Arithmetic {
     Multiply,
     /// `/`
     Divide,
+}
+
+impl Arithmetic {
+    /// As the text form writes it.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+        }
+    }
 }
