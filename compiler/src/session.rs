@@ -195,7 +195,7 @@ fn place(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
 fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
     let mut step = program.steps.iter().find(|step| step.span.contains(span))?;
     while step.span.file != policy.span.file {
-        step = program.steps.get(step.place.parent?.index())?;
+        step = program.step(step.place.parent?)?;
     }
     matches!(step.kind, StepKind::Inline { .. }).then_some(step.span)
 }

@@ -34,7 +34,7 @@ pub(super) fn check(
 pub(crate) fn of_block(block: &Block, program: &Program) -> Bounds {
     let mut sum = (0.0, 0.0);
     let mut ended = false;
-    for step in block.iter().filter_map(|id| program.steps.get(id.index())) {
+    for step in block.iter().filter_map(|id| program.step(*id)) {
         if !ended {
             sum.0 += step.bounds.0;
         }

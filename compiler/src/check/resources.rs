@@ -36,7 +36,7 @@ pub(super) fn check(program: &Program, library: &Library, diagnostics: &mut Vec<
 
 /// What the steps of a block use, each set of resources once. Nesting is bounded, so the recursion is.
 fn collect(block: &Block, program: &Program, library: &Library, uses: &mut Uses) {
-    for step in block.iter().filter_map(|id| program.steps.get(id.index())) {
+    for step in block.iter().filter_map(|id| program.step(*id)) {
         match &step.kind {
             StepKind::Call(call) => {
                 let Some(def) = library.primitive(call.primitive).filter(|def| def.uses != 0) else {

@@ -214,7 +214,7 @@ impl Writer<'_> {
     }
 
     fn step(&self, id: StepId) -> Option<&Step> {
-        self.program.steps.get(id.index())
+        self.program.step(id)
     }
 
     fn texts(&self, calls: &[Do]) -> Vec<String> {

@@ -25,6 +25,22 @@ pub(crate) struct Program {
     pub(crate) achieves: Option<(Condition, Span)>,
 }
 
+impl Program {
+    /// The step with an id.
+    pub(crate) fn step(&self, id: StepId) -> Option<&Step> {
+        self.steps.get(id.index())
+    }
+
+    /// The steps in which a step lies, innermost first.
+    pub(crate) fn around(&self, id: StepId) -> impl Iterator<Item = (StepId, &Step)> {
+        let outer = |id: StepId| {
+            let id = self.step(id)?.place.parent?;
+            Some((id, self.step(id)?))
+        };
+        std::iter::successors(outer(id), move |(id, _)| outer(*id))
+    }
+}
+
 /// Steps that run one after the other.
 pub(crate) type Block = Vec<StepId>;
 

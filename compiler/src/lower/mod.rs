@@ -92,7 +92,7 @@ impl Lowering<'_> {
 
     fn node(&mut self, step: StepId, region: RegionId) -> Option<NodeId> {
         let program = self.program;
-        let source = program.steps.get(step.index())?;
+        let source = program.step(step)?;
         let id = NodeId(u32::try_from(self.nodes.len()).ok()?);
         *self.ids.get_mut(step.index())? = Some(id);
         let (least_secs, greatest_secs) = source.bounds;

@@ -10,7 +10,7 @@ use crate::ir::{Program, Slot, StepId};
 pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
     let mut places = Vec::new();
     let mut at = Some(step);
-    while let Some(place) = at.and_then(|id| program.steps.get(id.index())).map(|step| step.place) {
+    while let Some(place) = at.and_then(|id| program.step(id)).map(|step| step.place) {
         places.push(place);
         at = place.parent;
     }

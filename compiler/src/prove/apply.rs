@@ -130,11 +130,7 @@ impl Prover<'_> {
                 | Condition::Compare(CompareOp::Equal, other, Term::Each),
             ) => {
                 let only = self.argument(other, frame).map(Entity);
-                let fits = |entity: &Entity| {
-                    self.symbols
-                        .kind(self.world, *entity)
-                        .is_some_and(|other| self.library.is_kind(other, kind))
-                };
+                let fits = |entity: &Entity| self.is_of_kind(*entity, kind);
                 (only.filter(fits).into_iter().collect(), None)
             }
             Some(Condition::Fact(fact)) => {
@@ -152,8 +148,7 @@ impl Prover<'_> {
                     rest = rest.join(self.facts.get(fact.fluent, pattern));
                     self.facts.entries(fact.fluent, pattern, |key, value| {
                         let entity = Entity(key.arg(place));
-                        let found = self.symbols.kind(self.world, entity).filter(|_| !value.is_false());
-                        if found.is_some_and(|found| self.library.is_kind(found, kind)) {
+                        if !value.is_false() && self.is_of_kind(entity, kind) {
                             known.push(entity);
                         }
                     });

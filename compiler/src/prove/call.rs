@@ -97,7 +97,7 @@ impl Prover<'_> {
                     mover: self.cause_name(fresh.no),
                 };
                 let (bound, mistake) = (bound.span, Diagnostic::from(mistake));
-                self.offer_again(id, bound, *span, (mistake.code, mistake.message.clone()));
+                self.offer_again(id, bound, &mistake);
                 self.diagnostics.push(mistake);
             }
         }
@@ -150,7 +150,7 @@ impl Prover<'_> {
             subject: blame.subject,
         };
         let mistake = Diagnostic::from(mistake);
-        self.offer_before(id, def, Frame { each: None, ..frame }, (mistake.code, mistake.message.clone()));
+        self.offer_before(id, def, Frame { each: None, ..frame }, &mistake);
         self.diagnostics.push(mistake);
     }
 

@@ -95,6 +95,11 @@ impl Prover<'_> {
         self.facts.get(fluent, key)
     }
 
+    /// Whether an entity, of the world or behind a binding, is of a kind.
+    pub(crate) fn is_of_kind(&self, entity: Entity, kind: Kind) -> bool {
+        self.symbols.kind(self.world, entity).is_some_and(|found| self.library.is_kind(found, kind))
+    }
+
     /// Entities of the world of a kind, at most so many.
     pub(crate) fn of_kind(&self, kind: Kind, most: usize) -> Vec<Entity> {
         let entities = self.world.entities().iter();

@@ -13,7 +13,7 @@ use super::facts::{Key, show};
 use super::mend::End;
 use super::value::{Cause, Value};
 use super::{Prover, Verdict};
-use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Slot, StepId, Term};
+use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Slot, Step, StepId, Term};
 use crate::library::{NeedDef, PrimitiveDef};
 
 impl Prover<'_> {
@@ -70,8 +70,7 @@ impl Prover<'_> {
         let target = args.first().and_then(|arg| self.argument(arg, frame)).map(Entity);
         let person = self.library.kind_named("Person");
         let (true, "go_to", Some(target)) = (can, query.as_str(), target) else { return };
-        let kind = self.symbols.kind(self.world, target);
-        if !kind.is_some_and(|kind| self.library.is_kind(kind, person)) {
+        if !self.is_of_kind(target, person) {
             return;
         }
         if !self.watched.iter().any(|watched| watched.near.contains(&target)) {
@@ -113,16 +112,16 @@ impl Prover<'_> {
 
     /// Whether the world may have moved on without the robot: people walk, and a monitor's reaction runs because of it.
     fn may_have_changed(&self, frame: Frame<'_>) -> bool {
-        let step = |id: StepId| self.program.steps.get(id.index());
-        let mut around = std::iter::successors(self.here, |id| step(*id)?.place.parent);
+        let in_reaction = |step: &Step| matches!(step.place.slot, Slot::Reaction(_));
+        let here = self.here.and_then(|id| self.program.step(id));
+        let mut around = self.here.into_iter().flat_map(|id| self.program.around(id));
         let person = self.library.kind_named("Person");
         let mut args = frame.args.iter();
-        around.any(|id| step(id).is_some_and(|step| matches!(step.place.slot, Slot::Reaction(_))))
+        here.is_some_and(in_reaction)
+            || around.any(|(_, step)| in_reaction(step))
             || args.any(|arg| {
-                let kind =
-                    self.argument(arg, frame).and_then(|arg| self.symbols.kind(self.world, Entity(arg)));
                 matches!(arg, Term::Entity(_) | Term::Binding(_))
-                    && kind.is_some_and(|kind| self.library.is_kind(kind, person))
+                    && self.argument(arg, frame).is_some_and(|arg| self.is_of_kind(Entity(arg), person))
             })
     }
 
@@ -143,7 +142,7 @@ impl Prover<'_> {
 
     /// A retry that cannot go better: what the step needs is gone for good once it was tried.
     pub(crate) fn check_retry(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: Frame<'_>) {
-        let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
+        let span = self.program.step(id).map_or(self.program.span, |step| step.span);
         let stale = call.args.iter().find_map(|arg| match arg {
             Term::Binding(id) if self.is_stale(*id) => self.program.bindings.get(id.index()),
             _ => None,

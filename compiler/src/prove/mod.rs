@@ -147,7 +147,7 @@ pub(crate) fn prove(
         let last = program.body.last().copied();
         let end = last.map(End::After);
         prover.check_goal(end);
-        let last = last.and_then(|id| program.steps.get(id.index()));
+        let last = last.and_then(|id| program.step(id));
         prover.check_end(end, last.map_or(program.span, |step| step.span));
     }
     prover.report_unreached();

@@ -71,7 +71,7 @@ impl Prover<'_> {
         let fact =
             show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
         let cause = |value: Value| if value.yes.is_some() { value.yes } else { value.no };
-        let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
+        let span = self.program.step(id).map_or(self.program.span, |step| step.span);
         let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));
         self.diagnostics.push(Conflict { span, fact, first, second }.into());
     }

@@ -1,7 +1,5 @@
 //! Conditions, facts and terms as the language writes them, for messages.
 
-use motet_syntax::ast::{ArithOp, CompareOp};
-
 use super::Prover;
 use super::eval::Frame;
 use super::facts::show;
@@ -24,7 +22,7 @@ impl Prover<'_> {
             Condition::Literal(value) => value.to_string(),
             Condition::Fact(fact) => self.fact_text(fact, frame),
             Condition::Compare(op, left, right) => {
-                format!("{} {} {}", self.term_text(left, frame), symbol(*op), self.term_text(right, frame))
+                format!("{} {} {}", self.term_text(left, frame), op.symbol(), self.term_text(right, frame))
             }
             Condition::MonitoredMeasure(id) => {
                 format!("monitored({})", self.library.measure(*id).map_or("?", |def| def.name.as_str()))
@@ -82,27 +80,10 @@ impl Prover<'_> {
                 format!("{name}({})", args.join(", "))
             }
             Term::Arith(op, left, right) => {
-                let op = match op {
-                    ArithOp::Add => "+",
-                    ArithOp::Subtract => "-",
-                    ArithOp::Multiply => "*",
-                    ArithOp::Divide => "/",
-                };
-                format!("{} {op} {}", self.term_text(left, frame), self.term_text(right, frame))
+                format!("{} {} {}", self.term_text(left, frame), op.symbol(), self.term_text(right, frame))
             }
             Term::Unknown => "?".to_owned(),
         }
-    }
-}
-
-fn symbol(op: CompareOp) -> &'static str {
-    match op {
-        CompareOp::Equal => "==",
-        CompareOp::Unequal => "!=",
-        CompareOp::Less => "<",
-        CompareOp::AtMost => "<=",
-        CompareOp::More => ">",
-        CompareOp::AtLeast => ">=",
     }
 }
 

@@ -103,7 +103,7 @@ impl Prover<'_> {
 
     /// Who is to blame: an action made it so, a test found it so.
     fn maker(&self, cause: Cause) -> String {
-        let step = cause.as_step().and_then(|id| self.program.steps.get(id.index()));
+        let step = cause.as_step().and_then(|id| self.program.step(id));
         match step.map(|step| &step.kind) {
             Some(StepKind::If { condition, .. }) => {
                 format!("`if {}` found", self.text(condition, Frame::default()))
@@ -121,25 +121,22 @@ impl Prover<'_> {
         if self.here.is_some_and(|here| maker >= here) {
             return " in an earlier round".to_owned();
         }
-        let parent = |id: StepId| self.program.steps.get(id.index())?.place.parent;
-        let around = |id: StepId| std::iter::successors(parent(id), move |id| parent(*id));
+        let around = |id: StepId| self.program.around(id).map(|(id, _)| id);
         let shared: Vec<StepId> = self.here.into_iter().flat_map(around).collect();
-        let mut inner = maker;
-        while let Some(outer) = parent(inner) {
-            let place = self.program.steps.get(inner.index()).map(|step| step.place.slot);
-            let fork = self.program.steps.get(outer.index()).map(|step| &step.kind);
+        let mut slot = self.program.step(maker).map(|step| step.place.slot);
+        for (outer, fork) in self.program.around(maker) {
             // A step beside the one being proved, in another block of the same fork, is on another way too.
             let apart = !shared.contains(&outer);
-            match (fork, place) {
-                (Some(StepKind::If { condition, .. }), Some(Slot::Then)) if apart => {
+            match (&fork.kind, slot) {
+                (StepKind::If { condition, .. }, Some(Slot::Then)) if apart => {
                     return format!(" where {} holds", self.show(condition, true, Frame::default()));
                 }
-                (Some(StepKind::If { condition, .. }), Some(Slot::Else)) if apart => {
+                (StepKind::If { condition, .. }, Some(Slot::Else)) if apart => {
                     return format!(" where {} does not hold", self.show(condition, true, Frame::default()));
                 }
                 (_, Some(Slot::Catch(_))) if apart => return " after a failure".to_owned(),
                 (_, Some(Slot::Reaction(_))) => return " when its monitor fires".to_owned(),
-                _ => inner = outer,
+                _ => slot = Some(fork.place.slot),
             }
         }
         String::new()
@@ -181,7 +178,7 @@ impl Prover<'_> {
         };
         let mistake: Diagnostic = mistake.into();
         if let Some(end) = end.filter(|_| self.live) {
-            self.offer_goal(goal, end, &mistake);
+            self.offer_at_end(goal.clone(), end, &mistake);
         }
         if !self.diagnostics.contains(&mistake) {
             self.diagnostics.push(mistake);
@@ -190,12 +187,12 @@ impl Prover<'_> {
 
     /// The place of the step behind a cause.
     pub(crate) fn cause_span(&self, cause: Cause) -> Option<Span> {
-        Some(self.program.steps.get(cause.as_step()?.index())?.span)
+        Some(self.program.step(cause.as_step()?)?.span)
     }
 
     /// The step behind a cause, in a word.
     pub(crate) fn cause_name(&self, cause: Cause) -> SmolStr {
-        let step = cause.as_step().and_then(|id| self.program.steps.get(id.index()));
+        let step = cause.as_step().and_then(|id| self.program.step(id));
         match step.map(|step| &step.kind) {
             Some(StepKind::Call(call)) => {
                 let name = self.library.primitive(call.primitive).map_or("a step", |def| def.name.as_str());

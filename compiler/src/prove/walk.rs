@@ -25,7 +25,7 @@ impl Prover<'_> {
 
     fn step(&mut self, id: StepId) {
         let program = self.program;
-        let Some(step) = program.steps.get(id.index()) else { return };
+        let Some(step) = program.step(id) else { return };
         if let Some(reached) = self.proof.reached.get_mut(id.index()) {
             *reached = true;
         }
@@ -258,7 +258,7 @@ impl Prover<'_> {
     /// Each level of loops and branches is proved at least twice: beyond a limit that would take for ever.
     pub(crate) fn enter_fixpoint(&mut self, id: StepId) -> bool {
         if self.fixpoints >= MAX_FIXPOINTS {
-            let span = self.program.steps.get(id.index()).map_or(self.program.span, |step| step.span);
+            let span = self.program.step(id).map_or(self.program.span, |step| step.span);
             self.diagnostics.push(TooDeep { span, limit: MAX_FIXPOINTS }.into());
             return false;
         }

@@ -162,9 +162,7 @@ impl<'a> Prover<'a> {
         let place = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
         let each = place.map(|index| Entity(key.arg(index)));
         let is_of_kind = match (effect.each, each) {
-            (Some(kind), Some(each)) => {
-                self.symbols.kind(self.world, each).is_some_and(|other| self.library.is_kind(other, kind))
-            }
+            (Some(kind), Some(each)) => self.is_of_kind(each, kind),
             _ => true,
         };
         let frame = Frame { args: &call.args, result: call.result, each };
@@ -242,18 +240,13 @@ impl<'a> Prover<'a> {
         }
         found.sort_unstable();
         found.dedup();
-        found.retain(|entity| {
-            let other = self.symbols.kind(self.world, *entity);
-            other.is_some_and(|other| self.library.is_kind(other, kind))
-        });
+        found.retain(|entity| self.is_of_kind(*entity, kind));
         if found.is_empty() {
             found = self.of_kind(kind, MAX_PROPOSALS);
         }
         // Furniture is a better place to put something than a thing or a person.
         let rank = |entity: &Entity| {
-            let kind = self.symbols.kind(self.world, *entity);
-            let is =
-                |name| kind.is_some_and(|kind| self.library.is_kind(kind, self.library.kind_named(name)));
+            let is = |name| self.is_of_kind(*entity, self.library.kind_named(name));
             if is("Surface") { 0 } else { 1 + usize::from(!is("Container")) }
         };
         found.sort_by_key(rank);

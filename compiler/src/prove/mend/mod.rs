@@ -91,10 +91,9 @@ impl Prover<'_> {
         id: StepId,
         def: &PrimitiveDef,
         frame: Frame<'_>,
-        finding: (Code, String),
+        finding: &Diagnostic,
     ) {
-        let Some(step) = self.program.steps.get(id.index()) else { return };
-        let span = step.span;
+        let span = finding.span;
         if self.offers.len() >= MAX_OFFERS
             || self.is_inlined(id)
             || self.offers.iter().any(|offer| offer.span == span)
@@ -112,17 +111,17 @@ impl Prover<'_> {
         mends.extend(plans.into_iter().map(|calls| Mend::Before(id, self.named(calls, span))));
         // What cannot be done here, since the hand is full, say, may go before an earlier step.
         for earlier in self.siblings_before(id) {
-            let place = self.program.steps.get(earlier.index()).map_or(span, |step| step.span);
+            let place = self.program.step(earlier).map_or(span, |step| step.span);
             for maker in direct.iter().take(MAX_PROPOSALS) {
                 mends.push(Mend::Before(earlier, self.named(vec![maker.call.clone()], place)));
             }
         }
-        self.offers.push(Offer { code: finding.0, span, message: finding.1, mends });
+        self.offer(finding, mends);
     }
 
     /// The steps before one in its block, the nearest first.
     fn siblings_before(&self, id: StepId) -> Vec<StepId> {
-        let Some(place) = self.program.steps.get(id.index()).map(|step| step.place) else {
+        let Some(place) = self.program.step(id).map(|step| step.place) else {
             return Vec::new();
         };
         let before = self.program.steps.iter().enumerate().take(id.index()).rev();
@@ -139,11 +138,6 @@ impl Prover<'_> {
         self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
     }
 
-    /// Offers what would reach the goal where the policy is done.
-    pub(crate) fn offer_goal(&mut self, goal: &Condition, end: End, finding: &Diagnostic) {
-        self.offer_at_end(goal.clone(), end, finding);
-    }
-
     /// Offers what would undo a fact in which a policy ends: an object in the hand, a container left open.
     pub(crate) fn offer_ended(&mut self, want: Want, end: Option<End>, finding: &Diagnostic) {
         let Some(end) = end.filter(|_| self.live) else { return };
@@ -155,9 +149,10 @@ impl Prover<'_> {
         self.offer_at_end(goal, end, finding);
     }
 
-    fn offer_at_end(&mut self, goal: Condition, end: End, finding: &Diagnostic) {
+    /// Offers what would reach a goal where the policy is done.
+    pub(crate) fn offer_at_end(&mut self, goal: Condition, end: End, finding: &Diagnostic) {
         let (End::Before(id) | End::After(id)) = end;
-        let Some(span) = self.program.steps.get(id.index()).map(|step| step.span) else { return };
+        let Some(span) = self.program.step(id).map(|step| step.span) else { return };
         if self.offers.len() >= MAX_OFFERS || self.is_inlined(id) {
             return;
         }
@@ -185,24 +180,21 @@ impl Prover<'_> {
     }
 
     /// Offers to perceive again what is stale.
-    pub(crate) fn offer_again(&mut self, id: StepId, bound: Span, used: Span, finding: (Code, String)) {
+    pub(crate) fn offer_again(&mut self, id: StepId, bound: Span, finding: &Diagnostic) {
         let found = self.program.steps.iter().position(|step| {
             let StepKind::Call(call) = &step.kind else { return false };
             let binding = call.binds.and_then(|id| self.program.bindings.get(id.index()));
             binding.is_some_and(|binding| binding.span == bound)
         });
         let Some(found) = found.and_then(|index| u32::try_from(index).ok()) else { return };
-        if self.offers.len() < MAX_OFFERS && !self.is_inlined(id) {
-            let mends = vec![Mend::Again { found: StepId(found), before: id, used }];
-            self.offers.push(Offer { code: finding.0, span: used, message: finding.1, mends });
+        if !self.is_inlined(id) {
+            self.offer(finding, vec![Mend::Again { found: StepId(found), before: id, used: finding.span }]);
         }
     }
 
     /// Whether a step belongs to a sub-policy, where the names of its caller mean nothing.
     fn is_inlined(&self, id: StepId) -> bool {
-        let step = |id: &StepId| self.program.steps.get(id.index());
-        let parents = std::iter::successors(step(&id), |of| of.place.parent.as_ref().and_then(step));
-        parents.skip(1).any(|step| matches!(step.kind, StepKind::Inline { .. }))
+        self.program.around(id).any(|(_, step)| matches!(step.kind, StepKind::Inline { .. }))
     }
 
     /// Whether all that a step makes is so already.
