@@ -4,8 +4,9 @@ use motet_syntax::ast::{Arg, Call, CompareOp, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
+use super::arith::dimension;
 use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
-use super::expr::{Place, Resolver, Wanted, dimension};
+use super::expr::{Place, Resolver, Wanted};
 use super::near::{list, near};
 use crate::ir::{Base, Condition, Fact, Term, Ty};
 
@@ -69,7 +70,7 @@ impl Resolver<'_> {
             }
         };
         if !joined {
-            self.mismatch(symbol(op), left_ty, right_ty, whole.span);
+            self.mismatch(op.symbol(), left_ty, right_ty, whole.span);
             return Condition::Unknown;
         }
         Condition::Compare(op, a, b)
@@ -206,15 +207,4 @@ fn plain(ty: Ty) -> bool {
 /// A quotient of two lengths may be compared with a ratio.
 fn computed(a: &Term, b: &Term) -> bool {
     matches!(a, Term::Arith(..)) || matches!(b, Term::Arith(..))
-}
-
-fn symbol(op: CompareOp) -> &'static str {
-    match op {
-        CompareOp::Equal => "==",
-        CompareOp::Unequal => "!=",
-        CompareOp::Less => "<",
-        CompareOp::AtMost => "<=",
-        CompareOp::More => ">",
-        CompareOp::AtLeast => ">=",
-    }
 }

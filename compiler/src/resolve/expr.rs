@@ -1,18 +1,15 @@
 //! Terms: what a value means and which type it has. Names and types are found together, because what a plain string of
 //! the JSON form means depends on the type that is asked for.
 
-use motet_syntax::ast::{ArithOp, Expr, ExprKind, Name};
+use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{About, Diagnostic, Form, Span};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::{
-    MisplacedAny, MissingUnit, NotACondition, UnknownBinding, UnknownCase, UnknownField, UnknownFluent,
-    UnknownName, WrongDimension, WrongType,
-};
+use super::errors::{MisplacedAny, MissingUnit, NotACondition, UnknownField, UnknownFluent, WrongType};
 use super::near::{article, list, near};
 use super::scope::Scope;
-use crate::ir::{Base, Binding, EnumId, ROBOT, Term, Ty};
+use crate::ir::{Base, Binding, ROBOT, Term, Ty};
 use crate::library::Library;
 use crate::world::Entities;
 
@@ -47,7 +44,7 @@ pub(crate) enum Place<'a> {
 }
 
 impl Place<'_> {
-    fn about(self) -> Option<About> {
+    pub(super) fn about(self) -> Option<About> {
         match self {
             Self::Param(param, callee) => Some(About::parameter(callee, param)),
             Self::Named(_) => None,
@@ -139,146 +136,6 @@ impl<'a> Resolver<'a> {
         (Term::Number(value), Ty::plain(Base::Number))
     }
 
-    fn name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
-        if let Some(found) = self.in_scope(name) {
-            return found;
-        }
-        if let Some(Wanted { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted
-            && let Some(case) = self.case_of(id, name)
-        {
-            return case;
-        }
-        if let Some((entity, kind)) = self.entities.find(name) {
-            return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
-        }
-        if let Some((id, case)) = self.library.names.cases.get(name) {
-            return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
-        }
-        self.unknown_name(name, span, wanted);
-        (Term::Unknown, Ty::UNKNOWN)
-    }
-
-    /// A plain string of the JSON form.
-    fn plain(&mut self, text: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
-        let Some(ty) = wanted.map(|wanted| wanted.ty) else {
-            if let Some((entity, kind)) = self.entities.find(text) {
-                return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
-            }
-            if let Some((id, case)) = self.library.names.cases.get(text) {
-                return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
-            }
-            return match parse_quantity(text) {
-                Some((value, unit)) => {
-                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
-                }
-                None => (Term::Text(text.clone()), Ty::TEXT),
-            };
-        };
-        match ty {
-            Ty { base: Base::Text | Base::Unknown, lists: 0 } => (Term::Text(text.clone()), Ty::TEXT),
-            Ty { base: Base::Entity(_), .. } => match self.entities.find(text) {
-                Some((entity, kind)) => (Term::Entity(entity), Ty::plain(Base::Entity(kind))),
-                None => {
-                    self.unknown_name(text, span, wanted);
-                    (Term::Unknown, Ty::UNKNOWN)
-                }
-            },
-            Ty { base: Base::Enum(id), .. } => match self.case_of(id, text) {
-                Some(case) => case,
-                None => {
-                    self.unknown_name(text, span, wanted);
-                    (Term::Unknown, Ty::UNKNOWN)
-                }
-            },
-            Ty { base: Base::Quantity(_), lists: 0 } => match parse_quantity(text) {
-                Some((value, unit)) => {
-                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
-                }
-                None => (Term::Text(text.clone()), Ty::TEXT),
-            },
-            Ty {
-                base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown,
-                ..
-            }
-            | Ty { base: Base::Quantity(_), .. } => (Term::Text(text.clone()), Ty::TEXT),
-        }
-    }
-
-    fn in_scope(&mut self, name: &str) -> Option<(Term, Ty)> {
-        let entry = self.scope.find(name)?;
-        let found = (entry.term.clone(), entry.ty);
-        if let Term::Binding(id) = found.0
-            && let Some(binding) = self.bindings.get_mut(id.index())
-        {
-            binding.uses += 1;
-        }
-        Some(found)
-    }
-
-    fn binding(&mut self, name: &SmolStr, span: Span) -> (Term, Ty) {
-        if let Some(found) = self.in_scope(name) {
-            return found;
-        }
-        let same = self.entities.find(name).map(|_| name.clone());
-        let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
-        self.say(UnknownBinding { span, name: name.clone(), near });
-        (Term::Unknown, Ty::UNKNOWN)
-    }
-
-    fn case_of(&self, id: EnumId, name: &str) -> Option<(Term, Ty)> {
-        let def = self.library.enums.get(id.index())?;
-        let case = def.cases.iter().position(|case| case == name)?;
-        Some((Term::Case(id, u16::try_from(case).ok()?), Ty::plain(Base::Enum(id))))
-    }
-
-    fn unknown_name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) {
-        let name = name.clone();
-        let library = self.library;
-        let about = wanted.and_then(|wanted| wanted.place.about());
-        match wanted.map(|wanted| wanted.ty.base) {
-            Some(Base::Enum(id)) => {
-                let cases = library.enums.get(id.index()).map(|def| def.cases.as_slice()).unwrap_or_default();
-                let mistake = UnknownCase {
-                    span,
-                    of: format!("`{}`", library.type_name(Ty::plain(Base::Enum(id)))),
-                    near: near(&name, cases.iter().map(SmolStr::as_str)),
-                    known: list(cases.iter().cloned()),
-                    name,
-                };
-                self.say(mistake);
-            }
-            Some(Base::Entity(kind)) => {
-                let fitting: Vec<_> =
-                    self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
-                let names =
-                    self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
-                let near = near(&name, names);
-                let known = if fitting.len() <= 12 {
-                    list(fitting.iter().map(|row| row.1.clone()))
-                } else {
-                    String::new()
-                };
-                let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
-                let scene = self.has_scene;
-                self.say(UnknownName { span, name, near, wanted, known, scene, about });
-            }
-            Some(_) | None => {
-                let names = self.scope.names().map(SmolStr::as_str);
-                let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())));
-                let scene = self.has_scene;
-                self.say(UnknownName {
-                    span,
-                    name,
-                    near,
-                    wanted: String::new(),
-                    known: String::new(),
-                    scene,
-                    about,
-                });
-            }
-        }
-    }
-
     fn list(&mut self, items: &[Expr], wanted: Option<Wanted<'_>>) -> (Term, Ty) {
         let element =
             wanted.and_then(|wanted| Some(Wanted { ty: wanted.ty.element()?, place: wanted.place }));
@@ -347,121 +204,6 @@ impl<'a> Resolver<'a> {
                 (Term::Unknown, Ty::UNKNOWN)
             }
         }
-    }
-
-    fn arith(&mut self, op: ArithOp, left: &Expr, right: &Expr, span: Span) -> (Term, Ty) {
-        let (left, left_ty) = self.term(left, None);
-        let (right, right_ty) = self.term(right, None);
-        let (Some(a), Some(b)) = (dimension(left_ty), dimension(right_ty)) else {
-            if left_ty.base != Base::Unknown && right_ty.base != Base::Unknown {
-                self.mismatch(symbol(op), left_ty, right_ty, span);
-            }
-            return (Term::Unknown, Ty::UNKNOWN);
-        };
-        let result = match op {
-            ArithOp::Add | ArithOp::Subtract if a == b => a,
-            ArithOp::Add | ArithOp::Subtract => {
-                self.mismatch(symbol(op), left_ty, right_ty, span);
-                return (Term::Unknown, Ty::UNKNOWN);
-            }
-            ArithOp::Multiply => a.times(b),
-            ArithOp::Divide => a.over(b),
-        };
-        let plain = result == Dimension::NONE;
-        let whole = plain && left_ty == Ty::INT && right_ty == Ty::INT && op != ArithOp::Divide;
-        let base = if whole {
-            Base::Int
-        } else if plain {
-            Base::Number
-        } else {
-            Base::Quantity(result)
-        };
-        let ty = Ty::plain(base);
-        let known = literal(&left).zip(literal(&right)).map(|(a, b)| match op {
-            ArithOp::Add => a + b,
-            ArithOp::Subtract => a - b,
-            ArithOp::Multiply => a * b,
-            ArithOp::Divide => a / b,
-        });
-        match known.filter(|value| value.is_finite()) {
-            Some(value) if whole => (Term::Int(value as i64), ty),
-            Some(value) => (Term::Number(value), ty),
-            None => (Term::Arith(op, Box::new(left), Box::new(right)), ty),
-        }
-    }
-
-    pub(crate) fn mismatch(&mut self, operator: &'static str, left: Ty, right: Ty, span: Span) {
-        let left = self.library.type_name(left);
-        let right = self.library.type_name(right);
-        self.say(WrongDimension { span, left, right, operator });
-    }
-
-    /// A value of a type as it is written, where that helps.
-    fn example(&self, ty: Ty) -> Option<String> {
-        match ty {
-            Ty { base: Base::Quantity(Dimension::NONE), lists: 0 } => Some("`20 %`".to_owned()),
-            Ty { base: Base::Quantity(dimension), lists: 0 } => {
-                Some(format!("`1 {}`", dimension.si_symbol()))
-            }
-            Ty { base: Base::Text, lists: 0 } => Some("`\"red mug\"`".to_owned()),
-            Ty { base: Base::Int, lists: 0 } => Some("`3`".to_owned()),
-            _ => None,
-        }
-    }
-
-    /// A value in words, for a message about its type.
-    fn describe(&self, term: &Term, ty: Ty) -> String {
-        let name = self.library.type_name(ty);
-        match term {
-            Term::Entity(id) => match self.entities.name(*id) {
-                Some(id) => format!("`{id}`, which is {}", article(&name)),
-                None => article(&name),
-            },
-            Term::Case(id, case) => format!("the case `{}` of `{name}`", self.library.case_name(*id, *case)),
-            Term::Text(text) => format!("the text \"{}\"", text.chars().take(40).collect::<String>()),
-            Term::Binding(id) => match self.bindings.get(id.index()) {
-                Some(binding) => format!("`{}`, which is {}", binding.name, article(&name)),
-                None => article(&name),
-            },
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::List(_)
-            | Term::Param(_)
-            | Term::Result
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Unknown => article(&name),
-        }
-    }
-}
-
-/// The dimension of a number or quantity.
-pub(crate) fn dimension(ty: Ty) -> Option<Dimension> {
-    match ty {
-        Ty { base: Base::Int | Base::Number, lists: 0 } => Some(Dimension::NONE),
-        Ty { base: Base::Quantity(dimension), lists: 0 } => Some(dimension),
-        _ => None,
-    }
-}
-
-/// A number that is written out. Whole numbers are exact up to 2^53, the most that a document can write.
-fn literal(term: &Term) -> Option<f64> {
-    match term {
-        Term::Int(value) => Some(*value as f64),
-        Term::Number(value) => Some(*value),
-        _ => None,
-    }
-}
-
-fn symbol(op: ArithOp) -> &'static str {
-    match op {
-        ArithOp::Add => "+",
-        ArithOp::Subtract => "-",
-        ArithOp::Multiply => "*",
-        ArithOp::Divide => "/",
     }
 }
 

@@ -2,10 +2,12 @@
 //! sub-policy inlined. Names and types are one stage, because a plain string of the JSON form is an entity, a case, a
 //! quantity or a text as the type where it stands says.
 
+mod arith;
 mod call;
 mod condition;
 pub(crate) mod errors;
 pub(crate) mod expr;
+mod name;
 pub(crate) mod near;
 pub(crate) mod scope;
 mod step;
