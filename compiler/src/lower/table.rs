@@ -82,7 +82,7 @@ impl<'a> Tables<'a> {
                 (name, count) => format_smolstr!("{name}'{count}"),
             };
             let ty = self.ty(binding.ty);
-            self.bindings.push(graph::Binding { name, ty });
+            self.bindings.push(graph::Binding { name, ty, given: false });
         }
     }
 

@@ -242,7 +242,8 @@ fn a_comparison_can_be_written_in_one_object() {
     let [flat, paired] = [flat, paired].map(|text| read(&Source::new("test", text), FileId(0)));
     assert!(flat.diagnostics.is_empty(), "{:?}", flat.diagnostics);
     assert!(motet_syntax::ast::same(&flat.file, &paired.file));
-    let half = r#"{"motet": 1, "policy": "p", "steps": [{"wait": {"field": "mass", "of": "mug", "is": "less"}}]}"#;
+    let half =
+        r#"{"motet": 1, "policy": "p", "steps": [{"wait": {"field": "mass", "of": "mug", "is": "less"}}]}"#;
     let half = read(&Source::new("test", half), FileId(0));
     assert_eq!(half.diagnostics[0].message, "the key `than` is missing here");
 }

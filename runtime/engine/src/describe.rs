@@ -23,7 +23,7 @@ impl Engine {
             Effect::Observe { query } => format!("observe {query}"),
             Effect::Watch { query } => format!("watch {query}"),
             Effect::Unwatch { query } => format!("unwatch {query}"),
-            Effect::Report(record) => self.describe_happening(&record.what),
+            Effect::Report(record) => self.describe_happening(record.revision, &record.what),
             Effect::Finished(end) => match &**end {
                 RunEnd::Failed { node, .. } => format!("finished: {end}, in {}", self.path(*node)),
                 RunEnd::Done { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted | RunEnd::Fault(_) => {
@@ -33,38 +33,41 @@ impl Engine {
         }
     }
 
-    fn describe_happening(&self, what: &Happening) -> String {
+    fn describe_happening(&self, revision: u32, what: &Happening) -> String {
+        let path = |node: NodeId| self.path_at(revision, node);
         match what {
-            Happening::Entered { node } => format!("entered {}", self.path(*node)),
+            Happening::Entered { node } => format!("entered {}", path(*node)),
             Happening::Ended { node, ending, cause } => {
-                format!("ended {}: {}", self.path(*node), self.ending(*ending, *cause))
+                format!("ended {}: {}", path(*node), self.ending(revision, *ending, *cause))
             }
             Happening::Started { node, goal, attempt } => {
-                format!("started {} as {goal}, attempt {attempt}", self.path(*node))
+                format!("started {} as {goal}, attempt {attempt}", path(*node))
             }
             Happening::GoalEnded { node, goal, ending, cause } => {
-                format!("{goal} of {} ended: {}", self.path(*node), self.ending(*ending, *cause))
+                format!("{goal} of {} ended: {}", path(*node), self.ending(revision, *ending, *cause))
             }
             Happening::Guard { node, need, truth } => {
-                format!("guard {need} of {}: {truth}", self.path(*node))
+                format!("guard {need} of {}: {truth}", path(*node))
             }
-            Happening::Tested { node, truth } => format!("tested {}: {truth}", self.path(*node)),
+            Happening::Tested { node, truth } => format!("tested {}: {truth}", path(*node)),
             Happening::Fired { node, watch, truth } => {
-                format!("watch {watch} of {} fired: {truth}", self.path(*node))
+                format!("watch {watch} of {} fired: {truth}", path(*node))
             }
-            Happening::WentOn { node, watch } => format!("{} went on after watch {watch}", self.path(*node)),
+            Happening::WentOn { node, watch } => format!("{} went on after watch {watch}", path(*node)),
             Happening::Swapped { policy } => format!("swapped to {policy}"),
-            Happening::Kept { node, goal } => format!("{goal} goes on for {}", self.path(*node)),
-            Happening::Updated { node, goal } => format!("{goal} updated for {}", self.path(*node)),
-            Happening::Bound { binding, value } => format!("bound {} = {value}", self.name(*binding)),
+            Happening::Kept { node, goal } => format!("{goal} goes on for {}", path(*node)),
+            Happening::Updated { node, goal } => format!("{goal} updated for {}", path(*node)),
+            Happening::Bound { binding, value } => {
+                format!("bound {} = {value}", self.name(revision, *binding))
+            }
         }
     }
 
-    fn ending(&self, ending: NodeEnding, cause: Cause) -> String {
+    fn ending(&self, revision: u32, ending: NodeEnding, cause: Cause) -> String {
         match ending {
             NodeEnding::Success => "success".to_owned(),
             NodeEnding::Failure(failure) => {
-                let kind = self.failure(failure).map_or("?", |kind| kind);
+                let kind = self.failure_at(revision, failure).map_or("?", |kind| kind);
                 format!("failure {kind} ({cause})")
             }
             NodeEnding::Interrupted => format!("interrupted ({cause})"),
@@ -72,11 +75,16 @@ impl Engine {
     }
 
     fn path(&self, node: NodeId) -> &str {
-        self.graph().nodes.get(node.index()).map_or("?", |node| &node.path)
+        self.path_at(self.revision(), node)
     }
 
-    fn name(&self, binding: BindingId) -> &str {
-        self.graph().bindings.get(binding.index()).map_or("?", |binding| &binding.name)
+    fn path_at(&self, revision: u32, node: NodeId) -> &str {
+        self.graph_at(revision).and_then(|graph| graph.nodes.get(node.index())).map_or("?", |node| &node.path)
+    }
+
+    fn name(&self, revision: u32, binding: BindingId) -> &str {
+        let graph = self.graph_at(revision);
+        graph.and_then(|graph| graph.bindings.get(binding.index())).map_or("?", |binding| &binding.name)
     }
 }
 

@@ -141,6 +141,8 @@ pub enum Fault {
     NotStopped {
         /// The step whose goal is still live.
         node: NodeId,
+        /// The number of the graph that the step belongs to.
+        revision: u32,
     },
     /// The run is not over, and neither the engine nor its driver has anything left to wait for.
     Stalled,

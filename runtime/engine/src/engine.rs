@@ -13,7 +13,7 @@ use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
 use crate::verifier::{LeaveToDriver, Verifier};
-use motet_graph::{BindingId, FailureId, Graph, Invalid, Value};
+use motet_graph::{BindingId, FailureId, Graph, Invalid, Reason, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -21,8 +21,10 @@ use std::sync::Arc;
 /// effects.
 #[derive(Clone, Debug)]
 pub struct Engine {
-    plan: Arc<Plan>,
-    run: Run,
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) run: Run,
+    /// Graphs that were replaced, with their numbers.
+    pub(crate) older: Vec<(u32, Arc<Plan>)>,
     settings: Settings,
     verifier: Arc<dyn Verifier>,
     capabilities: Capabilities,
@@ -33,15 +35,26 @@ impl Engine {
     ///
     /// # Errors
     ///
-    /// What is wrong with the graph.
+    /// What is wrong with the graph, or which name it is to be given and is not.
     pub fn new(graph: Graph, start: &StartState) -> Result<Self, Vec<Invalid>> {
         motet_graph::validate(&graph)?;
         let plan = Plan::new(Arc::new(graph));
         let beliefs = start::believe(&plan.graph, start);
-        let run = Run::new(&plan, beliefs);
+        let mut run = Run::new(&plan, beliefs);
+        for (index, binding) in plan.graph.bindings.iter().enumerate().filter(|(_, binding)| binding.given) {
+            let given = start.bindings.iter().find(|(name, _)| *name == binding.name);
+            let Some((_, value)) = given.filter(|(_, value)| value.fits(&binding.ty)) else {
+                let reason = Reason::NotGiven(binding.name.clone());
+                return Err(vec![Invalid { at: SmolStr::from(format!("binding {index}")), reason }]);
+            };
+            if let Some(slot) = run.bindings.get_mut(index) {
+                *slot = Some(value.clone());
+            }
+        }
         Ok(Self {
             plan: Arc::new(plan),
             run,
+            older: Vec::new(),
             settings: Settings::default(),
             verifier: Arc::new(LeaveToDriver),
             capabilities: Capabilities::default(),
@@ -76,7 +89,12 @@ impl Engine {
     /// When the engine wants to be woken by [`Event::Tick`], if nothing happens before.
     #[must_use]
     pub fn wake_at(&self) -> Option<Time> {
-        self.run.timers.next().map(|(at, _)| at).filter(|_| !self.run.over)
+        if self.run.over {
+            return None;
+        }
+        let orphan = self.run.orphans.iter().map(|orphan| orphan.due).min();
+        let own = self.run.timers.next().map(|(at, _)| at);
+        own.into_iter().chain(orphan).min().filter(|at| *at != Time::NEVER)
     }
 
     /// The run cannot go on, because nothing is left to wait for: ends it with [`crate::Fault::Stalled`].
@@ -109,6 +127,16 @@ impl Engine {
         self.run.failures.get(failure.index())
     }
 
+    /// The same of a graph by its number; those that a driver made up are known only of the graph that runs.
+    #[must_use]
+    pub fn failure_at(&self, revision: u32, failure: FailureId) -> Option<&SmolStr> {
+        if revision == self.run.revision {
+            return self.failure(failure);
+        }
+        let (_, plan) = self.older.iter().find(|(of, _)| *of == revision)?;
+        plan.failures.get(failure.index())
+    }
+
     /// What is believed of a fact; with [`Pattern::Any`]: whether it holds of some entity.
     #[must_use]
     pub fn believes(&self, fluent: &str, args: &[Pattern]) -> Truth {
@@ -121,7 +149,7 @@ impl Engine {
         Snapshot::of(&self.plan, &self.run)
     }
 
-    fn turn<'a>(&'a mut self, out: &'a mut Vec<Effect>) -> Turn<'a> {
+    pub(crate) fn turn<'a>(&'a mut self, out: &'a mut Vec<Effect>) -> Turn<'a> {
         Turn {
             plan: &self.plan,
             run: &mut self.run,

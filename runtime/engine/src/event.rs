@@ -94,6 +94,20 @@ pub enum DriverEvent {
     },
 }
 
+impl DriverEvent {
+    /// The goal that it is about; none where it is about none or all.
+    #[must_use]
+    pub const fn goal(&self) -> Option<GoalId> {
+        match self {
+            Self::Acknowledged { goal } | Self::Refused { goal, .. } | Self::Ended { goal, .. } => {
+                Some(*goal)
+            }
+            Self::NotHeld { goal } | Self::Stopped { goal } | Self::Lost { goal } => Some(*goal),
+            Self::DriverLost | Self::Observed { .. } => None,
+        }
+    }
+}
+
 /// How a goal ended.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Outcome {

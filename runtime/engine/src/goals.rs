@@ -6,6 +6,9 @@ use motet_graph::NodeId;
 /// Bits of a [`GoalId`] that hold its slot; above them stands the running number of the start.
 pub(crate) const SLOT_BITS: u32 = 24;
 
+/// The step of a goal that has none.
+const NOBODY: NodeId = NodeId(u32::MAX);
+
 /// The live goals. A goal's id names its slot, so finding its step costs one look.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Goals {
@@ -34,9 +37,23 @@ impl Goals {
     #[inline]
     pub(crate) fn node(&self, goal: GoalId) -> Option<NodeId> {
         match self.slots.get(Self::slot(goal)) {
-            Some(Some((live, node))) if *live == goal => Some(*node),
+            Some(Some((live, node))) if *live == goal && *node != NOBODY => Some(*node),
             Some(Some(_) | None) | None => None,
         }
+    }
+
+    /// A live goal is for this step from now on.
+    pub(crate) fn assign(&mut self, goal: GoalId, node: NodeId) {
+        if let Some(Some((live, of))) = self.slots.get_mut(Self::slot(goal))
+            && *live == goal
+        {
+            *of = node;
+        }
+    }
+
+    /// A live goal is for no step any more.
+    pub(crate) fn disown(&mut self, goal: GoalId) {
+        self.assign(goal, NOBODY);
     }
 
     /// The goal is no longer live.
@@ -51,9 +68,9 @@ impl Goals {
         }
     }
 
-    /// All live goals, by slot.
+    /// All live goals that have a step, by slot.
     pub(crate) fn live(&self) -> impl Iterator<Item = (GoalId, NodeId)> + '_ {
-        self.slots.iter().flatten().copied()
+        self.slots.iter().flatten().copied().filter(|(_, node)| *node != NOBODY)
     }
 
     fn slot(goal: GoalId) -> usize {

@@ -4,9 +4,12 @@ use crate::driver::Driver;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::engine::Engine;
 use crate::event::{DriverEvent, Event};
+use crate::swap::{Prepared, Refusal, Retired};
 use crate::time::Time;
+use motet_graph::Graph;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Onlooker {
@@ -27,6 +30,15 @@ pub trait Onlooker {
     fn reached(&mut self, _now: Time) -> Control {
         Control::GoOn
     }
+
+    /// A policy to take over from the one that runs. Asked after each event, so at least as often as
+    /// [`Onlooker::at_least_every`] says. Of several the newest should be given: one that was never given was never there.
+    fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<Prepared> {
+        None
+    }
+
+    /// What became of a swap, before its effects are carried out.
+    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<Retired, Refusal>) {}
 
     /// The longest span without a call of [`Onlooker::reached`], for a live display or to notice an interrupt.
     fn at_least_every(&self) -> Time {
@@ -65,7 +77,7 @@ pub fn go_on(
         if let Some(event) = host.first.pop_front() {
             host.onlooker.event(host.now, &event);
             engine.handle(host.now, event, &mut host.out);
-            if let Some(end) = host.carry_out() {
+            if let Some(end) = host.carry_out().or_else(|| host.swap(engine)) {
                 return end;
             }
             continue;
@@ -108,6 +120,15 @@ impl Host<'_> {
                 Some(Event::Tick)
             }
         }
+    }
+
+    /// Lets another policy take over, if there is one. Gives the run's end where that follows at once.
+    fn swap(&mut self, engine: &mut Engine) -> Option<RunEnd> {
+        let prepared = self.onlooker.swap(self.now, engine)?;
+        let graph = prepared.graph().clone();
+        let result = engine.swap(self.now, prepared, &mut self.out);
+        self.onlooker.swapped(self.now, &graph, result);
+        self.carry_out()
     }
 
     fn stop(&mut self) {

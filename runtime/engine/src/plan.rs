@@ -1,6 +1,7 @@
 //! A graph made ready to be stepped: what can be worked out once is worked out here.
 
 use crate::effect::Command;
+use crate::event::GoalId;
 use crate::time::Time;
 use motet_graph::{
     CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
@@ -203,6 +204,8 @@ pub(crate) enum Key {
     Watch(u32),
     /// A step.
     Node(NodeId),
+    /// A goal of a replaced policy.
+    Orphan(GoalId),
 }
 
 /// The command of a call with these arguments.

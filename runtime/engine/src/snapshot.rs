@@ -55,7 +55,12 @@ impl Snapshot {
     /// The same as a start for another engine.
     #[must_use]
     pub fn start_state(&self) -> StartState {
-        StartState { facts: self.facts.clone(), some: self.some.clone(), entities: self.entities.clone() }
+        StartState {
+            facts: self.facts.clone(),
+            some: self.some.clone(),
+            entities: self.entities.clone(),
+            bindings: self.bindings.clone(),
+        }
     }
 
     /// The facts in the text form, as a state file has them: what holds is true, what does not is false, what is unknown
@@ -91,6 +96,12 @@ impl Snapshot {
                 goals.push(LiveGoal { goal, command, path: plan.node(node).path.clone() });
             }
         }
+        let orphans = run.orphans.iter().map(|orphan| LiveGoal {
+            goal: orphan.goal,
+            command: orphan.command.clone(),
+            path: orphan.plan.node(orphan.node).path.clone(),
+        });
+        goals.extend(orphans);
         goals.sort_by_key(|live| live.goal);
         Self {
             at: run.now,

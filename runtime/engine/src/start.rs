@@ -1,6 +1,6 @@
 //! What is known when a run begins: what stands in the graph, and what a host adds.
 
-use crate::belief::{Beliefs, Change};
+use crate::belief::Beliefs;
 use crate::query::{Answer, Pattern, Query};
 use crate::time::Time;
 use crate::truth::Truth;
@@ -15,6 +15,8 @@ pub struct StartState {
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold of some entity, where it is not known of which.
     pub some: Vec<Query>,
+    /// Values of names that the graph is to be given; others are ignored.
+    pub bindings: Vec<(SmolStr, Value)>,
     /// Entities with the name of their kind. Effects that quantify over a kind range over these and over every entity
     /// that a graph, a result or an observation names.
     pub entities: Vec<(SmolStr, SmolStr)>,
@@ -38,14 +40,14 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
         });
         let fluent = graph.fluents.get(fact.fluent.index());
         if let (Some(args), Some(fluent)) = (args.collect::<Option<Vec<_>>>(), fluent) {
-            tell(&mut beliefs, &fluent.name, args, Truth::from(*value));
+            beliefs.tell(&fluent.name, args, Truth::from(*value));
         }
     }
     for (query, value) in &start.facts {
         if let Query::Fact { fluent, args } = query
             && beliefs.fluents.contains_key(fluent)
         {
-            tell(&mut beliefs, fluent, args.clone(), *value);
+            beliefs.tell(fluent, args.clone(), *value);
         }
     }
     for query in &start.some {
@@ -58,11 +60,6 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
     }
     beliefs.changed.clear();
     beliefs
-}
-
-fn tell(beliefs: &mut Beliefs, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
-    let change = Change { fluent: fluent.clone(), args, value, sure: true, rest: false };
-    beliefs.apply(&change, Time::ZERO);
 }
 
 /// Collects the entities that a graph names, with the kinds that their places say.

@@ -4,6 +4,7 @@ use crate::belief::{Beliefs, CellId};
 use crate::effect::{Command, RunEnd};
 use crate::event::GoalId;
 use crate::goals::Goals;
+use crate::orphan::Orphan;
 use crate::plan::Plan;
 use crate::record::{Cause, NodeEnding};
 use crate::table::Table;
@@ -197,6 +198,14 @@ pub(crate) struct Run {
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
     /// How the run is to end once everything is down.
     pub(crate) ending: Option<RunEnd>,
+    /// How the run ends once the goals of replaced policies have ended.
+    pub(crate) closing: Option<RunEnd>,
+    /// Goals of replaced policies, by start.
+    pub(crate) orphans: Vec<Orphan>,
+    /// Whether a swap is being made: watches that lose their last watcher are kept until it is.
+    pub(crate) swapping: bool,
+    /// Those watches.
+    pub(crate) idle: Vec<CellId>,
     /// Names of failures, those that drivers made up last.
     pub(crate) failures: Vec<SmolStr>,
     /// Scratch for walks over regions.
@@ -253,6 +262,10 @@ impl Run {
             work: Work::default(),
             dirty: BinaryHeap::new(),
             ending: None,
+            closing: None,
+            orphans: Vec::new(),
+            swapping: false,
+            idle: Vec::new(),
             failures: plan.failures.clone(),
             walk: Vec::new(),
             missing: Vec::new(),

@@ -33,6 +33,10 @@ pub(crate) struct Cell {
     pub(crate) live: bool,
     /// Whether the robot can observe it.
     pub(crate) observable: bool,
+    /// Whether an effect, an observation or a host ever said something of it.
+    pub(crate) written: bool,
+    /// Its last watcher went away in a swap that is being made.
+    pub(crate) idle: bool,
     next: Option<CellId>,
 }
 
@@ -83,6 +87,23 @@ impl Beliefs {
             beliefs.fluents.insert(fluent.name.clone(), facts);
         }
         beliefs
+    }
+
+    /// The same beliefs, read by another graph.
+    pub(crate) fn read_by(&mut self, graph: &Graph) {
+        self.fluents.values_mut().for_each(|facts| facts.fluent = None);
+        for (index, fluent) in graph.fluents.iter().enumerate() {
+            let facts = self.fluents.entry(fluent.name.clone()).or_default();
+            facts.fluent = Some(FluentId(index as u32));
+            if facts.observable != fluent.observable {
+                facts.observable = fluent.observable;
+                for id in facts.cells.iter().chain(&facts.patterns) {
+                    if let Some(cell) = self.cells.get_mut(id.0 as usize) {
+                        cell.observable = fluent.observable;
+                    }
+                }
+            }
+        }
     }
 
     pub(crate) fn cell(&self, id: CellId) -> Option<&Cell> {
@@ -153,6 +174,8 @@ impl Beliefs {
             watchers: 0,
             live: false,
             observable,
+            written: false,
+            idle: false,
             next,
         });
         id

@@ -105,6 +105,13 @@ impl Entities {
         Some((id.clone(), sorting.0.get(place).copied().unwrap_or(OfKind::Perhaps)))
     }
 
+    /// All with the name of their kind where it is known.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (&SmolStr, Option<&str>)> + '_ {
+        self.list
+            .iter()
+            .map(|(id, kind)| (id, kind.and_then(|kind| self.kinds.get(kind as usize)).map(SmolStr::as_str)))
+    }
+
     /// All with the name of their kind; without those of unknown kind.
     pub(crate) fn named(&self) -> impl Iterator<Item = (SmolStr, SmolStr)> + '_ {
         let kind = |kind: &Option<u32>| self.kinds.get(kind.as_ref().copied()? as usize).cloned();

@@ -22,6 +22,17 @@ pub(crate) struct Change {
     pub(crate) rest: bool,
 }
 
+/// How what is believed stands to a fact that somebody claims.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Standing {
+    /// It is believed.
+    So,
+    /// Something else is believed, or it is no longer known.
+    Otherwise(Truth),
+    /// Nothing was ever said of it.
+    Unheard,
+}
+
 impl Beliefs {
     /// What is believed of a fact, with `any` whether it holds of some entity; and the number of the observation that it
     /// is believed by, 0 for an effect.
@@ -41,6 +52,35 @@ impl Beliefs {
             return (Truth::True, seen);
         }
         (answer, seen)
+    }
+
+    /// What a host or a compiler says.
+    pub(crate) fn tell(&mut self, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
+        let change = Change { fluent: fluent.clone(), args, value, sure: true, rest: false };
+        self.apply(&change, Time::ZERO);
+    }
+
+    /// How what is believed stands to a fact that a policy was proved from; with `any` it was meant of every entity.
+    pub(crate) fn standing(&self, fluent: &str, args: &[Pattern], value: bool) -> Standing {
+        let Some(facts) = self.fluents.get(fluent) else { return Standing::Unheard };
+        let is_written = |id: &CellId| self.cell(*id).is_some_and(|cell| cell.written);
+        let is_heard = facts.wides.iter().any(|wide| overlaps(&wide.args, args));
+        let (believed, is_heard) = if args.contains(&Pattern::Any) {
+            let mut told = self.covered(fluent, args).filter(is_written).peekable();
+            let is_heard = is_heard || told.peek().is_some();
+            let each = told.map(|id| self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer)));
+            let rest = facts.wides.iter().rev().find(|wide| covers(&wide.args, args));
+            let rest = rest.map_or(Truth::Unknown, |wide| truth_of(&wide.answer));
+            (each.fold(rest, Truth::joined), is_heard)
+        } else {
+            let is_written = self.find_fact(fluent, args).as_ref().is_some_and(is_written);
+            (self.fact(fluent, args).0, is_heard || is_written)
+        };
+        match believed {
+            _ if !is_heard => Standing::Unheard,
+            believed if believed == Truth::from(value) => Standing::So,
+            believed => Standing::Otherwise(believed),
+        }
     }
 
     /// Makes a change. All who depend on what becomes different are noted.
@@ -178,6 +218,7 @@ impl Beliefs {
         let Some(cell) = self.cell_mut(id) else { return };
         cell.at = now;
         cell.seen = seen;
+        cell.written = true;
         if cell.answer != answer {
             cell.answer = answer;
             self.note(id);

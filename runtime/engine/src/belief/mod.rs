@@ -9,6 +9,6 @@ mod eval;
 mod facts;
 
 pub(crate) use cells::{Beliefs, CellId, Facts};
-pub(crate) use entities::OfKind;
+pub(crate) use entities::{Entities, OfKind};
 pub(crate) use eval::{Freshness, Judge};
-pub(crate) use facts::{Change, truth_of};
+pub(crate) use facts::{Change, Standing, truth_of};

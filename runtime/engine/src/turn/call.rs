@@ -42,6 +42,8 @@ impl Turn<'_> {
             self.exit(node, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
         } else if self.suspended(region) {
             self.run.nodes.at_mut(node.index()).phase = Phase::Suspended;
+        } else if !self.run.orphans.is_empty() && self.claim(node) {
+            // A goal of the policy before goes on for it.
         } else if !self.reserve(node) {
             self.enqueue(node);
         } else {
@@ -51,12 +53,7 @@ impl Turn<'_> {
                 self.launch(node, command.clone());
                 return;
             }
-            let (now, seen) = (self.run.now, self.run.beliefs.observations);
-            let state = self.run.nodes.at_mut(node.index());
-            state.since = now;
-            state.seen = seen;
-            self.run.missing.clear();
-            match self.look(node) {
+            match self.first_look(node) {
                 Look::Unknown(refusal) => {
                     if self.ask(node) {
                         self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
@@ -67,6 +64,23 @@ impl Turn<'_> {
                 Look::Refused(refusal) => self.refuse(node, refusal),
                 Look::Go(command) => self.start(node, command),
             }
+        }
+    }
+
+    fn first_look(&mut self, node: NodeId) -> Look {
+        let (now, seen) = (self.run.now, self.run.beliefs.observations);
+        let state = self.run.nodes.at_mut(node.index());
+        state.since = now;
+        state.seen = seen;
+        self.run.missing.clear();
+        self.look(node)
+    }
+
+    /// The command of a call whose guards are known to hold at once.
+    pub(super) fn may_start(&mut self, node: NodeId) -> Option<Arc<Command>> {
+        match self.first_look(node) {
+            Look::Go(command) => Some(command),
+            Look::Unknown(_) | Look::Refused(_) => None,
         }
     }
 
@@ -125,7 +139,7 @@ impl Turn<'_> {
         }
     }
 
-    fn values(&mut self, terms: &[Term], fresh: Freshness) -> Option<Vec<Value>> {
+    pub(super) fn values(&mut self, terms: &[Term], fresh: Freshness) -> Option<Vec<Value>> {
         let mut judge = self.judge_missing(fresh);
         let mut known = Some(Vec::with_capacity(terms.len()));
         // All are looked at, so that everything that is missing is asked for together.
@@ -180,11 +194,17 @@ impl Turn<'_> {
     }
 
     fn start(&mut self, node: NodeId, command: Arc<Command>) {
-        let plan = self.plan;
-        let Some(call) = plan.call(node) else { return };
         if self.run.nodes.at(node.index()).phase == Phase::Checking {
             self.forget_asked(node);
         }
+        self.guards_hold(node);
+        self.launch(node, command);
+    }
+
+    /// All that is asked of a call holds: nothing is known any more of what its start unsettles.
+    pub(super) fn guards_hold(&mut self, node: NodeId) {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return };
         for (index, need) in call.needs.iter().enumerate() {
             if need.verdict == Verdict::Deferred {
                 self.report(Happening::Guard { node, need: index as u32, truth: Truth::True });
@@ -193,7 +213,6 @@ impl Turn<'_> {
         if !call.unsettles.is_empty() {
             self.unsettle(call);
         }
-        self.launch(node, command);
     }
 
     /// The goal goes out.

@@ -1,10 +1,12 @@
 //! What a call changes in the beliefs: effects after success, doubt after everything else.
 
 use super::Turn;
-use crate::belief::{Change, Freshness, OfKind};
+use crate::belief::{Beliefs, Change, Freshness, Judge, OfKind};
 use crate::query::Pattern;
+use crate::time::Time;
 use crate::truth::Truth;
-use motet_graph::{CallNode, Condition, Fact, FactArg, KindId, Need, NodeId, Term, Value};
+use crate::verifier::Verifier;
+use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
 use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
@@ -19,43 +21,46 @@ struct Entry<'a> {
 /// An id that no entity has: it stands for all that nobody has heard of.
 const NOBODY: SmolStr = SmolStr::new_static("");
 
+/// Beliefs, and the graph and bindings in which a contract is read: those of the run, or those of an older policy whose
+/// goals have not ended.
+pub(super) struct Contracts<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) bindings: &'a [Option<Value>],
+    pub(super) beliefs: &'a mut Beliefs,
+    pub(super) verifier: &'a dyn Verifier,
+    pub(super) now: Time,
+}
+
 impl Turn<'_> {
     /// Applies a call's declared effects.
     pub(super) fn make(&mut self, node: NodeId) {
         let plan = self.plan;
-        let Some(call) = plan.call(node).filter(|call| !call.effects.is_empty()) else { return };
-        let mut changes = Vec::new();
-        for effect in &call.effects {
-            let value = Truth::from(effect.value);
-            let entry = Entry { fact: &effect.fact, value, when: effect.when.as_ref(), each: effect.each };
-            self.expand(entry, &mut changes);
+        if let Some(call) = plan.call(node).filter(|call| !call.effects.is_empty()) {
+            self.contracts().make(call);
         }
-        // What is both made and unmade is made.
-        changes.sort_by_key(|change| change.value == Truth::True);
-        self.apply(&changes);
     }
 
     /// Applies what a call unsettles as soon as it starts.
     pub(super) fn unsettle(&mut self, call: &CallNode) {
-        let mut changes = Vec::new();
-        self.expand_unsettled(call, &mut changes);
-        self.apply(&changes);
+        self.contracts().unsettle(call);
     }
 
     /// After a failure or an interruption nothing is known of what a call makes or unsettles.
     pub(super) fn doubt(&mut self, node: NodeId) {
         let plan = self.plan;
-        let Some(call) = plan.call(node) else { return };
-        if call.effects.is_empty() && call.unsettles.is_empty() {
-            return;
+        if let Some(call) = plan.call(node) {
+            self.contracts().doubt(call);
         }
-        let mut changes = Vec::new();
-        for effect in &call.effects {
-            let (fact, when) = (&effect.fact, effect.when.as_ref());
-            self.expand(Entry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
+    }
+
+    fn contracts(&mut self) -> Contracts<'_> {
+        Contracts {
+            graph: &self.plan.graph,
+            bindings: &self.run.bindings,
+            beliefs: &mut self.run.beliefs,
+            verifier: self.verifier,
+            now: self.run.now,
         }
-        self.expand_unsettled(call, &mut changes);
-        self.apply(&changes);
     }
 
     /// Whether a need holds; of a quantified one, whether it holds for every entity that the engine has heard of.
@@ -83,6 +88,42 @@ impl Turn<'_> {
         }
         truth
     }
+}
+
+impl Contracts<'_> {
+    /// What success makes.
+    pub(super) fn make(&mut self, call: &CallNode) {
+        let mut changes = Vec::new();
+        for effect in &call.effects {
+            let value = Truth::from(effect.value);
+            let entry = Entry { fact: &effect.fact, value, when: effect.when.as_ref(), each: effect.each };
+            self.expand(entry, &mut changes);
+        }
+        // What is both made and unmade is made.
+        changes.sort_by_key(|change| change.value == Truth::True);
+        self.apply(&changes);
+    }
+
+    /// What is unknown as soon as it starts.
+    pub(super) fn unsettle(&mut self, call: &CallNode) {
+        let mut changes = Vec::new();
+        self.expand_unsettled(call, &mut changes);
+        self.apply(&changes);
+    }
+
+    /// What is unknown after anything but success.
+    pub(super) fn doubt(&mut self, call: &CallNode) {
+        if call.effects.is_empty() && call.unsettles.is_empty() {
+            return;
+        }
+        let mut changes = Vec::new();
+        for effect in &call.effects {
+            let (fact, when) = (&effect.fact, effect.when.as_ref());
+            self.expand(Entry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
+        }
+        self.expand_unsettled(call, &mut changes);
+        self.apply(&changes);
+    }
 
     fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<Change>) {
         for unsettled in &call.unsettles {
@@ -92,8 +133,7 @@ impl Turn<'_> {
     }
 
     fn apply(&mut self, changes: &[Change]) {
-        let now = self.run.now;
-        changes.iter().for_each(|change| self.run.beliefs.apply(change, now));
+        changes.iter().for_each(|change| self.beliefs.apply(change, self.now));
     }
 
     /// Works out the changes of one entry in the state as it is.
@@ -104,9 +144,9 @@ impl Turn<'_> {
         };
         // For those nobody has heard of it is the new default, before what is said of single ones.
         self.expand_rest(entry, changes);
-        let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
-        for index in 0..self.run.beliefs.entities.len() {
-            let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
+        let sorting = self.beliefs.entities.sorting(self.graph, kind);
+        for index in 0..self.beliefs.entities.len() {
+            let Some((id, of_kind)) = self.beliefs.entities.get(index, &sorting) else { continue };
             if of_kind != OfKind::No {
                 self.expand_for(entry, Some(Value::Entity(id)), of_kind, changes);
             }
@@ -120,9 +160,7 @@ impl Turn<'_> {
         of_kind: OfKind,
         changes: &mut Vec<Change>,
     ) {
-        let now = self.run.now;
-        let mut judge = self.judge(Freshness::Readings(now));
-        judge.each = each;
+        let mut judge = self.judge(each);
         let holds = entry.when.map_or(Truth::True, |when| judge.condition(when));
         if holds == Truth::False {
             return;
@@ -134,9 +172,7 @@ impl Turn<'_> {
     }
 
     fn expand_rest(&mut self, entry: Entry<'_>, changes: &mut Vec<Change>) {
-        let now = self.run.now;
-        let mut judge = self.judge(Freshness::Readings(now));
-        judge.each = Some(Value::Entity(NOBODY));
+        let mut judge = self.judge(Some(Value::Entity(NOBODY)));
         if entry.when.is_some_and(|when| judge.condition(when) == Truth::False) {
             return;
         }
@@ -154,5 +190,17 @@ impl Turn<'_> {
             sure: false,
             rest: true,
         });
+    }
+
+    fn judge(&mut self, each: Option<Value>) -> Judge<'_> {
+        Judge {
+            graph: self.graph,
+            beliefs: self.beliefs,
+            bindings: self.bindings,
+            verifier: self.verifier,
+            each,
+            fresh: Freshness::Readings(self.now),
+            missing: None,
+        }
     }
 }

@@ -19,6 +19,12 @@ enum End {
 impl Turn<'_> {
     /// A driver reports.
     pub(super) fn driver(&mut self, event: DriverEvent) {
+        if !self.run.orphans.is_empty()
+            && let Some(index) = event.goal().and_then(|goal| self.orphan(goal))
+        {
+            self.orphan_reports(index, event);
+            return;
+        }
         match event {
             DriverEvent::Acknowledged { goal } => {
                 if let Some(node) = self.run.goals.node(goal) {
@@ -40,6 +46,7 @@ impl Turn<'_> {
             DriverEvent::Stopped { goal } => self.goal_ended(goal, End::Interrupted),
             DriverEvent::Lost { goal } => self.lost(goal),
             DriverEvent::DriverLost => {
+                (0..self.run.orphans.len()).for_each(|index| self.orphan_lost(index));
                 let live: Vec<GoalId> = self.run.goals.live().map(|(goal, _)| goal).collect();
                 live.into_iter().for_each(|goal| self.lost(goal));
             }
@@ -102,7 +109,10 @@ impl Turn<'_> {
         let state = self.run.nodes.at_mut(node.index());
         let Some(goal) = state.goal else { return };
         match (state.phase, state.wish) {
-            (Phase::SafeStopping, _) => self.fault(Fault::NotStopped { node }),
+            (Phase::SafeStopping, _) => {
+                let revision = self.run.revision;
+                self.fault(Fault::NotStopped { node, revision });
+            }
             (Phase::Cancelling, _)
             | (Phase::Starting, Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop) => {
                 self.stop_safely(node, goal);
@@ -240,7 +250,7 @@ impl Turn<'_> {
     }
 }
 
-fn stronger(a: Wish, b: Wish) -> Wish {
+pub(super) fn stronger(a: Wish, b: Wish) -> Wish {
     let strength = |wish: Wish| match wish {
         Wish::None => 0,
         Wish::Hold => 1,

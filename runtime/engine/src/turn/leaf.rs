@@ -21,7 +21,7 @@ impl Turn<'_> {
             cell.dependents.push(key);
             if cell.observable {
                 cell.watchers += 1;
-                if cell.watchers == 1 {
+                if cell.watchers == 1 && !std::mem::take(&mut cell.idle) {
                     self.out.push(Effect::Watch { query: cell.query.clone() });
                 }
             }
@@ -36,7 +36,10 @@ impl Turn<'_> {
             cell.dependents.retain(|dependent| *dependent != key);
             if cell.observable {
                 cell.watchers = cell.watchers.saturating_sub(1);
-                if cell.watchers == 0 {
+                if cell.watchers == 0 && self.run.swapping {
+                    cell.idle = true;
+                    self.run.idle.push(id);
+                } else if cell.watchers == 0 {
                     cell.live = false;
                     self.out.push(Effect::Unwatch { query: cell.query.clone() });
                 }
@@ -63,7 +66,8 @@ impl Turn<'_> {
     /// Takes a call's resources. False where somebody else holds what conflicts.
     pub(super) fn reserve(&mut self, node: NodeId) -> bool {
         let mask = self.plan.step(node).mask;
-        if self.run.held & mask.conflicts != 0 {
+        let orphans = self.run.orphans.iter().fold(0, |bits, orphan| bits | orphan.uses);
+        if (self.run.held | orphans) & mask.conflicts != 0 {
             return false;
         }
         self.run.held |= mask.uses;

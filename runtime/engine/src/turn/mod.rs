@@ -10,9 +10,11 @@ mod decide;
 mod goal;
 mod leaf;
 mod monitor;
+mod orphan;
 mod region;
 mod stop;
 mod suspend;
+mod takeover;
 mod watch;
 
 use crate::belief::{Freshness, Judge};
@@ -64,6 +66,12 @@ impl Turn<'_> {
             Event::Stop => self.stop_run(),
         }
         self.settle();
+        self.catch_up();
+    }
+
+    /// Does what is due by now.
+    fn catch_up(&mut self) {
+        let now = self.run.now;
         while let Some(key) = self.due(|at| at <= now) {
             self.wake(key);
             self.settle();
@@ -79,12 +87,24 @@ impl Turn<'_> {
         let told = |node: NodeId| run.nodes.at(node.index()).phase == Phase::SafeStopping;
         let untold = run.goals.live().filter(|(_, node)| !told(*node));
         self.out.extend(untold.map(|(goal, _)| Effect::SafeStop { goal }));
+        let untold = run.orphans.iter().filter(|orphan| orphan.phase != Phase::SafeStopping);
+        self.out.extend(untold.map(|orphan| Effect::SafeStop { goal: orphan.goal }));
         self.finish(RunEnd::Fault(fault));
     }
 
     /// The next key that is due.
     fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Key> {
-        let (_, key) = self.run.timers.next().filter(|(at, _)| is_due(*at) && !self.run.over)?;
+        if self.run.over {
+            return None;
+        }
+        let own = self.run.timers.next();
+        if let Some(orphan) = self.run.orphans.iter().min_by_key(|orphan| orphan.due)
+            && own.is_none_or(|(at, _)| orphan.due <= at)
+        {
+            return Some(Key::Orphan(orphan.goal))
+                .filter(|_| is_due(orphan.due) && orphan.due != Time::NEVER);
+        }
+        let (_, key) = own.filter(|(at, _)| is_due(*at))?;
         self.run.timers.clear(key);
         Some(self.plan.of_key(key))
     }
@@ -93,6 +113,7 @@ impl Turn<'_> {
         match key {
             Key::Watch(watch) => self.watch_due(watch),
             Key::Node(node) => self.node_due(node),
+            Key::Orphan(goal) => self.orphan_due(goal),
         }
     }
 
@@ -141,6 +162,7 @@ impl Turn<'_> {
             match self.plan.of_key(key) {
                 Key::Watch(watch) => self.mark(watch),
                 Key::Node(node) => self.push_judge(node),
+                Key::Orphan(_) => {}
             }
         }
         self.run.beliefs.changed = changed;
@@ -216,7 +238,11 @@ impl Turn<'_> {
             }
             NodeEnding::Interrupted => RunEnd::Interrupted,
         });
-        self.finish(end);
+        if self.run.orphans.is_empty() {
+            self.finish(end);
+        } else {
+            self.run.closing = Some(end);
+        }
     }
 
     /// A judge of conditions in the world as it is believed to be.

@@ -135,6 +135,9 @@ pub enum Fault {
     NotStopped {
         /// The index of the step whose goal is still live.
         node: u32,
+        /// The number of the graph that the step belongs to.
+        #[serde(default)]
+        revision: u32,
     },
     /// Nothing is left to wait for.
     Stalled,
@@ -228,7 +231,9 @@ impl From<&m::RunEnd> for RunEnd {
             m::RunEnd::Interrupted => Self::Interrupted,
             m::RunEnd::Fault(fault) => Self::Fault(match fault {
                 m::Fault::StepBudget { steps } => Fault::StepBudget { steps: *steps },
-                m::Fault::NotStopped { node } => Fault::NotStopped { node: node.0 },
+                m::Fault::NotStopped { node, revision } => {
+                    Fault::NotStopped { node: node.0, revision: *revision }
+                }
                 m::Fault::Stalled => Fault::Stalled,
             }),
         }
@@ -244,7 +249,7 @@ impl From<RunEnd> for m::RunEnd {
             RunEnd::Interrupted => Self::Interrupted,
             RunEnd::Fault(fault) => Self::Fault(match fault {
                 Fault::StepBudget { steps } => m::Fault::StepBudget { steps },
-                Fault::NotStopped { node } => m::Fault::NotStopped { node: NodeId(node) },
+                Fault::NotStopped { node, revision } => m::Fault::NotStopped { node: NodeId(node), revision },
                 Fault::Stalled => m::Fault::Stalled,
             }),
         }

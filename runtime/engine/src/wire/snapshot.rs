@@ -4,6 +4,7 @@ use super::{Command, Entity, Fact, Query, Value};
 use crate::snapshot as m;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
 
 /// A state. It is written only: an engine is rebuilt from its events, not from this.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -65,6 +66,12 @@ pub struct LiveGoal {
     pub path: String,
 }
 
+impl From<&(SmolStr, motet_graph::Value)> for Named {
+    fn from((name, value): &(SmolStr, motet_graph::Value)) -> Self {
+        Self { name: name.to_string(), value: value.into() }
+    }
+}
+
 impl From<&m::Snapshot> for Snapshot {
     fn from(state: &m::Snapshot) -> Self {
         Self {
@@ -84,11 +91,7 @@ impl From<&m::Snapshot> for Snapshot {
                 })
                 .collect(),
             entities: state.entities.iter().map(Entity::from).collect(),
-            bindings: state
-                .bindings
-                .iter()
-                .map(|(name, value)| Named { name: name.to_string(), value: value.into() })
-                .collect(),
+            bindings: state.bindings.iter().map(Named::from).collect(),
             goals: state
                 .goals
                 .iter()

@@ -1,6 +1,6 @@
 //! What an engine is made from beside its graph.
 
-use super::{Query, Truth};
+use super::{Named, Query, Truth};
 use crate::driver as d;
 use crate::settings as s;
 use crate::start as m;
@@ -21,6 +21,9 @@ pub struct StartState {
     pub some: Vec<Query>,
     /// Entities.
     pub entities: Vec<Entity>,
+    /// Values of names that the graph is to be given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bindings: Vec<Named>,
 }
 
 /// A fact with its value.
@@ -63,6 +66,7 @@ impl From<&m::StartState> for StartState {
             facts: start.facts.iter().map(Fact::from).collect(),
             some: start.some.iter().map(Query::from).collect(),
             entities: start.entities.iter().map(Entity::from).collect(),
+            bindings: start.bindings.iter().map(Named::from).collect(),
         }
     }
 }
@@ -76,6 +80,11 @@ impl From<StartState> for m::StartState {
                 .entities
                 .into_iter()
                 .map(|entity| (entity.id.into(), entity.kind.into()))
+                .collect(),
+            bindings: start
+                .bindings
+                .into_iter()
+                .map(|named| (named.name.into(), named.value.into()))
                 .collect(),
         }
     }

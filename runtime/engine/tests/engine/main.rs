@@ -15,3 +15,4 @@ mod monitors;
 mod random;
 mod script;
 mod snapshot;
+mod swap;

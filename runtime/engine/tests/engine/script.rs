@@ -3,7 +3,8 @@
 use motet_graph::arbitrary::{Step, graph};
 use motet_graph::{Graph, Value};
 use motet_runtime::{
-    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Query, StartState, Time,
+    Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Prepared, Primitives,
+    Query, StartState, Time,
 };
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -23,6 +24,7 @@ pub(crate) enum Feed {
     See(Query, Answer),
     Tick,
     Stop,
+    Swap(Vec<Step>),
 }
 
 /// The transcript of a policy under a script.
@@ -32,7 +34,9 @@ pub(crate) fn transcript(steps: &[Step], script: Vec<(f64, Feed)>) -> String {
 
 /// The transcript of a graph under a script.
 pub(crate) fn transcript_of(graph: Graph, script: Vec<(f64, Feed)>) -> String {
-    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+    let go = Primitives::Only(["go".into()].into());
+    let capabilities = Capabilities { update: go, ..Capabilities::default() };
+    let mut engine = Engine::new(graph, &StartState::default()).unwrap().with_capabilities(capabilities);
     let mut goals = BTreeMap::new();
     let mut text = String::new();
     step(&mut engine, 0.0, Event::Begin, "begin", &mut goals, &mut text);
@@ -60,6 +64,10 @@ pub(crate) fn transcript_of(graph: Graph, script: Vec<(f64, Feed)>) -> String {
                 step(&mut engine, at, Event::Tick, "tick", &mut goals, &mut text);
                 continue;
             }
+            Feed::Swap(steps) => {
+                swap(&mut engine, at, &steps, &mut goals, &mut text);
+                continue;
+            }
             Feed::Stop => {
                 step(&mut engine, at, Event::Stop, "stop", &mut goals, &mut text);
                 continue;
@@ -85,7 +93,24 @@ fn step(
     writeln!(text, "{at} s: {label}").unwrap();
     let mut out = Vec::new();
     engine.handle(Time::from_secs(at), event, &mut out);
-    for effect in &out {
+    write_down(engine, &out, goals, text);
+}
+
+/// The new policy is proved from nothing.
+fn swap(engine: &mut Engine, at: f64, steps: &[Step], goals: &mut BTreeMap<u32, GoalId>, text: &mut String) {
+    writeln!(text, "{at} s: swap").unwrap();
+    let mut graph = graph(steps);
+    graph.initial.clear();
+    let prepared = Prepared::new(graph, &engine.running()).unwrap();
+    let mut out = Vec::new();
+    match engine.swap(Time::from_secs(at), prepared, &mut out) {
+        Ok(_) => write_down(engine, &out, goals, text),
+        Err(refusal) => writeln!(text, "    refused: {refusal}").unwrap(),
+    }
+}
+
+fn write_down(engine: &Engine, out: &[Effect], goals: &mut BTreeMap<u32, GoalId>, text: &mut String) {
+    for effect in out {
         if let Effect::Start { goal, .. } = effect {
             goals.insert(goals.len() as u32 + 1, *goal);
         }

@@ -137,7 +137,7 @@ fn records_and_ends() {
         RunEnd::Failed { kind: "slipped".into(), why: why.clone(), node },
         RunEnd::Replan { why },
         RunEnd::Interrupted,
-        RunEnd::Fault(Fault::NotStopped { node }),
+        RunEnd::Fault(Fault::NotStopped { node, revision: 1 }),
         RunEnd::Fault(Fault::StepBudget { steps: 1 }),
         RunEnd::Fault(Fault::Stalled),
     ] {

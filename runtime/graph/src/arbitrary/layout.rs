@@ -196,7 +196,11 @@ impl Layout {
 
     fn binding(&mut self, name: &str, ty: Type) -> BindingId {
         let id = BindingId(self.graph.bindings.len() as u32);
-        self.graph.bindings.push(Binding { name: SmolStr::from(format!("{name}'{}", id.0)), ty });
+        self.graph.bindings.push(Binding {
+            name: SmolStr::from(format!("{name}'{}", id.0)),
+            ty,
+            given: false,
+        });
         id
     }
 

@@ -39,6 +39,7 @@ pub(super) fn graph(document: w::Document) -> m::Graph {
         bindings: list(document.bindings, |binding| m::Binding {
             name: text(binding.name),
             ty: ty(binding.ty),
+            given: binding.given,
         }),
         regions: list(document.regions, |region| m::Region {
             owner: region.owner.map(m::NodeId),

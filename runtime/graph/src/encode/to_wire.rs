@@ -41,6 +41,7 @@ pub(super) fn document(graph: &m::Graph) -> w::Document {
         bindings: list(&graph.bindings, |binding| w::Binding {
             name: text(&binding.name),
             ty: ty(&binding.ty),
+            given: binding.given,
         }),
         regions: list(&graph.regions, |region| w::Region {
             owner: region.owner.map(|id| id.0),

@@ -121,4 +121,6 @@ pub struct Binding {
     pub name: SmolStr,
     /// Its type.
     pub ty: Type,
+    /// Whether it is bound before the first step: by the run that this policy takes over, or by a host.
+    pub given: bool,
 }

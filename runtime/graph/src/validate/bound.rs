@@ -1,6 +1,6 @@
 //! That every name is bound on every path before it is used.
 //!
-//! A name is bound by a call or a loop and holds to the end of the region that binds it, so a walk in document order that
+//! A given name is bound everywhere. Any other is bound by a call or a loop and holds to the end of the region that binds it, so a walk in document order that
 //! forgets at the end of each region what was bound in it knows at each node what is bound.
 
 use super::{Findings, Reason};
@@ -21,8 +21,8 @@ enum Todo {
 }
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
-    let mut walk =
-        Walk { graph, findings, bound: vec![false; graph.bindings.len()], log: Vec::new(), todo: Vec::new() };
+    let bound = graph.bindings.iter().map(|binding| binding.given).collect();
+    let mut walk = Walk { graph, findings, bound, log: Vec::new(), todo: Vec::new() };
     walk.todo.push(Todo::Open { region: crate::model::ROOT, item: None, until: None });
     while let Some(todo) = walk.todo.pop() {
         walk.step(todo);

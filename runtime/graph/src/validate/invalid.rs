@@ -134,6 +134,9 @@ pub enum Reason {
     /// A name is used where no path has bound it.
     #[error("`{0}` is used before it is bound")]
     Unbound(SmolStr),
+    /// A name that the policy is to be given was not given, or not with a value of its type.
+    #[error("`{0}` is not given")]
+    NotGiven(SmolStr),
     /// Two branches that run at once need the same resource.
     #[error("two branches need `{0}` at the same time")]
     Conflict(SmolStr),

@@ -112,6 +112,9 @@ pub struct Binding {
     /// Its type.
     #[serde(rename = "type")]
     pub ty: Type,
+    /// Whether it is bound before the first step.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub given: bool,
 }
 
 /// A region.

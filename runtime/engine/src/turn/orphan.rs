@@ -1,0 +1,252 @@
+//! Goals of replaced policies: how they end, or go on for a step of the present one.
+
+use super::Turn;
+use super::change::Contracts;
+use super::goal::stronger;
+use crate::effect::{Effect, Fault};
+use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::orphan::Orphan;
+use crate::plan;
+use crate::record::{Cause, Happening, NodeEnding, Record};
+use crate::state::{Phase, Wish};
+use crate::time::Time;
+use motet_graph::{FailureId, NodeId, TIMEOUT};
+use smol_str::SmolStr;
+
+impl Turn<'_> {
+    /// A goal of a replaced policy goes on for a call that was just reached, if there is one that fits. False where the call
+    /// has to start a goal of its own.
+    pub(super) fn claim(&mut self, node: NodeId) -> bool {
+        let plan = self.plan;
+        let Some(call) = plan.call(node) else { return false };
+        let Some(primitive) = plan.graph.primitives.get(call.primitive.index()) else { return false };
+        if !self
+            .run
+            .orphans
+            .iter()
+            .any(|orphan| orphan.is_free() && orphan.command.primitive == primitive.name)
+        {
+            return false;
+        }
+        let literal = plan.step(node).command.clone();
+        let now = self.run.now;
+        let command = literal.or_else(|| {
+            self.run.missing.clear();
+            let args = self.values(&call.args, crate::belief::Freshness::Readings(now))?;
+            plan::command(&plan.graph, call, args).map(std::sync::Arc::new)
+        });
+        let Some(command) = command else { return false };
+        let same = self.run.orphans.iter().position(|orphan| {
+            let own = &orphan.command;
+            orphan.is_free()
+                && own.primitive == command.primitive
+                && own.args == command.args
+                && own.uses == command.uses
+        });
+        if let Some(index) = same {
+            let orphan = self.run.orphans.remove(index);
+            self.keep(node, &orphan);
+            return true;
+        }
+        if !self.capabilities.update.contains(&primitive.name) {
+            return false;
+        }
+        let conflicts = plan.step(node).mask.conflicts;
+        let fits = |index: usize, orphan: &Orphan| {
+            let others = self.run.orphans.iter().enumerate().filter(|(other, _)| *other != index);
+            let held = others.fold(self.run.held, |bits, (_, other)| bits | other.uses);
+            orphan.is_free()
+                && orphan.phase != Phase::Starting
+                && orphan.command.primitive == command.primitive
+                && orphan.command.uses == command.uses
+                && held & conflicts == 0
+        };
+        let Some(index) = self.run.orphans.iter().enumerate().position(|(index, orphan)| fits(index, orphan))
+        else {
+            return false;
+        };
+        let Some(command) = self.may_start(node) else { return false };
+        let orphan = self.run.orphans.remove(index);
+        self.update(node, &orphan, command);
+        true
+    }
+
+    fn keep(&mut self, node: NodeId, orphan: &Orphan) {
+        let phase = if orphan.phase == Phase::Starting { Phase::Starting } else { Phase::Running };
+        self.take_goal(node, orphan.goal, phase);
+        if self.plan.step(node).command.is_none() {
+            self.run.commands.push((node, orphan.command.clone()));
+        }
+        self.report(Happening::Kept { node, goal: orphan.goal });
+        self.go_on_if_held(orphan);
+    }
+
+    fn update(&mut self, node: NodeId, orphan: &Orphan, command: std::sync::Arc<crate::effect::Command>) {
+        let goal = orphan.goal;
+        // What it did before was interrupted.
+        self.contracts_of(orphan).doubt_node(orphan);
+        self.guards_hold(node);
+        let deadline = self.take_goal(node, goal, Phase::Running);
+        if self.plan.step(node).command.is_none() {
+            self.run.commands.push((node, command.clone()));
+        }
+        self.report(Happening::Updated { node, goal });
+        self.out.push(Effect::Update { goal, node, command, deadline });
+        self.go_on_if_held(orphan);
+    }
+
+    fn go_on_if_held(&mut self, orphan: &Orphan) {
+        if orphan.phase == Phase::Held {
+            self.out.push(Effect::Proceed { goal: orphan.goal });
+        }
+    }
+
+    /// A call has a goal that runs already. Its deadline counts from now.
+    fn take_goal(&mut self, node: NodeId, goal: GoalId, phase: Phase) -> Time {
+        let step = self.plan.step(node);
+        let deadline = self.run.now.after(step.deadline);
+        self.run.held |= step.mask.uses;
+        self.run.goals.assign(goal, node);
+        self.run.timers.set(self.plan.node_key(node), deadline);
+        let state = self.run.nodes.at_mut(node.index());
+        state.phase = phase;
+        state.wish = Wish::None;
+        state.goal = Some(goal);
+        deadline
+    }
+
+    /// Cancels every goal that no step of the new policy has taken.
+    pub(super) fn cancel_orphans(&mut self) {
+        let due = self.run.now.after(self.settings.cancel_within);
+        for orphan in self.run.orphans.iter_mut().filter(|orphan| orphan.is_free()) {
+            orphan.wish = Wish::Stop;
+            orphan.due = due;
+            if orphan.phase != Phase::Starting {
+                orphan.phase = Phase::Cancelling;
+                self.out.push(Effect::Cancel { goal: orphan.goal });
+            }
+        }
+    }
+
+    /// Where a goal stands among the orphans.
+    pub(super) fn orphan(&self, goal: GoalId) -> Option<usize> {
+        self.run.orphans.iter().position(|orphan| orphan.goal == goal)
+    }
+
+    /// A driver reports of an orphan.
+    pub(super) fn orphan_reports(&mut self, index: usize, event: DriverEvent) {
+        let failed = |kind: SmolStr, cause| Some((NodeEnding::Failure(self.failure_of(index, &kind)), cause));
+        let end = match event {
+            DriverEvent::Acknowledged { goal } => {
+                if let Some(orphan) =
+                    self.run.orphans.get_mut(index).filter(|orphan| orphan.phase == Phase::Starting)
+                {
+                    orphan.phase = Phase::Cancelling;
+                    self.out.push(Effect::Cancel { goal });
+                }
+                None
+            }
+            DriverEvent::Refused { failure, .. } => failed(failure, Cause::Refused),
+            DriverEvent::Ended { outcome: Outcome::Success(_), .. } => {
+                Some((NodeEnding::Success, Cause::Completed))
+            }
+            DriverEvent::Ended { outcome: Outcome::Failure(kind), .. } => failed(kind, Cause::Failed),
+            DriverEvent::Ended { outcome: Outcome::Interrupted, .. } | DriverEvent::Stopped { .. } => {
+                Some(match self.run.orphans.get(index).map_or(Wish::None, |orphan| orphan.wish) {
+                    Wish::Expire => (NodeEnding::Failure(TIMEOUT), Cause::Deadline),
+                    Wish::Lose => (NodeEnding::Failure(TIMEOUT), Cause::Lost),
+                    Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop => {
+                        (NodeEnding::Interrupted, Cause::Swap)
+                    }
+                })
+            }
+            DriverEvent::Lost { .. } | DriverEvent::DriverLost => {
+                self.orphan_lost(index);
+                None
+            }
+            DriverEvent::NotHeld { .. } | DriverEvent::Observed { .. } => None,
+        };
+        if let Some((ending, cause)) = end {
+            self.orphan_ended(index, ending, cause);
+        }
+    }
+
+    pub(super) fn orphan_lost(&mut self, index: usize) {
+        let Some(orphan) = self.run.orphans.get_mut(index) else { return };
+        orphan.wish = stronger(orphan.wish, Wish::Lose);
+        if orphan.phase != Phase::SafeStopping {
+            self.stop_orphan_safely(index);
+        }
+    }
+
+    /// An orphan's instant has come: its cancel or its safe stop took too long.
+    pub(super) fn orphan_due(&mut self, goal: GoalId) {
+        let Some(index) = self.orphan(goal) else { return };
+        let Some(orphan) = self.run.orphans.get(index) else { return };
+        if orphan.phase == Phase::SafeStopping {
+            let (node, revision) = (orphan.node, orphan.revision);
+            self.fault(Fault::NotStopped { node, revision });
+        } else {
+            self.stop_orphan_safely(index);
+        }
+    }
+
+    fn stop_orphan_safely(&mut self, index: usize) {
+        let due = self.run.now.after(self.settings.safe_stop_within);
+        if let Some(orphan) = self.run.orphans.get_mut(index) {
+            orphan.phase = Phase::SafeStopping;
+            orphan.due = due;
+            self.out.push(Effect::SafeStop { goal: orphan.goal });
+        }
+    }
+
+    fn orphan_ended(&mut self, index: usize, ending: NodeEnding, cause: Cause) {
+        let orphan = self.run.orphans.remove(index);
+        self.run.goals.close(orphan.goal);
+        self.run.freed = !self.run.queue.is_empty();
+        let mut contracts = self.contracts_of(&orphan);
+        match ending {
+            NodeEnding::Success => contracts.make_node(&orphan),
+            NodeEnding::Failure(_) | NodeEnding::Interrupted => contracts.doubt_node(&orphan),
+        }
+        let what = Happening::GoalEnded { node: orphan.node, goal: orphan.goal, ending, cause };
+        let (at, revision) = (self.run.now, orphan.revision);
+        self.out.push(Effect::Report(Record { at, revision, what }));
+        if self.run.orphans.is_empty()
+            && let Some(end) = self.run.closing.take()
+        {
+            self.finish(end);
+        }
+    }
+
+    /// The id of a failure in the graph of an orphan.
+    fn failure_of(&self, index: usize, kind: &str) -> FailureId {
+        let Some(orphan) = self.run.orphans.get(index) else { return self.plan.failed };
+        let known = orphan.plan.failures.iter().position(|known| known == kind);
+        known.map_or(orphan.plan.failed, |index| FailureId(index as u32))
+    }
+
+    fn contracts_of<'o>(&'o mut self, orphan: &'o Orphan) -> Contracts<'o> {
+        Contracts {
+            graph: &orphan.plan.graph,
+            bindings: &orphan.bindings,
+            beliefs: &mut self.run.beliefs,
+            verifier: self.verifier,
+            now: self.run.now,
+        }
+    }
+}
+
+impl Contracts<'_> {
+    fn make_node(&mut self, orphan: &Orphan) {
+        if let Some(call) = orphan.plan.call(orphan.node) {
+            self.make(call);
+        }
+    }
+
+    fn doubt_node(&mut self, orphan: &Orphan) {
+        if let Some(call) = orphan.plan.call(orphan.node) {
+            self.doubt(call);
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! Another policy takes over: what goes on, what is updated, what is cancelled and what waits for it; and what is refused.
+
+use crate::check;
+use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
+use crate::script::{distance, entity, holding};
+use motet_graph::arbitrary::vocabulary as v;
+use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::{Condition, Fact, FactArg, Graph, NodeId, Value};
+use motet_runtime::{
+    DriverEvent, Effect, Engine, Event, Outcome, Prepared, Refusal, RunEnd, StartState, Time, Truth,
+};
+
+fn pauses(within: f64, steps: Vec<Step>) -> Step {
+    Step::Monitor(vec![When::new(v::nearer("user", 0.5), React::Pause(within))], steps)
+}
+
+#[test]
+fn the_same_call_goes_on() {
+    check!(
+        [Step::go("table"), Step::say("old")],
+        [
+            (0.1, Ack(1)),
+            (1.0, Swap(vec![Step::go("table"), Step::say("new")])),
+            (2.0, Done(1)),
+            (3.0, Done(2))
+        ]
+    );
+}
+
+#[test]
+fn a_call_that_was_not_acknowledged_goes_on() {
+    check!([Step::go("table")], [(1.0, Swap(vec![Step::go("table")])), (1.1, Ack(1)), (11.0, Tick)]);
+}
+
+#[test]
+fn another_target_is_an_update() {
+    check!(
+        [Step::go("table")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![Step::go("shelf"), Step::say("new")])), (2.0, Done(1))]
+    );
+}
+
+#[test]
+fn what_cannot_be_updated_is_cancelled_and_waited_for() {
+    check!(
+        [Step::detect("mug"), Step::say("old")],
+        [
+            (0.1, Ack(1)),
+            (1.0, Swap(vec![Step::detect("cup")])),
+            (1.5, Interrupted(1)),
+            (2.0, Gives(2, entity("cup_1")))
+        ]
+    );
+}
+
+#[test]
+fn what_does_not_conflict_starts_at_once() {
+    check!(
+        [Step::go("table")],
+        [
+            (0.1, Ack(1)),
+            (1.0, Swap(vec![Step::detect("cup")])),
+            (1.5, Gives(2, entity("cup_1"))),
+            (1.6, Interrupted(1))
+        ]
+    );
+}
+
+#[test]
+fn success_after_the_swap_is_respected() {
+    let place = Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
+    check!(
+        [Step::pick("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![Step::Call(place)])), (1.5, Done(1)), (2.0, Done(2))]
+    );
+}
+
+#[test]
+fn failure_after_the_swap_concerns_nobody() {
+    check!(
+        [Step::go("table")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![Step::say("new")])), (1.5, Fails(1, "unreachable")), (2.0, Done(2))]
+    );
+}
+
+#[test]
+fn a_start_that_is_refused_after_the_swap_frees_its_resources() {
+    check!([Step::detect("mug")], [(1.0, Swap(vec![Step::detect("cup")])), (1.5, Refused(1, "unsafe"))]);
+}
+
+#[test]
+fn a_cancel_waits_for_the_acknowledgement_also_across_a_swap() {
+    check!(
+        [Step::detect("mug")],
+        [(1.0, Swap(vec![Step::detect("cup")])), (1.1, Ack(1)), (1.2, Interrupted(1)), (1.3, Ack(2))]
+    );
+}
+
+#[test]
+fn in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
+    check!(
+        [Step::go("table")],
+        [
+            (0.1, Ack(1)),
+            (10.0, Tick),
+            (10.1, Swap(vec![Step::go("table")])),
+            (10.5, Interrupted(1)),
+            (11.0, Done(2))
+        ]
+    );
+}
+
+#[test]
+fn a_safe_stop_that_is_pending_is_waited_for() {
+    check!(
+        [Step::go("table")],
+        [
+            (0.1, Ack(1)),
+            (10.0, Tick),
+            (15.0, Tick),
+            (15.1, Swap(vec![Step::go("shelf")])),
+            (16.0, Stopped(1))
+        ]
+    );
+}
+
+#[test]
+fn an_unanswered_cancel_of_the_old_policy_becomes_a_safe_stop_and_a_fault() {
+    check!(
+        [Step::detect("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![Step::detect("cup")])), (6.0, Tick), (11.0, Tick)]
+    );
+}
+
+#[test]
+fn a_goal_of_the_old_policy_that_is_lost() {
+    check!(
+        [Step::detect("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![Step::detect("cup")])), (1.5, Lost(1)), (2.0, Stopped(1))]
+    );
+}
+
+#[test]
+fn a_held_goal_goes_on_where_nothing_holds_it() {
+    check!(
+        [pauses(60.0, vec![Step::go("table")])],
+        [(0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Swap(vec![Step::go("table")]))]
+    );
+}
+
+#[test]
+fn a_monitor_of_the_new_policy_is_judged_at_once() {
+    check!(
+        [pauses(60.0, vec![Step::go("table")])],
+        [
+            (0.1, Ack(1)),
+            (1.0, distance(0.3)),
+            (2.0, Swap(vec![pauses(30.0, vec![Step::go("table")])])),
+            (2.5, Interrupted(1)),
+            (3.0, distance(0.8))
+        ]
+    );
+}
+
+#[test]
+fn what_is_watched_by_both_stays_watched() {
+    check!(
+        [pauses(60.0, vec![Step::go("table")])],
+        [
+            (0.1, Ack(1)),
+            (1.0, distance(0.8)),
+            (2.0, Swap(vec![pauses(30.0, vec![Step::go("table")])])),
+            (2.5, distance(0.3))
+        ]
+    );
+}
+
+#[test]
+fn out_of_a_parallel_into_a_parallel() {
+    let both = |go: &str| Step::Parallel(vec![vec![Step::go(go)], vec![Step::detect("mug")]]);
+    check!([both("table")], [(0.1, Ack(1)), (0.1, Ack(2)), (1.0, Swap(vec![both("shelf")])), (2.0, Done(1))]);
+}
+
+#[test]
+fn the_newest_swap_wins() {
+    check!(
+        [Step::detect("mug")],
+        [
+            (0.1, Ack(1)),
+            (1.0, Swap(vec![Step::detect("cup")])),
+            (1.1, Swap(vec![Step::detect("bowl")])),
+            (1.5, Interrupted(1))
+        ]
+    );
+}
+
+#[test]
+fn a_policy_that_is_done_at_once_waits_for_the_goals_of_the_one_before() {
+    check!([Step::go("table")], [(0.1, Ack(1)), (1.0, Swap(vec![])), (1.5, Interrupted(1))]);
+}
+
+#[test]
+fn a_person_who_stops_is_not_overruled() {
+    check!(
+        [Step::go("table")],
+        [(0.1, Ack(1)), (1.0, Stop), (1.1, Swap(vec![Step::say("no")])), (1.5, Interrupted(1))]
+    );
+}
+
+#[test]
+fn a_wait_and_a_queue_are_left() {
+    let wait = Step::Wait(Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")])), 5.0);
+    check!([wait], [(1.0, Swap(vec![Step::say("new")])), (1.5, holding("mug", true)), (2.0, Done(1))]);
+}
+
+/// Has started to go to the table.
+fn going() -> (Engine, Vec<Effect>) {
+    let mut engine =
+        Engine::new(graph(&[Step::detect("mug"), Step::go("table")]), &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let goal = out
+        .iter()
+        .find_map(|effect| if let Effect::Start { goal, .. } = effect { Some(*goal) } else { None });
+    let outcome = Outcome::Success(Some(Value::Entity("mug_1".into())));
+    let ended = DriverEvent::Ended { goal: goal.unwrap(), outcome };
+    engine.handle(Time::from_secs(1.0), Event::Driver(ended), &mut out);
+    (engine, out)
+}
+
+/// Refused, and nothing has changed: neither what went out nor anything within.
+#[track_caller]
+fn refused(graph: Graph) -> Refusal {
+    let (mut engine, mut out) = going();
+    let prepared = match Prepared::new(graph, &engine.running()) {
+        Ok(prepared) => prepared,
+        Err(refusal) => return refusal,
+    };
+    let (before, effects) = (format!("{engine:?}"), out.len());
+    let refusal = engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap_err();
+    assert_eq!(format!("{engine:?}"), before);
+    assert_eq!(out.len(), effects);
+    refusal
+}
+
+#[test]
+fn an_invalid_graph_is_refused() {
+    let mut graph = graph(&[Step::go("table")]);
+    graph.nodes[0].next = Some(NodeId(7));
+    assert!(matches!(refused(graph), Refusal::Invalid(_)));
+}
+
+#[test]
+fn another_robot_is_refused() {
+    let mut graph = graph(&[Step::go("table")]);
+    graph.robot = "another".into();
+    assert_eq!(refused(graph), Refusal::Robot { running: "mock".into(), wanted: "another".into() });
+}
+
+#[test]
+fn a_start_that_does_not_hold_is_refused() {
+    let mut graph = graph(&[Step::go("table")]);
+    graph.initial = vec![(v::fact(v::HOLDING, vec![v::entity("mug")]), true)];
+    let Refusal::Start { told, believed, .. } = refused(graph) else { panic!("another refusal") };
+    assert_eq!((told, believed), (true, Truth::False));
+}
+
+#[test]
+fn a_start_that_is_no_longer_known_is_refused() {
+    // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is not said.
+    let (mut engine, mut out) = going();
+    let prepare = |engine: &Engine, initial| {
+        let mut graph = graph(&[Step::say("new")]);
+        graph.initial = initial;
+        Prepared::new(graph, &engine.running()).unwrap()
+    };
+    let somewhere = vec![(v::fact(v::AT, vec![v::entity("robot"), v::entity("table")]), false)];
+    let prepared = prepare(&engine, somewhere.clone());
+    engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap();
+    let goal = engine.snapshot().goals[0].goal;
+    let ended = DriverEvent::Ended { goal, outcome: Outcome::Interrupted };
+    engine.handle(Time::from_secs(2.5), Event::Driver(ended), &mut out);
+    let prepared = prepare(&engine, somewhere);
+    let refusal = engine.swap(Time::from_secs(3.0), prepared, &mut out).unwrap_err();
+    assert!(matches!(refusal, Refusal::Start { believed: Truth::Unknown, .. }), "{refusal}");
+}
+
+/// A graph that is given the object that the running policy found.
+fn given(name: &str) -> Graph {
+    let mut graph = graph(&[Step::detect("cup"), Step::Call(Call::new(v::PICK, vec![Call::NEAREST]))]);
+    graph.bindings[0].given = true;
+    graph.bindings[0].name = name.into();
+    graph.initial = vec![(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] }, false)];
+    graph
+}
+
+#[test]
+fn a_name_that_is_not_bound_is_refused() {
+    assert_eq!(refused(given("nobody")), Refusal::Binding { name: "nobody".into() });
+}
+
+#[test]
+fn a_name_is_carried() {
+    let (mut engine, mut out) = going();
+    let prepared = Prepared::new(given("it'0"), &engine.running()).unwrap();
+    engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap();
+    assert_eq!(engine.snapshot().bindings, vec![("it'0".into(), Value::Entity("mug_1".into()))]);
+    assert_eq!(engine.revision(), 1);
+    assert_eq!(engine.graph_at(0).unwrap().nodes.len(), 2);
+}
+
+#[test]
+fn a_host_gives_names_too() {
+    assert!(Engine::new(given("it"), &StartState::default()).is_err());
+    let bindings = vec![("it".into(), Value::Entity("cup_2".into()))];
+    let engine = Engine::new(given("it"), &StartState { bindings, ..StartState::default() }).unwrap();
+    assert_eq!(engine.binding(motet_graph::BindingId(0)), Some(&Value::Entity("cup_2".into())));
+}
+
+#[test]
+fn a_run_that_is_over_takes_no_swap() {
+    let mut engine = Engine::new(graph(&[]), &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Done { why: None }));
+    let prepared = Prepared::new(graph(&[]), &engine.running()).unwrap();
+    assert_eq!(engine.swap(Time::ZERO, prepared, &mut out).unwrap_err(), Refusal::Over);
+}
+
+#[test]
+fn a_swap_prepared_against_an_older_graph_still_fits() {
+    let (mut engine, mut out) = going();
+    let first = Prepared::new(given("it'0"), &engine.running()).unwrap();
+    let second = Prepared::new(given("it'0"), &engine.running()).unwrap();
+    engine.swap(Time::from_secs(2.0), first, &mut out).unwrap();
+    engine.swap(Time::from_secs(2.1), second, &mut out).unwrap();
+    assert_eq!((engine.revision(), engine.snapshot().bindings.len()), (2, 1));
+}
