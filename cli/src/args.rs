@@ -4,11 +4,13 @@ mod duration;
 mod feasible;
 mod import;
 mod input;
+mod journal;
 mod run;
 
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
+pub(crate) use journal::{Moment, ReplayArgs};
 pub(crate) use run::{RunArgs, RunFormat, Speed};
 
 use std::path::PathBuf;
@@ -59,6 +61,8 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
+    /// Step the engine through the journal of a run again, and say where it differs
+    Replay(ReplayArgs),
     /// Find out whether a robot can do a motion in a scene
     Feasible(FeasibleArgs),
     /// Show the robots that are built in

@@ -46,6 +46,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Compile(args) => command::compile::run(args, colors),
         Command::Import(args) => command::import::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
+        Command::Replay(args) => command::replay::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),

@@ -27,9 +27,11 @@ pub(crate) const DOCUMENT: FileId = FileId(0);
 /// What all documents have in common.
 #[derive(Debug)]
 pub(crate) struct Workbench {
-    robot: Option<Robot>,
+    robot: Option<(Card, Robot)>,
     domains: Vec<File>,
     scene: Option<Scene>,
+    /// The scene as it was read.
+    scene_text: Option<String>,
     state: Option<State>,
     options: Options,
     /// An empty place for the document, then the files that were given.
@@ -44,8 +46,12 @@ pub(crate) struct Setting {
     pub(crate) session: Session,
     /// The robot, if any.
     pub(crate) robot: Option<Robot>,
+    /// Its card, as it was read.
+    pub(crate) card: Option<Card>,
     /// The scene, if any.
     pub(crate) scene: Option<Scene>,
+    /// The scene as it was read.
+    pub(crate) scene_text: Option<String>,
     /// The domains on top of the library.
     pub(crate) domains: Vec<File>,
     sources: Sources,
@@ -61,7 +67,11 @@ impl Workbench {
         let mut sources = Sources::default();
         sources.add(Source::new("", ""));
         let robot = match &args.robot {
-            Some(name) => Some(Card::find(name)?.read(&mut sources, report)?),
+            Some(name) => {
+                let card = Card::find(name)?;
+                let robot = card.read(&mut sources, report)?;
+                Some((card, robot))
+            }
             None => None,
         };
         let mut domains = Vec::new();
@@ -75,12 +85,16 @@ impl Workbench {
             Some(name) => Some(scenes::read(name, &mut sources, report)?),
             None => None,
         };
+        let last = u16::try_from(sources.len().saturating_sub(1)).ok();
+        let scene_text =
+            last.and_then(|last| sources.get(FileId(last))).map(|source| source.text.to_string());
+        let scene_text = scene_text.filter(|_| scene.is_some());
         let state = match &args.state {
             Some(path) => Some(state::read(path, &mut sources, report)?),
             None => None,
         };
         let options = Options { max_duration_secs: args.max_duration };
-        Ok(Self { robot, domains, scene, state, options, sources, settings: BTreeMap::new() })
+        Ok(Self { robot, domains, scene, scene_text, state, options, sources, settings: BTreeMap::new() })
     }
 
     /// The setting for a document: with the robot that was given, else with the one that the document names.
@@ -90,7 +104,7 @@ impl Workbench {
     /// The state, the scene or a domain does not fit the robot.
     pub(crate) fn setting(&mut self, document: &File, report: &mut Report) -> Result<&Setting, Trouble> {
         let wanted = match &self.robot {
-            Some(robot) => robot.name.to_string(),
+            Some((_, robot)) => robot.name.to_string(),
             None => wanted_robot(document).filter(|name| cards::embedded(name).is_some()).unwrap_or_default(),
         };
         if !self.settings.contains_key(&wanted) {
@@ -115,13 +129,19 @@ impl Workbench {
         let robot = match (&self.robot, robot) {
             (Some(given), _) => Some(given.clone()),
             (None, "") => None,
-            (None, name) => Some(Card::find(name)?.read(&mut sources, report)?),
+            (None, name) => {
+                let card = Card::find(name)?;
+                let robot = card.read(&mut sources, report)?;
+                Some((card, robot))
+            }
         };
+        let (card, robot) = robot.unzip();
         let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
         let (session, said) =
             Session::new(robot.as_ref(), &self.domains, scene, state, self.options, &mut sources);
         report.usable("robot, scene, state or domain", &said, &sources)?;
-        Ok(Setting { session, robot, scene: self.scene.clone(), domains: self.domains.clone(), sources })
+        let (scene, scene_text) = (self.scene.clone(), self.scene_text.clone());
+        Ok(Setting { session, robot, card, scene, scene_text, domains: self.domains.clone(), sources })
     }
 }
 

@@ -11,11 +11,13 @@ use super::input::WorldArgs;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
-    motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json")]
+    motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
+    motet run fetch_mug.motet --scene kitchen --record run/    write a journal, for `motet replay run/`\n  \
+    motet run --resume run/                                    go on after a crash")]
 pub(crate) struct RunArgs {
     /// The policy: a file, or `-` for standard input
-    #[arg(value_name = "FILE")]
-    pub(crate) file: PathBuf,
+    #[arg(value_name = "FILE", required_unless_present = "resume")]
+    pub(crate) file: Option<PathBuf>,
     /// Which policy of the file; needed where it has several
     #[arg(long, value_name = "NAME")]
     pub(crate) policy: Option<String>,
@@ -34,6 +36,16 @@ pub(crate) struct RunArgs {
     /// What the simulated person answers: a JSON file
     #[arg(long, value_name = "FILE")]
     pub(crate) answers: Option<PathBuf>,
+    /// Write a journal of the run into this folder, which must be empty or not exist
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) record: Option<PathBuf>,
+    /// Go on with the run whose journal is in this folder, and write on
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        conflicts_with_all = ["file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain"]
+    )]
+    pub(crate) resume: Option<PathBuf>,
     /// How to show the run
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(crate) format: RunFormat,

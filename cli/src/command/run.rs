@@ -1,20 +1,23 @@
-//! `motet run`: checks a policy and runs it in simulation.
+//! `motet run`: checks a policy and runs it in simulation, with or without a journal.
 
 mod branch;
 mod events;
 mod lines;
 mod pace;
+mod play;
+mod resume;
+mod saved;
 mod screen;
 mod tree;
 mod view;
 mod world;
 
-use std::io::{self, IsTerminal};
-use std::sync::Arc;
+use std::path::Path;
 
-use motet_graph::Graph;
+use motet_host::journal::Writer;
 use motet_robots::scene::Scene;
-use motet_runtime::{Engine, RunEnd, StartState, Time};
+use motet_runtime::journal::Head;
+use motet_runtime::{Driver, Engine, Event, StartState, Time};
 use motet_sim::Sim;
 use motet_syntax::Severity;
 
@@ -26,8 +29,11 @@ use crate::out::{Colors, note};
 use crate::report::Report;
 use crate::workbench::{Workbench, wanted_robot};
 use pace::Pace;
-use view::View;
+use play::Play;
+use saved::Saved;
 use world::Choices;
+
+pub(super) use play::journal_trouble;
 
 /// Runs the command.
 ///
@@ -40,12 +46,16 @@ pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
         RunFormat::Json => Format::Json,
     };
     let mut report = Report::new(format, colors);
-    let result = check_and_run(args, colors, &mut report);
+    let result = match (&args.resume, &args.file) {
+        (Some(folder), _) => resume::resume(folder, args, colors),
+        (None, Some(file)) => check_and_run(file, args, colors, &mut report),
+        (None, None) => Err(Trouble::Other("a policy is needed".to_owned())),
+    };
     report.close(result)
 }
 
-fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
-    let (source, parsed) = document::read(&one_document(&args.file)?);
+fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
+    let (source, parsed) = document::read(&one_document(file)?);
     let mut bench = Workbench::open(&args.world, report)?;
     let setting = bench.setting(&parsed.file, report)?;
     let choices = Choices::read(args, report)?;
@@ -60,42 +70,36 @@ fn check_and_run(args: &RunArgs, colors: Colors, report: &mut Report) -> Result<
         note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
         return Ok(Exit::Findings);
     };
-    let Some(robot) = &setting.robot else {
+    let (Some(robot), Some(card)) = (&setting.robot, &setting.card) else {
         return Err(no_robot(wanted_robot(&parsed.file)));
     };
-    let scene = setting.scene.as_ref();
     let files: Vec<_> = setting.domains.iter().chain([&parsed.file]).collect();
-    let simulator = choices.simulator(robot, scene, &graph, &files);
-    let end = simulate(args, colors, graph, scene, simulator)?;
-    Ok(match end {
-        RunEnd::Done { .. } => Exit::Clean,
-        RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
-        RunEnd::Interrupted => Exit::Interrupted,
-    })
-}
-
-fn simulate(
-    args: &RunArgs,
-    colors: Colors,
-    graph: Graph,
-    scene: Option<&Scene>,
-    mut simulator: Sim,
-) -> Result<RunEnd, Trouble> {
-    let mut engine = Engine::new(graph.clone(), &start(scene)).map_err(|wrong| {
+    let options = choices.options(&graph, &files);
+    let start = start(setting.scene.as_ref());
+    let scene = setting.scene.clone().unwrap_or_default();
+    let mut simulator = Sim::new(robot, &scene, options.clone());
+    let capabilities = simulator.capabilities();
+    let engine = Engine::new(graph, &start).map_err(|wrong| {
         let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
         Trouble::Other(format!("the compiled graph is not valid{first}"))
     })?;
-    let graph = Arc::new(graph);
-    let view: Box<dyn View> = match args.format {
-        RunFormat::Json => Box::new(events::Events::new(graph)),
-        RunFormat::Human if io::stdout().is_terminal() => Box::new(screen::Screen::new(graph, colors.stdout)),
-        RunFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout)),
+    let engine = engine.with_capabilities(capabilities.clone());
+    let journal = match &args.record {
+        Some(folder) => {
+            let saved = Saved::simulator(card, setting.scene_text.clone(), &options);
+            let mut head = Head::new(engine.graph());
+            head.began_unix_ns = play::unix_ns();
+            head.start = (&start).into();
+            head.capabilities = (&capabilities).into();
+            head.driver = saved.to_json()?;
+            Some(Writer::create(folder, head).map_err(play::journal_trouble)?)
+        }
+        None => None,
     };
-    pace::catch_interrupts()?;
-    let mut pace = Pace::new(view, args.speed);
-    let end = motet_runtime::run(&mut engine, &mut simulator, &mut pace, Time::ZERO);
-    pace.finish(&end);
-    Ok(end)
+    let view = play::view(args.format, engine.graph(), colors);
+    let pace = Pace::new(view, args.speed);
+    let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
+    Ok(play::exit(&play.run(pace)?))
 }
 
 /// What is known at the start beside what stands in the graph: which entities there are.

@@ -72,6 +72,12 @@ impl Card {
         Err(Trouble::Unknown { what: "robot", name: name.to_owned(), help })
     }
 
+    /// The card's own text and its declarations, to be read again elsewhere.
+    #[must_use]
+    pub(crate) fn texts(&self) -> (String, Option<String>) {
+        (String::from_utf8_lossy(&self.toml).into_owned(), self.declarations.clone())
+    }
+
     fn in_folder(folder: &Path) -> Result<Self, Trouble> {
         let path = folder.join("robot.toml");
         if !path.is_file() {

@@ -4,5 +4,6 @@ mod check;
 mod commands;
 mod fmt;
 mod import;
+mod journal;
 mod run;
 mod support;

@@ -44,6 +44,11 @@ impl Place {
         std::fs::read_to_string(self.folder.join(name)).expect("the file is there")
     }
 
+    /// The path of a file in the folder.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     /// Runs the command with a command line, split at blanks.
     pub(crate) fn run(&self, line: &str) -> Ran {
         self.run_with(line, b"", &[])

@@ -114,6 +114,8 @@ impl View for Events {
         }
     }
 
+    fn past(&mut self, _now: Time, _effect: &Effect) {}
+
     fn reached(&mut self, _now: Time) {}
 
     fn is_closed(&self) -> bool {

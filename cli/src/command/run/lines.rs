@@ -71,6 +71,12 @@ impl View for Lines {
         }
     }
 
+    fn past(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            let _ = self.tree.take(record);
+        }
+    }
+
     fn reached(&mut self, _now: Time) {}
 
     fn is_closed(&self) -> bool {

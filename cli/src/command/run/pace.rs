@@ -48,6 +48,12 @@ impl Pace {
         Self { view, speed, begun: None, now: Time::ZERO }
     }
 
+    /// Takes in what was carried out before the process began.
+    pub(super) fn past(&mut self, now: Time, effects: &[Effect]) {
+        self.now = now;
+        effects.iter().for_each(|effect| self.view.past(now, effect));
+    }
+
     /// Says how it ended.
     pub(super) fn finish(&mut self, end: &RunEnd) {
         self.view.finish(self.now, end);

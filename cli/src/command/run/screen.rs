@@ -100,6 +100,12 @@ impl View for Screen {
         self.reached(now);
     }
 
+    fn past(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            let _ = self.tree.take(record);
+        }
+    }
+
     fn reached(&mut self, now: Time) {
         if self.last.is_none_or(|last| last.elapsed() >= FRAME) {
             self.draw(now);

@@ -10,6 +10,8 @@ use super::tree::{Status, Tree};
 pub(super) trait View {
     /// An effect is about to be carried out.
     fn effect(&mut self, now: Time, effect: &Effect);
+    /// An effect was carried out before the process began; a view that shows a state takes it in without a word.
+    fn past(&mut self, now: Time, effect: &Effect);
     /// Time has passed.
     fn reached(&mut self, now: Time);
     /// Whether nobody reads what is shown any more.

@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use motet_graph::{FactArg, Graph, Term, Value};
-use motet_robots::card::Robot;
-use motet_robots::scene::Scene;
-use motet_sim::{Faults, Options, Script, Sim};
+use motet_sim::{Faults, Options, Script};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::json;
 use motet_syntax::{FileId, Sources};
@@ -44,20 +42,14 @@ impl Choices {
         Ok(Self { faults, answers, seed: args.seed })
     }
 
-    /// The simulated world. `files` are the document and the domains, whose entities have a place in it too.
-    pub(super) fn simulator(
-        self,
-        robot: &Robot,
-        scene: Option<&Scene>,
-        graph: &Graph,
-        files: &[&File],
-    ) -> Sim {
-        let nothing = Scene::default();
+    /// The choices about the simulated world. `files` are the document and the domains, whose entities have a place in it
+    /// too.
+    pub(super) fn options(self, graph: &Graph, files: &[&File]) -> Options {
         let parent = |kind: &motet_graph::Kind| {
             let parent = graph.kinds.get(kind.parent?.index())?;
             Some((kind.name.clone(), parent.name.clone()))
         };
-        let options = Options {
+        Options {
             seed: self.seed,
             faults: self.faults,
             script: Script { answers: self.answers },
@@ -68,8 +60,7 @@ impl Choices {
                 .iter()
                 .filter_map(|(fact, value)| Some((told(graph, fact)?, *value)))
                 .collect(),
-        };
-        Sim::new(robot, scene.unwrap_or(&nothing), options)
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! The end of a chain of lines, to which the next one is added.
 
-use super::entry::{Entry, Head, Step};
+use super::entry::{Entry, Head, Step, Swap};
 use super::line::{self, Body};
 use crate::effect::Effect;
 use crate::event::Event;
 use crate::time::Time;
+use motet_graph::Graph;
 
 /// Numbers lines and links each to the one before.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -60,6 +61,12 @@ impl Chain {
     /// The line of giving up.
     pub fn gave_up(&mut self, at: Time, effects: &[Effect]) -> String {
         self.line(Entry::GaveUp(Step { at: at.nanos(), event: None, effects: wire(effects) }))
+    }
+
+    /// The line of a new policy.
+    pub fn swap(&mut self, at: Time, graph: &Graph, effects: &[Effect]) -> String {
+        let graph = motet_graph::encode::document(graph);
+        self.line(Entry::Swap(Box::new(Swap { at: at.nanos(), graph, effects: wire(effects) })))
     }
 }
 

@@ -12,6 +12,8 @@ pub enum Entry {
     Head(Box<Head>),
     /// An event and the effects that followed.
     Step(Step),
+    /// The policy was replaced.
+    Swap(Box<Swap>),
     /// Nothing was left to wait for: the engine gave up. No event stands here.
     GaveUp(Step),
     /// The process ended before the run did, and another one went on. The engine took no part in it.
@@ -58,6 +60,18 @@ pub struct Step {
     pub effects: Vec<Effect>,
 }
 
+/// A replacement of the policy.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Swap {
+    /// The engine's time.
+    pub at: u64,
+    /// The new graph.
+    pub graph: Document,
+    /// What the engine gave out.
+    pub effects: Vec<Effect>,
+}
+
 /// Another process went on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -66,6 +80,19 @@ pub struct Resumed {
     pub unix_ns: u64,
     /// Bytes of a line that was not written to its end and was cut off.
     pub cut_bytes: u64,
+}
+
+impl Entry {
+    /// The engine's time, and what it gave out; none where it took no part.
+    #[must_use]
+    pub fn happened(&self) -> Option<(u64, &[Effect])> {
+        match self {
+            Self::Head(head) => Some((head.from, &[])),
+            Self::Step(step) | Self::GaveUp(step) => Some((step.at, &step.effects)),
+            Self::Swap(swap) => Some((swap.at, &swap.effects)),
+            Self::Resumed(_) => None,
+        }
+    }
 }
 
 impl Head {

@@ -46,6 +46,10 @@ impl Ledger {
                 self.uncertain.clear();
                 step.effects.iter().for_each(|effect| self.effect(effect));
             }
+            Entry::Swap(swap) => {
+                self.uncertain.clear();
+                swap.effects.iter().for_each(|effect| self.effect(effect));
+            }
         }
     }
 

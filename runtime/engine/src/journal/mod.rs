@@ -19,7 +19,7 @@ mod replay;
 mod retrace;
 
 pub use chain::Chain;
-pub use entry::{Entry, Head, Resumed, Step};
+pub use entry::{Entry, Head, Resumed, Step, Swap};
 pub use ledger::{Ledger, Open};
 pub use line::{LineError, decode};
 pub use read::{Damage, Ending, Place, Reader, Wrong};

@@ -157,7 +157,7 @@ impl Reader {
             }
             (Entry::Head(_), _) => return Err(Wrong::Head("a journal has one head, and here is another")),
             (_, 0) => return Err(Wrong::Head("a journal begins with its head")),
-            (Entry::Step(_) | Entry::GaveUp(_) | Entry::Resumed(_), _) => {}
+            (Entry::Step(_) | Entry::Swap(_) | Entry::GaveUp(_) | Entry::Resumed(_), _) => {}
         }
         self.chain.advance(line);
         Ok((seq, entry))

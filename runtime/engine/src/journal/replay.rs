@@ -1,9 +1,10 @@
 //! Steps an engine through a journal again, and tells where what it does differs.
 
-use super::entry::{Entry, Head, Step};
+use super::entry::{Entry, Head, Step, Swap};
 use crate::effect::Effect;
 use crate::engine::Engine;
 use crate::event::Event;
+use crate::swap::Prepared;
 use crate::time::Time;
 use crate::wire;
 use thiserror::Error;
@@ -25,6 +26,9 @@ pub enum CannotReplay {
     /// The graph is not valid.
     #[error("the graph in the journal is not valid: {0}")]
     Invalid(String),
+    /// A swap that was accepted then is refused now.
+    #[error("the engine refuses the policy that took over: {0}")]
+    Refused(String),
 }
 
 /// Where a replay differs from the journal.
@@ -67,6 +71,10 @@ impl Replay {
                 self.step(step);
                 Ok(self.compare(&step.effects))
             }
+            Entry::Swap(swap) => {
+                self.swap(swap)?;
+                Ok(self.compare(&swap.effects))
+            }
         }
     }
 
@@ -100,6 +108,13 @@ impl Replay {
             Some(event) => self.engine.handle(self.now, Event::from(event.clone()), &mut self.out),
             None => self.engine.give_up(&mut self.out),
         }
+    }
+
+    fn swap(&mut self, swap: &Swap) -> Result<(), CannotReplay> {
+        self.now = Time::from_nanos(swap.at);
+        let prepared = Prepared::new(graph(&swap.graph)?, &self.engine.running());
+        let result = prepared.and_then(|prepared| self.engine.swap(self.now, prepared, &mut self.out));
+        result.map(drop).map_err(|refusal| CannotReplay::Refused(refusal.to_string()))
     }
 
     fn compare(&self, journal: &[wire::Effect]) -> Option<Difference> {

@@ -53,6 +53,10 @@ impl Retrace {
                 Ok(())
             }
             Entry::Step(step) | Entry::GaveUp(step) => self.step(driver, step),
+            Entry::Swap(swap) => {
+                self.carry_out(driver, swap.at, &swap.effects);
+                Ok(())
+            }
             Entry::Resumed(_) => Ok(()),
         }
     }
@@ -78,10 +82,15 @@ impl Retrace {
             }
             Some(wire::Event::Begin | wire::Event::Tick | wire::Event::Stop) | None => {}
         }
+        self.carry_out(driver, step.at, &step.effects);
+        Ok(())
+    }
+
+    fn carry_out(&mut self, driver: &mut dyn Driver, at: u64, effects: &[wire::Effect]) {
+        let at = Time::from_nanos(at);
         self.now = self.now.max(at);
-        for effect in &step.effects {
+        for effect in effects {
             driver.carry_out(at, &Effect::from(effect.clone()));
         }
-        Ok(())
     }
 }

@@ -1,0 +1,79 @@
+//! Plays a run: an engine, a driver, a view, and a journal if there is one.
+
+use std::io::{self, IsTerminal};
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use motet_graph::Graph;
+use motet_host::journal::{JournalError, Recorder, Writer};
+use motet_runtime::{Driver, Engine, Event, RunEnd, Time, go_on};
+
+use super::pace::{Pace, catch_interrupts};
+use super::view::View;
+use super::{events, lines, screen};
+use crate::args::RunFormat;
+use crate::exit::{Exit, Trouble};
+use crate::out::Colors;
+
+/// All that a run needs.
+pub(super) struct Play<'a> {
+    pub(super) engine: Engine,
+    pub(super) driver: &'a mut dyn Driver,
+    pub(super) journal: Option<Writer>,
+    /// The driver's present time.
+    pub(super) from: Time,
+    /// What the engine takes in first.
+    pub(super) events: Vec<Event>,
+}
+
+impl Play<'_> {
+    /// Runs to the end.
+    ///
+    /// # Errors
+    ///
+    /// Ctrl-C cannot be caught, or the journal could not be written; the run was stopped then.
+    pub(super) fn run(mut self, mut pace: Pace) -> Result<RunEnd, Trouble> {
+        catch_interrupts()?;
+        let end = match self.journal {
+            None => go_on(&mut self.engine, self.driver, &mut pace, self.from, self.events),
+            Some(writer) => {
+                let mut recorder = Recorder::new(writer, &mut pace);
+                let end = go_on(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
+                recorder.finish().map_err(journal_trouble)?;
+                end
+            }
+        };
+        pace.finish(&end);
+        Ok(end)
+    }
+}
+
+/// The view in a format.
+pub(super) fn view(format: RunFormat, graph: &Graph, colors: Colors) -> Box<dyn View> {
+    let graph = Arc::new(graph.clone());
+    match format {
+        RunFormat::Json => Box::new(events::Events::new(graph)),
+        RunFormat::Human if io::stdout().is_terminal() => Box::new(screen::Screen::new(graph, colors.stdout)),
+        RunFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout)),
+    }
+}
+
+/// The exit code of an end.
+pub(super) const fn exit(end: &RunEnd) -> Exit {
+    match end {
+        RunEnd::Done { .. } => Exit::Clean,
+        RunEnd::Failed { .. } | RunEnd::Replan { .. } | RunEnd::Fault(_) => Exit::Failed,
+        RunEnd::Interrupted => Exit::Interrupted,
+    }
+}
+
+/// The wall clock, in ns since 1970.
+pub(super) fn unix_ns() -> u64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| u64::try_from(since.as_nanos()).unwrap_or(u64::MAX))
+}
+
+/// A journal that cannot be used.
+pub(in crate::command) fn journal_trouble(error: JournalError) -> Trouble {
+    Trouble::Other(error.to_string())
+}

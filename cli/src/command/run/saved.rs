@@ -1,0 +1,102 @@
+//! What a journal keeps of the world that a run moves in, so that it can be made again without the files of then.
+
+use indexmap::IndexMap;
+use motet_robots::{card, scene};
+use motet_sim::{Faults, Options, Script, Sim};
+use motet_syntax::{FileId, Source};
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
+use crate::exit::Trouble;
+use crate::workbench::Card;
+
+/// A driver, as the head of a journal describes it.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum Saved {
+    /// The simulator.
+    Simulator(Box<SavedSim>),
+}
+
+/// A simulated world.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SavedSim {
+    /// The text of robot.toml.
+    card: String,
+    /// The text of primitives.motet.
+    declarations: Option<String>,
+    /// The text of the scene.
+    scene: Option<String>,
+    seed: u64,
+    faults: Faults,
+    answers: Vec<Option<String>>,
+    kinds: IndexMap<SmolStr, SmolStr>,
+    entities: Vec<(SmolStr, SmolStr)>,
+    told: Vec<(SmolStr, Vec<SmolStr>, bool)>,
+}
+
+impl Saved {
+    pub(super) fn simulator(robot: &Card, scene: Option<String>, options: &Options) -> Self {
+        let (card, declarations) = robot.texts();
+        let told = options.told.iter();
+        Self::Simulator(Box::new(SavedSim {
+            card,
+            declarations,
+            scene,
+            seed: options.seed,
+            faults: options.faults.clone(),
+            answers: options.script.answers.clone(),
+            kinds: options.kinds.clone(),
+            entities: options.entities.clone(),
+            told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
+        }))
+    }
+
+    pub(super) fn to_json(&self) -> Result<serde_json::Value, Trouble> {
+        serde_json::to_value(self)
+            .map_err(|error| Trouble::Other(format!("the world cannot be written down: {error}")))
+    }
+
+    /// What a head says.
+    ///
+    /// # Errors
+    ///
+    /// It was written by another host.
+    pub(super) fn of(json: &serde_json::Value) -> Result<Self, Trouble> {
+        Self::deserialize(json).map_err(|error| {
+            Trouble::Other(format!("the journal does not say in which world the run moved: {error}"))
+        })
+    }
+}
+
+impl SavedSim {
+    /// The simulator as it was at the start.
+    ///
+    /// # Errors
+    ///
+    /// The card or the scene cannot be read any more.
+    pub(super) fn make(&self) -> Result<Sim, Trouble> {
+        let unreadable = |what: &str| Trouble::Other(format!("the {what} in the journal cannot be read"));
+        let source = Source::new("robot.toml", self.card.as_str());
+        let (robot, _) = card::read(&source, FileId(0), self.declarations.as_deref());
+        let robot = robot.ok_or_else(|| unreadable("robot card"))?;
+        let scene = match &self.scene {
+            Some(text) => {
+                let (scene, _) = scene::read(&Source::new("scene.json", text.as_str()), FileId(0));
+                scene.ok_or_else(|| unreadable("scene"))?
+            }
+            None => scene::Scene::default(),
+        };
+        let told = self.told.iter();
+        let options = Options {
+            seed: self.seed,
+            faults: self.faults.clone(),
+            script: Script { answers: self.answers.clone() },
+            kinds: self.kinds.clone(),
+            entities: self.entities.clone(),
+            told: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
+        };
+        Ok(Sim::new(&robot, &scene, options))
+    }
+}

@@ -1,0 +1,75 @@
+//! Reading a journal from disk, segment by segment.
+
+use super::{EXTENSION, JournalError};
+use motet_runtime::journal::{Chain, Ending, Entry, MAX_SEGMENTS, Place, Reader};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The end of a journal, to append to.
+#[derive(Clone, Debug)]
+pub struct Tail {
+    /// The last segment.
+    pub segment: PathBuf,
+    /// Its bytes that hold.
+    pub good_bytes: u64,
+    /// Bytes after them that are to be cut off: a line that was not written to its end.
+    pub torn_bytes: u64,
+    /// The end of the chain.
+    pub chain: Chain,
+}
+
+/// Reads the journal in a folder and gives every entry with its number to `take`. Nothing is changed; a torn tail is left
+/// where it is.
+///
+/// # Errors
+///
+/// It cannot be read, holds no entry, or is damaged. Entries before the damage were given.
+pub fn read(folder: &Path, take: &mut dyn FnMut(u64, Entry)) -> Result<Tail, JournalError> {
+    let segments = segments(folder)?;
+    let mut reader = Reader::default();
+    let mut tail = None;
+    let mut entries = 0_u64;
+    for (index, (first, path)) in segments.iter().enumerate() {
+        let place = if index + 1 == segments.len() { Place::Last } else { Place::Middle };
+        if *first != entries {
+            let what = format!("the segment that begins with line {entries} is missing");
+            return Err(JournalError::Segments { path: folder.to_owned(), what });
+        }
+        let bytes = fs::read(path).map_err(JournalError::io("cannot read", path))?;
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let ending = reader.segment(&name, &bytes, place, &mut |seq, entry| {
+            entries = seq + 1;
+            take(seq, entry);
+        });
+        let ending = ending.map_err(|damage| JournalError::Damaged { path: folder.to_owned(), damage })?;
+        let (good_bytes, torn_bytes) = match ending {
+            Ending::Whole => (bytes.len() as u64, 0),
+            Ending::Torn { good_bytes, torn_bytes } => (good_bytes, torn_bytes),
+        };
+        tail = Some((path.clone(), good_bytes, torn_bytes));
+    }
+    match tail.filter(|_| entries > 0) {
+        Some((segment, good_bytes, torn_bytes)) => {
+            Ok(Tail { segment, good_bytes, torn_bytes, chain: reader.into_chain() })
+        }
+        None => Err(JournalError::None { path: folder.to_owned() }),
+    }
+}
+
+/// The segments of a folder with the number of their first line, in order.
+fn segments(folder: &Path) -> Result<Vec<(u64, PathBuf)>, JournalError> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(JournalError::io("cannot read", folder))? {
+        let path = entry.map_err(JournalError::io("cannot read", folder))?.path();
+        let number = path.file_stem().and_then(|stem| stem.to_str()).and_then(|stem| stem.parse().ok());
+        if let (Some(number), true) = (number, path.extension().is_some_and(|found| found == EXTENSION)) {
+            found.push((number, path));
+        }
+        if found.len() > MAX_SEGMENTS {
+            let what = format!("it has more than {MAX_SEGMENTS} segments");
+            return Err(JournalError::Segments { path: folder.to_owned(), what });
+        }
+    }
+    found.sort();
+    Ok(found)
+}

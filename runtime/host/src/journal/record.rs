@@ -1,0 +1,99 @@
+//! Writes down a run while it goes on.
+
+use super::{JournalError, Writer};
+use motet_graph::Graph;
+use motet_runtime::journal::must_be_durable;
+use motet_runtime::{Control, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, Time};
+use std::sync::Arc;
+
+/// An onlooker that writes a journal and then lets another one look on. Where the journal cannot be written, the run is
+/// stopped before anything else starts; [`Recorder::finish`] tells why.
+pub struct Recorder<'a> {
+    writer: Writer,
+    inner: &'a mut dyn Onlooker,
+    cause: Option<Cause>,
+    error: Option<JournalError>,
+}
+
+/// What the next effects follow from.
+enum Cause {
+    Event(Event),
+    Swap(Arc<Graph>),
+    /// Nothing follows from it.
+    RefusedSwap,
+}
+
+impl<'a> Recorder<'a> {
+    /// Writes to a journal and looks on with another one.
+    pub fn new(writer: Writer, inner: &'a mut dyn Onlooker) -> Self {
+        Self { writer, inner, cause: None, error: None }
+    }
+
+    /// Waits until everything is on disk.
+    ///
+    /// # Errors
+    ///
+    /// Why the journal could not be written, if it could not at any time: it is then not whole.
+    pub fn finish(mut self) -> Result<(), JournalError> {
+        match self.error.take() {
+            Some(error) => Err(error),
+            None => self.writer.sync(),
+        }
+    }
+
+    fn write(&mut self, now: Time, effects: &[Effect]) -> Result<(), JournalError> {
+        let cause = self.cause.take();
+        let is_swap = match &cause {
+            Some(Cause::RefusedSwap) => return Ok(()),
+            Some(Cause::Swap(_)) => true,
+            Some(Cause::Event(_)) | None => false,
+        };
+        self.writer.append(|chain| match &cause {
+            Some(Cause::Event(event)) => chain.step(now, event, effects),
+            Some(Cause::Swap(graph)) => chain.swap(now, graph, effects),
+            Some(Cause::RefusedSwap) | None => chain.gave_up(now, effects),
+        })?;
+        if is_swap || must_be_durable(effects) { self.writer.sync() } else { self.writer.sync_group() }
+    }
+}
+
+impl Onlooker for Recorder<'_> {
+    fn event(&mut self, now: Time, event: &Event) {
+        self.cause = Some(Cause::Event(event.clone()));
+        self.inner.event(now, event);
+    }
+
+    fn commit(&mut self, now: Time, effects: &[Effect]) -> Control {
+        if self.error.is_none() {
+            self.error = self.write(now, effects).err();
+        }
+        let inner = self.inner.commit(now, effects);
+        if self.error.is_some() { Control::Stop } else { inner }
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        self.inner.effect(now, effect);
+    }
+
+    fn reached(&mut self, now: Time) -> Control {
+        if self.error.is_none() {
+            self.error = self.writer.sync_group().err();
+        }
+        let inner = self.inner.reached(now);
+        if self.error.is_some() { Control::Stop } else { inner }
+    }
+
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<Prepared> {
+        self.inner.swap(now, engine)
+    }
+
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+        let took_over = result.is_ok();
+        self.cause = Some(if took_over { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap });
+        self.inner.swapped(now, graph, result);
+    }
+
+    fn at_least_every(&self) -> Time {
+        self.inner.at_least_every()
+    }
+}
