@@ -6,8 +6,10 @@ mod scenes;
 mod state;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use motet_compiler::{Options, Session, State};
+use motet_compiler::{Geometry, Options, Session, State};
+use motet_geometry::query::Budget;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
@@ -34,6 +36,8 @@ pub(crate) struct Workbench {
     scene_text: Option<String>,
     state: Option<State>,
     options: Options,
+    /// How long motions are looked for; not at all where there is none.
+    effort: Option<Budget>,
     /// An empty place for the document, then the files that were given.
     sources: Sources,
     settings: BTreeMap<String, Setting>,
@@ -52,6 +56,8 @@ pub(crate) struct Setting {
     pub(crate) scene: Option<Scene>,
     /// The scene as it was read.
     pub(crate) scene_text: Option<String>,
+    /// The robot's body in the scene, where motions are looked for.
+    pub(crate) geometry: Option<Arc<Geometry>>,
     /// The domains on top of the library.
     pub(crate) domains: Vec<File>,
     sources: Sources,
@@ -94,7 +100,9 @@ impl Workbench {
             None => None,
         };
         let options = Options { max_duration_secs: args.max_duration };
-        Ok(Self { robot, domains, scene, scene_text, state, options, sources, settings: BTreeMap::new() })
+        let effort = (!args.no_geometry).then(|| Budget::default().times(args.effort.into()));
+        let settings = BTreeMap::new();
+        Ok(Self { robot, domains, scene, scene_text, state, options, effort, sources, settings })
     }
 
     /// The setting for a document: with the robot that was given, else with the one that the document names.
@@ -124,6 +132,12 @@ impl Workbench {
         self.scene.is_some()
     }
 
+    /// Whether motions were looked for in a scene.
+    #[must_use]
+    pub(crate) fn has_geometry(&self) -> bool {
+        self.settings.values().any(|setting| setting.geometry.is_some())
+    }
+
     fn make(&self, robot: &str, report: &mut Report) -> Result<Setting, Trouble> {
         let mut sources = self.sources.clone();
         let robot = match (&self.robot, robot) {
@@ -137,11 +151,20 @@ impl Workbench {
         };
         let (card, robot) = robot.unzip();
         let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
-        let (session, said) =
+        let (mut session, said) =
             Session::new(robot.as_ref(), &self.domains, scene, state, self.options, &mut sources);
         report.usable("robot, scene, state or domain", &said, &sources)?;
+        let mut geometry = None;
+        if let (Some(budget), Some(card), Some(robot), Some(scene)) = (self.effort, &card, &robot, scene)
+            && let Some(urdf) = card.body(robot, &mut sources, report)?
+        {
+            let made = Arc::new(Geometry::new(robot, &urdf, scene, state, budget));
+            session = session.with_geometry(Arc::clone(&made));
+            geometry = Some(made);
+        }
         let (scene, scene_text) = (self.scene.clone(), self.scene_text.clone());
-        Ok(Setting { session, robot, card, scene, scene_text, domains: self.domains.clone(), sources })
+        let domains = self.domains.clone();
+        Ok(Setting { session, robot, card, scene, scene_text, geometry, domains, sources })
     }
 }
 

@@ -29,7 +29,7 @@ pub const PAGES: &[Page] = pages! {
     "M0433" "M0434" "M0435" "M0436" "M0437" "M0438" "M0439" "M0440" "M0441" "M0442" "M0443" "M0444"
     "M0445" "M0451" "M0452" "M0453" "M0454" "M0455" "M0456" "M0457" "M0458" "M0459" "M0460" "M0461"
     "M0462" "M0463" "M0464" "M0465" "M0466" "M0467" "M0468" "M0469" "M0470" "M0471" "M0472" "M0501"
-    "M0502" "M0503" "M0504" "M0701" "M0702" "M0801" "M0802" "M0803" "M0804" "M0901" "M0902" "M0903"
+    "M0502" "M0503" "M0504" "M0601" "M0602" "M0603" "M0604" "M0605" "M0701" "M0702" "M0801" "M0802" "M0803" "M0804" "M0901" "M0902" "M0903"
     "M0904" "M0905" "M0906" "M0907" "M0908" "M0909" "M0910" "M0911"
 };
 
@@ -53,6 +53,7 @@ pub fn all() -> Vec<Code> {
         motet_robots::srdf::CODES,
         crate::check::errors::CODES,
         crate::prove::errors::CODES,
+        crate::place::errors::CODES,
     ];
     let mut codes: Vec<_> = stages.into_iter().flatten().copied().collect();
     codes.sort_unstable();

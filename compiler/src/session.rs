@@ -1,5 +1,7 @@
 //! What a host holds on to: a library and a world, made once, against which any number of documents is checked.
 
+use std::sync::Arc;
+
 use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -10,6 +12,7 @@ use crate::check::errors::{NoPolicy, OtherRobot};
 use crate::fix::Finding;
 use crate::ir::{Program, StepKind};
 use crate::library::{Library, LibraryBuilder};
+use crate::place::{Geometry, Placed};
 use crate::prove::Proof;
 use crate::signature::Signatures;
 use crate::world::{State, World};
@@ -30,6 +33,7 @@ pub struct Session {
     scene: Option<Scene>,
     state: Option<State>,
     options: Options,
+    geometry: Option<Arc<Geometry>>,
 }
 
 /// What compiling a document gave.
@@ -60,8 +64,17 @@ impl Session {
         let (library, mut diagnostics) = builder.clone().build();
         let (world, said) = World::new(&library, scene, state);
         diagnostics.extend(said);
-        let session = Self { builder, library, world, scene: scene.cloned(), state: state.cloned(), options };
+        let (scene, state) = (scene.cloned(), state.cloned());
+        let session = Self { builder, library, world, scene, state, options, geometry: None };
         (session, diagnostics)
+    }
+
+    /// The same session, which also answers motions. The geometry is that of the session's robot, scene and state; it may be
+    /// shared, and keeps what it has answered. Without it every motion is deferred.
+    #[must_use]
+    pub fn with_geometry(mut self, geometry: Arc<Geometry>) -> Self {
+        self.geometry = Some(geometry);
+        self
     }
 
     /// The declarations in force.
@@ -79,16 +92,17 @@ impl Session {
     /// Everything there is to say about a document: its front end's findings and those of every policy in it.
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
-        self.findings(parsed).into_iter().map(|finding| finding.diagnostic).collect()
+        let findings = self.findings(parsed, self.geometry.as_deref());
+        findings.into_iter().map(|finding| finding.diagnostic).collect()
     }
 
-    /// As [`Self::check`], each finding with all the ways that are known to mend it.
-    pub(crate) fn findings(&self, parsed: &Parsed) -> Vec<Finding> {
+    /// As [`Self::check`], each finding with all the ways that are known to mend it, with geometry where it is given.
+    pub(crate) fn findings(&self, parsed: &Parsed, geometry: Option<&Geometry>) -> Vec<Finding> {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut findings = Vec::new();
         self.within(parsed, &mut diagnostics, |library, world, _| {
             for policy in parsed.file.policies() {
-                findings.extend(self.analyse(policy, parsed, library, world).2);
+                findings.extend(self.analyse(policy, parsed, library, world, geometry).findings);
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -115,13 +129,12 @@ impl Session {
                 }
                 return;
             };
-            let (program, proof, said) = self.analyse(policy, parsed, library, world);
-            let is_error = |said: &Diagnostic| said.severity == Severity::Error;
-            let is_refused =
-                diagnostics.iter().any(is_error) || said.iter().any(|said| is_error(&said.diagnostic));
+            let analysed = self.analyse(policy, parsed, library, world, self.geometry.as_deref());
+            let Analysed { program, proof, placed, findings: said } = analysed;
+            let is_refused = diagnostics.iter().any(is_error) || has_errors(&said);
             findings = said;
             if !is_refused {
-                graph = Some(crate::lower::lower(&program, &proof, library, world));
+                graph = Some(crate::lower::lower(&program, &proof, placed, library, world));
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -155,7 +168,8 @@ impl Session {
         parsed: &Parsed,
         library: &Library,
         world: &World,
-    ) -> (Program, Proof, Vec<Finding>) {
+        geometry: Option<&Geometry>,
+    ) -> Analysed {
         let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
         if let Some(robot) =
             policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
@@ -167,15 +181,38 @@ impl Session {
         let (proof, said, offers) = crate::prove::prove(&program, library, world);
         diagnostics.extend(said);
         let mut findings = crate::fix::findings(diagnostics, &offers, parsed, &program, library, world);
-        for finding in &mut findings {
-            place(&mut finding.diagnostic, policy, &program);
+        let mut placed = Placed::new();
+        // What goes before an error was not what was meant, so nothing is said of how it ends.
+        if let Some(geometry) = geometry.filter(|_| !has_errors(&findings)) {
+            let (found, said) = crate::place::place(&program, &proof, library, world, geometry);
+            placed = found;
+            findings.extend(said.into_iter().map(Finding::from));
         }
-        (program, proof, findings)
+        for finding in &mut findings {
+            locate(&mut finding.diagnostic, policy, &program);
+        }
+        Analysed { program, proof, placed, findings }
     }
 }
 
+/// What the stages made of a policy.
+struct Analysed {
+    program: Program,
+    proof: Proof,
+    placed: Placed,
+    findings: Vec<Finding>,
+}
+
+fn is_error(said: &Diagnostic) -> bool {
+    said.severity == Severity::Error
+}
+
+fn has_errors(findings: &[Finding]) -> bool {
+    findings.iter().any(|found| is_error(&found.diagnostic))
+}
+
 /// Gives a finding its path, and moves one inside an inlined policy of another file to the call.
-fn place(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
+fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
     if diagnostic.span.file != policy.span.file
         && let Some(call) = call_site(diagnostic.span, policy, program)
     {

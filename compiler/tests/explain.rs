@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use motet_compiler::{Options, Session, State, codes};
+use motet_compiler::{Geometry, Options, Session, State, codes};
 use motet_robots::{card, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
@@ -229,6 +229,16 @@ impl Case {
         let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
         let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);
         self.said.extend(said);
+        let body = robot.and_then(|robot| card::embedded_urdf(&robot.name));
+        let session = match (robot, body, scene) {
+            (Some(robot), Some(text), Some(scene)) => {
+                let urdf =
+                    urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.ok_or("a broken URDF")?;
+                let budget = motet_geometry::query::Budget::default();
+                session.with_geometry(Geometry::new(robot, &urdf, scene, state, budget).into())
+            }
+            _ => session,
+        };
         for parsed in &policies {
             self.said.extend(session.check(parsed));
             // A file whose policies all have parameters is there to be called.

@@ -33,6 +33,12 @@ pub(crate) struct WorldArgs {
     /// The longest that a policy may take, such as 90s or 10min
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) max_duration: Option<f64>,
+    /// Leave every motion to the run: none is looked for in the scene
+    #[arg(long)]
+    pub(crate) no_geometry: bool,
+    /// How long a motion is looked for before it is left to the run: 1 as usual, 4 for four times as many tries
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) effort: u16,
 }
 
 /// The form of diagnostics.

@@ -165,8 +165,12 @@ impl Tally {
             );
         }
         if self.motions > 0 {
-            let why = if bench.has_scene() { "" } else { ", because no scene was given (--scene NAME)" };
-            note(&format!("note: {} not checked geometrically{why}", were(self.motions)));
+            let (what, why) = match (bench.has_scene(), bench.has_geometry()) {
+                (false, _) => ("not checked geometrically", ", because no scene was given (--scene NAME)"),
+                (true, false) => ("not checked geometrically", ""),
+                (true, true) => ("left to the run", " (`motet compile --emit tree` says why)"),
+            };
+            note(&format!("note: {} {what}{why}", were(self.motions)));
         }
     }
 }

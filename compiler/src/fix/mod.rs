@@ -108,7 +108,7 @@ struct State {
 impl State {
     fn of(session: &Session, text: String, source: &Source, file: FileId) -> Self {
         let parsed = motet_syntax::read(&Source::new(source.name.clone(), text.as_str()), file);
-        Self { findings: session.findings(&parsed), text }
+        Self { findings: session.findings(&parsed, None), text }
     }
 
     fn count(&self, severity: Severity) -> usize {

@@ -12,14 +12,22 @@ use self::table::Tables;
 use crate::check::bounds_of;
 use crate::ir::{Block, Call, Program, Reaction, StepId, StepKind};
 use crate::library::{EffectDef, Library, NeedDef};
+use crate::place::{self, Placed};
 use crate::prove::{Proof, Verdict};
 use crate::world::World;
 
 /// Lowers a program that has no errors.
-pub(crate) fn lower(program: &Program, proof: &Proof, library: &Library, world: &World) -> graph::Graph {
+pub(crate) fn lower(
+    program: &Program,
+    proof: &Proof,
+    placed: Placed,
+    library: &Library,
+    world: &World,
+) -> graph::Graph {
     let mut lowering = Lowering {
         program,
         proof,
+        placed,
         library,
         tables: Tables::new(program, library, world),
         nodes: Vec::with_capacity(program.steps.len()),
@@ -58,6 +66,7 @@ fn has_any(fact: &graph::Fact) -> bool {
 struct Lowering<'a> {
     program: &'a Program,
     proof: &'a Proof,
+    placed: Placed,
     library: &'a Library,
     tables: Tables<'a>,
     nodes: Vec<graph::Node>,
@@ -236,10 +245,15 @@ impl Lowering<'_> {
             deadline_secs: call.within_secs.unwrap_or(def.takes.1),
             retries: call.retries,
             needs,
-            motion: def.motion.as_ref().map(|(query, args)| graph::Motion {
-                query: query.clone(),
-                args: args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect(),
-                verdict: crate::place::verdict(),
+            motion: def.motion.as_ref().map(|(query, args)| {
+                let placed = self.placed.get_mut(step.index()).and_then(Option::take);
+                let (verdict, witness, why) = match placed {
+                    Some(place::Verdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
+                    Some(place::Verdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
+                    None => (graph::Verdict::Deferred, None, None),
+                };
+                let args = args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect();
+                graph::Motion { query: query.clone(), args, verdict, witness, why }
             }),
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),

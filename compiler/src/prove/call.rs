@@ -7,7 +7,7 @@ use super::errors::{Refuted, Stale};
 use super::eval::Frame;
 use super::facts::Key;
 use super::value::{Cause, Value};
-use super::{Prover, Verdict, Verdicts};
+use super::{Certain, Prover, Verdict, Verdicts};
 use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
 use crate::library::{NeedDef, PrimitiveDef};
 
@@ -23,6 +23,7 @@ impl Prover<'_> {
 
         self.check_fresh(id, call, def);
         let mut verdicts = self.needs(id, def, frame, span);
+        self.note_certain(id, def);
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
         self.changes(&def.unsettles, frame, &mut unsettles);
@@ -43,6 +44,29 @@ impl Prover<'_> {
         self.see_states();
         if let Some(slot) = self.proof.needs.get_mut(id.index()) {
             *slot = verdicts;
+        }
+    }
+
+    /// Keeps what is certain of open containers and of the hand for geometry, which walks the policy with worlds and leaves out
+    /// those that cannot be.
+    fn note_certain(&mut self, id: StepId, def: &PrimitiveDef) {
+        if def.motion.is_none() || !self.world.has_scene() {
+            return;
+        }
+        let mut certain = Vec::new();
+        for name in ["open", "holding"] {
+            let Some(fluent) = self.library.names.fluents.get(name).copied() else { continue };
+            self.facts.written(fluent, |key, value| {
+                if value.is_true() || value.is_false() {
+                    let (entity, value) = (Entity(key.arg(0)), value.is_true());
+                    certain.push(Certain { fluent, entity, value });
+                }
+            });
+        }
+        if certain.is_empty() {
+            self.proof.certain.remove(&id);
+        } else {
+            self.proof.certain.insert(id, certain);
         }
     }
 

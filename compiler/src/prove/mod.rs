@@ -17,7 +17,7 @@ mod monitor;
 mod parallel;
 mod show;
 mod story;
-mod symbols;
+pub(crate) mod symbols;
 pub(crate) mod value;
 mod walk;
 
@@ -59,6 +59,16 @@ pub(crate) struct Proof {
     pub(crate) needs: Vec<Verdicts>,
     /// By step: whether it can be reached.
     pub(crate) reached: Vec<bool>,
+    /// What is certain just before a step with a motion, for geometry.
+    pub(crate) certain: FxHashMap<StepId, Vec<Certain>>,
+}
+
+/// A fact that is certain at some step: one of the few that change where things are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Certain {
+    pub(crate) fluent: Fluent,
+    pub(crate) entity: Entity,
+    pub(crate) value: bool,
 }
 
 /// The state of a proof.
@@ -139,7 +149,11 @@ pub(crate) fn prove(
         aliased: vec![false; library.fluents.len()],
         buffers: Default::default(),
         diagnostics: Vec::new(),
-        proof: Proof { needs: vec![Verdicts::new(); steps], reached: vec![false; steps] },
+        proof: Proof {
+            needs: vec![Verdicts::new(); steps],
+            reached: vec![false; steps],
+            certain: FxHashMap::default(),
+        },
         offers: Vec::new(),
     };
     prover.block(&program.body);

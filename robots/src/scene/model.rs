@@ -65,6 +65,31 @@ pub struct Entity {
     pub fields: IndexMap<SmolStr, f64>,
 }
 
+impl Entity {
+    /// A place of which only the pose is known.
+    #[must_use]
+    pub fn place(id: SmolStr, pose: Placement) -> Self {
+        Self {
+            id,
+            kind: SmolStr::new_static("Place"),
+            class: SmolStr::default(),
+            names: Vec::new(),
+            categories: Vec::new(),
+            pose: Some(pose),
+            shape: None,
+            mass_kg: None,
+            fixed: true,
+            on: None,
+            inside: None,
+            visible: None,
+            open: None,
+            locked: None,
+            travel: None,
+            fields: IndexMap::new(),
+        }
+    }
+}
+
 /// A pose as a scene gives it.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Placement {

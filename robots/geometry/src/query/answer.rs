@@ -5,7 +5,7 @@ use smol_str::SmolStr;
 use super::state::State;
 
 /// From where a thing is grasped.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Side {
     /// From above: within 35° of straight down.
     Top,
@@ -16,7 +16,7 @@ pub enum Side {
 }
 
 /// A motion that is asked for. Names are ids of the scene.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Query {
     /// To a standing place from which a thing is served.
     GoTo(SmolStr),
@@ -79,6 +79,15 @@ pub struct Budget {
     pub candidates: usize,
     /// Free candidates to which a path is looked for.
     pub paths: usize,
+}
+
+impl Budget {
+    /// So many times as large.
+    #[must_use]
+    pub fn times(self, factor: usize) -> Self {
+        let Self { candidates, paths } = self;
+        Self { candidates: candidates.saturating_mul(factor), paths: paths.saturating_mul(factor) }
+    }
 }
 
 impl Default for Budget {

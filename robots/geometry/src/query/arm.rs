@@ -62,11 +62,21 @@ impl Room<'_> {
         map_from_tip: &Isometry3<f64>,
         back: f64,
     ) -> Option<Vec<State>> {
-        let points = Vector3::from(hand.card.points);
-        let before = |far: f64| map_from_tip * Translation3::from(-points * far);
+        let away = map_from_tip.rotation * -Vector3::from(hand.card.points) * back;
+        self.line(hand, state, map_from_tip, &away)
+    }
+
+    /// States on the straight line of the hand from `shift`, in m in the map, to `state`, the hand turned alike; `None` where
+    /// the arm cannot follow. `state` itself is the last.
+    pub(super) fn line(
+        &self,
+        hand: &Hand,
+        state: &State,
+        map_from_tip: &Isometry3<f64>,
+        shift: &Vector3<f64>,
+    ) -> Option<Vec<State>> {
         if let Solver::Lift(arm) = &hand.solver {
             // With all else still, the base and the lift alone move the hand along any line.
-            let shift = before(back).translation.vector - map_from_tip.translation.vector;
             let chain = hand.solver.chain();
             let (joint, variable) = (chain.joints.first()?, chain.variables.first()?);
             let mut first = state.clone();
@@ -85,7 +95,8 @@ impl Room<'_> {
             chain.in_tree.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect();
         let mut states = vec![state.clone()];
         for step in 1..=STEPS {
-            let wanted = map_from_base.inverse() * before(back * step as f64 / STEPS as f64);
+            let part = Translation3::from(shift * (step as f64 / STEPS as f64));
+            let wanted = map_from_base.inverse() * (part * map_from_tip);
             let next = numeric::refined(chain, &wanted, &values, 20, Tolerance::EXACT)?;
             let jump = next.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // Another branch of the arm is no straight line.

@@ -160,17 +160,23 @@ impl Found<'_> {
             Grip::Round => (width / 2.0).max(self.thing.extent(approach).min(self.side_extent(approach))),
         };
         let depth = (self.hand.palm + half).max(0.0);
-        let is_held = match grip {
-            Grip::Round => self.hand.fingers >= depth - SHORT * width / 2.0,
-            Grip::Flat => self.hand.fingers - (depth - half) >= GRIP.min(half),
+        // How far the centre may be from the tip at most, so that the fingers still hold.
+        let most = match grip {
+            Grip::Round => self.hand.fingers + SHORT * width / 2.0,
+            Grip::Flat => self.hand.fingers + half - GRIP.min(half),
         };
-        if !is_held {
+        if depth > most {
             return;
         }
-        let at = self.thing.centre + shift - approach * depth;
         let side = if approach.z < -0.819 { Side::Top } else { Side::Side };
-        let map_from_tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(approach, along));
-        self.holds.push(Hold { map_from_tip, approach: *approach, side, width });
+        let rotation = self.hand.turned(approach, along);
+        // From above the finger tips may have to stay above what the thing stands on.
+        let shallow = (side == Side::Top && most > depth + 0.005).then_some(most);
+        for depth in [depth].into_iter().chain(shallow) {
+            let at = self.thing.centre + shift - approach * depth;
+            let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
+            self.holds.push(Hold { map_from_tip, approach: *approach, side, width });
+        }
     }
 
     /// How far the thing extends against a direction on the line through its middle.

@@ -226,6 +226,16 @@ impl Hand {
         opened(joints, &self.open)
     }
 
+    /// A configuration with the fingers around a thing: as far open, from how they rest, as it is wide against the opening.
+    #[must_use]
+    pub fn around(&self, joints: &[f64], rest: &[f64], width: f64) -> Vec<f64> {
+        let share = (width / self.card.opening_m.max(1e-6)).clamp(0.0, 1.0);
+        let closed = |at: usize| rest.get(at).copied().unwrap_or(0.0);
+        let fingers: Vec<(usize, f64)> =
+            self.open.iter().map(|(at, open)| (*at, closed(*at) + (open - closed(*at)) * share)).collect();
+        opened(joints, &fingers)
+    }
+
     /// The rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`, which is
     /// square to it; both of length 1.
     #[must_use]

@@ -4,6 +4,7 @@
 //! A feasible answer is a path of which every leg was certified free, so it holds for the shapes that the card and the scene
 //! give. An infeasible answer says whether it is proven. What is not computed is unknown, and says why.
 
+mod after;
 mod answer;
 mod arm;
 mod go;

@@ -76,6 +76,33 @@ impl World {
         Some(pose * Translation3::new(0.0, 0.0, lifted))
     }
 
+    /// All that tells this world from another of the same robot and scene, bit for bit.
+    #[must_use]
+    pub fn fingerprint(&self) -> Vec<u8> {
+        let mut key = Vec::with_capacity(256);
+        let numbers = |key: &mut Vec<u8>, values: &[f64]| {
+            values.iter().for_each(|value| key.extend_from_slice(&value.to_bits().to_le_bytes()));
+        };
+        let pose = |key: &mut Vec<u8>, id: &str, pose: &Isometry3<f64>| {
+            key.extend_from_slice(id.as_bytes());
+            key.push(0);
+            let (xyz, quaternion) = components(pose);
+            numbers(key, &xyz);
+            numbers(key, &quaternion);
+        };
+        numbers(&mut key, &self.robot.base);
+        numbers(&mut key, &self.robot.joints);
+        self.moved.iter().for_each(|(id, at)| pose(&mut key, id, at));
+        key.push(1);
+        self.held.iter().for_each(|(id, at)| pose(&mut key, id, at));
+        key.push(2);
+        for (id, open) in &self.open {
+            key.extend_from_slice(id.as_bytes());
+            key.push(if *open { 3 } else { 4 });
+        }
+        key
+    }
+
     /// Whether a container is open.
     #[must_use]
     pub fn is_open(&self, entity: &Entity) -> bool {

@@ -52,7 +52,12 @@ fn call(names: &Names<'_>, call: &CallNode, level: usize, out: &mut String) {
         line(out, level, &format!("needs {} — {}", names.need(need), verdict(need.verdict)));
     }
     if let Some(motion) = &call.motion {
-        line(out, level, &format!("motion {} — {}", names.motion(motion), verdict(motion.verdict)));
+        let told = match (&motion.witness, &motion.why) {
+            (Some(witness), _) => format!(", {:.3} m clear", witness.clearance),
+            (None, Some(why)) => format!(": {why}"),
+            (None, None) => String::new(),
+        };
+        line(out, level, &format!("motion {} — {}{told}", names.motion(motion), verdict(motion.verdict)));
     }
     for effect in &call.effects {
         line(out, level, &format!("makes {}", names.effect(effect)));

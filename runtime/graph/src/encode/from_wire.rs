@@ -174,6 +174,8 @@ fn call(call: w::Call) -> m::CallNode {
             query: text(motion.query),
             args: list(motion.args, term),
             verdict: verdict(motion.verdict),
+            witness: motion.witness.map(|found| Box::new(witness(*found))),
+            why: motion.why.map(text),
         }),
         effects: list(call.effects, |effect| m::Effect {
             fact: fact(effect.fact),
@@ -186,6 +188,21 @@ fn call(call: w::Call) -> m::CallNode {
             when: unsettled.when.map(condition),
             each: unsettled.each.map(m::KindId),
         }),
+    }
+}
+
+fn witness(witness: w::Witness) -> m::Witness {
+    m::Witness {
+        joints: list(witness.joints, text),
+        path: list(witness.path, |at| m::Waypoint { base: at.base, joints: at.joints }),
+        grasp: witness.grasp.map(|grasp| m::Grasp {
+            xyz: grasp.xyz,
+            quaternion: grasp.quaternion,
+            width: grasp.width,
+        }),
+        clearance: witness.clearance,
+        limit: witness.limit,
+        payload: witness.payload,
     }
 }
 

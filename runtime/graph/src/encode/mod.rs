@@ -15,8 +15,8 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use wire::Document;
 
-/// The version that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+/// The version that is written, and the only one that is read. 2 since motions have witnesses.
+pub const VERSION: u32 = 2;
 /// The largest document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;
 

@@ -166,6 +166,8 @@ fn call(call: &m::CallNode) -> w::Call {
             query: text(&motion.query),
             args: list(&motion.args, term),
             verdict: verdict(motion.verdict),
+            witness: motion.witness.as_deref().map(witness).map(Box::new),
+            why: motion.why.as_ref().map(text),
         }),
         effects: list(&call.effects, |effect| w::Effect {
             fact: fact(&effect.fact),
@@ -178,6 +180,21 @@ fn call(call: &m::CallNode) -> w::Call {
             when: unsettled.when.as_ref().map(condition),
             each: unsettled.each.map(|id| id.0),
         }),
+    }
+}
+
+fn witness(witness: &m::Witness) -> w::Witness {
+    w::Witness {
+        joints: list(&witness.joints, text),
+        path: list(&witness.path, |at| w::Waypoint { base: at.base, joints: at.joints.clone() }),
+        grasp: witness.grasp.as_ref().map(|grasp| w::Grasp {
+            xyz: grasp.xyz,
+            quaternion: grasp.quaternion,
+            width: grasp.width,
+        }),
+        clearance: witness.clearance,
+        limit: witness.limit,
+        payload: witness.payload,
     }
 }
 

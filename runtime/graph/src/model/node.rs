@@ -192,6 +192,47 @@ pub struct Motion {
     pub args: Vec<Term>,
     /// Whether it is known to have a solution.
     pub verdict: Verdict,
+    /// The solution, where the motion is proven; none where it is deferred. Where several worlds may be met it is that of one.
+    pub witness: Option<Box<Witness>>,
+    /// Why it is deferred, in words, where something is known.
+    pub why: Option<SmolStr>,
+}
+
+/// A motion that solves a query in the world that the compiler expects. Lengths in m, angles in rad, in the frame `map`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Witness {
+    /// The joints that move on the way; all others stay as they are.
+    pub joints: Vec<SmolStr>,
+    /// From where the robot begins to where it ends, at least one; between two the robot moves straight in base and joints.
+    pub path: Vec<Waypoint>,
+    /// How a thing is held or put, where that was asked for.
+    pub grasp: Option<Grasp>,
+    /// Least distance on the way to what stands around, at most 1.
+    pub clearance: f64,
+    /// Room at the end to the nearest limit of a joint that moved, in m or rad.
+    pub limit: Option<f64>,
+    /// What the hand could carry beyond, in kg.
+    pub payload: Option<f64>,
+}
+
+/// Where the robot is on its way.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Waypoint {
+    /// x, y and yaw of the base. Along a path yaw goes on beyond a half turn.
+    pub base: [f64; 3],
+    /// A position for each joint of the witness.
+    pub joints: Vec<f64>,
+}
+
+/// A pose of the hand at which a thing is held.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Grasp {
+    /// Where the hand's tip is.
+    pub xyz: [f64; 3],
+    /// How it is turned: a unit quaternion x, y, z, w.
+    pub quaternion: [f64; 4],
+    /// How wide the hand has to be open.
+    pub width: f64,
 }
 
 /// A change of what is believed.

@@ -140,6 +140,9 @@ pub enum Reason {
     /// Two branches that run at once need the same resource.
     #[error("two branches need `{0}` at the same time")]
     Conflict(SmolStr),
+    /// A motion that is proven without a solution, or has one that is none.
+    #[error("the motion {0}")]
+    Witness(&'static str),
     /// An initial fact that is not ground.
     #[error("what is known at the start must be made of literals")]
     NotGround,

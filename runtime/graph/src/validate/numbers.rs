@@ -1,7 +1,7 @@
-//! Durations, deadlines and bounds.
+//! Durations, deadlines, bounds and the numbers of witnesses.
 
 use super::{Findings, Reason};
-use crate::model::{Bounds, Graph, Node, NodeKind, Reaction};
+use crate::model::{Bounds, Graph, Motion, Node, NodeKind, Reaction, Verdict};
 use smol_str::SmolStr;
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
@@ -18,7 +18,12 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
             findings.node(node, reason);
         }
         match &node.kind {
-            NodeKind::Call(call) => span(findings, node, "the deadline", call.deadline_secs),
+            NodeKind::Call(call) => {
+                span(findings, node, "the deadline", call.deadline_secs);
+                if let Some(why) = call.motion.as_ref().and_then(bad_motion) {
+                    findings.node(node, Reason::Witness(why));
+                }
+            }
             NodeKind::Wait { within_secs, .. } => span(findings, node, "the deadline", *within_secs),
             NodeKind::Repeat { times: 0, .. } => findings.node(node, Reason::NoRuns),
             NodeKind::Monitor { watches, .. } => {
@@ -57,4 +62,28 @@ fn bad_bounds(bounds: Bounds) -> Option<Reason> {
         }
     }
     (least_secs > greatest_secs).then_some(Reason::Bounds { least: least_secs, greatest: greatest_secs })
+}
+
+/// What is wrong with a motion: nothing is called feasible without a solution, and a solution is made of numbers.
+fn bad_motion(motion: &Motion) -> Option<&'static str> {
+    let witness = match (motion.verdict, &motion.witness) {
+        (Verdict::Proven, Some(witness)) => witness,
+        (Verdict::Deferred, None) => return None,
+        (Verdict::Proven, None) => return Some("is proven and has no witness"),
+        (Verdict::Deferred, Some(_)) => return Some("is deferred and has a witness"),
+    };
+    if witness.path.is_empty() {
+        return Some("has a witness without a path");
+    }
+    if witness.path.iter().any(|at| at.joints.len() != witness.joints.len()) {
+        return Some("has a way-point without a position for each joint");
+    }
+    let path = witness.path.iter().flat_map(|at| at.base.iter().chain(&at.joints));
+    let grasp = witness
+        .grasp
+        .iter()
+        .flat_map(|grasp| grasp.xyz.iter().chain(&grasp.quaternion).chain([&grasp.width]));
+    let margins = [&witness.clearance].into_iter().chain(&witness.limit).chain(&witness.payload);
+    let is_number = path.chain(grasp).chain(margins).all(|value| value.is_finite());
+    (!is_number).then_some("has a number that is not finite")
 }

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Document {
-    /// The version of the encoding, 1.
+    /// The version of the encoding, 2.
     pub motet_graph: u32,
     /// `sha256:` and the hash of the document without white space and with an empty hash.
     pub hash: String,

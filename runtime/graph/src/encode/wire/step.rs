@@ -192,6 +192,55 @@ pub struct Motion {
     pub args: Vec<Term>,
     /// Whether it is known to have a solution.
     pub verdict: Verdict,
+    /// The solution of a motion that is proven.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Box<Witness>>,
+    /// Why it is deferred.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+/// A motion that solves a query. Lengths in m, angles in rad.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// The joints that move.
+    pub joints: Vec<String>,
+    /// From where the robot begins to where it ends.
+    pub path: Vec<Waypoint>,
+    /// How a thing is held or put.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grasp: Option<Grasp>,
+    /// Least distance to what stands around.
+    pub clearance: f64,
+    /// Room to the nearest limit of a joint that moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
+    /// What the hand could carry beyond, in kg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload: Option<f64>,
+}
+
+/// Where the robot is on its way.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Waypoint {
+    /// x, y and yaw of the base.
+    pub base: [f64; 3],
+    /// A position for each joint of the witness.
+    pub joints: Vec<f64>,
+}
+
+/// A pose of the hand at which a thing is held.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Grasp {
+    /// Where the hand's tip is.
+    pub xyz: [f64; 3],
+    /// A unit quaternion x, y, z, w.
+    pub quaternion: [f64; 4],
+    /// How wide the hand has to be open.
+    pub width: f64,
 }
 
 /// A change of what is believed.

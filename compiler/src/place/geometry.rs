@@ -1,0 +1,156 @@
+//! What geometry needs, made once for a robot and a scene, with the answers that were given so far.
+
+use std::sync::{Arc, Mutex};
+
+use motet_geometry::query::{Answer, Budget, Machine, Query, Room, Witness, World};
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Placement, Scene};
+use motet_robots::urdf::Urdf;
+use rustc_hash::FxHashMap;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::ways::Keyed;
+use crate::world::State;
+
+/// The most answers that are kept; beyond, all are forgotten. They are the same when asked again.
+const MOST_ANSWERS: usize = 20_000;
+
+/// A robot's body in a scene, of which motions are asked.
+#[derive(Debug)]
+pub struct Geometry {
+    machine: Machine,
+    scene: Scene,
+    start: Result<Arc<Keyed>, SmolStr>,
+    budget: Budget,
+    memo: Mutex<Memo>,
+}
+
+#[derive(Debug, Default)]
+struct Memo {
+    answers: FxHashMap<(Box<[u8]>, Query), Arc<Answer>>,
+    after: FxHashMap<(Box<[u8]>, Query, Change), Next>,
+}
+
+/// The world after a motion, where it is known.
+type Next = Option<Arc<Keyed>>;
+
+/// What a step leaves behind beside where the base and the arm went.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Change {
+    /// The robot is where the way led.
+    Gone,
+    /// The robot is where it was, with the thing in its hand.
+    Taken,
+}
+
+impl Geometry {
+    /// A robot in a scene, in a state where one is given. O(parts² of the robot).
+    #[must_use]
+    pub fn new(robot: &Robot, urdf: &Urdf, scene: &Scene, state: Option<&State>, budget: Budget) -> Self {
+        let machine = Machine::new(robot, urdf, None);
+        let mut scene = scene.clone();
+        let start = begin(&machine, &mut scene, state);
+        Self { machine, scene, start, budget, memo: Mutex::default() }
+    }
+
+    /// The world at the start, or why it is not known.
+    pub(super) fn start(&self) -> Result<Arc<Keyed>, SmolStr> {
+        self.start.clone()
+    }
+
+    pub(super) fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Whether a container with a door is open in a world; none of what has no door.
+    pub(super) fn is_open(&self, world: &World, id: &str) -> Option<bool> {
+        let entity = self.scene.entities.get(id)?;
+        entity.travel.as_ref()?;
+        Some(world.is_open(entity))
+    }
+
+    /// Answers a query in a world.
+    pub(super) fn answer(&self, at: &Keyed, query: &Query) -> Arc<Answer> {
+        let key = (at.key.clone(), query.clone());
+        if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
+            return known;
+        }
+        let answer = Arc::new(Room::new(&self.machine, &self.scene, &at.world).answer(query, self.budget));
+        if let Some(mut memo) = self.memo() {
+            if memo.answers.len() >= MOST_ANSWERS {
+                *memo = Memo::default();
+            }
+            memo.answers.insert(key, Arc::clone(&answer));
+        }
+        answer
+    }
+
+    /// The world after a motion that was found; none where it is not known.
+    pub(super) fn after(
+        &self,
+        at: &Keyed,
+        query: &Query,
+        change: Change,
+        way: &Witness,
+    ) -> Option<Arc<Keyed>> {
+        let key = (at.key.clone(), query.clone(), change);
+        if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
+            return known;
+        }
+        let room = Room::new(&self.machine, &self.scene, &at.world);
+        let world = match change {
+            Change::Gone => Some(room.gone_along(way)),
+            Change::Taken => room.taken(way),
+        };
+        let world = world.map(|world| Arc::new(keyed(world)));
+        if let Some(mut memo) = self.memo() {
+            memo.after.insert(key, world.clone());
+        }
+        world
+    }
+
+    /// A lock that was poisoned by a panic elsewhere only loses what was kept.
+    fn memo(&self) -> Option<std::sync::MutexGuard<'_, Memo>> {
+        self.memo.lock().ok()
+    }
+}
+
+/// The world of a scene and a state. `start` becomes a place of the scene.
+fn begin(machine: &Machine, scene: &mut Scene, state: Option<&State>) -> Result<Arc<Keyed>, SmolStr> {
+    for (fact, (holds, _)) in state.into_iter().flat_map(|state| &state.facts) {
+        let Some((fluent, args)) = fact.split_once('(') else { continue };
+        let arg = args.trim_end_matches(')').trim().trim_matches('`');
+        match fluent.trim() {
+            "open" => {
+                if let Some(entity) = scene.entities.get_mut(arg) {
+                    entity.open = Some(*holds);
+                }
+            }
+            "holding" if *holds => scene.robot.holding = Some(Some(arg.into())),
+            "at" | "on" | "in" | "holding" => {
+                return Err(format_smolstr!(
+                    "the state says `{fact}`, and the scene does not say where that is"
+                ));
+            }
+            _ => {}
+        }
+    }
+    let is_door = |entity: &&Entity| entity.travel.is_some() && entity.open.is_none();
+    if let Some(door) = scene.entities.values().find(is_door) {
+        return Err(format_smolstr!("it is not known whether `{}` is open", door.id));
+    }
+    if let Some(Some(held)) = &scene.robot.holding
+        && scene.entities.get(held).is_none_or(|entity| entity.shape.is_none())
+    {
+        return Err(format_smolstr!("the shape of `{held}`, which the hand holds, is not known"));
+    }
+    let [x, y, yaw] = scene.robot.base;
+    let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
+    scene.entities.entry("start".into()).or_insert_with(|| Entity::place("start".into(), pose));
+    Ok(Arc::new(keyed(World::new(machine, scene))))
+}
+
+fn keyed(world: World) -> Keyed {
+    let key = world.fingerprint().into_boxed_slice();
+    Keyed { world, key }
+}

@@ -1,0 +1,162 @@
+//! Motions in the worlds after the steps before them: what is feasible has a witness in the graph, what is not says why, and
+//! what turns on something that only the run can tell is left to it.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    clippy::print_stderr,
+    missing_docs,
+    reason = "a test fails by panicking"
+)]
+
+use std::sync::{Arc, LazyLock};
+
+use motet_compiler::{Geometry, Options, Session};
+use motet_geometry::query::Budget;
+use motet_graph::{CallNode, Graph, NodeKind, Verdict};
+use motet_robots::card::{self, Robot};
+use motet_robots::scene::{self, Placement, Scene};
+use motet_robots::urdf::{self, Urdf};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
+
+fn robot(name: &str) -> (Robot, Urdf) {
+    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+    let robot = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    (robot, urdf)
+}
+
+fn kitchen() -> Scene {
+    let text = scene::embedded().iter().find(|(known, _)| *known == "kitchen").unwrap().1;
+    scene::read(&Source::new("kitchen", text), FileId(0)).0.unwrap()
+}
+
+fn session(scene: &Scene) -> Session {
+    let (robot, urdf) = robot("hsr");
+    let mut sources = Sources::default();
+    let (session, said) =
+        Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut sources);
+    assert!(said.is_empty(), "{said:?}");
+    let geometry = Geometry::new(&robot, &urdf, scene, None, Budget::default());
+    session.with_geometry(Arc::new(geometry))
+}
+
+static KITCHEN: LazyLock<Session> = LazyLock::new(|| session(&kitchen()));
+
+fn compile(session: &Session, policy: &str) -> (Option<Graph>, Vec<Diagnostic>) {
+    let compiled = session.compile(&motet_syntax::read(&Source::new("policy", policy), FileId(99)), None);
+    (compiled.graph, compiled.diagnostics)
+}
+
+fn errors(said: &[Diagnostic]) -> Vec<String> {
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    errors.map(|said| format!("{} {}", said.code, said.message)).collect()
+}
+
+/// The motions of a policy that is right: each with its verdict, and why it is deferred.
+fn motions(session: &Session, policy: &str) -> Vec<(String, Verdict, String)> {
+    let (graph, said) = compile(session, policy);
+    assert!(errors(&said).is_empty(), "{:?}", errors(&said));
+    let graph = graph.unwrap();
+    motet_graph::validate(&graph).unwrap();
+    assert_eq!(motet_graph::decode(&motet_graph::encode(&graph)).unwrap(), graph);
+    let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+        NodeKind::Call(CallNode { motion: Some(motion), .. }) => Some(motion),
+        _ => None,
+    });
+    calls
+        .map(|motion| {
+            let why = motion.why.clone().unwrap_or_default().to_string();
+            (motion.query.to_string(), motion.verdict, why)
+        })
+        .collect()
+}
+
+/// The one error of a policy, and what it points at.
+fn refusal(session: &Session, policy: &str) -> (String, Vec<String>) {
+    let (graph, said) = compile(session, policy);
+    assert!(graph.is_none());
+    let errors: Vec<_> = said.iter().filter(|said| said.severity == Severity::Error).collect();
+    let [only] = errors.as_slice() else { panic!("{errors:?}") };
+    (format!("{} {}", only.code, only.message), only.related.iter().map(|it| it.message.clone()).collect())
+}
+
+#[test]
+fn fetching_is_feasible_step_by_step() {
+    let found = motions(
+        &KITCHEN,
+        "policy fetch for hsr { go(kitchen_table) pick(mug_1) go(user) handover(mug_1, user) }",
+    );
+    for (query, verdict, why) in &found[..3] {
+        assert_eq!(*verdict, Verdict::Proven, "{query}: {why}");
+    }
+    assert_eq!(found.len(), 4);
+}
+
+#[test]
+fn what_only_the_run_can_tell_is_left_to_it() {
+    let found = motions(
+        &KITCHEN,
+        r#"policy tidy for hsr { go(kitchen_table) let cups = detect_all("cup") each cup in cups at most 2 { go(cup) } }"#,
+    );
+    assert_eq!(found[0].1, Verdict::Proven, "{found:?}");
+    let (_, verdict, why) = found.last().unwrap();
+    assert_eq!(*verdict, Verdict::Deferred);
+    assert_eq!(why, "which thing `cup` is, only the run can tell");
+}
+
+#[test]
+fn without_geometry_every_motion_is_deferred() {
+    let (robot, _) = robot("hsr");
+    let scene = kitchen();
+    let (session, _) =
+        Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut Sources::default());
+    let found = motions(&session, "policy come for hsr { go(sink) }");
+    assert_eq!(found, [("go_to".to_owned(), Verdict::Deferred, String::new())]);
+}
+
+/// The kitchen with walls around the sink, higher than the robot.
+fn walled() -> Scene {
+    let mut scene = kitchen();
+    let walls = [(2.1, -0.9, 2.4, 0.1), (2.1, -3.3, 2.4, 0.1), (0.9, -2.1, 0.1, 2.5), (3.3, -2.1, 0.1, 2.5)];
+    for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
+        let mut wall = scene.entities["shelf"].clone();
+        wall.id = format!("wall_{at}").into();
+        wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
+        wall.shape = Some(scene::Shape::Box([along, across, 2.0]));
+        scene.entities.insert(wall.id.clone(), wall);
+    }
+    scene
+}
+
+#[test]
+fn a_way_that_is_blocked_is_refused_with_its_story() {
+    let (said, since) = refusal(&session(&walled()), "policy wash for hsr { go(user) go(sink) }");
+    assert!(said.starts_with("M060"), "{said}");
+    assert!(said.contains("the robot stands where `go(user)` brought it"), "{said}");
+    assert_eq!(since, ["the robot came here"]);
+}
+
+#[test]
+fn an_infeasible_motion_that_is_never_reached_is_no_error() {
+    let found =
+        motions(&session(&walled()), "policy wash for hsr { go(user) if open(drawer_1) { go(sink) } }");
+    assert_eq!(found[0].1, Verdict::Proven);
+    // In the scene the drawer is closed.
+    assert_eq!(found.len(), 1, "{found:?}");
+}
+
+#[test]
+fn a_loop_comes_to_an_end() {
+    let found = motions(&KITCHEN, "policy pace for hsr { repeat 3 { go(user) go(sink) } }");
+    assert_eq!(found.len(), 2);
+}
+
+#[test]
+fn after_a_failure_it_is_not_known_where_the_robot_stopped() {
+    let found = motions(&KITCHEN, "policy come for hsr { try { go(sink) } catch any { go(user) } }");
+    assert_eq!(found[0].1, Verdict::Proven);
+    assert_eq!((found[1].1, found[1].2.as_str()), (Verdict::Deferred, "where `go` stopped is not known"));
+}

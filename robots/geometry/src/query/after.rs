@@ -1,0 +1,86 @@
+//! The world after a motion: where the robot then is, what it holds.
+//!
+//! A motion of the base ends where its path ends. A motion of the hand ends with the robot back where it began it, with what
+//! it took, and only where a way back was certified: lifted off its support, or straight back, and then as it came.
+
+use nalgebra::Vector3;
+
+use super::answer::Witness;
+use super::machine::Machine;
+use super::room::{GAP, Room};
+use super::state::State;
+use super::touch::Allowed;
+use super::travel::Tally;
+use super::world::World;
+use crate::collision::Solid;
+use motet_robots::scene::Scene;
+
+/// How far a thing is lifted off what it stands on before the robot moves on, in m.
+const LIFT: f64 = 0.05;
+/// How far the hand draws back, in m.
+const BACK: [f64; 2] = [0.1, 0.05];
+
+impl Room<'_> {
+    /// The world after the robot went a way, without anything taken or put down.
+    #[must_use]
+    pub fn gone_along(&self, witness: &Witness) -> World {
+        let mut world = self.world.clone();
+        if let Some(last) = witness.path.last() {
+            world.robot = last.clone();
+        }
+        let [_, _, yaw] = &mut world.robot.base;
+        *yaw = crate::trigonometry::wrapped(*yaw);
+        world
+    }
+
+    /// The world after a thing was taken as a witness of `reach` says, with the robot back where it began; `None` where no way
+    /// back was found.
+    #[must_use]
+    pub fn taken(&self, witness: &Witness) -> Option<World> {
+        let grasp = witness.grasp.as_ref()?;
+        let hand = self.machine.hand()?;
+        let end = witness.path.last()?;
+        let mut world = self.world.clone();
+        world.held = Some((grasp.object.clone(), grasp.tip_from_object));
+        world.moved.remove(&grasp.object);
+        let rest = self.machine.rest();
+        world.robot.joints = hand.around(&world.robot.joints, rest, grasp.width);
+        let end = &State { base: end.base, joints: hand.around(&end.joints, rest, grasp.width) };
+        let (index, _) = self.entity(&grasp.object)?;
+        let support = self.support(index);
+        let (machine, scene): (&Machine, &Scene) = (self.machine, self.scene);
+        let room = Room::new(machine, scene, &world);
+        let held = Allowed { hand: None, held: support };
+        let up = Vector3::new(0.0, 0.0, LIFT);
+        let back = |far: f64| grasp.map_from_tip.rotation * -Vector3::from(hand.card.points) * far;
+        let ways = [up, back(BACK[0]), back(BACK[1]), up + back(BACK[0])];
+        let is_back = ways.into_iter().any(|shift| {
+            let Some(line) = room.line(hand, end, &grasp.map_from_tip, &shift) else { return false };
+            let is_free = line.windows(2).all(|pair| match pair {
+                [one, other] => room.edge(one, other, held).is_ok(),
+                _ => true,
+            });
+            is_free
+                && line
+                    .first()
+                    .is_some_and(|first| room.leads_back(first, &grasp.map_from_tip.translation.vector))
+        });
+        is_back.then_some(world)
+    }
+
+    /// Whether a way leads between where the robot is in this room and a state in front of a place.
+    pub(super) fn leads_back(&self, state: &State, place: &Vector3<f64>) -> bool {
+        let [x, y, _] = state.base;
+        let (dx, dy) = (place.x - x, place.y - y);
+        let far = libm::hypot(dx, dy).max(1e-9);
+        self.route(state, [dx / far, dy / far], &mut Tally::default()).is_some()
+    }
+
+    /// What an entity stands on: the first other that is no farther from it than everything stays from everything.
+    pub(super) fn support(&self, entity: usize) -> Option<usize> {
+        let own: Vec<&Solid> = self.solids_of(entity).collect();
+        let touches = |solid: &Solid| own.iter().any(|own| !own.is_farther(solid, GAP + 0.001));
+        let others = self.things.iter().filter(|thing| thing.entity != entity);
+        others.filter(|thing| touches(&thing.solid)).map(|thing| thing.entity).next()
+    }
+}
