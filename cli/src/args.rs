@@ -5,12 +5,14 @@ mod feasible;
 mod import;
 mod input;
 mod journal;
+mod plan;
 mod run;
 
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use journal::{Moment, ReplayArgs};
+pub(crate) use plan::{PlanArgs, PlanForm};
 pub(crate) use run::{RunArgs, RunFormat, Speed};
 
 use std::path::PathBuf;
@@ -59,6 +61,8 @@ pub(crate) enum Command {
     Compile(CompileArgs),
     /// Write the files of another planning language as Motet
     Import(ImportArgs),
+    /// Plan a policy for a request or a goal, without a model
+    Plan(PlanArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Step the engine through the journal of a run again, and say where it differs

@@ -7,6 +7,7 @@ pub(crate) mod explain;
 pub(crate) mod feasible;
 pub(crate) mod fmt;
 pub(crate) mod import;
+pub(crate) mod plan;
 pub(crate) mod replay;
 pub(crate) mod robots;
 pub(crate) mod run;

@@ -11,6 +11,7 @@ mod ir;
 mod library;
 mod lower;
 mod place;
+pub mod plan;
 mod prove;
 mod resolve;
 mod session;

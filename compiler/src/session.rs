@@ -89,6 +89,11 @@ impl Session {
         Signatures::new(&self.library, &self.world)
     }
 
+    /// The world at the start.
+    pub(crate) fn world(&self) -> &World {
+        &self.world
+    }
+
     /// Everything there is to say about a document: its front end's findings and those of every policy in it.
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {

@@ -13,6 +13,9 @@ pub struct Row {
     pub id: String,
     /// What the person said.
     pub instruction: String,
+    /// What kind of instruction it is.
+    #[serde(default)]
+    pub family: String,
     robot_start: Start,
     scene: Map<String, Value>,
     expected_plan: Vec<Op>,

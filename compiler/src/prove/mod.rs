@@ -3,12 +3,12 @@
 //!
 //! It costs what the policy changes, not what the world holds: facts are written on a trail and taken back at forks.
 
-mod apply;
+pub(crate) mod apply;
 mod assume;
 mod call;
 mod collect;
 pub(crate) mod errors;
-mod eval;
+pub(crate) mod eval;
 pub(crate) mod facts;
 mod flow;
 mod intent;
@@ -24,6 +24,8 @@ mod walk;
 use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+
+pub(crate) use self::assume::mentions;
 
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
@@ -128,34 +130,7 @@ pub(crate) fn prove(
     library: &Library,
     world: &World,
 ) -> (Proof, Vec<Diagnostic>, Vec<Offer>) {
-    let mut facts = Facts::above(&world.facts);
-    let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
-    let steps = program.steps.len();
-    let mut prover = Prover {
-        library,
-        world,
-        program,
-        symbols: Symbols::new(program, library, world),
-        facts,
-        fresh,
-        lasting: FxHashMap::default(),
-        watched: Vec::new(),
-        volatile: Vec::new(),
-        enclosing: Vec::new(),
-        here: None,
-        splits: Vec::new(),
-        live: true,
-        fixpoints: 0,
-        aliased: vec![false; library.fluents.len()],
-        buffers: Default::default(),
-        diagnostics: Vec::new(),
-        proof: Proof {
-            needs: vec![Verdicts::new(); steps],
-            reached: vec![false; steps],
-            certain: FxHashMap::default(),
-        },
-        offers: Vec::new(),
-    };
+    let mut prover = Prover::new(program, library, world);
     prover.block(&program.body);
     if prover.live {
         let last = program.body.last().copied();
@@ -166,4 +141,38 @@ pub(crate) fn prove(
     }
     prover.report_unreached();
     (prover.proof, prover.diagnostics, prover.offers)
+}
+
+impl<'a> Prover<'a> {
+    /// The state before the first step.
+    pub(crate) fn new(program: &'a Program, library: &'a Library, world: &'a World) -> Self {
+        let mut facts = Facts::above(&world.facts);
+        let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
+        let steps = program.steps.len();
+        Self {
+            library,
+            world,
+            program,
+            symbols: Symbols::new(program, library, world),
+            facts,
+            fresh,
+            lasting: FxHashMap::default(),
+            watched: Vec::new(),
+            volatile: Vec::new(),
+            enclosing: Vec::new(),
+            here: None,
+            splits: Vec::new(),
+            live: true,
+            fixpoints: 0,
+            aliased: vec![false; library.fluents.len()],
+            buffers: Default::default(),
+            diagnostics: Vec::new(),
+            proof: Proof {
+                needs: vec![Verdicts::new(); steps],
+                reached: vec![false; steps],
+                certain: FxHashMap::default(),
+            },
+            offers: Vec::new(),
+        }
+    }
 }

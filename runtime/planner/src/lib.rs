@@ -1,1 +1,7 @@
-//! Not written yet: this crate holds its place in the workspace.
+//! From an instruction to a policy that is checked, run, and replaced when the world or the person wants otherwise.
+//!
+//! [`builtin`] is the planner that needs no model: a small grammar of household requests gives goals, and a search over the
+//! contracts of the robot's primitives gives the calls that reach them. What it does not understand it says.
+
+pub mod builtin;
+pub mod request;

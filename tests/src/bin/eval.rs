@@ -1,5 +1,6 @@
-//! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json]`.
+//! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
+//! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
 //! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
 //! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
 //! of them are mended.
@@ -7,7 +8,7 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use motet_tests::eval::{Judged, planbench, repairs, saycan, scenarios, summary};
+use motet_tests::eval::{Judged, planbench, planned, repairs, saycan, scenarios, summary};
 
 /// What a suite has to say of the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -40,13 +41,19 @@ fn main() -> ExitCode {
 fn run() -> Result<bool, String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let only_json = args.iter().any(|arg| arg == "--json");
-    let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| *arg != "--json").collect();
+    let is_planned = args.iter().any(|arg| arg == "--planned");
+    let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!("usage: eval {} FILE [--json]", names.join("|"))
     };
     let [name, file] = words.as_slice() else { return Err(usage()) };
-    let Some((_, suite)) = SUITES.iter().find(|(known, _)| known == name) else { return Err(usage()) };
+    let known = SUITES.iter().find(|(known, _)| known == name);
+    let suite = match (known, is_planned) {
+        (Some(("saycan", _)), true) => planned_from_text,
+        (Some((_, suite)), false) => *suite,
+        (Some(_), true) | (None, _) => return Err(usage()),
+    };
     let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
@@ -71,6 +78,19 @@ fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) ->
     Ok(Report {
         lines: rows.iter().filter_map(Judged::disagreement).collect(),
         is_good: sums.agree == sums.total,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn planned_from_text(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let rows = each(lines, planned::attempt)?;
+    let sums = planned::sums(rows.iter());
+    let notes = rows
+        .iter()
+        .filter_map(|row| Some(format!("{}: {}: {}", row.id, row.instruction, row.note.as_ref()?)));
+    Ok(Report {
+        lines: notes.chain(planned::table(&rows)).collect(),
+        is_good: sums.execution * 10 >= sums.total * 6,
         summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
     })
 }

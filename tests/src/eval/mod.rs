@@ -1,6 +1,7 @@
 //! Verdicts of the compiler beside verdicts that are not ours, row by row.
 
 pub mod planbench;
+pub mod planned;
 pub mod repairs;
 pub mod saycan;
 pub mod scenarios;

@@ -26,7 +26,7 @@ enum Applies<'e> {
 
 impl<'a> Prover<'a> {
     /// Calls that make a fact, in the order of the library; those of which an effect still stands under a condition last.
-    pub(super) fn makers(&self, want: Want) -> Vec<Maker<'a>> {
+    pub(crate) fn makers(&self, want: Want) -> Vec<Maker<'a>> {
         let library = self.library;
         let mut found: Vec<Maker<'a>> = Vec::new();
         let mut under = Vec::new();

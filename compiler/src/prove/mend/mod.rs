@@ -74,15 +74,15 @@ pub(crate) struct Proposed {
 
 /// A call that brings about a fact.
 #[derive(Clone, Debug)]
-pub(super) struct Maker<'l> {
-    pub(super) call: Proposed,
+pub(crate) struct Maker<'l> {
+    pub(crate) call: Proposed,
     pub(super) want: Want,
     /// What the effect stands under, and for which entity.
-    pub(super) when: Option<(&'l Condition, Option<Entity>)>,
+    pub(crate) when: Option<(&'l Condition, Option<Entity>)>,
 }
 
 /// A fact that is asked for: the fluent, its arguments, its truth.
-type Want = (Fluent, Key, bool);
+pub(crate) type Want = (Fluent, Key, bool);
 
 impl Prover<'_> {
     /// Offers what would make the needs of a step hold, where nothing is offered for it yet.

@@ -1,0 +1,287 @@
+//! What is still missing, and what can be done about it now: additive costs over the calls that make what a goal lacks
+//! (Bonet and Geffner 2001), worked out backwards from the goal, with the facts as they are. The calls at the ends of these
+//! chains, whose needs are met, are those that are worth trying (Hoffmann and Nebel 2001, helpful actions).
+
+use rustc_hash::FxHashMap;
+
+use crate::ir::{Condition, Fact, Fluent, Kind, Term};
+use crate::library::{NeedDef, PrimitiveDef};
+use crate::prove::Prover;
+use crate::prove::eval::Frame;
+use crate::prove::facts::Key;
+use crate::prove::mend::{Maker, Proposed};
+use crate::prove::value::Value;
+
+/// A call.
+const STEP: u32 = 100;
+/// For each kind between that of an argument and the one that a parameter asks for: what is declared for a person suits a
+/// person better than what is declared for anything.
+const GENERAL: u32 = 10;
+/// A thing that is found by a description, where what it is is known.
+const RESULT: u32 = 150;
+/// An argument that neither a need nor an effect speaks of: nothing says which is right.
+const GUESS: u32 = 300;
+/// A need that is left to a guard.
+const GUARD: u32 = 300;
+/// The same, where a perception could tell.
+const UNSEEN: u32 = 1_000;
+/// The most calls that are looked at for one state.
+const EFFORT: u32 = 4_000;
+/// How deep needs of needs are followed.
+const DEPTH: usize = 14;
+
+/// A fact that is asked for.
+type Want = (Fluent, Key, bool);
+
+/// What something costs: calls to make, and needs left to guards.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+struct Cost {
+    calls: u32,
+    guards: u32,
+}
+
+impl Cost {
+    const fn sum(self) -> u32 {
+        self.calls.saturating_add(self.guards)
+    }
+
+    const fn and(self, other: Self) -> Self {
+        Self {
+            calls: self.calls.saturating_add(other.calls),
+            guards: self.guards.saturating_add(other.guards),
+        }
+    }
+}
+
+/// A call whose needs are met.
+#[derive(Clone, Debug)]
+pub(super) struct Ready {
+    pub(super) call: Proposed,
+    /// What it costs, with what it leaves to guards.
+    pub(super) cost: u32,
+}
+
+/// The estimate of one state.
+pub(super) struct Estimate<'p, 'a> {
+    prover: &'p Prover<'a>,
+    known: FxHashMap<Want, Cost>,
+    /// Facts that are being looked at: what needs itself cannot be made.
+    asked: Vec<Want>,
+    effort: u32,
+    /// The calls that can be made now, in the order in which they were found.
+    pub(super) ready: Vec<Ready>,
+    /// What cannot be met, and how far from the goal it was found: the nearest says most.
+    pub(super) dead: Option<String>,
+    dead_at: usize,
+}
+
+impl<'p, 'a> Estimate<'p, 'a> {
+    pub(super) fn new(prover: &'p Prover<'a>) -> Self {
+        Self {
+            prover,
+            known: FxHashMap::default(),
+            asked: Vec::new(),
+            effort: EFFORT,
+            ready: Vec::new(),
+            dead: None,
+            dead_at: 0,
+        }
+    }
+
+    /// What it would cost to reach a goal; none where nothing reaches it.
+    pub(super) fn goal(&mut self, goal: &Condition) -> Option<u32> {
+        self.condition(goal, true, Frame::default()).map(Cost::sum)
+    }
+
+    fn condition(&mut self, condition: &Condition, truth: bool, frame: Frame<'_>) -> Option<Cost> {
+        let value = self.prover.evaluate(condition, frame);
+        let value = if truth { value } else { value.not() };
+        if !value.no.is_some() && !value.open.is_some() {
+            return Some(Cost::default());
+        }
+        match condition {
+            Condition::Not(inner) => self.condition(inner, !truth, frame),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                let is_choice = matches!(condition, Condition::AnyOf(_)) == truth;
+                let costs: Vec<_> = parts.iter().map(|part| self.condition(part, truth, frame)).collect();
+                if is_choice {
+                    return costs.into_iter().flatten().min_by_key(|cost| cost.sum());
+                }
+                costs.into_iter().try_fold(Cost::default(), |all, cost| Some(all.and(cost?)))
+            }
+            Condition::Fact(fact) => self.fact(fact, truth, frame, value),
+            // A plan can put a monitor around a step; what numbers say is known or left to a guard.
+            Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) | Condition::Unknown => {
+                Some(Cost::default())
+            }
+            Condition::Literal(_) | Condition::Compare(..) => {
+                if value.no.is_some() {
+                    self.bury(|prover| prover.show(condition, truth, frame));
+                    return None;
+                }
+                Some(Cost::default())
+            }
+        }
+    }
+
+    fn fact(&mut self, fact: &Fact, truth: bool, frame: Frame<'_>, value: Value) -> Option<Cost> {
+        let prover = self.prover;
+        let is_derived = prover.library.fluent(fact.fluent).is_none_or(|def| def.derived);
+        let Some(key) = prover.key(fact, frame).filter(|_| !is_derived) else { return Some(Cost::default()) };
+        if truth || !key.is_pattern() {
+            return self.want((fact.fluent, key, truth), value);
+        }
+        // That none holds: each that may hold has to go.
+        let mut held = Vec::new();
+        prover.facts.entries(fact.fluent, key, |key, value| {
+            if value.yes.is_some() {
+                held.push((key, value));
+            }
+        });
+        held.sort_unstable_by_key(|(key, _)| *key);
+        if held.is_empty() && !value.no.is_some() {
+            return Some(Cost { calls: 0, guards: GUARD });
+        }
+        held.into_iter().try_fold(Cost::default(), |all, (key, value)| {
+            Some(all.and(self.want((fact.fluent, key, false), value.not())?))
+        })
+    }
+
+    fn want(&mut self, want: Want, value: Value) -> Option<Cost> {
+        if let Some(known) = self.known.get(&want) {
+            return Some(*known);
+        }
+        if self.asked.contains(&want) || self.asked.len() >= DEPTH {
+            return None;
+        }
+        self.asked.push(want);
+        let makers = self.prover.makers(want);
+        let costs: Vec<_> = makers.iter().map(|maker| self.maker(maker)).collect();
+        let guard = (!value.no.is_some()).then(|| {
+            let is_seen = self.prover.library.perceived.contains(&want.0);
+            Cost { calls: 0, guards: if is_seen { UNSEEN } else { GUARD } }
+        });
+        let best = costs.into_iter().chain([guard]).flatten().min_by_key(|cost| cost.sum());
+        self.asked.pop();
+        match best {
+            Some(best) => {
+                self.known.insert(want, best);
+            }
+            None if makers.is_empty() => {
+                let (fluent, key, truth) = want;
+                self.bury(|prover| {
+                    let name = prover.library.fluent(fluent).map_or("?", |def| def.name.as_str());
+                    let count = prover.library.fluent(fluent).map_or(0, |def| def.params.len());
+                    let args: Vec<_> =
+                        (0..count).map(|index| prover.argument_name(fluent, index, key.arg(index))).collect();
+                    let not = if truth { "" } else { "not " };
+                    format!("`{not}{name}({})`", args.join(", "))
+                });
+            }
+            None => {}
+        }
+        best
+    }
+
+    fn maker(&mut self, maker: &Maker<'_>) -> Option<Cost> {
+        self.effort = self.effort.checked_sub(1)?;
+        let Maker { call, when, .. } = maker;
+        let def = self.prover.library.primitive(call.primitive)?;
+        let frame = Frame { args: &call.args, result: call.result, each: None };
+        let mut before = Cost::default();
+        if let Some((when, each)) = when {
+            // That an effect does not come about by the way is no reason: there are others.
+            let dead = (self.dead.clone(), self.dead_at);
+            let cost = self.condition(when, true, Frame { each: *each, ..frame });
+            (self.dead, self.dead_at) = dead;
+            before = before.and(cost?);
+        }
+        for need in &def.needs {
+            before = before.and(self.need(need, frame)?);
+        }
+        let found = if def.result.is_some() { RESULT } else { 0 };
+        let own = STEP
+            .saturating_add(self.general(def, call))
+            .saturating_add(guesses(def, call))
+            .saturating_add(found);
+        if before.calls == 0 && !self.ready.iter().any(|ready| ready.call == *call) {
+            self.ready.push(Ready { call: call.clone(), cost: own.saturating_add(before.guards) });
+        }
+        Some(before.and(Cost { calls: own, guards: 0 }))
+    }
+
+    fn need(&mut self, need: &NeedDef, frame: Frame<'_>) -> Option<Cost> {
+        let value = self.prover.need(need, frame).0;
+        if !value.no.is_some() && !value.open.is_some() {
+            return Some(Cost::default());
+        }
+        match need.each {
+            Some(kind) => self.each(need, kind, frame),
+            None => self.condition(&need.condition, true, frame),
+        }
+    }
+
+    /// A quantified need: for each entity for which it is asked.
+    fn each(&mut self, need: &NeedDef, kind: Kind, frame: Frame<'_>) -> Option<Cost> {
+        let (candidates, others) = self.prover.asked(need.when.as_ref(), kind, frame);
+        let guards = if others { GUARD } else { 0 };
+        let mut all = Cost { calls: 0, guards };
+        for candidate in candidates {
+            let frame = Frame { each: Some(candidate), ..frame };
+            all = all.and(self.condition(&need.condition, true, frame)?);
+        }
+        Some(all)
+    }
+
+    /// How much more general the parameters of a call are than its arguments.
+    fn general(&self, def: &PrimitiveDef, call: &Proposed) -> u32 {
+        let library = self.prover.library;
+        let args = call.args.iter().zip(&def.params).filter_map(|(arg, param)| match arg {
+            Term::Entity(entity) => {
+                let kind = self.prover.world.entities().kind(*entity)?;
+                let wanted = param.ty.kind()?;
+                let above = std::iter::successors(Some(kind), |kind| library.kinds.get(kind.index())?.parent);
+                u32::try_from(above.take_while(|kind| *kind != wanted).count()).ok()
+            }
+            _ => None,
+        });
+        args.sum::<u32>().saturating_mul(GENERAL)
+    }
+
+    fn bury(&mut self, show: impl Fn(&Prover<'_>) -> String) {
+        if self.dead.is_none() || self.asked.len() < self.dead_at {
+            self.dead = Some(show(self.prover));
+            self.dead_at = self.asked.len();
+        }
+    }
+}
+
+/// What the arguments cost of which nothing says which is right.
+fn guesses(def: &PrimitiveDef, call: &Proposed) -> u32 {
+    let args = call.args.iter().zip(&def.params).enumerate();
+    let guessed = args.filter(|(index, (arg, param))| {
+        let own = Term::Param(u16::try_from(*index).unwrap_or(u16::MAX));
+        let spoken = |fact: &Fact| fact.args.iter().flatten().any(|term| *term == own);
+        matches!(arg, Term::Entity(_))
+            && param.default.as_ref() != Some(arg)
+            && !def.makes.iter().any(|effect| {
+                spoken(&effect.fact) || effect.when.as_ref().is_some_and(|when| speaks(when, &own))
+            })
+            && !def.needs.iter().any(|need| speaks(&need.condition, &own))
+    });
+    u32::try_from(guessed.count()).unwrap_or(u32::MAX).saturating_mul(GUESS)
+}
+
+/// Whether a condition speaks of a term.
+fn speaks(condition: &Condition, term: &Term) -> bool {
+    match condition {
+        Condition::Fact(fact) => fact.args.iter().flatten().any(|arg| arg == term),
+        Condition::Compare(_, left, right) => left == term || right == term,
+        Condition::Not(inner) => speaks(inner, term),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(|part| speaks(part, term)),
+        Condition::Literal(_)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => false,
+    }
+}

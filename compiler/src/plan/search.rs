@@ -1,0 +1,139 @@
+//! Weighted best-first search (Pohl 1970) over calls. A state is what is known after the calls that lead to it; it is made
+//! again from them where it is needed, since a plan is short and facts are cheap to write and to take back.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::hash::{Hash, Hasher};
+
+use rustc_hash::{FxHashSet, FxHasher};
+
+use super::NoPlan;
+use super::estimate::{Estimate, Ready};
+use crate::ir::{Condition, StepId};
+use crate::prove::Prover;
+use crate::prove::apply::{Change, Lasting};
+use crate::prove::eval::Frame;
+use crate::prove::mend::Proposed;
+use crate::prove::value::Cause;
+
+/// How much what is still missing counts beside what was spent: above 1 the search hurries.
+const WEIGHT: u64 = 2;
+
+/// A state on the way.
+struct Node {
+    parent: Option<usize>,
+    call: Option<Proposed>,
+    spent: u64,
+    depth: usize,
+}
+
+/// Finds calls that reach a goal after `before`. `left` is the budget of states.
+pub(super) fn search(
+    prover: &mut Prover<'_>,
+    before: &[Proposed],
+    goal: &Condition,
+    left: &mut usize,
+) -> Result<Vec<Proposed>, NoPlan> {
+    let shown = |prover: &Prover<'_>| prover.show(goal, true, Frame::default());
+    replay(prover, before);
+    let mut nodes = vec![Node { parent: None, call: None, spent: 0, depth: 0 }];
+    let mut seen: FxHashSet<u64> = FxHashSet::default();
+    seen.insert(fingerprint(prover));
+    // What is nearest first; of equals the one that was found first.
+    let mut open = BinaryHeap::from([(Reverse((0, 0)), 0_usize)]);
+    let mut blocker = None;
+    while let Some((_, index)) = open.pop() {
+        let Some(rest) = left.checked_sub(1) else { return Err(NoPlan::Budget { goal: shown(prover) }) };
+        *left = rest;
+        let way = way(&nodes, index);
+        replay(prover, before);
+        for (offset, call) in way.iter().enumerate() {
+            apply(prover, before.len() + offset, call);
+        }
+        if prover.evaluate(goal, Frame::default()).is_true() {
+            return Ok(way);
+        }
+        let mut estimate = Estimate::new(prover);
+        let is_hopeless = estimate.goal(goal).is_none();
+        let Estimate { mut ready, dead, .. } = estimate;
+        // Of calls that come to the same the cheapest is kept.
+        ready.sort_by_key(|ready| ready.cost);
+        if is_hopeless {
+            if nodes.len() == 1 {
+                blocker = dead;
+            }
+            continue;
+        }
+        let (spent, depth) = nodes.get(index).map_or((0, 0), |node| (node.spent, node.depth));
+        for Ready { call, cost } in ready {
+            let mark = prover.facts.mark();
+            let lasting = prover.lasting.clone();
+            apply(prover, before.len() + depth, &call);
+            if seen.insert(fingerprint(prover)) {
+                let missing = Estimate::new(prover).goal(goal);
+                if let Some(missing) = missing {
+                    let spent = spent + u64::from(cost);
+                    let order = (spent + WEIGHT * u64::from(missing), nodes.len());
+                    open.push((Reverse(order), nodes.len()));
+                    nodes.push(Node { parent: Some(index), call: Some(call), spent, depth: depth + 1 });
+                }
+            }
+            prover.back_to(mark);
+            prover.lasting = lasting;
+        }
+    }
+    Err(NoPlan::Unreachable { goal: shown(prover), blocker })
+}
+
+/// The calls that lead to a node.
+fn way(nodes: &[Node], index: usize) -> Vec<Proposed> {
+    let mut calls = Vec::new();
+    let mut at = Some(index);
+    while let Some(node) = at.and_then(|at| nodes.get(at)) {
+        calls.extend(node.call.clone());
+        at = node.parent;
+    }
+    calls.reverse();
+    calls
+}
+
+/// Takes everything back and makes calls from the start.
+pub(super) fn replay(prover: &mut Prover<'_>, calls: &[Proposed]) {
+    prover.back_to(0);
+    prover.lasting.clear();
+    for (index, call) in calls.iter().enumerate() {
+        apply(prover, index, call);
+    }
+}
+
+/// What is known after a call that succeeds.
+pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &Proposed) {
+    let library = prover.library;
+    let Some(def) = library.primitive(call.primitive) else { return };
+    let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
+    let cause = Cause::step(id);
+    let frame = Frame { args: &call.args, result: call.result, each: None };
+    let (mut makes, mut unsettles): (Vec<Change>, Vec<Change>) = Default::default();
+    prover.changes(&def.makes, frame, &mut makes);
+    prover.changes(&def.unsettles, frame, &mut unsettles);
+    prover.make_stale(id, def, frame);
+    prover.unsettle(&unsettles, cause);
+    prover.make(&makes, cause);
+    if let Some(lasts) = &def.lasts {
+        let entities = lasts.entities.iter().filter_map(|term| prover.argument(term, frame));
+        let entities = entities.map(crate::ir::Entity).collect();
+        prover.lasting.insert(id, Lasting { resources: lasts.resources, entities });
+    }
+}
+
+/// What is known, beside what was known at the start, as a number.
+fn fingerprint(prover: &Prover<'_>) -> u64 {
+    let mut hasher = FxHasher::default();
+    for (fluent, key) in prover.facts.touched(0) {
+        let now = prover.facts.get(fluent, key);
+        if !now.same_set(prover.world.facts.get(fluent, key)) {
+            (fluent, key, now.yes.is_some(), now.no.is_some(), now.open.is_some()).hash(&mut hasher);
+        }
+    }
+    hasher.finish()
+}

@@ -1,0 +1,44 @@
+//! Calls of a plan as steps of a policy.
+
+use motet_syntax::Span;
+use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
+
+use crate::ir::Term;
+use crate::library::Library;
+use crate::prove::mend::Proposed;
+use crate::world::World;
+
+/// A call as the text form writes it. Defaults are left unsaid. None where an argument has no word in the language.
+pub(super) fn call(proposed: &Proposed, library: &Library, world: &World) -> Option<Do> {
+    let def = library.primitive(proposed.primitive)?;
+    let span = Span::default();
+    let mut args = Vec::new();
+    let mut is_plain = true;
+    for (term, param) in proposed.args.iter().zip(&def.params) {
+        if param.default.as_ref() == Some(term) {
+            is_plain = false;
+            continue;
+        }
+        let kind = match term {
+            Term::Entity(entity) => ExprKind::Name(world.entities().name(*entity)?.clone()),
+            Term::Case(of, case) => ExprKind::Name(library.case_name(*of, *case).into()),
+            Term::Text(text) => ExprKind::Text(text.clone()),
+            Term::Bool(value) => ExprKind::Bool(*value),
+            Term::Int(_)
+            | Term::Number(_)
+            | Term::List(_)
+            | Term::Binding(_)
+            | Term::Param(_)
+            | Term::Result
+            | Term::Each
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => return None,
+        };
+        let name = (!is_plain).then(|| Name { text: param.name.clone(), span });
+        args.push(Arg { name, value: Expr { kind, span }, span });
+    }
+    let call = Call { name: Name { text: def.name.clone(), span }, args, span };
+    Some(Do { call, bind: None, within: None, retry: None })
+}

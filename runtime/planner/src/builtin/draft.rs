@@ -1,0 +1,78 @@
+//! The calls of a plan as a policy: a group for each aim, and monitors where a base that moves asks for them.
+
+use motet_compiler::plan::{Goal, Lasts, Plan, PlannedStep};
+use motet_robots::card::Robot;
+use motet_syntax::ast::Expr;
+use motet_syntax::{Form, print};
+
+/// How near a person may be to a base that moves, in m. Closer than where a robot stands to hand something over: from
+/// there it has to be able to leave.
+const CLEARANCE_M: f64 = 0.3;
+
+/// A goal with a name for the steps that reach it.
+#[derive(Clone, Debug)]
+pub struct Aim {
+    /// What shall come about.
+    pub goal: Goal,
+    /// `fetch_coke`
+    pub name: String,
+}
+
+/// The policy as text, not yet in its canonical layout.
+pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Plan) -> String {
+    let mut text = format!("policy {}", print::identifier(name));
+    if let Some(robot) = robot {
+        text.push_str(&format!(" for {}", print::identifier(&robot.name)));
+    }
+    let kept = aims.iter().filter(|aim| aim.goal.lasts == Lasts::ToTheEnd).map(|aim| &aim.goal.condition);
+    let kept: Vec<String> = kept.map(part).collect();
+    if !kept.is_empty() {
+        text.push_str(&format!(" achieves {}", kept.join(" and ")));
+    }
+    text.push_str(" {\n");
+    let is_grouped = aims.len() > 1;
+    let mut open = None;
+    for step in &plan.steps {
+        if is_grouped && open != Some(step.goal) {
+            if open.is_some() {
+                text.push_str("}\n");
+            }
+            let name = aims.get(step.goal).map_or("put_right", |aim| aim.name.as_str());
+            text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
+            open = Some(step.goal);
+        }
+        text.push_str(&watched(step, robot));
+        text.push('\n');
+    }
+    if open.is_some() {
+        text.push_str("}\n");
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// A part of a conjunction, in parentheses where it needs them.
+fn part(condition: &Expr) -> String {
+    let text = print::expression(condition);
+    if matches!(condition.kind, motet_syntax::ast::ExprKind::AnyOf(_)) { format!("({text})") } else { text }
+}
+
+/// A step, watched where the base moves to a person or with something in the hand, and the robot can observe it.
+fn watched(step: &PlannedStep, robot: Option<&Robot>) -> String {
+    let call = print::call(&step.call, Form::Text);
+    let observes = |name: &str| robot.is_some_and(|robot| robot.observes.iter().any(|known| known == name));
+    let mut whens = Vec::new();
+    if let Some(person) = step.approaches.as_ref().filter(|_| observes("distance")) {
+        let person = print::identifier(person);
+        whens.push(format!("when distance({person}) < {CLEARANCE_M} m for 200 ms then pause"));
+    }
+    if let Some(held) = step.carries.as_ref().filter(|_| observes("holding")) {
+        let name = print::identifier(held);
+        whens.push(format!("when not holding({name}) then replan \"lost {}\"", held.replace('"', "'")));
+    }
+    if whens.is_empty() {
+        call
+    } else {
+        format!("monitor {{\n{}\n}} during {{\n{call}\n}}", whens.join("\n"))
+    }
+}

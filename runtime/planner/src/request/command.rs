@@ -1,0 +1,327 @@
+//! Sentences as commands and statements: which verb, what it is about, where from and where to.
+
+use super::noun::{Noun, located, noun};
+use super::token::Token;
+use super::verb::{Act, begins, skip_leads, stands, verb};
+
+/// One thing that is asked for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Command {
+    pub(super) act: Act,
+    /// What it is about.
+    pub(super) items: Vec<Noun>,
+    /// Who gets it.
+    pub(super) to_whom: Option<Noun>,
+    /// Where to: behind `to`, `into`, `on`, `in`, `at`.
+    pub(super) to: Option<Noun>,
+    /// Where the thing is now.
+    pub(super) from: Option<Noun>,
+    /// `away`, `down`, `up`, `back`, `over`: what the verb goes with.
+    pub(super) with: Vec<String>,
+}
+
+/// What somebody says beside what they ask for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Statement {
+    /// The tokens.
+    pub(super) tokens: Vec<Token>,
+}
+
+/// What a request comes to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Spoken {
+    pub(super) commands: Vec<Command>,
+    pub(super) statements: Vec<Statement>,
+}
+
+/// Reads a request. An error is the part that is not understood.
+pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
+    let mut spoken = Spoken::default();
+    let mut at = 0;
+    while at < tokens.len() {
+        if matches!(tokens.get(at), Some(Token::Stop | Token::Comma)) {
+            at += 1;
+            continue;
+        }
+        let begin = skip_leads(tokens, at);
+        if begin >= tokens.len() || matches!(tokens.get(begin), Some(Token::Stop)) {
+            at = begin + 1;
+            continue;
+        }
+        let word = tokens.get(begin).map_or("", Token::word);
+        if let Some(count) = thanks(tokens, begin) {
+            at = begin + count;
+            continue;
+        }
+        if matches!(word, "not" | "never") || stands(tokens, begin, "do not").is_some() {
+            return Err(words(tokens, begin, tokens.len()));
+        }
+        if verb(tokens, begin).is_some() {
+            at = command(tokens, begin, &mut spoken.commands)?;
+            continue;
+        }
+        let end = statement_end(tokens, begin);
+        if !is_statement(tokens, begin) {
+            return Err(words(tokens, begin, end));
+        }
+        let said = tokens.get(begin..end).unwrap_or_default().to_vec();
+        spoken.statements.push(Statement { tokens: said });
+        at = end;
+    }
+    Ok(spoken)
+}
+
+fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
+    [
+        "thank you very much",
+        "thank you so much",
+        "thank you",
+        "thanks a lot",
+        "thanks",
+        "that would be great",
+        "that would be nice",
+        "if possible",
+        "if you can",
+        "if you could",
+        "when you have time",
+        "right away",
+        "immediately",
+        "again",
+        "as soon as possible",
+        "for me",
+        "when you can",
+        "quickly",
+        "too",
+        "as well",
+    ]
+    .iter()
+    .filter_map(|words| stands(tokens, at, words))
+    .max()
+}
+
+/// A statement goes on to the end of its sentence, or to a comma or an `and` behind which something is asked for.
+fn statement_end(tokens: &[Token], begin: usize) -> usize {
+    let mut at = begin;
+    while let Some(token) = tokens.get(at) {
+        let is_joint = matches!(token, Token::Comma) || matches!(token.word(), "and" | "so" | "but");
+        if matches!(token, Token::Stop) || (at > begin && is_joint && begins(tokens, at + 1)) {
+            break;
+        }
+        at += 1;
+    }
+    at
+}
+
+/// A statement has a subject before its verb; anything else that is no command is not understood.
+fn is_statement(tokens: &[Token], begin: usize) -> bool {
+    let word = tokens.get(begin).map_or("", Token::word);
+    let is_subject = matches!(
+        word,
+        "i" | "we"
+            | "my"
+            | "our"
+            | "there"
+            | "it"
+            | "the"
+            | "this"
+            | "that"
+            | "he"
+            | "she"
+            | "they"
+            | "someone"
+            | "somebody"
+            | "a"
+            | "an"
+            | "some"
+            | "these"
+            | "those"
+            | "its"
+            | "in"
+            | "on"
+            | "inside"
+            | "at"
+    );
+    let is_short = tokens.get(begin + 1).is_none();
+    is_subject && !is_short
+}
+
+fn words(tokens: &[Token], begin: usize, end: usize) -> String {
+    let words: Vec<_> = tokens.get(begin..end).unwrap_or_default().iter().map(Token::word).collect();
+    words.join(" ").trim().to_owned()
+}
+
+/// Reads one command, or several that share a verb; where the next thing begins.
+fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
+    let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
+    let mut now = Command::new(act);
+    loop {
+        match tokens.get(at) {
+            None | Some(Token::Stop) => break,
+            Some(Token::Comma) => {
+                let after = skip_and(tokens, at + 1);
+                if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
+                    break;
+                }
+                at = after;
+            }
+            Some(Token::Word(word)) => match word.as_str() {
+                "and" | "then" => {
+                    let after = skip_and(tokens, at);
+                    if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
+                        break;
+                    }
+                    at = after;
+                }
+                _ => at = part(tokens, begin, at, &mut now)?,
+            },
+        }
+    }
+    commands.push(now);
+    Ok(at)
+}
+
+fn skip_and(tokens: &[Token], mut at: usize) -> usize {
+    while tokens.get(at).is_some_and(|token| matches!(token.word(), "and" | "then") || *token == Token::Comma)
+    {
+        at += 1;
+    }
+    at
+}
+
+/// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a command of its own.
+fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
+    let another = noun(tokens, at).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_) | Noun::Before));
+    let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
+    let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
+    if !(another || is_place) {
+        return false;
+    }
+    if now.to.is_some() && !matches!(now.act, Act::Go | Act::Come) {
+        let next = Command { with: now.with.clone(), to_whom: None, ..Command::new(now.act) };
+        commands.push(std::mem::replace(now, next));
+    } else if let (Act::Go | Act::Come | Act::Move, Some(_)) = (now.act, &now.to) {
+        let next = Command::new(Act::Go);
+        commands.push(std::mem::replace(now, next));
+    }
+    true
+}
+
+/// One part of a command: where the next begins.
+fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {
+    if let Some(count) = thanks(tokens, at) {
+        return Ok(at + count);
+    }
+    let word = tokens.get(at).map_or("", Token::word);
+    let lost = || words(tokens, begin, tokens.len().min(at + 4));
+    let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
+    if let Some(count) = ["from off", "from on top of", "from inside", "from", "off of", "off", "out of"]
+        .iter()
+        .filter_map(|words| stands(tokens, at, words))
+        .max()
+    {
+        let Some((source, after)) = noun(tokens, at + count) else {
+            now.with.push(word.to_owned());
+            return Ok(at + 1);
+        };
+        now.from = Some(source);
+        return Ok(after);
+    }
+    // Who gets it was said: what follows is no place but what it is for, `a drink to recover`.
+    if word == "to" && now.act == Act::Fetch && now.to_whom.is_some() && !is_determined(tokens, at + 1) {
+        return Ok(rest(tokens, at));
+    }
+    let to = [
+        "over to",
+        "back to",
+        "up to",
+        "right next to",
+        "next to",
+        "close to",
+        "to",
+        "onto",
+        "into",
+        "towards",
+        "toward",
+        "near",
+        "beside",
+        "by",
+        "in front of",
+    ];
+    if let Some(count) = to.iter().filter_map(|words| stands(tokens, at, words)).max() {
+        let Some((place, after)) = noun(tokens, at + count) else { return Err(lost()) };
+        let is_person = matches!(place, Noun::Speaker);
+        if is_person && !goes {
+            now.to_whom = Some(place);
+        } else {
+            now.to = Some(place);
+        }
+        return Ok(after);
+    }
+    if let Some((place, after)) = located(tokens, at) {
+        // `put the mug on the table in the drawer`: the last is where to, the others say which.
+        if let Some(before) = now.to.replace(place)
+            && now.from.is_none()
+        {
+            now.from = Some(before);
+        }
+        return Ok(after);
+    }
+    if word == "for" {
+        let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
+        now.to_whom.get_or_insert(whom);
+        return Ok(after);
+    }
+    if matches!(
+        word,
+        "up" | "down"
+            | "away"
+            | "out"
+            | "back"
+            | "over"
+            | "in"
+            | "on"
+            | "please"
+            | "closed"
+            | "open"
+            | "together"
+    ) {
+        now.with.push(word.to_owned());
+        return Ok(at + 1);
+    }
+    let Some((found, after)) = noun(tokens, at) else { return Err(lost()) };
+    match (&found, now.act) {
+        // `bring me the mug`
+        (Noun::Speaker, _) if now.to_whom.is_none() => now.to_whom = Some(found),
+        (Noun::Here, _) => now.to = Some(Noun::Speaker),
+        (Noun::There, _) => now.to = Some(found),
+        _ => now.items.push(found),
+    }
+    Ok(after)
+}
+
+/// Whether an article or the like stands at a place.
+fn is_determined(tokens: &[Token], at: usize) -> bool {
+    let word = tokens.get(at).map_or("", Token::word);
+    matches!(
+        word,
+        "the" | "a" | "an" | "my" | "your" | "our" | "his" | "her" | "their" | "this" | "that" | "me" | "us"
+    )
+}
+
+/// The end of the clause.
+fn rest(tokens: &[Token], mut at: usize) -> usize {
+    while tokens.get(at).is_some_and(|token| !token.word().is_empty() && token.word() != "and") {
+        at += 1;
+    }
+    at
+}
+
+impl Command {
+    fn new(act: Act) -> Self {
+        Self { act, items: Vec::new(), to_whom: None, to: None, from: None, with: Vec::new() }
+    }
+
+    pub(super) fn has(&self, particle: &str) -> bool {
+        self.with.iter().any(|word| word == particle)
+    }
+}

@@ -1,0 +1,51 @@
+//! A small grammar of household requests: what is asked for in words becomes goals, or a reason why not.
+//!
+//! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
+
+mod command;
+mod knowledge;
+mod meaning;
+mod noun;
+mod puzzle;
+mod token;
+mod verb;
+mod vocabulary;
+
+use motet_robots::scene::Scene;
+use smol_str::SmolStr;
+
+pub use meaning::Understood;
+pub use puzzle::Puzzle;
+
+/// What is known where a request is made.
+#[derive(Clone, Debug)]
+pub struct Situation<'a> {
+    /// What there is and what it is called.
+    pub scene: &'a Scene,
+    /// What the hand holds.
+    pub holding: Option<SmolStr>,
+    /// Where things are now, where that is not where the scene has them; none for nowhere.
+    pub supports: Vec<(SmolStr, Option<SmolStr>)>,
+    /// What was spoken of before, the latest last.
+    pub spoken_of: Vec<SmolStr>,
+}
+
+impl<'a> Situation<'a> {
+    /// The situation at the start of a scene.
+    #[must_use]
+    pub fn new(scene: &'a Scene) -> Self {
+        let holding = scene.robot.holding.clone().flatten();
+        Self { scene, holding, supports: Vec::new(), spoken_of: Vec::new() }
+    }
+}
+
+/// Understands a request. The same request and situation give the same goals. O(words · things).
+///
+/// # Errors
+///
+/// What is not understood, not there, or not clear.
+pub fn understand(request: &str, situation: &Situation<'_>) -> Result<Understood, Puzzle> {
+    let tokens = token::tokens(request);
+    let spoken = command::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
+    meaning::understood(&spoken, request, situation)
+}

@@ -1,0 +1,116 @@
+//! A request as words: lower case, contractions opened, sentence marks kept as marks.
+
+/// A word or a mark.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum Token {
+    /// A word in lower case.
+    Word(String),
+    /// `,`
+    Comma,
+    /// The end of a sentence: `.`, `!`, `?`, `;`, a line break.
+    Stop,
+}
+
+impl Token {
+    /// The word; empty for a mark.
+    pub(super) fn word(&self) -> &str {
+        match self {
+            Self::Word(word) => word,
+            Self::Comma | Self::Stop => "",
+        }
+    }
+}
+
+/// What is written together and meant as several words.
+const CONTRACTIONS: &[(&str, &[&str])] = &[
+    ("i'd", &["i", "would"]),
+    ("i'll", &["i", "will"]),
+    ("i'm", &["i", "am"]),
+    ("i've", &["i", "have"]),
+    ("it's", &["it", "is"]),
+    ("that's", &["that", "is"]),
+    ("there's", &["there", "is"]),
+    ("let's", &["let", "us"]),
+    ("don't", &["do", "not"]),
+    ("isn't", &["is", "not"]),
+    ("gimme", &["give", "me"]),
+    ("lemme", &["let", "me"]),
+    ("wanna", &["want", "to"]),
+    ("pls", &["please"]),
+    ("plz", &["please"]),
+];
+
+/// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe belongs to its
+/// word. O(bytes).
+pub(super) fn tokens(text: &str) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    let mut word = String::new();
+    let lower = text.replace(['\u{2019}', '\u{2018}'], "'").to_lowercase();
+    let mut letters = lower.chars().peekable();
+    while let Some(letter) = letters.next() {
+        // A point between digits or letters without a blank belongs to the word: `1.5`.
+        let joins =
+            letter == '.' && !word.is_empty() && letters.peek().is_some_and(|next| next.is_alphanumeric());
+        if letter.is_alphanumeric() || letter == '\'' || joins {
+            word.push(letter);
+            continue;
+        }
+        push(&mut tokens, &mut word);
+        let mark = match letter {
+            ',' | ':' => Some(Token::Comma),
+            '.' | '!' | '?' | ';' | '\n' => Some(Token::Stop),
+            _ => None,
+        };
+        if let Some(mark) = mark {
+            tokens.push(mark);
+        }
+    }
+    push(&mut tokens, &mut word);
+    tokens
+}
+
+fn push(tokens: &mut Vec<Token>, word: &mut String) {
+    let taken = std::mem::take(word);
+    let bare = taken.trim_matches('\'');
+    if bare.is_empty() {
+        return;
+    }
+    match CONTRACTIONS.iter().find(|(short, _)| *short == bare) {
+        Some((_, words)) => tokens.extend(words.iter().map(|word| Token::Word((*word).to_owned()))),
+        None => tokens.push(Token::Word(bare.to_owned())),
+    }
+}
+
+/// A noun in the singular, by the common rules: `cookies` → `cookie`, `glasses` → `glass`, `berries` → `berry`,
+/// `knives` → `knife`. What does not look like a plural stays.
+pub(super) fn singular(word: &str) -> String {
+    const IRREGULAR: &[(&str, &str)] = &[
+        ("knives", "knife"),
+        ("shelves", "shelf"),
+        ("loaves", "loaf"),
+        ("scissors", "scissors"),
+        ("people", "person"),
+        ("glasses", "glass"),
+        ("potatoes", "potato"),
+        ("tomatoes", "tomato"),
+        ("mangoes", "mango"),
+        ("cookies", "cookie"),
+        ("keys", "key"),
+    ];
+    if let Some((_, one)) = IRREGULAR.iter().find(|(many, _)| *many == word) {
+        return (*one).to_owned();
+    }
+    if let Some(stem) = word.strip_suffix("ies").filter(|stem| stem.len() > 2) {
+        return format!("{stem}y");
+    }
+    for end in ["ches", "shes", "xes", "sses"] {
+        if let (true, Some(stem)) = (word.ends_with(end), word.strip_suffix("es")) {
+            return stem.to_owned();
+        }
+    }
+    let keeps = ["ss", "us", "is"].iter().any(|end| word.ends_with(end)) || word.len() < 4;
+    match word.strip_suffix('s').filter(|_| !keeps) {
+        Some(stem) => stem.to_owned(),
+        None => word.to_owned(),
+    }
+}

@@ -1,0 +1,190 @@
+//! What a scene's things are called, and which of them some words mean.
+
+use motet_robots::scene::Scene;
+use smol_str::SmolStr;
+
+use super::knowledge;
+use super::token::singular;
+
+/// What a thing is to a request.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Role {
+    /// It can be carried.
+    Object,
+    /// Things stand on it.
+    Surface,
+    /// Things lie in it.
+    Container,
+    /// A spot on the floor.
+    Place,
+    /// Someone.
+    Person,
+}
+
+/// A thing with its names.
+#[derive(Clone, Debug)]
+pub(super) struct Thing {
+    pub(super) id: SmolStr,
+    pub(super) role: Role,
+    /// Where it stands or lies.
+    pub(super) support: Option<SmolStr>,
+    /// Its id, class and names, as words in the singular.
+    names: Vec<Vec<String>>,
+    /// What it is beside its names.
+    tags: Vec<String>,
+}
+
+/// The names of a scene.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Vocabulary {
+    pub(super) things: Vec<Thing>,
+}
+
+impl Vocabulary {
+    /// Collects the names. `supports` says where things are now, where that is known better than by the scene.
+    pub(super) fn new(scene: &Scene, supports: &[(SmolStr, Option<SmolStr>)]) -> Self {
+        let things = scene.entities.values().map(|entity| {
+            let mut names: Vec<Vec<String>> = Vec::new();
+            for name in [&entity.id, &entity.class].into_iter().chain(&entity.names) {
+                let words = words(name);
+                if !words.is_empty() && !names.contains(&words) {
+                    names.push(words);
+                }
+            }
+            let mut tags: Vec<String> =
+                entity.categories.iter().map(|category| words(category).join(" ")).collect();
+            for name in &names {
+                tags.extend(knowledge::is(name).iter().map(|tag| (*tag).to_owned()));
+                // A water bottle has water in it.
+                if let [content @ .., last] = name.as_slice()
+                    && knowledge::holds(last)
+                    && !content.is_empty()
+                {
+                    tags.push(content.join(" "));
+                }
+            }
+            tags.sort();
+            tags.dedup();
+            let now = supports.iter().find(|(id, _)| *id == entity.id).map(|(_, support)| support.clone());
+            let support = now.unwrap_or_else(|| entity.on.clone().or_else(|| entity.inside.clone()));
+            Thing { id: entity.id.clone(), role: role(&entity.kind, entity.fixed), support, names, tags }
+        });
+        let mut things: Vec<Thing> = things.collect();
+        if !things.iter().any(|thing| thing.id == "user") {
+            let names = vec![vec!["user".to_owned()]];
+            let id = SmolStr::new_static("user");
+            things.push(Thing { id, role: Role::Person, support: None, names, tags: Vec::new() });
+        }
+        Self { things }
+    }
+
+    pub(super) fn thing(&self, id: &str) -> Option<&Thing> {
+        self.things.iter().find(|thing| thing.id == id)
+    }
+
+    /// The things of some roles that words mean, by the closest way in which any is meant: by a whole name, by what it
+    /// is, or by words of its name and of what it is together. Words are in the singular.
+    pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
+        let all = || self.things.iter().filter(|thing| roles.contains(&thing.role));
+        let phrase = words.join(" ");
+        let usual = knowledge::usual(&phrase).unwrap_or(&phrase);
+        let named: Vec<_> = all().filter(|thing| thing.names.iter().any(|name| *name == words)).collect();
+        if !named.is_empty() {
+            return named;
+        }
+        let kinds: Vec<_> = all().filter(|thing| thing.is(usual)).collect();
+        if !kinds.is_empty() {
+            return kinds;
+        }
+        all().filter(|thing| thing.is_told_by(words)).collect()
+    }
+
+    /// Words with those that nothing is called replaced by the one name that they are a slip away from. None where one
+    /// has no such name.
+    pub(super) fn respelt(&self, words: &[String]) -> Option<Vec<String>> {
+        let own = self.things.iter().flat_map(|thing| thing.names.iter().flatten());
+        let tags = self.things.iter().flat_map(|thing| &thing.tags).flat_map(|tag| tag.split(' '));
+        let mut known: Vec<&str> = own.map(String::as_str).chain(tags).collect();
+        for word in knowledge::words() {
+            known.push(word);
+        }
+        let mut is_changed = false;
+        let mut respelt = Vec::with_capacity(words.len());
+        for word in words {
+            if known.contains(&word.as_str()) || knowledge::is_package(word) {
+                respelt.push(word.clone());
+                continue;
+            }
+            let most = match word.chars().count() {
+                0..=3 => return None,
+                4..=6 => 1,
+                _ => 2,
+            };
+            let mut near: Vec<(usize, &str)> = known
+                .iter()
+                .map(|known| (slips(word, known), *known))
+                .filter(|(distance, _)| *distance <= most)
+                .collect();
+            near.sort_unstable();
+            near.dedup();
+            // Two names that are as near leave it open which was meant.
+            match near.as_slice() {
+                [(_, only)] => respelt.push((*only).to_owned()),
+                [(least, first), (next, _), ..] if least < next => respelt.push((*first).to_owned()),
+                _ => return None,
+            }
+            is_changed = true;
+        }
+        is_changed.then_some(respelt)
+    }
+}
+
+impl Thing {
+    /// What it is called: its first name that is no id, else the id in words.
+    pub(super) fn called(&self) -> String {
+        self.names
+            .iter()
+            .max_by_key(|name| name.len())
+            .map_or_else(|| self.id.to_string(), |name| name.join(" "))
+    }
+
+    /// Whether it is something, by category.
+    pub(super) fn is(&self, what: &str) -> bool {
+        self.tags.iter().any(|tag| tag == what)
+    }
+
+    /// Whether every word is one of its names' or says what it is; that it is packed says nothing by itself.
+    fn is_told_by(&self, words: &[String]) -> bool {
+        let told = |word: &String| {
+            self.names.iter().flatten().any(|known| known == word)
+                || self.is(knowledge::usual(word).unwrap_or(word))
+        };
+        words.iter().any(told) && words.iter().all(|word| told(word) || knowledge::is_package(word))
+    }
+}
+
+/// How many slips of the keyboard lie between a word and a name in either number.
+fn slips(word: &str, name: &str) -> usize {
+    strsim::osa_distance(word, name).min(strsim::osa_distance(word, &format!("{name}s")))
+}
+
+/// A name as words in the singular, without the number that tells it from its like.
+fn words(name: &str) -> Vec<String> {
+    let normal = motet_robots::scene::normal(name);
+    let mut words: Vec<&str> = normal.split(' ').filter(|word| !word.is_empty()).collect();
+    if words.len() > 1 && words.last().is_some_and(|last| last.chars().all(|digit| digit.is_ascii_digit())) {
+        words.pop();
+    }
+    words.into_iter().map(singular).collect()
+}
+
+fn role(kind: &str, fixed: bool) -> Role {
+    match kind {
+        "Surface" => Role::Surface,
+        "Container" => Role::Container,
+        "Place" => Role::Place,
+        "Person" => Role::Person,
+        _ if fixed => Role::Surface,
+        _ => Role::Object,
+    }
+}
