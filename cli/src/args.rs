@@ -1,5 +1,6 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
+mod drive;
 mod duration;
 mod feasible;
 mod import;
@@ -8,6 +9,7 @@ mod journal;
 mod plan;
 mod run;
 
+pub(crate) use drive::DriveArgs;
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
@@ -65,6 +67,8 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
+    /// Check a policy and run it on a driver in another process
+    Drive(DriveArgs),
     /// Step the engine through the journal of a run again, and say where it differs
     Replay(ReplayArgs),
     /// Find out whether a robot can do a motion in a scene
@@ -248,6 +252,10 @@ pub(crate) enum SchemaOf {
     Robot,
     /// A diagnostic, as `--format json` prints it
     Diagnostic,
+    /// What host and driver say to each other (docs/drivers.md)
+    Driver,
+    /// What stands in a line of a journal (docs/journal.md)
+    Journal,
 }
 
 /// `motet completions`

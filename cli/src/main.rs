@@ -47,6 +47,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Import(args) => command::import::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
+        Command::Drive(args) => command::run::drive(args, colors),
         Command::Replay(args) => command::replay::run(args, colors),
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),

@@ -1,6 +1,7 @@
 //! `motet run`: checks a policy and runs it in simulation, with or without a journal.
 
 mod branch;
+mod drive;
 mod events;
 mod lines;
 mod pace;
@@ -14,12 +15,11 @@ mod world;
 
 use std::path::Path;
 
-use motet_host::journal::Writer;
+use motet_graph::Graph;
 use motet_robots::scene::Scene;
-use motet_runtime::journal::Head;
-use motet_runtime::{Driver, Engine, Event, StartState, Time};
+use motet_runtime::{Driver, Event, StartState, Time};
 use motet_sim::Sim;
-use motet_syntax::Severity;
+use motet_syntax::{Parsed, Severity};
 
 use crate::args::{Format, RunArgs, RunFormat};
 use crate::document;
@@ -27,12 +27,13 @@ use crate::exit::{Exit, Trouble};
 use crate::input::one_document;
 use crate::out::{Colors, note};
 use crate::report::Report;
-use crate::workbench::{Workbench, wanted_robot};
+use crate::workbench::{Setting, Workbench, wanted_robot};
 use pace::Pace;
 use play::Play;
 use saved::Saved;
 use world::Choices;
 
+pub(crate) use drive::run as drive;
 pub(super) use play::journal_trouble;
 
 /// Runs the command.
@@ -41,11 +42,7 @@ pub(super) use play::journal_trouble;
 ///
 /// The file cannot be read, or what it runs against cannot be used.
 pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
-    let format = match args.format {
-        RunFormat::Human => Format::Human,
-        RunFormat::Json => Format::Json,
-    };
-    let mut report = Report::new(format, colors);
+    let mut report = Report::new(form_of(args.format), colors);
     let result = match (&args.resume, &args.file) {
         (Some(folder), _) => resume::resume(folder, args, colors),
         (None, Some(file)) => check_and_run(file, args, colors, &mut report),
@@ -55,19 +52,10 @@ pub(crate) fn run(args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
 }
 
 fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
-    let (source, parsed) = document::read(&one_document(file)?);
     let mut bench = Workbench::open(&args.world, report)?;
-    let setting = bench.setting(&parsed.file, report)?;
     let choices = Choices::read(args, report)?;
-    let compiled = setting.session.compile(&parsed, args.policy.as_deref());
-    let sources = setting.sources(source);
-    match args.format {
-        RunFormat::Human => report.say(&compiled.diagnostics, &sources),
-        RunFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
-    }
-    let Some(graph) = compiled.graph else {
-        let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error).count();
-        note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
+    let policy = args.policy.as_deref();
+    let Some((graph, parsed, setting)) = compile(file, policy, args.format, &mut bench, report)? else {
         return Ok(Exit::Findings);
     };
     let (Some(robot), Some(card)) = (&setting.robot, &setting.card) else {
@@ -78,21 +66,11 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start(setting.scene.as_ref());
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let capabilities = simulator.capabilities();
-    let engine = Engine::new(graph, &start).map_err(|wrong| {
-        let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
-        Trouble::Other(format!("the compiled graph is not valid{first}"))
-    })?;
-    let engine = engine.with_capabilities(capabilities.clone());
+    let engine = play::engine(graph, &start, simulator.capabilities())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::simulator(card, setting.scene_text.clone(), &options);
-            let mut head = Head::new(engine.graph());
-            head.began_unix_ns = play::unix_ns();
-            head.start = (&start).into();
-            head.capabilities = (&capabilities).into();
-            head.driver = saved.to_json()?;
-            Some(Writer::create(folder, head).map_err(play::journal_trouble)?)
+            Some(play::journal(folder, engine.graph(), &start, &simulator.capabilities(), &saved)?)
         }
         None => None,
     };
@@ -100,6 +78,38 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let pace = Pace::new(view, args.speed);
     let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
+}
+
+/// Reads and compiles a policy, and says what the check says. None where it is refused.
+fn compile<'b>(
+    file: &Path,
+    policy: Option<&str>,
+    format: RunFormat,
+    bench: &'b mut Workbench,
+    report: &mut Report,
+) -> Result<Option<(Graph, Parsed, &'b Setting)>, Trouble> {
+    let (source, parsed) = document::read(&one_document(file)?);
+    let setting = bench.setting(&parsed.file, report)?;
+    let compiled = setting.session.compile(&parsed, policy);
+    let sources = setting.sources(source);
+    match format {
+        RunFormat::Human => report.say(&compiled.diagnostics, &sources),
+        RunFormat::Json => events::diagnostics(&compiled.diagnostics, &sources, &mut report.out),
+    }
+    if let Some(graph) = compiled.graph {
+        return Ok(Some((graph, parsed, setting)));
+    }
+    let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error).count();
+    note(&format!("refused: {}, nothing has moved", crate::out::count(errors, "error")));
+    Ok(None)
+}
+
+/// The form of diagnostics that goes with the form of a run.
+const fn form_of(format: RunFormat) -> Format {
+    match format {
+        RunFormat::Human => Format::Human,
+        RunFormat::Json => Format::Json,
+    }
 }
 
 /// What is known at the start beside what stands in the graph: which entities there are.

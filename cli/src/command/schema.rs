@@ -16,6 +16,8 @@ pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
         SchemaOf::Scene => motet_robots::scene::schema(),
         SchemaOf::Robot => motet_robots::card::schema(),
         SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
+        SchemaOf::Driver => motet_host::remote::protocol::schema(),
+        SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::Entry),
     };
     let text = serde_json::to_string_pretty(&schema)
         .map_err(|error| Trouble::Other(format!("the schema cannot be written: {error}")))?;

@@ -2,6 +2,7 @@
 
 mod check;
 mod commands;
+mod drive;
 mod fmt;
 mod import;
 mod journal;

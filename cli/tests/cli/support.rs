@@ -62,6 +62,17 @@ impl Place {
         Ran::of(output)
     }
 
+    /// Runs the command with arguments, blanks and all.
+    pub(crate) fn run_args(&self, args: &[String]) -> Ran {
+        let output = Command::new(env!("CARGO_BIN_EXE_motet"))
+            .args(args)
+            .current_dir(&self.folder)
+            .stdin(Stdio::null())
+            .output()
+            .expect("the command starts");
+        Ran::of(output)
+    }
+
     /// Runs the command with a standard input and variables.
     pub(crate) fn run_with(&self, line: &str, stdin: &[u8], variables: &[(&str, &str)]) -> Ran {
         let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))

@@ -2,3 +2,4 @@
 //! processes. The engine itself, the lines of a journal and their replay are `motet-runtime`'s.
 
 pub mod journal;
+pub mod remote;

@@ -1,14 +1,17 @@
 //! Plays a run: an engine, a driver, a view, and a journal if there is one.
 
 use std::io::{self, IsTerminal};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
 use motet_host::journal::{JournalError, Recorder, Writer};
-use motet_runtime::{Driver, Engine, Event, RunEnd, Time, go_on};
+use motet_runtime::journal::Head;
+use motet_runtime::{Capabilities, Driver, Engine, Event, RunEnd, StartState, Time, go_on};
 
 use super::pace::{Pace, catch_interrupts};
+use super::saved::Saved;
 use super::view::View;
 use super::{events, lines, screen};
 use crate::args::RunFormat;
@@ -46,6 +49,33 @@ impl Play<'_> {
         pace.finish(&end);
         Ok(end)
     }
+}
+
+/// An engine for a compiled graph.
+pub(super) fn engine(graph: Graph, start: &StartState, can: Capabilities) -> Result<Engine, Trouble> {
+    let engine = Engine::new(graph, start).map_err(|wrong| {
+        let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
+        Trouble::Other(format!("the compiled graph is not valid{first}"))
+    })?;
+    Ok(engine.with_capabilities(can))
+}
+
+/// A new journal in a folder.
+pub(super) fn journal(
+    folder: &Path,
+    graph: &Graph,
+    start: &StartState,
+    can: &Capabilities,
+    driver: &Saved,
+) -> Result<Writer, Trouble> {
+    let head = Head {
+        began_unix_ns: unix_ns(),
+        start: start.into(),
+        capabilities: can.into(),
+        driver: driver.to_json()?,
+        ..Head::new(graph)
+    };
+    Writer::create(folder, head).map_err(journal_trouble)
 }
 
 /// The view in a format.

@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use motet_host::journal::Writer;
-use motet_runtime::journal::{Entry, Ledger, Replay, Resumed, Retrace};
-use motet_runtime::{Event, wire};
+use motet_host::remote::protocol::Hello;
+use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace};
+use motet_runtime::{Driver, Event, Time, wire};
 
+use super::drive;
 use super::pace::Pace;
 use super::play::{self, Play, journal_trouble};
 use super::saved::Saved;
@@ -26,8 +28,11 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
         return Err(Trouble::Other("the journal has no head".to_owned()));
     };
     let mut replay = Replay::new(head).map_err(|error| Trouble::Other(error.to_string()))?;
-    let Saved::Simulator(saved) = Saved::of(&head.driver)?;
-    let mut simulator = saved.make()?;
+    let saved = Saved::of(&head.driver)?;
+    let mut world = match &saved {
+        Saved::Simulator(saved) => Some(saved.make()?),
+        Saved::Process { .. } => None,
+    };
     let view = play::view(args.format, replay.engine().graph(), colors);
     let mut pace = Pace::new(view, args.speed);
     let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
@@ -43,19 +48,23 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
             }
             Err(error) => return Err(differs(error.to_string())),
         }
-        retrace.take(&mut simulator, entry).map_err(|astray| differs(astray.to_string()))?;
+        if let Some(world) = &mut world {
+            retrace.take(world, entry).map_err(|astray| differs(astray.to_string()))?;
+        }
         ledger.take(entry);
         pace.past(replay.now(), replay.effects());
         begun |= matches!(entry, Entry::Step(step) if step.event == Some(wire::Event::Begin));
     }
-    let end = replay.effects().iter().find_map(|effect| match effect {
-        motet_runtime::Effect::Finished(end) => Some((**end).clone()),
-        _ => None,
-    });
     if ledger.is_over {
         note("the run is over, nothing is left to do");
-        return Ok(end.map_or(Exit::Clean, |end| play::exit(&end)));
+        let end = replay.effects().iter().find_map(|effect| match effect {
+            motet_runtime::Effect::Finished(end) => Some(play::exit(end)),
+            _ => None,
+        });
+        return Ok(end.unwrap_or(Exit::Clean));
     }
+    let from = now(head, &saved, replay.now());
+    let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
     let unix_ns = play::unix_ns();
     let resumed = Entry::Resumed(Resumed { unix_ns, cut_bytes: tail.torn_bytes });
     writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_trouble)?;
@@ -65,9 +74,30 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     };
     let goals = crate::out::count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
-    let from = replay.now();
-    let events = if begun { Vec::new() } else { vec![Event::Begin] };
-    let play =
-        Play { engine: replay.into_engine(), driver: &mut simulator, journal: Some(writer), from, events };
+    let driver: Box<dyn Driver> = match (saved, world) {
+        (Saved::Process { address, instance }, _) => {
+            let hello = Hello::of(replay.engine().graph());
+            let mut driver = drive::connect(&address.into(), hello, from)?;
+            let caught_up = driver.catch_up(&ledger, &instance, from);
+            events.extend(caught_up.map_err(|breakage| Trouble::Other(breakage.to_string()))?);
+            Box::new(driver)
+        }
+        (Saved::Simulator(_), Some(world)) => Box::new(world),
+        (Saved::Simulator(saved), None) => Box::new(saved.make()?),
+    };
+    let mut driver = driver;
+    let engine = replay.into_engine();
+    let play = Play { engine, driver: &mut *driver, journal: Some(writer), from, events };
     Ok(play::exit(&play.run(pace)?))
+}
+
+/// The time at which the run goes on. A world of its own has stood still meanwhile; for a robot the time went on.
+fn now(head: &Head, saved: &Saved, last: Time) -> Time {
+    match saved {
+        Saved::Simulator(_) => last,
+        Saved::Process { .. } => {
+            let passed = play::unix_ns().saturating_sub(head.began_unix_ns);
+            Time::from_nanos(head.from).after(Time::from_nanos(passed)).max(last)
+        }
+    }
 }

@@ -1,6 +1,9 @@
 //! What a journal keeps of the world that a run moves in, so that it can be made again without the files of then.
 
+use std::net::SocketAddr;
+
 use indexmap::IndexMap;
+use motet_host::remote::Address;
 use motet_robots::{card, scene};
 use motet_sim::{Faults, Options, Script, Sim};
 use motet_syntax::{FileId, Source};
@@ -16,6 +19,23 @@ use crate::workbench::Card;
 pub(super) enum Saved {
     /// The simulator.
     Simulator(Box<SavedSim>),
+    /// A driver in another process.
+    Process {
+        /// Where it is: a command and its arguments, or a port.
+        address: SavedAddress,
+        /// What it calls itself since it was started.
+        instance: String,
+    },
+}
+
+/// Where a driver is.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SavedAddress {
+    /// A command with its arguments.
+    Command(Vec<String>),
+    /// A TCP port of this machine.
+    Tcp(SocketAddr),
 }
 
 /// A simulated world.
@@ -51,6 +71,14 @@ impl Saved {
             entities: options.entities.clone(),
             told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
         }))
+    }
+
+    pub(super) fn process(address: &Address, instance: &str) -> Self {
+        let address = match address {
+            Address::Command(words) => SavedAddress::Command(words.clone()),
+            Address::Tcp(socket) => SavedAddress::Tcp(*socket),
+        };
+        Self::Process { address, instance: instance.to_owned() }
     }
 
     pub(super) fn to_json(&self) -> Result<serde_json::Value, Trouble> {
@@ -98,5 +126,14 @@ impl SavedSim {
             told: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
         };
         Ok(Sim::new(&robot, &scene, options))
+    }
+}
+
+impl From<SavedAddress> for Address {
+    fn from(address: SavedAddress) -> Self {
+        match address {
+            SavedAddress::Command(words) => Self::Command(words),
+            SavedAddress::Tcp(socket) => Self::Tcp(socket),
+        }
     }
 }

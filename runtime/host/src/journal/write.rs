@@ -87,6 +87,9 @@ impl Writer {
     ///
     /// It cannot be read or written, is damaged, or another process writes it.
     pub fn open(folder: &Path, take: &mut dyn FnMut(u64, Entry)) -> Result<(Self, Tail), JournalError> {
+        if !folder.is_dir() {
+            return Err(JournalError::None { path: folder.to_owned() });
+        }
         let lock = lock(folder)?;
         let tail = read(folder, take)?;
         let path = tail.segment.clone();

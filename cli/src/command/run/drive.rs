@@ -1,0 +1,60 @@
+//! `motet drive`: checks a policy and runs it on a driver in another process.
+
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{Address, Patience, RemoteDriver};
+use motet_runtime::{Driver, Event, Time};
+
+use super::pace::Pace;
+use super::play::{self, Play};
+use super::saved::Saved;
+use super::{compile, form_of, start};
+use crate::args::{DriveArgs, Speed};
+use crate::exit::{Exit, Trouble};
+use crate::out::{Colors, note};
+use crate::report::Report;
+use crate::workbench::Workbench;
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// The file cannot be read, the driver cannot be reached, or the journal not be written.
+pub(crate) fn run(args: &DriveArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let mut report = Report::new(form_of(args.format), colors);
+    let result = check_and_drive(args, colors, &mut report);
+    report.close(result)
+}
+
+fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
+    let mut bench = Workbench::open(&args.world, report)?;
+    let policy = args.policy.as_deref();
+    let Some((graph, _, setting)) = compile(&args.file, policy, args.format, &mut bench, report)? else {
+        return Ok(Exit::Findings);
+    };
+    let start = start(setting.scene.as_ref());
+    let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
+    let engine = play::engine(graph, &start, driver.capabilities())?;
+    let journal = match &args.record {
+        Some(folder) => {
+            let saved = Saved::process(&args.driver, &driver.welcome().instance);
+            Some(play::journal(folder, engine.graph(), &start, &driver.capabilities(), &saved)?)
+        }
+        None => None,
+    };
+    let view = play::view(args.format, engine.graph(), colors);
+    // The driver's time is the wall clock's; the pace has nothing to wait for.
+    let pace = Pace::new(view, Speed::Times(1.0));
+    let play = Play { engine, driver: &mut driver, journal, from: Time::ZERO, events: vec![Event::Begin] };
+    Ok(play::exit(&play.run(pace)?))
+}
+
+/// Starts or calls a driver.
+///
+/// # Errors
+///
+/// It cannot be reached, or does not speak the protocol.
+pub(super) fn connect(address: &Address, hello: Hello, from: Time) -> Result<RemoteDriver, Trouble> {
+    let say = |text: &str| note(&format!("driver: {text}"));
+    RemoteDriver::connect(address.clone(), hello, Patience::default(), from, Box::new(say))
+        .map_err(|breakage| Trouble::Other(format!("{breakage} ({address})")))
+}

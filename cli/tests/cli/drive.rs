@@ -1,0 +1,161 @@
+//! `motet drive`: the example driver in another process, and drivers that misbehave.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and says why it is skipped"
+)]
+
+use crate::support::{GOOD, Place};
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/drivers/echo.py");
+
+/// Whether there is a Python to run drivers with.
+fn has_python() -> bool {
+    let found = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
+    if !found {
+        println!("skipped: there is no python3");
+    }
+    found
+}
+
+/// A driver that greets, and then does what stands in `then` at each further message `m`.
+fn odd(then: &str) -> String {
+    format!(
+        "import sys,json,time\n\
+         def say(x): print(json.dumps(dict(x, jsonrpc='2.0')), flush=True)\n\
+         for line in sys.stdin:\n\
+         \x20   m = json.loads(line)\n\
+         \x20   if m['method'] == 'hello':\n\
+         \x20       say({{'id': m['id'], 'result': {{'protocol': 1, 'driver': 'odd', 'instance': 'x',\n\
+         \x20           'capabilities': {{'hold': 'all', 'update': {{'only': []}}}}}}}})\n\
+         \x20       continue\n\
+         {then}"
+    )
+}
+
+#[test]
+fn drives_the_example() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("drive").file("good.motet", GOOD);
+    let echo = format!("python3 {ECHO} --seconds 0.05");
+    let drive = ["drive", "good.motet", "--robot", "hsr", "--scene", "kitchen", "--driver"];
+    let args = |driver: &str| drive.iter().copied().chain([driver]).map(str::to_owned).collect::<Vec<_>>();
+    place.run_args(&args(&echo)).check(0, &["out:✓ tidy: done", "out:5 steps done, 0 failed"]);
+    let refusing = format!("{echo} --refuse pick");
+    place.run_args(&args(&refusing)).check(3, &["out:failed with `unreachable`"]);
+    place.run_args(&args("no/such/driver")).check(2, &["err:the driver cannot be reached"]);
+    place.run_args(&args("tcp://192.0.2.1:1")).check(2, &["err:is not on this machine"]);
+    place.run_args(&args("echo hello")).check(2, &["err:the driver said `hello", "err:is no message"]);
+}
+
+#[test]
+fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
+    if !has_python() {
+        return;
+    }
+    let place =
+        Place::new("drive_odd").file("good.motet", "policy away for hsr {\n    go(kitchen_table)\n}\n");
+    let stop = "    if m['method'] == 'safe_stop':\n        say({'id': m['id'], 'result': {}})\n        \
+                say({'method': 'stopped', 'params': m['params']})\n";
+    for (name, then, message) in [
+        ("dies", format!("{stop}    if m['method'] == 'start': sys.exit(1)\n"), "the driver ended"),
+        (
+            "nonsense",
+            format!("{stop}    if m['method'] == 'start': print('ouch', flush=True)\n"),
+            "the driver said `ouch`, which is no message",
+        ),
+        (
+            "floods",
+            format!("{stop}    if m['method'] == 'start': print('x' * 2000000, flush=True)\n"),
+            "the driver said a line of more than 1048576 bytes",
+        ),
+        (
+            "keeps silent",
+            format!("{stop}    if m['method'] == 'ping': say({{'id': m['id'], 'result': {{}}}})\n"),
+            "does not say whether goal #1 runs",
+        ),
+        ("stalls", format!("{stop}    if m['method'] == 'start': time.sleep(60)\n"), "gave no sign of life"),
+    ] {
+        println!("{name}");
+        let place = place.path(name);
+        std::fs::write(&place, odd(&then)).unwrap();
+        let driver = format!("python3 '{}'", place.display());
+        let file = place.with_file_name("good.motet").display().to_string();
+        let args =
+            ["drive", file.as_str(), "--robot", "hsr", "--scene", "kitchen", "--driver", driver.as_str()]
+                .map(str::to_owned);
+        let ran = Place::new("drive_odd_run").run_args(&args);
+        ran.check(3, &[&format!("err:{message}"), "out:failed with"]);
+    }
+}
+
+#[test]
+fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("drive_crash").file("good.motet", GOOD);
+    let mut echo = Echo::start();
+    let driver = echo.address();
+    let args = [
+        "drive",
+        "good.motet",
+        "--robot",
+        "hsr",
+        "--scene",
+        "kitchen",
+        "--record",
+        "run",
+        "--driver",
+        &driver,
+    ];
+    let mut first = Command::new(env!("CARGO_BIN_EXE_motet"))
+        .args(args)
+        .current_dir(place.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(900));
+    first.kill().unwrap();
+    first.wait().unwrap();
+    place.run("run --resume run").check(0, &["out:✓ tidy: done", "err:resumed at"]);
+    place.run("replay run").check(0, &["out:the same to the byte"]);
+    let text = std::fs::read_to_string(place.path("run/000000000000.journal")).unwrap();
+    assert_eq!(text.matches("\"start\":{\"goal\":").count(), 5, "five steps, five starts");
+    assert_eq!(text.matches("{\"ended\":{\"goal\":").count(), 5, "five ends");
+}
+
+/// The example driver on a port of its own.
+struct Echo(Child);
+
+impl Echo {
+    fn start() -> Self {
+        let child = Command::new("python3")
+            .args([ECHO, "--seconds", "0.4", "--port", "0"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        Self(child)
+    }
+
+    fn address(&mut self) -> String {
+        let mut line = String::new();
+        BufReader::new(self.0.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        line.trim().strip_prefix("listening on ").unwrap().to_owned()
+    }
+}
+
+impl Drop for Echo {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}

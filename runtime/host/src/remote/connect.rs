@@ -1,0 +1,136 @@
+//! Where a driver is: a command to start, or a port of this machine.
+
+use super::link::{Breakage, Link};
+use std::fmt;
+use std::io::{BufReader, Write};
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
+use std::process::{Command, Stdio};
+use std::str::FromStr;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Where a driver is.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Address {
+    /// A command with its arguments; it speaks on its standard input and output.
+    Command(Vec<String>),
+    /// A TCP port on this machine.
+    Tcp(SocketAddr),
+}
+
+/// An address that cannot be used.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum AddressError {
+    /// Nothing is given.
+    #[error("it is empty: give a command, or tcp://127.0.0.1:PORT")]
+    Empty,
+    /// A quotation mark without its partner.
+    #[error("a quotation mark is not closed")]
+    Quote,
+    /// No host and port.
+    #[error("`{0}` is no host and port")]
+    Socket(String),
+    /// The driver protocol has no authentication and stays on the machine.
+    #[error("`{0}` is not on this machine: only addresses such as 127.0.0.1 are called")]
+    NotLoopback(SocketAddr),
+}
+
+impl FromStr for Address {
+    type Err = AddressError;
+
+    /// `tcp://127.0.0.1:PORT`, or a command as a shell would split it at blanks, with single and double quotes and no
+    /// expansion.
+    fn from_str(text: &str) -> Result<Self, AddressError> {
+        if let Some(place) = text.trim().strip_prefix("tcp://") {
+            let socket = place.to_socket_addrs().ok().and_then(|mut all| all.next());
+            let socket = socket.ok_or_else(|| AddressError::Socket(place.to_owned()))?;
+            if !socket.ip().is_loopback() {
+                return Err(AddressError::NotLoopback(socket));
+            }
+            return Ok(Self::Tcp(socket));
+        }
+        let words = words(text)?;
+        if words.is_empty() { Err(AddressError::Empty) } else { Ok(Self::Command(words)) }
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Command(words) => f.write_str(&words.join(" ")),
+            Self::Tcp(socket) => write!(f, "tcp://{socket}"),
+        }
+    }
+}
+
+fn words(text: &str) -> Result<Vec<String>, AddressError> {
+    let mut words = Vec::new();
+    let mut word: Option<String> = None;
+    let mut quote = None;
+    for letter in text.chars() {
+        match (quote, letter) {
+            (Some(open), _) if open == letter => quote = None,
+            (Some(_), _) => word.get_or_insert_default().push(letter),
+            (None, '"' | '\'') => {
+                quote = Some(letter);
+                word.get_or_insert_default();
+            }
+            (None, _) if letter.is_whitespace() => words.extend(word.take()),
+            (None, _) => word.get_or_insert_default().push(letter),
+        }
+    }
+    words.extend(word);
+    if quote.is_some() { Err(AddressError::Quote) } else { Ok(words) }
+}
+
+impl Address {
+    /// Starts or calls the driver.
+    pub(super) fn open(&self, within: Duration) -> Result<Link, Breakage> {
+        match self {
+            Self::Command(words) => {
+                let (program, args) = words.split_first().ok_or(Breakage::Closed)?;
+                let child = Command::new(program)
+                    .args(args)
+                    .stdin(Stdio::piped())
+                    .stdout(Stdio::piped())
+                    .spawn()
+                    .map_err(|error| Breakage::NotReached(error.to_string()))?;
+                Link::of_child(child)
+            }
+            Self::Tcp(socket) => {
+                let stream = TcpStream::connect_timeout(socket, within)
+                    .map_err(|error| Breakage::NotReached(error.to_string()))?;
+                // Commands are small, and each is waited for.
+                let _ = stream.set_nodelay(true);
+                let own = |error: std::io::Error| Breakage::NotReached(error.to_string());
+                let (reader, closer) = (stream.try_clone().map_err(own)?, stream.try_clone().map_err(own)?);
+                let writer: Box<dyn Write + Send> = Box::new(stream);
+                Ok(Link::new(BufReader::new(reader), writer, super::link::Peer::Socket(closer)))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Address, AddressError};
+
+    #[test]
+    fn commands_are_split_like_in_a_shell() {
+        let words = |text: &str| match text.parse() {
+            Ok(Address::Command(words)) => words,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(words("python3 echo.py --seconds 1"), ["python3", "echo.py", "--seconds", "1"]);
+        assert_eq!(words("'my driver' \"\" a'b c'd"), ["my driver", "", "ab cd"]);
+        assert_eq!("  ".parse::<Address>(), Err(AddressError::Empty));
+        assert_eq!("a 'b".parse::<Address>(), Err(AddressError::Quote));
+    }
+
+    #[test]
+    fn only_this_machine_is_called() {
+        assert!(matches!("tcp://127.0.0.1:4000".parse(), Ok(Address::Tcp(_))));
+        assert!(matches!("tcp://192.0.2.1:4000".parse::<Address>(), Err(AddressError::NotLoopback(_))));
+        assert!(matches!("tcp://127.0.0.1".parse::<Address>(), Err(AddressError::Socket(_))));
+    }
+}

@@ -1,0 +1,162 @@
+//! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up nobody.
+
+use super::settings::{MAX_LINE_BYTES, MAX_WAITING};
+use std::fmt;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::process::Child;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+/// Why a driver is no longer spoken with.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Breakage {
+    /// It could not be started or called.
+    NotReached(String),
+    /// It ended, or closed the connection.
+    Closed,
+    /// Reading failed.
+    Read(String),
+    /// It said nothing for so long, though it was asked for a sign of life.
+    Silent(Duration),
+    /// It does not take in what is said to it.
+    Deaf,
+    /// It said a line that is too long.
+    Flood,
+    /// It said a line that is no message; the beginning of the line, and why.
+    Nonsense(String, String),
+    /// It did not answer the greeting, or otherwise than it should.
+    Greeting(String),
+}
+
+impl fmt::Display for Breakage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotReached(why) => write!(f, "the driver cannot be reached: {why}"),
+            Self::Closed => f.write_str("the driver ended, or closed the connection"),
+            Self::Read(why) => write!(f, "the driver cannot be heard: {why}"),
+            Self::Silent(span) => {
+                write!(f, "the driver gave no sign of life for {:.1} s", span.as_secs_f64())
+            }
+            Self::Deaf => f.write_str("the driver does not take in what is said to it"),
+            Self::Flood => write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes"),
+            Self::Nonsense(line, why) => write!(f, "the driver said `{line}`, which is no message: {why}"),
+            Self::Greeting(why) => write!(f, "the driver did not answer the greeting: {why}"),
+        }
+    }
+}
+
+/// What is at the other end, to be ended with the link.
+#[derive(Debug)]
+pub(super) enum Peer {
+    Process(Child),
+    Socket(TcpStream),
+}
+
+/// A connection.
+#[derive(Debug)]
+pub(super) struct Link {
+    heard: Receiver<Result<String, Breakage>>,
+    said: SyncSender<String>,
+    peer: Peer,
+}
+
+impl Link {
+    pub(super) fn new(
+        reader: impl BufRead + Send + 'static,
+        writer: Box<dyn Write + Send>,
+        peer: Peer,
+    ) -> Self {
+        let (tell, heard) = sync_channel(MAX_WAITING);
+        let (said, lines) = sync_channel(MAX_WAITING);
+        thread::spawn(move || listen(reader, &tell));
+        thread::spawn(move || speak(writer, &lines));
+        Self { heard, said, peer }
+    }
+
+    pub(super) fn of_child(mut child: Child) -> Result<Self, Breakage> {
+        match (child.stdout.take(), child.stdin.take()) {
+            (Some(stdout), Some(stdin)) => {
+                Ok(Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child)))
+            }
+            (_, _) => Err(Breakage::Closed),
+        }
+    }
+
+    /// Says a line; it is not waited for.
+    pub(super) fn say(&self, line: String) -> Result<(), Breakage> {
+        self.said.try_send(line).map_err(|_| Breakage::Deaf)
+    }
+
+    /// The next line, if one comes in time.
+    pub(super) fn hear(&self, within: Duration) -> Result<Option<String>, Breakage> {
+        match self.heard.recv_timeout(within) {
+            Ok(line) => line.map(Some),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Disconnected) => Err(Breakage::Closed),
+        }
+    }
+}
+
+impl Drop for Link {
+    /// A process gets a moment to end by itself: its standard input is closed with the link.
+    fn drop(&mut self) {
+        match &mut self.peer {
+            Peer::Process(child) => {
+                let (closed, _) = sync_channel(1);
+                // What still waits is said; then the writing thread ends and closes the standard input.
+                drop(std::mem::replace(&mut self.said, closed));
+                for _ in 0..20 {
+                    if matches!(child.try_wait(), Ok(Some(_))) {
+                        return;
+                    }
+                    thread::sleep(Duration::from_millis(10));
+                }
+                let _ = child.kill();
+                let _ = child.wait();
+            }
+            Peer::Socket(stream) => {
+                let _ = stream.shutdown(Shutdown::Read);
+            }
+        }
+    }
+}
+
+/// Reads lines until there are no more, or one is wrong.
+fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, Breakage>>) {
+    loop {
+        let line = line(&mut reader);
+        let is_last = line.is_err();
+        if tell.send(line).is_err() || is_last {
+            return;
+        }
+    }
+}
+
+fn line(reader: &mut impl BufRead) -> Result<String, Breakage> {
+    let mut bytes = Vec::new();
+    let limit = MAX_LINE_BYTES as u64 + 1;
+    let read = reader.by_ref().take(limit).read_until(b'\n', &mut bytes);
+    read.map_err(|error: io::Error| Breakage::Read(error.to_string()))?;
+    match bytes.pop() {
+        None => Err(Breakage::Closed),
+        Some(b'\n') => String::from_utf8(bytes).map_err(|error| {
+            let line = String::from_utf8_lossy(error.as_bytes()).chars().take(80).collect();
+            Breakage::Nonsense(line, "it is not UTF-8".to_owned())
+        }),
+        Some(_) if bytes.len() >= MAX_LINE_BYTES => Err(Breakage::Flood),
+        // The end in the middle of a line.
+        Some(_) => Err(Breakage::Closed),
+    }
+}
+
+fn speak(mut writer: Box<dyn Write + Send>, lines: &Receiver<String>) {
+    while let Ok(mut line) = lines.recv() {
+        line.push('\n');
+        if writer.write_all(line.as_bytes()).and_then(|()| writer.flush()).is_err() {
+            // The reader notices.
+            return;
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! What host and driver say to each other. Values, queries, commands and outcomes are the wire forms of `motet-runtime`.
+
+use motet_runtime::wire::{Answer, Capabilities, Command, Outcome, Query};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+/// The version of the protocol.
+pub const VERSION: u32 = 1;
+/// The error code of a start that is refused; its data names the failure kind.
+pub const REFUSED: i64 = 1;
+
+/// What the host calls. Each is a request with a number of its own and is answered, except `bye`.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "method", content = "params", rename_all = "snake_case")]
+pub enum Call {
+    /// The greeting, first on every connection. Answered by [`Welcome`].
+    Hello(Hello),
+    /// Start a goal. Answered by `{}`: it is accepted and runs; or by the error 1: it is refused. Of a goal that was started
+    /// before the same answer is given again, and nothing else is done.
+    Start(Start),
+    /// Give a running goal new arguments. Answered by `{}`.
+    Update(Start),
+    /// End a goal early. Answered by `{}`: heard; the goal's end is said by `ended`. Of a goal that has ended it is ignored.
+    Cancel(Goal),
+    /// Keep a goal still. Answered by `{}`, or by any error: it cannot be held.
+    Hold(Goal),
+    /// Let a held goal go on. Answered by `{}`.
+    Proceed(Goal),
+    /// Bring everything that a goal uses to a safe stop, also of a goal that has ended or was never heard of. Answered by
+    /// `{}`: heard; that everything stands still is said by `stopped`.
+    SafeStop(Goal),
+    /// Answer a question once. Answered by [`Answered`].
+    Observe(Asked),
+    /// Answer a question, and say `observed` whenever the answer changes. Answered by [`Answered`].
+    Watch(Asked),
+    /// No longer watch. Answered by `{}`.
+    Unwatch(Asked),
+    /// What became of some goals? Asked after a crash. Answered by [`Told`].
+    Status(Goals),
+    /// A sign of life is asked for. Answered by `{}`.
+    Ping(Nothing),
+    /// The host goes. Not answered. Whatever still moves comes to a safe stop.
+    Bye(Nothing),
+}
+
+/// What a driver says of its own accord.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "method", content = "params", rename_all = "snake_case")]
+pub enum Report {
+    /// A goal has ended and uses none of its resources any longer. Said once.
+    Ended(Ended),
+    /// A goal that was told to hold cannot be held.
+    NotHeld(Goal),
+    /// Everything that a goal used stands still: the answer to `safe_stop`.
+    Stopped(Goal),
+    /// The driver does not know what became of a goal.
+    Lost(Goal),
+    /// The answer to a watched question has changed, or something was noticed in passing.
+    Observed(Observed),
+    /// How a goal is getting on, for people. It changes nothing.
+    Feedback(Feedback),
+}
+
+/// The greeting.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+pub struct Hello {
+    /// The version of the protocol that the host speaks.
+    pub protocol: u32,
+    /// The robot that the policy is for.
+    pub robot: String,
+    /// The policy.
+    pub policy: String,
+    /// The primitives that it calls.
+    pub primitives: Vec<Primitive>,
+}
+
+/// A primitive that a policy calls.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Primitive {
+    /// Its name.
+    pub name: String,
+    /// The type of its result as the language writes it, such as `Object`, `Text` or `List<Object>`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<String>,
+}
+
+/// The answer to the greeting.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Welcome {
+    /// The version of the protocol that the driver speaks: the same.
+    pub protocol: u32,
+    /// The driver's name and version, for people.
+    pub driver: String,
+    /// A text that is another one after every start of the driver: what it knows of goals, it knows since then.
+    pub instance: String,
+    /// What it can do beside starting and ending goals.
+    pub capabilities: Capabilities,
+}
+
+/// A goal with what it does.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Start {
+    /// Its number, which the host chooses and never uses twice in a run.
+    pub goal: u64,
+    /// What it does.
+    pub command: Command,
+}
+
+/// A goal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Goal {
+    /// Its number.
+    pub goal: u64,
+}
+
+/// Several goals.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Goals {
+    /// Their numbers.
+    pub goals: Vec<u64>,
+}
+
+/// A question.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Asked {
+    /// What.
+    pub query: Query,
+}
+
+/// The answer to a question.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Answered {
+    /// What.
+    pub answer: Answer,
+}
+
+/// What became of goals.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Told {
+    /// Of each that was asked for.
+    pub goals: Vec<GoalState>,
+}
+
+/// What became of a goal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct GoalState {
+    /// Its number.
+    pub goal: u64,
+    /// How it is.
+    pub state: State,
+}
+
+/// How a goal is.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// The driver has never heard of it.
+    Unknown,
+    /// It runs, held or not.
+    Running,
+    /// It was refused, in this failure.
+    Refused(String),
+    /// It has ended.
+    Ended(Outcome),
+    /// It was stopped safely.
+    Stopped,
+}
+
+/// The end of a goal.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Ended {
+    /// Its number.
+    pub goal: u64,
+    /// How.
+    pub outcome: Outcome,
+}
+
+/// Something that was observed.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Observed {
+    /// The question.
+    pub query: Query,
+    /// The answer.
+    pub answer: Answer,
+}
+
+/// How a goal is getting on.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Feedback {
+    /// Its number.
+    pub goal: u64,
+    /// In words.
+    pub text: String,
+}
+
+/// No parameters.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+pub struct Nothing {}
+
+/// Data of the error of a refused start.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct RefusedData {
+    /// The failure kind in which the goal ends.
+    pub failure: String,
+}
+
+/// A message from a driver.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Heard {
+    /// The answer to the call of a number.
+    Answer(u64, Result<Value, Wrong>),
+    /// A report.
+    Report(Report),
+}
+
+/// The error that a call was answered with.
+#[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
+pub struct Wrong {
+    /// 1 for a refused start; else as JSON-RPC has it.
+    pub code: i64,
+    /// In words.
+    pub message: String,
+    /// More, such as [`RefusedData`].
+    #[serde(default)]
+    pub data: Value,
+}
+
+/// The line of a call, without a line feed.
+#[must_use]
+pub fn say(id: u64, call: &Call) -> String {
+    let mut message = Map::new();
+    message.insert("jsonrpc".to_owned(), json!("2.0"));
+    if !matches!(call, Call::Bye(_)) {
+        message.insert("id".to_owned(), json!(id));
+    }
+    // These types are written as maps, and writing them does not fail.
+    if let Ok(Value::Object(call)) = serde_json::to_value(call) {
+        message.extend(call);
+    }
+    Value::Object(message).to_string()
+}
+
+/// What a line says.
+///
+/// # Errors
+///
+/// Why it is no message of this protocol.
+pub fn hear(line: &str) -> Result<Heard, String> {
+    let message: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
+    let Value::Object(mut message) = message else { return Err("it is no JSON object".to_owned()) };
+    if message.remove("jsonrpc") != Some(json!("2.0")) {
+        return Err("it does not say `\"jsonrpc\": \"2.0\"`".to_owned());
+    }
+    if message.contains_key("method") {
+        if message.contains_key("id") {
+            return Err("the host takes no requests".to_owned());
+        }
+        let report = serde_json::from_value(Value::Object(message));
+        return report.map(Heard::Report).map_err(|error| format!("it is no report: {error}"));
+    }
+    let id = message.get("id").and_then(Value::as_u64).ok_or("it has neither a method nor a number")?;
+    match (message.remove("result"), message.remove("error")) {
+        (Some(result), None) => Ok(Heard::Answer(id, Ok(result))),
+        (None, Some(error)) => serde_json::from_value(error)
+            .map(|wrong| Heard::Answer(id, Err(wrong)))
+            .map_err(|error| format!("its error is none: {error}")),
+        (Some(_), Some(_)) => Err("it has both a result and an error".to_owned()),
+        (None, None) => Err("it has neither a result nor an error".to_owned()),
+    }
+}
+
+/// All that is said, for a schema: each kind of message by name.
+#[derive(JsonSchema)]
+#[schemars(title = "Motet driver protocol, version 1")]
+#[allow(dead_code, reason = "only its schema is used")]
+struct Everything {
+    /// What the host calls: with `jsonrpc` and, but for `bye`, `id` beside it.
+    call: Call,
+    /// What a driver says of its own accord: with `jsonrpc` beside it.
+    report: Report,
+    /// The result of `hello`.
+    hello_result: Welcome,
+    /// The result of `observe` and `watch`.
+    observe_result: Answered,
+    /// The result of `status`.
+    status_result: Told,
+    /// The result of every other call.
+    other_result: Nothing,
+    /// The data of error 1, with which `start` is refused.
+    refused_data: RefusedData,
+}
+
+/// The JSON Schema of the protocol.
+#[must_use]
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(Everything)
+}

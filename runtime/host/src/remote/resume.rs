@@ -1,0 +1,66 @@
+//! After a crash of the host: what a driver that went on, or was started anew, knows of the goals that are open.
+
+use super::driver::RemoteDriver;
+use super::link::Breakage;
+use super::protocol::State;
+use motet_runtime::journal::Ledger;
+use motet_runtime::{Driver, DriverEvent, Effect, Event, GoalId, Time, wire};
+use std::collections::BTreeMap;
+
+impl RemoteDriver {
+    /// Asks what became of the goals that are open by the journal, says again what may not have been heard, and gives the
+    /// events with which the engine goes on. `instance` is the driver's that the run began with.
+    ///
+    /// A goal of which the driver has never heard was not started, if it is the same driver and the start was the last thing
+    /// that was written down: then it is started now. Any other one is lost, and the engine has it stopped safely.
+    ///
+    /// # Errors
+    ///
+    /// It does not say.
+    pub fn catch_up(&mut self, ledger: &Ledger, instance: &str, now: Time) -> Result<Vec<Event>, Breakage> {
+        let told = self.status(ledger.goals.keys().copied().collect())?;
+        let states: BTreeMap<u64, State> =
+            told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
+        let is_same = self.welcome().instance == instance;
+        let mut events = Vec::new();
+        for (number, open) in &ledger.goals {
+            let goal = GoalId::from_number(*number);
+            let just_started = ledger
+                .uncertain
+                .iter()
+                .any(|effect| matches!(effect, wire::Effect::Start(start) if start.goal == *number));
+            match states.get(number) {
+                Some(State::Running) => events.push(DriverEvent::Acknowledged { goal }),
+                Some(State::Ended(outcome)) => {
+                    events.push(DriverEvent::Ended { goal, outcome: outcome.clone().into() });
+                }
+                Some(State::Refused(failure)) => {
+                    events.push(DriverEvent::Refused { goal, failure: failure.as_str().into() });
+                }
+                Some(State::Stopped) => events.push(DriverEvent::Stopped { goal }),
+                Some(State::Unknown) if is_same && just_started => {
+                    self.start(now, goal, &open.start.command.clone().into());
+                }
+                Some(State::Unknown) | None => events.push(DriverEvent::Lost { goal }),
+            }
+        }
+        for query in &ledger.watches {
+            self.watch(now, &query.clone().into());
+        }
+        for query in &ledger.observations {
+            self.observe(now, &query.clone().into());
+        }
+        for effect in &ledger.uncertain {
+            match effect {
+                wire::Effect::Update(_)
+                | wire::Effect::Cancel { .. }
+                | wire::Effect::Hold { .. }
+                | wire::Effect::Proceed { .. }
+                | wire::Effect::SafeStop { .. } => self.carry_out(now, &Effect::from(effect.clone())),
+                wire::Effect::Start(_) | wire::Effect::Report(_) | wire::Effect::Finished(_) => {}
+                wire::Effect::Observe { .. } | wire::Effect::Watch { .. } | wire::Effect::Unwatch { .. } => {}
+            }
+        }
+        Ok(events.into_iter().map(Event::Driver).collect())
+    }
+}

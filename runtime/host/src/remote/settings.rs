@@ -1,0 +1,38 @@
+//! Named limits of what is said to drivers and of how long they may take.
+
+use std::time::Duration;
+
+/// The longest line in bytes that a driver may say.
+pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
+/// The most lines that wait to be heard, and the most that wait to be said.
+pub(crate) const MAX_WAITING: usize = 1_024;
+/// How often a start is said before its goal counts as lost.
+pub(crate) const SAYINGS: u32 = 2;
+
+/// How long a driver may take.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Patience {
+    /// To answer the greeting after it was started or called.
+    pub greeting: Duration,
+    /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
+    pub answer: Duration,
+    /// How long it may be silent before it is asked for a sign of life.
+    pub heartbeat: Duration,
+    /// How long it may be silent before it counts as gone.
+    pub silence: Duration,
+    /// How often it is started or called again after it was gone.
+    pub restarts: u32,
+}
+
+impl Default for Patience {
+    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3 restarts.
+    fn default() -> Self {
+        Self {
+            greeting: Duration::from_secs(10),
+            answer: Duration::from_secs(2),
+            heartbeat: Duration::from_secs(1),
+            silence: Duration::from_secs(5),
+            restarts: 3,
+        }
+    }
+}
