@@ -6,6 +6,7 @@
 
 mod check;
 pub mod codes;
+pub mod draft;
 pub mod fix;
 mod ir;
 mod library;

@@ -89,6 +89,11 @@ impl Session {
         Signatures::new(&self.library, &self.world)
     }
 
+    /// The library and the world.
+    pub(crate) fn parts(&self) -> (&Library, &World) {
+        (&self.library, &self.world)
+    }
+
     /// The world at the start.
     pub(crate) fn world(&self) -> &World {
         &self.world
@@ -176,12 +181,7 @@ impl Session {
         geometry: Option<&Geometry>,
     ) -> Analysed {
         let (mut program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, world);
-        if let Some(robot) =
-            policy.robot.as_ref().filter(|name| !library.robot.is_empty() && name.text != library.robot)
-        {
-            let (written, given) = (robot.text.clone(), library.robot.clone());
-            diagnostics.push(OtherRobot { span: robot.span, written, given }.into());
-        }
+        diagnostics.extend(other_robot(policy, library));
         diagnostics.extend(crate::check::check(&mut program, library, world, self.options.max_duration_secs));
         let (proof, said, offers) = crate::prove::prove(&program, library, world);
         diagnostics.extend(said);
@@ -214,6 +214,14 @@ fn is_error(said: &Diagnostic) -> bool {
 
 fn has_errors(findings: &[Finding]) -> bool {
     findings.iter().any(|found| is_error(&found.diagnostic))
+}
+
+/// What is wrong where a policy is written for another robot than the library's.
+pub(crate) fn other_robot(policy: &Policy, library: &Library) -> Option<Diagnostic> {
+    let robot = policy.robot.as_ref()?;
+    let is_other = !library.robot.is_empty() && robot.text != library.robot;
+    let (written, given) = (robot.text.clone(), library.robot.clone());
+    is_other.then(|| OtherRobot { span: robot.span, written, given }.into())
 }
 
 /// Gives a finding its path, and moves one inside an inlined policy of another file to the call.

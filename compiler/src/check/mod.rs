@@ -22,9 +22,18 @@ pub(crate) fn check(
     max_duration_secs: Option<f64>,
 ) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
-    robot::check(program, library, &mut diagnostics);
-    resources::check(program, library, &mut diagnostics);
+    robot::check(&program.steps, library, &mut diagnostics);
+    resources::check(program, 0, library, &mut diagnostics);
     bounds::check(program, library, max_duration_secs, &mut diagnostics);
     descriptions::check(program, library, world, &mut diagnostics);
+    diagnostics
+}
+
+/// What is wrong with the steps from `first` on of a policy that is being written: all that [`check`] says as an error, but
+/// for the duration of the whole.
+pub(crate) fn check_from(program: &Program, first: usize, library: &Library) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    robot::check(program.steps.get(first..).unwrap_or_default(), library, &mut diagnostics);
+    resources::check(program, first, library, &mut diagnostics);
     diagnostics
 }

@@ -10,8 +10,9 @@ use crate::library::{Library, ResourceSet};
 /// The first user of each resource in a block.
 type Uses = Vec<(ResourceSet, SmolStr, Span)>;
 
-pub(super) fn check(program: &Program, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
-    for step in &program.steps {
+/// Checks the steps from `first` on.
+pub(super) fn check(program: &Program, first: usize, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
+    for step in program.steps.iter().skip(first) {
         let StepKind::Parallel { branches } = &step.kind else { continue };
         let mut earlier: Uses = Vec::new();
         for branch in branches {

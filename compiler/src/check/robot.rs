@@ -3,11 +3,11 @@
 use motet_syntax::{Diagnostic, Span};
 
 use super::errors::{BeyondRange, NotObservable, NotProvided};
-use crate::ir::{Base, Call, Condition, Program, StepKind, Term, Ty};
+use crate::ir::{Base, Call, Condition, Step, StepKind, Term, Ty};
 use crate::library::Library;
 
-pub(super) fn check(program: &Program, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
-    for step in &program.steps {
+pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Diagnostic>) {
+    for step in steps {
         match &step.kind {
             StepKind::Call(call) => self::call(call, step.span, library, diagnostics),
             StepKind::Wait { condition, .. } => observable(condition, step.span, library, diagnostics),

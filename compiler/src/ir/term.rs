@@ -71,3 +71,38 @@ pub(crate) struct Fact {
     /// Its arguments; none stands for `any`.
     pub(crate) args: Vec<Option<Term>>,
 }
+
+impl Term {
+    /// The last parameter of its contract that it speaks of.
+    pub(crate) fn last_param(&self) -> Option<u16> {
+        match self {
+            Self::Param(index) => Some(*index),
+            Self::Field(of, _) => of.last_param(),
+            Self::Arith(_, left, right) => left.last_param().max(right.last_param()),
+            Self::List(terms) | Self::Measure(_, terms) => terms.iter().filter_map(Self::last_param).max(),
+            Self::Bool(_)
+            | Self::Int(_)
+            | Self::Number(_)
+            | Self::Text(_)
+            | Self::Case(..)
+            | Self::Entity(_)
+            | Self::Binding(_)
+            | Self::Result
+            | Self::Each
+            | Self::Unknown => None,
+        }
+    }
+}
+
+impl Condition {
+    /// The last parameter of its contract that it speaks of.
+    pub(crate) fn last_param(&self) -> Option<u16> {
+        match self {
+            Self::Fact(fact) => fact.args.iter().flatten().filter_map(Term::last_param).max(),
+            Self::Compare(_, left, right) => left.last_param().max(right.last_param()),
+            Self::Not(inner) => inner.last_param(),
+            Self::All(parts) | Self::AnyOf(parts) => parts.iter().filter_map(Self::last_param).max(),
+            Self::Literal(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => None,
+        }
+    }
+}

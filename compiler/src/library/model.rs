@@ -156,6 +156,13 @@ pub(crate) struct LastsDef {
     pub(crate) entities: Vec<Term>,
 }
 
+impl NeedDef {
+    /// The last parameter of the primitive that it speaks of.
+    pub(crate) fn last_param(&self) -> Option<u16> {
+        self.condition.last_param().max(self.when.as_ref().and_then(Condition::last_param))
+    }
+}
+
 impl Library {
     /// Whether `kind` is `ancestor` or below it.
     #[must_use]

@@ -1,13 +1,13 @@
 //! One call of a primitive: its needs, then what it does, and what is known where it fails.
 
-use motet_syntax::{Diagnostic, Span};
+use motet_syntax::{Diagnostic, Mistake, Span};
 
 use super::apply::{Change, Lasting};
 use super::errors::{Refuted, Stale};
 use super::eval::Frame;
 use super::facts::Key;
 use super::value::{Cause, Value};
-use super::{Certain, Prover, Verdict, Verdicts};
+use super::{Certain, Mood, Prover, Verdict, Verdicts};
 use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
 use crate::library::{NeedDef, PrimitiveDef};
 
@@ -22,13 +22,17 @@ impl Prover<'_> {
         self.erode();
 
         self.check_fresh(id, call, def);
-        let mut verdicts = self.needs(id, def, frame, span);
-        self.note_certain(id, def);
+        let mut verdicts = self.needs(id, def, def.needs.len(), frame, span);
+        if self.mood == Mood::Tell {
+            self.note_certain(id, def);
+        }
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
         self.changes(&def.unsettles, frame, &mut unsettles);
-        self.check_watched(def, frame, span);
-        self.check_redundant(def, &makes, frame, &verdicts, span);
+        if self.mood == Mood::Tell {
+            self.check_watched(def, frame, span);
+            self.check_redundant(def, &makes, frame, &verdicts, span);
+        }
         if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(def);
@@ -90,7 +94,7 @@ impl Prover<'_> {
         self.see_states();
         self.throw_all(def);
         if retried {
-            if !verdicts.contains(&Verdict::Refuted) {
+            if self.mood == Mood::Tell && !verdicts.contains(&Verdict::Refuted) {
                 self.check_retry(id, call, def, frame);
             }
             for (need, verdict) in def.needs.iter().zip(verdicts) {
@@ -111,7 +115,9 @@ impl Prover<'_> {
                 continue;
             }
             let fresh = self.freshness(*binding);
-            if fresh.no.is_some() {
+            if fresh.no.is_some() && self.mood == Mood::Judge {
+                self.count(Stale::CODE);
+            } else if fresh.no.is_some() {
                 let mistake = Stale {
                     span: *span,
                     name: bound.name.clone(),
@@ -137,9 +143,17 @@ impl Prover<'_> {
         binding.is_some_and(|binding| binding.ty == Ty::plain(Base::Pose)) && self.freshness(id).no.is_some()
     }
 
-    fn needs(&mut self, id: StepId, def: &PrimitiveDef, frame: Frame<'_>, span: Span) -> Verdicts {
+    /// The verdicts on the first `count` needs.
+    pub(crate) fn needs(
+        &mut self,
+        id: StepId,
+        def: &PrimitiveDef,
+        count: usize,
+        frame: Frame<'_>,
+        span: Span,
+    ) -> Verdicts {
         let mut verdicts = Verdicts::new();
-        for need in &def.needs {
+        for need in def.needs.iter().take(count) {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = Frame { each: culprit, ..frame };
@@ -151,7 +165,7 @@ impl Prover<'_> {
                 Verdict::Proven
             };
             verdicts.push(verdict);
-            if verdict == Verdict::Deferred && !self.volatile.is_empty() {
+            if verdict == Verdict::Deferred && !self.volatile.is_empty() && self.mood == Mood::Tell {
                 self.check_reactions(def, need, value, frame, span);
             }
             if verdict != Verdict::Proven {
@@ -162,6 +176,9 @@ impl Prover<'_> {
     }
 
     fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
+        if self.mood == Mood::Judge {
+            return self.count(Refuted::CODE);
+        }
         let blame = self.blame(&need.condition, true, frame);
         let mistake = Refuted {
             span,

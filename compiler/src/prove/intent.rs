@@ -12,7 +12,7 @@ use super::eval::Frame;
 use super::facts::{Key, show};
 use super::mend::End;
 use super::value::{Cause, Value};
-use super::{Prover, Verdict};
+use super::{Mood, Prover, Verdict};
 use crate::ir::{Base, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Slot, Step, StepId, Term};
 use crate::library::{NeedDef, PrimitiveDef};
 
@@ -24,6 +24,9 @@ impl Prover<'_> {
 
     /// Where the policy is done: what it still holds, and what it opened and did not close.
     pub(crate) fn check_end(&mut self, end: Option<End>, span: Span) {
+        if self.mood == Mood::Judge {
+            return;
+        }
         let ends = |name: &str, of_a_step: bool| {
             let fluent = *self.library.names.fluents.get(name)?;
             let meant = self.program.achieves.as_ref().is_some_and(|(goal, _)| mentions(goal, fluent));

@@ -7,6 +7,7 @@ pub(crate) mod apply;
 mod assume;
 mod call;
 mod collect;
+pub(crate) mod draft;
 pub(crate) mod errors;
 pub(crate) mod eval;
 pub(crate) mod facts;
@@ -29,6 +30,7 @@ pub(crate) use self::assume::mentions;
 
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
+use self::draft::Stand;
 use self::facts::{Facts, Key, Split};
 use self::mend::{End, Offer};
 use self::symbols::Symbols;
@@ -102,6 +104,21 @@ pub(crate) struct Prover<'a> {
     pub(crate) proof: Proof,
     /// What would mend the findings.
     pub(crate) offers: Vec<Offer>,
+    pub(crate) mood: Mood,
+    /// The place of a draft where the next step will stand.
+    pub(crate) hole: Option<StepId>,
+    /// The states in which control gets there.
+    pub(crate) stands: Vec<Stand>,
+}
+
+/// What a proof is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum Mood {
+    /// To tell people what is wrong, why, and what would mend it.
+    #[default]
+    Tell,
+    /// To know whether anything is refuted, and nothing else.
+    Judge,
 }
 
 /// A fact that a monitor's reaction may change at any moment of the body.
@@ -173,6 +190,9 @@ impl<'a> Prover<'a> {
                 certain: FxHashMap::default(),
             },
             offers: Vec::new(),
+            mood: Mood::Tell,
+            hole: None,
+            stands: Vec::new(),
         }
     }
 }

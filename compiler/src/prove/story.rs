@@ -1,14 +1,14 @@
 //! The story of a refutation: which fact, made false by which step, and what would make it true.
 
-use motet_syntax::{Diagnostic, Span};
+use motet_syntax::{Diagnostic, Mistake, Span};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::Prover;
 use super::errors::GoalRefuted;
 use super::eval::Frame;
 use super::mend::End;
 use super::show::round;
 use super::value::Cause;
+use super::{Mood, Prover};
 use crate::ir::{Base, Condition, Entity, Fluent, Slot, StepId, StepKind, Term};
 
 /// Why a condition can be false.
@@ -165,6 +165,9 @@ impl Prover<'_> {
         let frame = Frame::default();
         if !self.evaluate(goal, frame).no.is_some() {
             return;
+        }
+        if self.mood == Mood::Judge {
+            return self.count(GoalRefuted::CODE);
         }
         self.here = None;
         let blame = self.blame(goal, true, frame);

@@ -6,7 +6,7 @@ use crate::library::Library;
 use crate::world::World;
 
 /// What stands behind a binding.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
     /// By binding: the entity that stands for it in facts; none where it is no entity.
     bindings: Vec<Option<Entity>>,
@@ -27,20 +27,36 @@ impl Symbols {
         let first = u16::try_from(world.entities().len()).unwrap_or(u16::MAX);
         let mut table =
             Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
-        for binding in &program.bindings {
+        table.extend(program, library, world);
+        table
+    }
+
+    /// Takes in the bindings that the program has beyond those seen before.
+    pub(crate) fn extend(&mut self, program: &Program, library: &Library, world: &World) {
+        for binding in program.bindings.iter().skip(self.bindings.len()) {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
-                table.bindings.push(None);
+                self.bindings.push(None);
                 continue;
             };
             let found = binding.description.as_ref().map(|text| world.described(library, text, kind));
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
-                Some([]) | None => table.add(kind, None),
-                Some(several) => table.add(kind, Some(several.to_vec())),
+                Some([]) | None => self.add(kind, None),
+                Some(several) => self.add(kind, Some(several.to_vec())),
             };
-            table.bindings.push(entity);
+            self.bindings.push(entity);
         }
-        table
+    }
+
+    /// How many bindings and symbols there are.
+    pub(crate) fn len(&self) -> (usize, usize) {
+        (self.bindings.len(), self.symbols.len())
+    }
+
+    /// Goes back to so many bindings and symbols.
+    pub(crate) fn truncate(&mut self, (bindings, symbols): (usize, usize)) {
+        self.bindings.truncate(bindings);
+        self.symbols.truncate(symbols);
     }
 
     fn add(&mut self, kind: Kind, may_be: Option<Vec<Entity>>) -> Option<Entity> {

@@ -23,7 +23,10 @@ impl Prover<'_> {
         }
     }
 
-    fn step(&mut self, id: StepId) {
+    pub(crate) fn step(&mut self, id: StepId) {
+        if self.hole == Some(id) {
+            self.take_stand();
+        }
         let program = self.program;
         let Some(step) = program.step(id) else { return };
         if let Some(reached) = self.proof.reached.get_mut(id.index()) {

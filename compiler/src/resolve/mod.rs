@@ -49,6 +49,36 @@ pub(crate) fn resolve(
     (program, steps.finish())
 }
 
+/// Resolves one more step of the body of a policy whose name is `name`: appends to `program` what it makes, and leaves
+/// in `scope` what it binds.
+pub(crate) fn resolve_step(
+    step: &motet_syntax::ast::Step,
+    (form, name): (Form, &smol_str::SmolStr),
+    (library, world): (&Library, &World),
+    program: &mut Program,
+    scope: &mut scope::Scope,
+) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
+    let resolver = Resolver {
+        library,
+        entities: world.entities(),
+        has_scene: world.has_scene(),
+        form,
+        scope: std::mem::take(scope),
+        bindings: std::mem::take(&mut program.bindings),
+        diagnostics: Vec::new(),
+    };
+    let mut steps = Steps::new(resolver);
+    steps.program = std::mem::take(program);
+    steps.calls.push(name.clone());
+    let index = u32::try_from(steps.program.body.len()).unwrap_or(u32::MAX);
+    let place = crate::ir::Place { parent: None, slot: crate::ir::Slot::Steps, index };
+    let id = steps.step(step, place);
+    *program = std::mem::take(&mut steps.program);
+    program.bindings = std::mem::take(&mut steps.resolver.bindings);
+    *scope = std::mem::take(&mut steps.resolver.scope);
+    (id, steps.finish())
+}
+
 impl Resolver<'_> {
     /// A duration that is known beforehand, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {

@@ -112,7 +112,7 @@ impl<'a> Steps<'a> {
         self.resolver.scope.push(name.clone(), Term::Binding(id), ty, span);
     }
 
-    fn step(&mut self, step: &Step, place: Place) -> Option<StepId> {
+    pub(super) fn step(&mut self, step: &Step, place: Place) -> Option<StepId> {
         if let StepKind::Do(call) = &step.kind {
             return self.call(call, step.span, place);
         }

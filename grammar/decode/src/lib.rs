@@ -1,10 +1,16 @@
 //! What a language model may write next, from the same signatures that the compiler checks against.
 //!
 //! [`surface`] defines the **model surface**: of each form the one spelling that a model writes, and [`canonical()`]
-//! prints a policy in it. Nothing here reads a file, a clock or the network.
+//! prints a policy in it. [`Acceptor`] says byte by byte what may follow in a policy that is being written, and [`Decoder`]
+//! token by token. Nothing here reads a file, a clock or the network.
 
+mod acceptor;
 pub mod canonical;
+mod program;
 pub mod surface;
+mod vocabulary;
 
+pub use acceptor::{Acceptor, Decoder, Prepared};
 pub use canonical::{Outside, canonical, complete};
 pub use surface::{Modifiers, Surface};
+pub use vocabulary::Vocabulary;

@@ -64,6 +64,16 @@ impl<'w> Facts<'w> {
         Self { start: &start.tables, tables, trail: Vec::with_capacity(64) }
     }
 
+    /// The same writes above another start, which has to say what theirs said.
+    pub(crate) fn over<'b>(self, start: &'b Facts<'static>) -> Facts<'b> {
+        Facts { start: &start.tables, tables: self.tables, trail: self.trail }
+    }
+
+    /// The writes alone, to be laid [`Self::over`] the start again.
+    pub(crate) fn lift(self) -> Facts<'static> {
+        Facts { start: &[], tables: self.tables, trail: self.trail }
+    }
+
     /// Adds a table; its fluent is the next index.
     pub(crate) fn add_table(&mut self, default: Value) -> Fluent {
         let id = Fluent(u16::try_from(self.tables.len()).unwrap_or(u16::MAX));

@@ -1,0 +1,323 @@
+//! A policy that is being written, step by step, with what every stage knows of it so far: for hosts that have to say what
+//! may come next.
+//!
+//! It is the checker itself that answers. A step is resolved, checked and proved by the stages' own code from the state
+//! in which the steps before it left the proof, so an answer costs what one step costs and not what the policy does. What
+//! only the end of a policy can tell is asked of a step that is closed for the time being: see [`Draft::permits_step`].
+
+use motet_syntax::ast::{self, Policy, Step};
+use motet_syntax::{Diagnostic, FileId, Form, Mistake, Severity, Span};
+use smallvec::SmallVec;
+use smol_str::SmolStr;
+
+use crate::ir::{BindingId, Entity, EnumId, Program, StepId, StepKind, Term};
+use crate::prove::Prover;
+use crate::prove::draft::{Mark, Outcome, Parts, Stand};
+use crate::resolve::scope::{self, Scope};
+use crate::session::Session;
+
+/// The place that a step with this span takes is where the next step will stand.
+pub const HOLE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 1, end: u32::MAX };
+
+/// An argument of a call that is being written.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Value(Term);
+
+impl Value {
+    /// The entity with this number among those of the world.
+    #[must_use]
+    pub fn entity(index: u16) -> Self {
+        Self(Term::Entity(Entity(index)))
+    }
+
+    /// A case of an enumeration, by their numbers.
+    #[must_use]
+    pub fn case(of: u16, case: u16) -> Self {
+        Self(Term::Case(EnumId(of), case))
+    }
+
+    /// A number, in SI units where it has a unit.
+    #[must_use]
+    pub fn number(value: f64) -> Self {
+        Self(Term::Number(value))
+    }
+
+    /// A text.
+    #[must_use]
+    pub fn text(text: impl Into<SmolStr>) -> Self {
+        Self(Term::Text(text.into()))
+    }
+
+    /// A list.
+    #[must_use]
+    pub fn list(items: impl IntoIterator<Item = Self>) -> Self {
+        Self(Term::List(items.into_iter().map(|item| item.0).collect()))
+    }
+
+    /// A value of which nothing is known.
+    #[must_use]
+    pub fn unknown() -> Self {
+        Self(Term::Unknown)
+    }
+}
+
+/// A policy that is being written.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    form: Form,
+    program: Program,
+    scope: Scope,
+    proof: Parts,
+    /// Where each step of the body begins.
+    starts: Vec<Start>,
+    /// Where the step begins that is not part of the body, and the states in which control reaches the hole in it.
+    inside: Option<(Start, Vec<Stand>)>,
+}
+
+/// Where a draft begins a step.
+#[derive(Clone, Debug)]
+struct Start {
+    steps: usize,
+    bindings: usize,
+    scope: scope::Mark,
+    proof: Mark,
+}
+
+impl Draft {
+    /// The draft of a policy of which name, robot and goal are given; steps that it has are left out. The findings are
+    /// about goal and robot; the draft can be used all the same.
+    #[must_use]
+    pub fn new(session: &Session, policy: &Policy, form: Form) -> (Self, Vec<Diagnostic>) {
+        let (library, world) = session.parts();
+        let head = Policy { body: ast::Block::default(), ..policy.clone() };
+        let (mut program, mut said) = crate::resolve::resolve(&head, form, library, world);
+        said.extend(crate::session::other_robot(policy, library));
+        program.body.clear();
+        let proof = Parts::new(&program, library, world);
+        (Self { form, program, scope: Scope::default(), proof, starts: Vec::new(), inside: None }, said)
+    }
+
+    /// The number of a primitive among those of the session's library.
+    #[must_use]
+    pub fn primitive(session: &Session, name: &str) -> Option<usize> {
+        session.parts().0.names.primitives.get(name).map(|id| id.index())
+    }
+
+    /// The resources, one a bit, that a primitive or a policy of this name uses while it runs.
+    #[must_use]
+    pub fn resources(session: &Session, name: &str) -> u64 {
+        let library = session.parts().0;
+        let mut open = vec![SmolStr::new(name)];
+        let mut seen: Vec<SmolStr> = Vec::new();
+        let mut uses = 0;
+        while let Some(name) = open.pop() {
+            if let Some(def) = library.names.primitives.get(&name).and_then(|id| library.primitive(*id)) {
+                uses |= def.uses;
+            } else if let Some(index) = library.names.policies.get(&name).filter(|_| !seen.contains(&name)) {
+                let (program, _) = match library.policies.get(*index) {
+                    Some(policy) => crate::resolve::resolve(policy, Form::Text, library, session.parts().1),
+                    None => continue,
+                };
+                let called = program.steps.iter().filter_map(|step| match &step.kind {
+                    StepKind::Call(call) => library.primitive(call.primitive).map(|def| def.name.clone()),
+                    _ => None,
+                });
+                open.extend(called);
+            }
+            seen.push(name);
+        }
+        uses
+    }
+
+    /// How many steps its body has.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// Whether it has no step yet.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.starts.is_empty()
+    }
+
+    /// Appends a step to the body; false, and nothing is appended, where that is an error.
+    pub fn push(&mut self, session: &Session, step: &Step) -> bool {
+        let start = self.start();
+        let (id, outcome) = self.prove(session, step, Looks::Away);
+        let Some(id) = id.filter(|_| !outcome.refuted) else {
+            self.back_to(&start);
+            return false;
+        };
+        self.program.body.push(id);
+        self.starts.push(start);
+        true
+    }
+
+    /// Takes steps back until there are `len`.
+    pub fn truncate(&mut self, len: usize) {
+        self.leave();
+        if let Some(start) = self.starts.get(len).cloned() {
+            self.back_to(&start);
+            self.starts.truncate(len);
+            self.program.body.truncate(len);
+        }
+    }
+
+    /// Whether a step may follow the body as it is. Nothing is appended.
+    pub fn permits_step(&mut self, session: &Session, step: &Step) -> bool {
+        let start = self.start();
+        let (id, outcome) = self.prove(session, step, Looks::Away);
+        self.back_to(&start);
+        id.is_some() && !outcome.refuted
+    }
+
+    /// Whether the policy may end behind its last step: its goal is not refuted there.
+    pub fn permits_end(&mut self, session: &Session) -> bool {
+        self.leave();
+        self.permits_done(session)
+    }
+
+    /// Goes where the next step will stand: behind the body, or where `step`, which follows it and is closed for the time
+    /// being, has a step whose span is [`HOLE`]. What is asked next is asked of that place. False where `step` is an error.
+    pub fn go(&mut self, session: &Session, step: Option<&Step>) -> bool {
+        self.leave();
+        let Some(step) = step else { return true };
+        let start = self.start();
+        let (id, outcome) = self.prove(session, step, Looks::Inside);
+        self.inside = Some((start, outcome.stands));
+        id.is_some() && !outcome.refuted
+    }
+
+    /// Whether control gets to the place at all; where it does not, nothing that stands there is refuted.
+    #[must_use]
+    pub fn is_live(&self) -> bool {
+        match &self.inside {
+            None => self.proof.live,
+            Some((_, stands)) => !stands.is_empty(),
+        }
+    }
+
+    /// Whether a call of the primitive with this number among those of the library may stand at the place. An argument
+    /// that is not known yet is none: the needs that speak of one, and those behind them, are left open.
+    pub fn permits_call(&mut self, session: &Session, primitive: usize, args: &[Option<Value>]) -> bool {
+        let (library, _) = session.parts();
+        let Some(def) = library.primitives.get(primitive) else { return false };
+        let open = args.iter().position(Option::is_none).and_then(|index| u16::try_from(index).ok());
+        let count = match open {
+            None => def.needs.len(),
+            Some(first) => {
+                def.needs.iter().take_while(|need| need.last_param().is_none_or(|last| last < first)).count()
+            }
+        };
+        let known = args.iter().map(|arg| arg.as_ref().map_or(Term::Unknown, |value| value.0.clone()));
+        let terms: SmallVec<[Term; 4]> = known.collect();
+        self.everywhere(session, |prover| !prover.refutes(def, &terms, count))
+    }
+
+    /// Whether a step may stand at the place, as far as the state there tells: a call of a policy, say. `names` are those in
+    /// scope there. In a call that lacks arguments, what depends on them is left open.
+    pub fn permits_here(&mut self, session: &Session, step: &Step, names: &[SmolStr]) -> bool {
+        let (library, world) = session.parts();
+        let (steps, bindings) = (self.program.steps.len(), self.program.bindings.len());
+        let mut scope = Scope::default();
+        for name in names {
+            let Some(index) = self.program.bindings.iter().rposition(|binding| binding.name == *name) else {
+                continue;
+            };
+            let Some(binding) = self.program.bindings.get(index) else { continue };
+            let id = BindingId(u32::try_from(index).unwrap_or(u32::MAX));
+            scope.push(name.clone(), Term::Binding(id), binding.ty, binding.span);
+        }
+        let Self { form, program, proof, inside, .. } = self;
+        let name = program.name.clone();
+        let (id, said) =
+            crate::resolve::resolve_step(step, (*form, &name), (library, world), program, &mut scope);
+        let symbols = proof.symbols.len();
+        proof.symbols.extend(program, library, world);
+        let given = (&*program, library, world);
+        let permits = id.is_some_and(|id| match inside {
+            _ if said.iter().any(|said| said.code == crate::resolve::errors::Recursion::CODE) => false,
+            None if !proof.live => true,
+            None => proof.here(given, |prover| prover.permits(id)),
+            Some((_, stands)) => {
+                stands.iter_mut().all(|stand| proof.at(stand, given, |prover| prover.permits(id)))
+            }
+        });
+        proof.symbols.truncate(symbols);
+        program.steps.truncate(steps);
+        program.bindings.truncate(bindings);
+        permits
+    }
+
+    /// Whether the policy may be done at the place: its goal is not refuted there.
+    pub fn permits_done(&mut self, session: &Session) -> bool {
+        let Some(goal) = self.program.achieves.as_ref().map(|(goal, _)| goal.clone()) else { return true };
+        self.everywhere(session, |prover| !prover.denies(&goal))
+    }
+
+    /// The latest binding with this name, as an argument.
+    #[must_use]
+    pub fn binding(&self, name: &str) -> Option<Value> {
+        let index = self.program.bindings.iter().rposition(|binding| binding.name == name)?;
+        Some(Value(Term::Binding(BindingId(u32::try_from(index).ok()?))))
+    }
+
+    fn everywhere(&mut self, session: &Session, mut ask: impl FnMut(&mut Prover<'_>) -> bool) -> bool {
+        let (library, world) = session.parts();
+        let Self { proof, program, inside, .. } = self;
+        let given = (&*program, library, world);
+        match inside {
+            None if !proof.live => true,
+            None => proof.here(given, ask),
+            Some((_, stands)) => stands.iter_mut().all(|stand| proof.at(stand, given, &mut ask)),
+        }
+    }
+
+    fn start(&mut self) -> Start {
+        self.leave();
+        let (steps, bindings) = (self.program.steps.len(), self.program.bindings.len());
+        Start { steps, bindings, scope: self.scope.mark(), proof: self.proof.mark(steps) }
+    }
+
+    /// Drops what is known of a step that is not part of the body.
+    fn leave(&mut self) {
+        if let Some((start, _)) = self.inside.take() {
+            self.back_to(&start);
+        }
+    }
+
+    fn back_to(&mut self, start: &Start) {
+        self.program.steps.truncate(start.steps);
+        self.program.bindings.truncate(start.bindings);
+        self.scope.back_to(start.scope);
+        self.proof.back_to(&start.proof);
+    }
+
+    fn prove(&mut self, session: &Session, step: &Step, looks: Looks) -> (Option<StepId>, Outcome) {
+        let (library, world) = session.parts();
+        let Self { form, program, scope, proof, .. } = self;
+        let (first, name) = (program.steps.len(), program.name.clone());
+        let (id, said) = crate::resolve::resolve_step(step, (*form, &name), (library, world), program, scope);
+        let Some(id) = id else { return (None, Outcome::default()) };
+        let is_error = |said: &Diagnostic| said.severity == Severity::Error;
+        let is_wrong = said.iter().any(is_error)
+            || crate::check::check_from(program, first, library).iter().any(is_error);
+        let steps = program.steps.iter().enumerate().skip(first);
+        let hole = (looks == Looks::Inside)
+            .then(|| steps.into_iter().find(|(_, step)| step.span == HOLE))
+            .flatten()
+            .and_then(|(index, _)| u32::try_from(index).ok())
+            .map(StepId);
+        let mut outcome = proof.step((id, hole), (&*program, library, world));
+        outcome.refuted |= is_wrong;
+        (Some(id), outcome)
+    }
+}
+
+/// Whether a proof stops to look at the hole of a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Looks {
+    Away,
+    Inside,
+}

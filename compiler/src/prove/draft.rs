@@ -1,0 +1,224 @@
+//! A proof that goes on step by step: what it holds between two steps, and the states in which a place of a policy is
+//! reached. Fed by [`crate::draft`].
+
+use motet_syntax::{Code, Diagnostic, Severity, Span};
+use rustc_hash::FxHashMap;
+
+use super::apply::Lasting;
+use super::eval::Frame;
+use super::facts::{Facts, Split};
+use super::symbols::Symbols;
+use super::value::Value;
+use super::{Mood, Proof, Prover, Verdict, Volatile, Watched};
+use crate::ir::{Condition, Fluent, Program, StepId, Term};
+use crate::library::{Library, PrimitiveDef};
+use crate::world::World;
+
+/// What is known in one state.
+#[derive(Clone, Debug)]
+pub(crate) struct Stand {
+    facts: Facts<'static>,
+    lasting: FxHashMap<StepId, Lasting>,
+    watched: Vec<Watched>,
+    volatile: Vec<Volatile>,
+    splits: Vec<Split>,
+}
+
+/// A proof between two steps of a policy's body.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts {
+    stand: Stand,
+    pub(crate) symbols: Symbols,
+    fresh: Fluent,
+    aliased: Vec<bool>,
+    pub(crate) live: bool,
+}
+
+/// A place in a proof to go back to.
+#[derive(Clone, Debug)]
+pub(crate) struct Mark {
+    trail: usize,
+    splits: Vec<Split>,
+    symbols: (usize, usize),
+    steps: usize,
+    live: bool,
+}
+
+/// What proving a step gave.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outcome {
+    /// Whether something is refuted.
+    pub(crate) refuted: bool,
+    /// The states in which control reached the hole.
+    pub(crate) stands: Vec<Stand>,
+}
+
+/// The program, and what it is proved from.
+pub(crate) type Given<'p> = (&'p Program, &'p Library, &'p World);
+
+impl Parts {
+    /// The proof before the first step.
+    pub(crate) fn new(program: &Program, library: &Library, world: &World) -> Self {
+        let mut facts = Facts::above(&world.facts);
+        let fresh = facts.add_table(Value::yes(super::value::Cause::NOTHING));
+        let stand = Stand {
+            facts: facts.lift(),
+            lasting: FxHashMap::default(),
+            watched: Vec::new(),
+            volatile: Vec::new(),
+            splits: Vec::new(),
+        };
+        let symbols = Symbols::new(program, library, world);
+        Self { stand, symbols, fresh, aliased: vec![false; library.fluents.len()], live: true }
+    }
+
+    pub(crate) fn mark(&self, steps: usize) -> Mark {
+        let Stand { facts, splits, .. } = &self.stand;
+        let symbols = self.symbols.len();
+        Mark { trail: facts.mark(), splits: splits.clone(), symbols, steps, live: self.live }
+    }
+
+    pub(crate) fn back_to(&mut self, mark: &Mark) {
+        self.stand.facts.back_to(mark.trail);
+        self.stand.splits.clone_from(&mark.splits);
+        self.stand.lasting.retain(|step, _| step.index() < mark.steps);
+        self.symbols.truncate(mark.symbols);
+        self.live = mark.live;
+    }
+
+    /// Proves one step of the body, and looks on the way at the hole in it.
+    pub(crate) fn step(&mut self, (step, hole): (StepId, Option<StepId>), given: Given<'_>) -> Outcome {
+        let (program, library, world) = given;
+        self.symbols.extend(program, library, world);
+        if !self.live {
+            return Outcome::default();
+        }
+        self.with(given, |prover| {
+            prover.hole = hole;
+            prover.step(step);
+            Outcome { refuted: prover.is_refuted(), stands: std::mem::take(&mut prover.stands) }
+        })
+    }
+
+    /// Asks something of the state as it is; the answer changes nothing.
+    pub(crate) fn here<T>(&mut self, given: Given<'_>, ask: impl FnOnce(&mut Prover<'_>) -> T) -> T {
+        self.with(given, ask)
+    }
+
+    /// Asks something of another state than this proof's own.
+    pub(crate) fn at<T>(
+        &mut self,
+        stand: &mut Stand,
+        given: Given<'_>,
+        ask: impl FnOnce(&mut Prover<'_>) -> T,
+    ) -> T {
+        let live = std::mem::replace(&mut self.live, true);
+        std::mem::swap(&mut self.stand, stand);
+        let answer = self.with(given, ask);
+        std::mem::swap(&mut self.stand, stand);
+        self.live = live;
+        answer
+    }
+
+    fn with<T>(&mut self, (program, library, world): Given<'_>, run: impl FnOnce(&mut Prover<'_>) -> T) -> T {
+        let Stand { facts, lasting, watched, volatile, splits } = &mut self.stand;
+        let mut prover = Prover {
+            library,
+            world,
+            program,
+            symbols: std::mem::take(&mut self.symbols),
+            facts: std::mem::take(facts).over(&world.facts),
+            fresh: self.fresh,
+            lasting: std::mem::take(lasting),
+            watched: std::mem::take(watched),
+            volatile: std::mem::take(volatile),
+            enclosing: Vec::new(),
+            here: None,
+            splits: std::mem::take(splits),
+            live: self.live,
+            fixpoints: 0,
+            aliased: std::mem::take(&mut self.aliased),
+            buffers: Default::default(),
+            diagnostics: Vec::new(),
+            proof: Proof::default(),
+            offers: Vec::new(),
+            mood: Mood::Judge,
+            hole: None,
+            stands: Vec::new(),
+        };
+        let answer = run(&mut prover);
+        let Prover { symbols, facts, lasting, watched, volatile, splits, aliased, live, .. } = prover;
+        self.stand = Stand { facts: facts.lift(), lasting, watched, volatile, splits };
+        self.symbols = symbols;
+        self.aliased = aliased;
+        self.live = live;
+        answer
+    }
+}
+
+impl Prover<'_> {
+    /// Counts a mistake of which nobody reads more than that it is there.
+    pub(crate) fn count(&mut self, code: Code) {
+        self.diagnostics.push(Diagnostic {
+            code,
+            severity: Severity::Error,
+            message: String::new(),
+            help: None,
+            span: Span::default(),
+            path: String::new(),
+            related: Vec::new(),
+            fix: None,
+            about: None,
+        });
+    }
+
+    pub(crate) fn is_refuted(&self) -> bool {
+        self.diagnostics.iter().any(|said| said.severity == Severity::Error)
+    }
+
+    /// Remembers the state in which the hole is reached, with what the reactions around it may have done just now.
+    pub(crate) fn take_stand(&mut self) {
+        self.erode();
+        self.stands.push(Stand {
+            facts: self.facts.clone().lift(),
+            lasting: self.lasting.clone(),
+            watched: self.watched.clone(),
+            volatile: self.volatile.clone(),
+            splits: self.splits.clone(),
+        });
+    }
+
+    /// Whether a call is refuted here by the first `count` of its needs, taken in their order as a call takes them.
+    pub(crate) fn refutes(&mut self, def: &PrimitiveDef, args: &[Term], count: usize) -> bool {
+        let stale = |arg: &Term| matches!(arg, Term::Binding(id) if self.is_stale(*id));
+        if args.iter().any(stale) {
+            return true;
+        }
+        let mark = self.facts.mark();
+        // No step of the program has this number: the cause of what the call grants is the call itself.
+        let id = StepId(u32::try_from(self.program.steps.len()).unwrap_or(u32::MAX));
+        let frame = Frame { args, result: None, each: None };
+        let verdicts = self.needs(id, def, count, frame, Span::default());
+        self.facts.back_to(mark);
+        self.diagnostics.clear();
+        verdicts.contains(&Verdict::Refuted)
+    }
+
+    /// Whether nothing of a step is refuted here; it leaves no trace.
+    pub(crate) fn permits(&mut self, step: StepId) -> bool {
+        let (mark, splits, live) = (self.facts.mark(), self.splits.clone(), self.live);
+        self.step(step);
+        let permits = !self.is_refuted();
+        self.diagnostics.clear();
+        self.facts.back_to(mark);
+        self.splits = splits;
+        self.live = live;
+        self.lasting.retain(|other, _| *other < step);
+        permits
+    }
+
+    /// Whether a condition is refuted here.
+    pub(crate) fn denies(&self, condition: &Condition) -> bool {
+        self.evaluate(condition, Frame::default()).no.is_some()
+    }
+}

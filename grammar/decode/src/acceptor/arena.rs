@@ -1,0 +1,242 @@
+//! What a walk remembers, in lists that only grow and are cut back: who called the rule, what was said, what was bound.
+//! A state of a walk names a place in each, so it is a small value, and going back is forgetting it.
+
+use crate::program::{Kind, OpId, Plain, Slot};
+
+/// A place in an arena; the first entry of each is the bottom.
+pub(crate) type Id = u32;
+
+/// A place in a walk.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    pub(crate) op: OpId,
+    /// How far into it; of a number, what it has so far.
+    pub(crate) pos: u32,
+    /// Of a word the range of the list that is left, of a choice what is known and what is open, of a number its digits.
+    pub(crate) lo: u32,
+    pub(crate) hi: u32,
+    pub(crate) control: Id,
+    pub(crate) event: Id,
+    pub(crate) scope: Id,
+}
+
+/// `lo` and `hi` of a word or a choice at which nobody has looked yet.
+pub(crate) const UNSEEN: u32 = u32::MAX;
+
+/// A rule that was called.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Control {
+    pub(crate) below: Id,
+    pub(crate) ret: OpId,
+    /// How many bytes follow its end at least.
+    pub(crate) rest: u32,
+    /// How many members it has.
+    pub(crate) count: u8,
+    /// How many blocks it is in, below the policy's own.
+    pub(crate) depth: u8,
+    /// How many of them are proved to a fixed point.
+    pub(crate) fix: u8,
+    /// How many conditions it is in.
+    pub(crate) conditions: u8,
+    pub(crate) flags: Flags,
+    pub(crate) slot: Slot,
+    /// What was bound where it began.
+    pub(crate) scope: Id,
+}
+
+/// What is so in a rule and in all that it calls.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Flags(u8);
+
+impl Flags {
+    /// What a step does may refute what stands elsewhere: in another branch, or in a reaction.
+    pub(crate) const SHARED: Self = Self(1);
+    /// In the body of a `try`.
+    pub(crate) const TRIED: Self = Self(2);
+    /// The condition has to be one that refutes nothing.
+    pub(crate) const STRICT: Self = Self(4);
+    /// Under one `not`.
+    pub(crate) const NEGATED: Self = Self(8);
+    /// The condition need not be observable.
+    pub(crate) const GOAL: Self = Self(16);
+    /// A condition that tells nothing of the facts refutes nothing.
+    pub(crate) const LOOSE: Self = Self(32);
+
+    pub(crate) fn has(self, flag: Self) -> bool {
+        self.0 & flag.0 != 0
+    }
+
+    pub(crate) fn with(self, flag: Self) -> Self {
+        Self(self.0 | flag.0)
+    }
+
+    pub(crate) fn without(self, flag: Self) -> Self {
+        Self(self.0 & !flag.0)
+    }
+}
+
+/// Something that was said.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Event {
+    /// Something with parts begins.
+    Open(Kind),
+    /// It ends.
+    Close,
+    /// A word of the list of an operation.
+    Word(OpId, u32),
+    /// A name that is bound.
+    Bound(Id),
+    /// A text: these bytes of the walk.
+    Text(u32, u32),
+    /// A new name: these bytes of the walk.
+    Name(u32, u32),
+    /// A number: units, and how many decimals they are.
+    Number(i64, u8),
+    /// A value that needs no bytes.
+    Plain(Plain),
+    /// A text that describes nothing, where any would do.
+    AnyText,
+    /// Where the next step will stand.
+    Hole,
+}
+
+/// Something that was said, and what was said before.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Said {
+    pub(crate) below: Id,
+    pub(crate) event: Event,
+    /// The last event before the step of the policy's body in which this is.
+    pub(crate) before: Id,
+    /// No other event has this number, not even one that takes its place later.
+    pub(crate) serial: u32,
+}
+
+/// A name that was bound.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Name {
+    pub(crate) below: Id,
+    /// Its bytes in the walk.
+    pub(crate) start: u32,
+    pub(crate) len: u32,
+    pub(crate) ty: u16,
+}
+
+/// The arenas.
+#[derive(Clone, Debug)]
+pub(crate) struct Arenas {
+    pub(crate) controls: Vec<Control>,
+    pub(crate) said: Vec<Said>,
+    pub(crate) names: Vec<Name>,
+    pub(crate) lists: Vec<u32>,
+    serial: u32,
+}
+
+/// How long the arenas were.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lengths {
+    controls: usize,
+    said: usize,
+    names: usize,
+    lists: usize,
+}
+
+impl Arenas {
+    pub(crate) fn new() -> Self {
+        let control = Control {
+            below: 0,
+            ret: OpId::MAX,
+            rest: 0,
+            count: 0,
+            depth: 0,
+            fix: 0,
+            conditions: 0,
+            flags: Flags::default(),
+            slot: Slot::Body,
+            scope: 0,
+        };
+        let said = Said { below: 0, event: Event::Close, before: 0, serial: 0 };
+        let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX };
+        Self { controls: vec![control], said: vec![said], names: vec![name], lists: Vec::new(), serial: 0 }
+    }
+
+    pub(crate) fn lengths(&self) -> Lengths {
+        let Self { controls, said, names, lists, .. } = self;
+        Lengths { controls: controls.len(), said: said.len(), names: names.len(), lists: lists.len() }
+    }
+
+    pub(crate) fn cut(&mut self, to: Lengths) {
+        self.controls.truncate(to.controls);
+        self.said.truncate(to.said);
+        self.names.truncate(to.names);
+        self.lists.truncate(to.lists);
+    }
+
+    pub(crate) fn control(&self, id: Id) -> Option<&Control> {
+        self.controls.get(id as usize)
+    }
+
+    pub(crate) fn said(&self, id: Id) -> Option<&Said> {
+        self.said.get(id as usize)
+    }
+
+    pub(crate) fn name(&self, id: Id) -> Option<&Name> {
+        self.names.get(id as usize).filter(|_| id > 0)
+    }
+
+    pub(crate) fn serial(&self, id: Id) -> u32 {
+        self.said(id).map_or(0, |said| said.serial)
+    }
+
+    pub(crate) fn push_control(&mut self, control: Control) -> Id {
+        let id = end(&self.controls);
+        self.controls.push(control);
+        id
+    }
+
+    /// Says something in the same step of the body.
+    pub(crate) fn say(&mut self, below: Id, event: Event) -> Id {
+        let before = self.said(below).map_or(0, |said| said.before);
+        self.serial = self.serial.wrapping_add(1);
+        let id = end(&self.said);
+        self.said.push(Said { below, event, before, serial: self.serial });
+        id
+    }
+
+    /// The last event of a step of the body: the next one begins another.
+    pub(crate) fn say_last(&mut self, below: Id) -> Id {
+        let id = self.say(below, Event::Close);
+        if let Some(said) = self.said.get_mut(id as usize) {
+            said.before = id;
+        }
+        id
+    }
+
+    pub(crate) fn bind(&mut self, name: Name) -> Id {
+        let id = end(&self.names);
+        self.names.push(name);
+        id
+    }
+
+    /// The events after `before` up to `last`, in order.
+    pub(crate) fn between(&self, before: Id, last: Id) -> Vec<Event> {
+        let mut events = Vec::new();
+        let mut at = last;
+        while at > before {
+            let Some(said) = self.said(at) else { break };
+            events.push(said.event);
+            at = said.below;
+        }
+        events.reverse();
+        events
+    }
+
+    /// The names from the latest on.
+    pub(crate) fn in_scope(&self, scope: Id) -> impl Iterator<Item = (Id, &Name)> + '_ {
+        let first = self.name(scope).map(|name| (scope, name));
+        std::iter::successors(first, |(_, name)| self.name(name.below).map(|below| (name.below, below)))
+    }
+}
+
+fn end<T>(list: &[T]) -> Id {
+    u32::try_from(list.len()).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,404 @@
+//! From what was said to the policy that it is: the abstract syntax of a step that need not be whole. What is open is
+//! closed in the way that refutes least: every block that is open ends with a `fail`, so that no way leads out of it.
+
+use motet_compiler::draft::HOLE;
+use motet_compiler::signature::Type;
+use motet_syntax::Span;
+use motet_syntax::ast::{
+    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
+};
+use smol_str::SmolStr;
+
+use super::arena::{Arenas, Event};
+use crate::program::{Kind, Meaning, Op, Plain, Program};
+use crate::surface::{Decimal, Modifiers, Relation};
+
+/// Reads events.
+pub(crate) struct Builder<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) arenas: &'a Arenas,
+    /// The bytes of the walk.
+    pub(crate) bytes: &'a [u8],
+    pub(crate) events: &'a [Event],
+}
+
+impl Builder<'_> {
+    fn next(&mut self) -> Option<Event> {
+        let (first, rest) = self.events.split_first()?;
+        self.events = rest;
+        Some(*first)
+    }
+
+    fn peek(&self) -> Option<Event> {
+        self.events.first().copied()
+    }
+
+    /// The end of something with parts, where it was said.
+    fn close(&mut self) {
+        if self.peek() == Some(Event::Close) {
+            self.next();
+        }
+    }
+
+    /// The first step of the events; none where there is none.
+    pub(crate) fn step(&mut self) -> Option<Step> {
+        let kind = match self.next()? {
+            Event::Hole => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Open(kind) => self.of_kind(kind),
+            _ => return None,
+        };
+        self.close();
+        Some(Step { kind, span: Span::default() })
+    }
+
+    fn of_kind(&mut self, kind: Kind) -> StepKind {
+        match kind {
+            Kind::Do(index) => StepKind::Do(self.call(index)),
+            Kind::Sequence => StepKind::Sequence { name: self.name(), body: self.block() },
+            Kind::If => {
+                let condition = self.condition();
+                let (then, otherwise) = (self.block(), Some(self.block()));
+                StepKind::If { condition, then, otherwise }
+            }
+            Kind::Wait => {
+                let condition = self.condition();
+                StepKind::Wait { condition, within: self.modifier() }
+            }
+            Kind::Monitor => {
+                let mut whens = Vec::new();
+                while self.peek() == Some(Event::Open(Kind::When)) {
+                    self.next();
+                    whens.push(self.when());
+                    self.close();
+                }
+                StepKind::Monitor { whens, body: self.block() }
+            }
+            Kind::Try => {
+                let body = self.block();
+                let mut catches = Vec::new();
+                while self.peek() == Some(Event::Open(Kind::Catch)) {
+                    self.next();
+                    catches.push(self.catch());
+                    self.close();
+                }
+                if catches.is_empty() {
+                    catches.push(Catch {
+                        on: CatchOn::Any(Span::default()),
+                        body: closed(Vec::new()),
+                        span: Span::default(),
+                    });
+                }
+                StepKind::Try { body, catches }
+            }
+            Kind::Repeat => {
+                let times = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                let body = self.block();
+                let until = match self.peek() {
+                    Some(Event::Open(_)) => Some(self.condition()),
+                    Some(Event::Plain(_)) => {
+                        self.next();
+                        None
+                    }
+                    _ => None,
+                };
+                StepKind::Repeat { times, body, until }
+            }
+            Kind::Each => {
+                let item = self.name();
+                let list = self.value().unwrap_or_else(|| expr(ExprKind::List(Vec::new())));
+                let at_most = self.number().unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+                StepKind::Each { item, list, at_most, body: self.block() }
+            }
+            Kind::Parallel => {
+                let mut branches = Vec::new();
+                while self.peek() == Some(Event::Open(Kind::Block)) {
+                    branches.push(self.block());
+                }
+                while branches.len() < 2 {
+                    branches.push(closed(Vec::new()));
+                }
+                StepKind::Parallel { branches }
+            }
+            Kind::Done => StepKind::End(self.end(EndKind::Done)),
+            Kind::Fail => StepKind::End(self.end(EndKind::Fail)),
+            Kind::Replan => StepKind::End(self.end(EndKind::Replan)),
+            // These are no steps.
+            Kind::When
+            | Kind::Pause
+            | Kind::Restart
+            | Kind::Resume
+            | Kind::Catch
+            | Kind::Block
+            | Kind::Is(_)
+            | Kind::Not
+            | Kind::All
+            | Kind::Any
+            | Kind::Get(_)
+            | Kind::Field(_)
+            | Kind::List => fail().kind,
+        }
+    }
+
+    /// A block: one that is open, or not there yet, ends with a `fail`.
+    fn block(&mut self) -> Block {
+        if self.peek() != Some(Event::Open(Kind::Block)) {
+            return closed(Vec::new());
+        }
+        self.next();
+        let mut steps = Vec::new();
+        loop {
+            match self.peek() {
+                Some(Event::Close) => {
+                    self.next();
+                    return Block { steps, span: Span::default() };
+                }
+                None => return closed(steps),
+                Some(_) => match self.step() {
+                    Some(step) => steps.push(step),
+                    None => return closed(steps),
+                },
+            }
+        }
+    }
+
+    fn call(&mut self, index: u16) -> Do {
+        let callable = self.program.signatures.callables.get(usize::from(index));
+        let mut args = Vec::new();
+        for param in callable.map(|callable| callable.params.as_slice()).unwrap_or_default() {
+            let Some(value) = self.value() else { break };
+            args.push(argument(&param.name, value));
+        }
+        let is_policy = callable.is_some_and(|callable| callable.is_policy);
+        let (within, retry) = if is_policy { (None, None) } else { (self.modifier(), self.modifier()) };
+        let bind = matches!(self.peek(), Some(Event::Name(..))).then(|| self.name());
+        let name = callable.map(|callable| callable.name.clone()).unwrap_or_default();
+        Do { call: Call { name: named(name), args, span: Span::default() }, bind, within, retry }
+    }
+
+    /// What a surface with modifiers says.
+    fn modifier(&mut self) -> Option<Expr> {
+        if self.program.surface.modifiers == Modifiers::Default {
+            return None;
+        }
+        match self.peek() {
+            Some(Event::Plain(Plain::Null)) => {
+                self.next();
+                None
+            }
+            _ => self.number(),
+        }
+    }
+
+    fn number(&mut self) -> Option<Expr> {
+        let Some(Event::Number(units, decimals)) = self.peek() else { return None };
+        self.next();
+        Some(expr(ExprKind::Number(Decimal { units, decimals }.value())))
+    }
+
+    fn name(&mut self) -> Name {
+        let Some(Event::Name(start, len)) = self.peek() else { return named(SmolStr::new_static("_")) };
+        self.next();
+        named(self.text(start, len))
+    }
+
+    fn text(&self, start: u32, len: u32) -> SmolStr {
+        let bytes = self.bytes.get(start as usize..).and_then(|rest| rest.get(..len as usize));
+        SmolStr::new(String::from_utf8_lossy(bytes.unwrap_or_default()))
+    }
+
+    /// A value; none where none was said.
+    fn value(&mut self) -> Option<Expr> {
+        let kind = match self.peek()? {
+            Event::Word(op, index) => {
+                let Op::Word(words) = self.program.op(op) else { return None };
+                let entry = words.table.get(index)?;
+                match entry.meaning {
+                    Meaning::Any => ExprKind::Any,
+                    Meaning::Entity(_) | Meaning::Case(..) | Meaning::Named(_) => {
+                        ExprKind::Plain(entry.name.clone())
+                    }
+                }
+            }
+            Event::Bound(id) => {
+                let name = self.arenas.name(id)?;
+                ExprKind::Binding(self.text(name.start, name.len))
+            }
+            Event::Text(start, len) => ExprKind::Plain(self.text(start, len)),
+            Event::AnyText => ExprKind::Plain(SmolStr::new_static("~")),
+            Event::Number(units, decimals) => ExprKind::Number(Decimal { units, decimals }.value()),
+            Event::Plain(Plain::True) => ExprKind::Bool(true),
+            Event::Plain(Plain::False) => ExprKind::Bool(false),
+            Event::Open(Kind::List) => {
+                self.next();
+                let mut items = Vec::new();
+                while let Some(item) = self.value() {
+                    items.push(item);
+                }
+                self.close();
+                return Some(expr(ExprKind::List(items)));
+            }
+            Event::Plain(Plain::Null) | Event::Open(_) | Event::Close | Event::Name(..) | Event::Hole => {
+                return None;
+            }
+        };
+        self.next();
+        Some(expr(kind))
+    }
+
+    /// A condition; one that is not there yet says nothing.
+    pub(crate) fn condition(&mut self) -> Expr {
+        let Some(Event::Open(kind)) = self.peek() else { return expr(ExprKind::Bool(true)) };
+        let kind = match kind {
+            Kind::Is(index) => {
+                self.next();
+                let fluent = self.program.signatures.fluents.get(usize::from(index));
+                let fluent = fluent.map(|fluent| (&fluent.name, fluent.params.as_slice()));
+                ExprKind::Call(self.applied(fluent))
+            }
+            Kind::Not => {
+                self.next();
+                ExprKind::Not(Box::new(self.condition()))
+            }
+            Kind::All => {
+                self.next();
+                ExprKind::All(self.conditions())
+            }
+            Kind::Any => {
+                self.next();
+                ExprKind::AnyOf(self.conditions())
+            }
+            Kind::Get(index) => {
+                self.next();
+                let measure = self.program.signatures.measures.get(usize::from(index));
+                let measure = measure.map(|measure| (&measure.name, measure.params.as_slice()));
+                let call = self.applied(measure);
+                self.comparison(ExprKind::Call(call))
+            }
+            Kind::Field(index) => {
+                self.next();
+                let field = self.program.signatures.fields.get(usize::from(index));
+                let name = field.map(|field| field.name.clone()).unwrap_or_default();
+                let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
+                self.comparison(ExprKind::Field(Box::new(of), named(name)))
+            }
+            _ => return expr(ExprKind::Bool(true)),
+        };
+        self.close();
+        expr(kind)
+    }
+
+    fn conditions(&mut self) -> Vec<Expr> {
+        let mut parts = Vec::new();
+        while matches!(self.peek(), Some(Event::Open(_))) {
+            parts.push(self.condition());
+        }
+        parts
+    }
+
+    /// A fluent or a measure with the arguments that were said.
+    fn applied(&mut self, signature: Option<(&SmolStr, &[(SmolStr, Type)])>) -> Call {
+        let mut args = Vec::new();
+        for (param, _) in signature.map(|(_, params)| params).unwrap_or_default() {
+            let Some(value) = self.value() else { break };
+            args.push(argument(param, value));
+        }
+        let name = signature.map(|(name, _)| name.clone()).unwrap_or_default();
+        Call { name: named(name), args, span: Span::default() }
+    }
+
+    fn comparison(&mut self, subject: ExprKind) -> ExprKind {
+        let relation = match self.peek() {
+            Some(Event::Word(op, index)) => {
+                self.next();
+                match self.program.op(op) {
+                    Op::Word(words) => words.table.get(index).map(|entry| entry.meaning),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        let place = if let Some(Meaning::Named(place)) = relation { usize::from(place) } else { 0 };
+        let op = Relation::ALL.get(place).map_or(motet_syntax::ast::CompareOp::Equal, |relation| relation.0);
+        let than = self.value().unwrap_or_else(|| expr(ExprKind::Number(0.0)));
+        ExprKind::Compare(op, Box::new(expr(subject)), Box::new(than))
+    }
+
+    fn when(&mut self) -> When {
+        let condition = self.condition();
+        let hold = match self.peek() {
+            Some(Event::Plain(Plain::Null)) => {
+                self.next();
+                None
+            }
+            _ => self.number(),
+        };
+        let span = Span::default();
+        let Some(Event::Open(kind)) = self.peek() else {
+            return When { condition, hold, reaction: Reaction::End(end(EndKind::Fail)), span };
+        };
+        self.next();
+        let count = |number: Option<Expr>| number.unwrap_or_else(|| expr(ExprKind::Number(1.0)));
+        let reaction = match kind {
+            Kind::Pause => Reaction::Pause { within: self.modifier(), span },
+            Kind::Restart => Reaction::Restart { at_most: count(self.number()), span },
+            Kind::Resume => {
+                let at_most = count(self.number());
+                Reaction::Resume { at_most, body: self.block(), span }
+            }
+            Kind::Done => Reaction::End(self.end(EndKind::Done)),
+            Kind::Replan => Reaction::End(self.end(EndKind::Replan)),
+            _ => Reaction::End(self.end(EndKind::Fail)),
+        };
+        self.close();
+        When { condition, hold, reaction, span }
+    }
+
+    fn catch(&mut self) -> Catch {
+        let mut on = CatchOn::Kinds(Vec::new());
+        if self.peek() == Some(Event::Open(Kind::List)) {
+            self.next();
+            while let Some(value) = self.value() {
+                match (value.kind, &mut on) {
+                    (ExprKind::Plain(name), CatchOn::Kinds(kinds)) => kinds.push(named(name)),
+                    _ => on = CatchOn::Any(Span::default()),
+                }
+            }
+            self.close();
+        }
+        if matches!(&on, CatchOn::Kinds(kinds) if kinds.is_empty()) {
+            on = CatchOn::Any(Span::default());
+        }
+        Catch { on, body: self.block(), span: Span::default() }
+    }
+
+    fn end(&mut self, kind: EndKind) -> End {
+        End { kind, why: self.value().or(end(kind).why), span: Span::default() }
+    }
+}
+
+fn argument(name: &SmolStr, value: Expr) -> Arg {
+    Arg { name: Some(named(name.clone())), value, span: Span::default() }
+}
+
+fn named(text: SmolStr) -> Name {
+    Name { text, span: Span::default() }
+}
+
+fn expr(kind: ExprKind) -> Expr {
+    Expr { kind, span: Span::default() }
+}
+
+fn end(kind: EndKind) -> End {
+    let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
+    End { kind, why, span: Span::default() }
+}
+
+fn fail() -> Step {
+    Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
+}
+
+/// A block that no way leads out of.
+fn closed(mut steps: Vec<Step>) -> Block {
+    steps.push(fail());
+    Block { steps, span: Span::default() }
+}

@@ -1,0 +1,164 @@
+//! From bytes to tokens: which of a vocabulary may follow.
+
+use toktrie::{Recognizer, SimpleVob};
+
+use super::walk::Walk;
+use super::{Acceptor, Prepared};
+use crate::program::Op;
+use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
+use crate::vocabulary::Vocabulary;
+
+/// What may follow in a policy that is being written, token by token.
+#[derive(Clone, Debug)]
+pub struct Decoder {
+    vocabulary: Vocabulary,
+    acceptor: Acceptor,
+    /// How many bytes there were before each token.
+    before: Vec<usize>,
+    is_over: bool,
+    set: Mask,
+}
+
+#[derive(Clone)]
+struct Mask(SimpleVob);
+
+impl std::fmt::Debug for Mask {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Mask({} of {})", self.0.num_set(), self.0.len())
+    }
+}
+
+impl Prepared {
+    /// A decoder for a policy of at most `budget` bytes; none where no policy is that short.
+    #[must_use]
+    pub fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> Option<Decoder> {
+        let set = Mask(vocabulary.tokens().trie.alloc_token_set());
+        let (vocabulary, before) = (vocabulary.clone(), Vec::new());
+        Some(Decoder { vocabulary, acceptor: self.acceptor(budget)?, before, is_over: false, set })
+    }
+}
+
+impl Decoder {
+    /// Which tokens may follow, one a bit, the lowest first. After the end none may.
+    pub fn mask(&mut self) -> &[u32] {
+        let Self { vocabulary, acceptor, set, is_over, .. } = self;
+        let set = &mut set.0;
+        set.set_all(false);
+        if *is_over {
+            return set.as_slice();
+        }
+        let tokens = vocabulary.tokens();
+        let walk = &mut acceptor.walk;
+        let lengths = walk.lengths();
+        let trie = match walk.free_text(tokens.longest) {
+            Some(Free::Text) => {
+                set.or(&tokens.text);
+                &tokens.text_ends
+            }
+            Some(Free::Name { pos, most }) => {
+                let names = if pos == 0 { &tokens.first_names } else { &tokens.names };
+                if let Some(names) = names.get(most) {
+                    set.or(names);
+                }
+                &tokens.name_ends
+            }
+            None => &tokens.trie,
+        };
+        trie.add_bias(&mut Stepper(walk), set, &[]);
+        walk.keep(lengths);
+        if acceptor.is_accepting() {
+            set.allow_token(tokens.end);
+        }
+        set.as_slice()
+    }
+
+    /// Takes a token, where it may follow.
+    pub fn accept(&mut self, token: u32) -> bool {
+        let before = self.acceptor.bytes().len();
+        let tokens = self.vocabulary.tokens();
+        if self.is_over {
+            return false;
+        }
+        if token == tokens.end {
+            self.is_over = self.acceptor.is_accepting();
+            if self.is_over {
+                self.before.push(before);
+            }
+            return self.is_over;
+        }
+        let bytes = self.vocabulary.bytes(token);
+        let taken = self.acceptor.accept(bytes);
+        if bytes.is_empty() || taken < bytes.len() {
+            self.acceptor.forget(taken);
+            return false;
+        }
+        self.before.push(before);
+        true
+    }
+
+    /// Takes back the last tokens.
+    pub fn rollback(&mut self, tokens: usize) {
+        for _ in 0..tokens {
+            let Some(before) = self.before.pop() else { return };
+            let bytes = self.acceptor.bytes().len().saturating_sub(before);
+            self.acceptor.forget(bytes);
+            self.is_over = false;
+        }
+    }
+
+    /// The acceptor of the bytes.
+    pub fn acceptor(&mut self) -> &mut Acceptor {
+        &mut self.acceptor
+    }
+}
+
+/// Where nearly all may follow.
+#[derive(Clone, Copy, Debug)]
+enum Free {
+    Text,
+    /// So many bytes in, with room for at most so many.
+    Name {
+        pos: usize,
+        most: usize,
+    },
+}
+
+impl Walk {
+    /// Whether the walk is in a text or a name, with room for any token.
+    fn free_text(&self, longest: usize) -> Option<Free> {
+        let state = self.state();
+        let program = &self.machine.program;
+        let text = |op| matches!(program.op(op), Op::Text { .. });
+        let pos = state.pos as usize;
+        let (free, op) = match program.op(state.op) {
+            Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text, state.op),
+            Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text, *other),
+            Op::Name(_) => {
+                // Where a name of the greatest length is taken, one byte is kept to become another.
+                let longest = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize).max();
+                let kept = usize::from(longest == Some(MAX_NAME_CHARS));
+                let most = MAX_NAME_CHARS.saturating_sub(pos + kept);
+                (Free::Name { pos, most }, state.op)
+            }
+            _ => return None,
+        };
+        self.fits(longest.max(MAX_NAME_CHARS) + 4, op + 1, state.control).then_some(free)
+    }
+}
+
+/// Steps through a trie of tokens.
+struct Stepper<'w>(&'w mut Walk);
+
+impl Recognizer for Stepper<'_> {
+    fn pop_bytes(&mut self, num: usize) {
+        self.0.pop(num);
+    }
+
+    fn collapse(&mut self) {}
+
+    fn trie_finished(&mut self) {}
+
+    fn try_push_byte(&mut self, byte: u8) -> bool {
+        self.0.push(byte)
+    }
+}

@@ -1,0 +1,124 @@
+//! Words, letter by letter: a list in the order of its bytes, and the range of it that is left.
+
+use super::arena::{Event, Id, Name, State, UNSEEN};
+use super::walk::Walk;
+use crate::program::{Bound, Role, Words};
+
+/// The entry of a list that is a name which was bound: its number, and this.
+pub(crate) const BOUND: u32 = 1 << 31;
+
+impl Walk {
+    pub(super) fn word(&mut self, mut state: State, words: &Words, byte: u8) -> Option<State> {
+        if state.hi == UNSEEN {
+            (state.lo, state.hi) = self.list(&state, words);
+            if let Some(top) = self.states.last_mut().filter(|top| top.op == state.op) {
+                (top.lo, top.hi) = (state.lo, state.hi);
+            }
+        }
+        let pos = state.pos as usize;
+        let at = |walk: &Self, index: u32| {
+            walk.arenas.lists.get(index as usize).and_then(|entry| walk.letter(words, *entry, pos))
+        };
+        // The words are in the order of their bytes, so those that go on with one stand together.
+        let first = search(state.lo, state.hi, |index| at(self, index) < Some(byte));
+        let last = search(first, state.hi, |index| at(self, index) <= Some(byte));
+        if first >= last {
+            return None;
+        }
+        (state.lo, state.hi) = (first, last);
+        state.pos += 1;
+        let entry = self.arenas.lists.get(first as usize).copied()?;
+        if self.letter(words, entry, pos + 1).is_some() {
+            return Some(state);
+        }
+        Some(self.end_of_word(state, words, entry))
+    }
+
+    fn end_of_word(&mut self, mut state: State, words: &Words, entry: u32) -> State {
+        let next = match entry.checked_sub(BOUND) {
+            Some(id) => {
+                if words.bound == Bound::Lists {
+                    state = self.bind_item(state, id);
+                } else {
+                    state.event = self.arenas.say(state.event, Event::Bound(id));
+                }
+                words.next
+            }
+            None => {
+                let says = !matches!(words.role, Role::Callable | Role::Fluent | Role::Head);
+                if says {
+                    state.event = self.arenas.say(state.event, Event::Word(state.op, entry));
+                }
+                words.table.get(entry).and_then(|entry| entry.to).unwrap_or(words.next)
+            }
+        };
+        self.settle(state, next)
+    }
+
+    /// A loop's list is known: so is what its item is.
+    fn bind_item(&mut self, mut state: State, list: Id) -> State {
+        let program = &self.machine.program;
+        let element = self.arenas.name(list).and_then(|list| program.ty(list.ty)).and_then(|ty| match ty {
+            motet_compiler::signature::Type::List(element) => Some(element),
+            _ => None,
+        });
+        let ty = element.and_then(|element| program.types.iter().position(|ty| ty == &**element));
+        let ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX);
+        let item = self.arenas.said(state.event).map(|said| said.event);
+        state.event = self.arenas.say(state.event, Event::Bound(list));
+        if let Some(Event::Name(start, len)) = item {
+            state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
+        }
+        state
+    }
+
+    /// The name that was said before the list that was just written.
+    pub(super) fn name_before_list(&self, event: Id) -> Option<(u32, u32)> {
+        let mut at = event;
+        while let Some(said) = self.arenas.said(at).filter(|_| at > 0) {
+            if let Event::Name(start, len) = said.event {
+                return Some((start, len));
+            }
+            at = said.below;
+        }
+        None
+    }
+
+    /// A byte of an alternative, with the quotes that belong to it; none behind its end.
+    pub(crate) fn letter(&self, words: &Words, entry: u32, pos: usize) -> Option<u8> {
+        let pos = if words.quoted {
+            match pos.checked_sub(1) {
+                None => return Some(b'"'),
+                Some(pos) => pos,
+            }
+        } else {
+            pos
+        };
+        let (name, pos) = match entry.checked_sub(BOUND) {
+            None => (words.table.get(entry)?.name.as_bytes(), pos),
+            Some(id) => {
+                let name = self.arenas.name(id)?;
+                let Some(pos) = pos.checked_sub(1) else { return Some(b'$') };
+                let start = name.start as usize;
+                (self.bytes.get(start..start + name.len as usize)?, pos)
+            }
+        };
+        match name.get(pos) {
+            Some(byte) => Some(*byte),
+            None => (pos == name.len()).then_some(b'"'),
+        }
+    }
+}
+
+/// The first index in `lo..hi` at which `before` does not hold; it holds up to there.
+fn search(mut lo: u32, mut hi: u32, before: impl Fn(u32) -> bool) -> u32 {
+    while lo < hi {
+        let middle = lo + (hi - lo) / 2;
+        if before(middle) {
+            lo = middle + 1;
+        } else {
+            hi = middle;
+        }
+    }
+    lo
+}

@@ -1,0 +1,164 @@
+//! Conditions: fluents, comparisons, and what joins them.
+
+use std::sync::Arc;
+
+use motet_compiler::signature::Type;
+use smol_str::SmolStr;
+
+use super::Compiler;
+use crate::program::{Act, Bound, Entry, Guard, Kind, Meaning, Op, OpId, Role, Table, Words};
+use crate::surface::{MAX_MEMBERS, NumberRange, Relation, is_text};
+
+impl Compiler<'_> {
+    /// A condition behind its `{"`, with its brace.
+    pub(super) fn condition(&mut self) -> OpId {
+        let start = self.asm.later();
+        let end = self.asm.literal("}");
+        self.asm.act(Act::Close);
+        self.asm.put(Op::Return);
+        let mut ways = Vec::new();
+        let signatures = self.signatures;
+
+        let mut entries = Vec::new();
+        for (index, fluent) in signatures.fluents.iter().enumerate() {
+            let Ok(number) = u16::try_from(index) else { break };
+            let at = self.asm.act(Act::Open(Kind::Is(number)));
+            let mut args = Vec::new();
+            for (name, ty) in &fluent.params {
+                self.asm.literal(&format!(",\"{name}\":"));
+                args.extend(self.value(ty, None, Role::Of).0);
+            }
+            self.asm.put(Op::Jump(end));
+            self.fluents.push(args);
+            if is_text(&fluent.name) && fluent.name != "monitored" {
+                entries.push(Entry {
+                    name: fluent.name.clone(),
+                    meaning: Meaning::Named(number),
+                    to: Some(at),
+                });
+            }
+        }
+        let is = self.words(entries, Role::Fluent);
+        ways.push(("is\":\"", is, Guard::Is));
+
+        let not = self.asm.act(Act::Open(Kind::Not));
+        self.asm.act(Act::Negate);
+        self.asm.act(Act::Deeper);
+        self.asm.put(Op::Call(start));
+        self.asm.put(Op::Jump(end));
+        ways.push(("not\":{\"", not, Guard::Not));
+        for (word, kind, guard) in
+            [("all\":[{\"", Kind::All, Guard::All), ("any\":[{\"", Kind::Any, Guard::Any)]
+        {
+            let at = self.asm.act(Act::Open(kind));
+            self.asm.act(Act::Deeper);
+            self.asm.act(Act::Loosen);
+            let rule = self.asm.here() + 2;
+            self.asm.put(Op::Call(rule));
+            self.asm.put(Op::Jump(end));
+            self.asm.put(Op::Call(start));
+            self.asm.literal(",{\"");
+            let second = self.asm.put(Op::Call(start));
+            let after = self.asm.later();
+            let more = self.asm.act(Act::Count);
+            self.asm.put(Op::Jump(second));
+            let done = self.asm.put(Op::Return);
+            let below = u8::try_from(MAX_MEMBERS - 2).unwrap_or(0);
+            self.asm.choose(after, &[(",{\"", more, Guard::Below(below)), ("]", done, Guard::Open)]);
+            ways.push((word, at, guard));
+        }
+
+        let mut entries = Vec::new();
+        for (index, measure) in signatures.measures.iter().enumerate() {
+            let Ok(number) = u16::try_from(index) else { break };
+            let has_values = measure.params.iter().all(|(_, ty)| !self.table(ty).0.entries.is_empty());
+            if !measure.is_observable || !has_values {
+                continue;
+            }
+            let at = self.asm.act(Act::Open(Kind::Get(number)));
+            for (name, ty) in &measure.params {
+                self.asm.literal(&format!(",\"{name}\":"));
+                self.value(ty, None, Role::Free);
+            }
+            if self.comparison(&measure.result, end) {
+                let meaning = Meaning::Named(number);
+                entries.push(Entry { name: measure.name.clone(), meaning, to: Some(at) });
+            }
+        }
+        self.measures = !entries.is_empty();
+        if !entries.is_empty() {
+            let get = self.words(entries, Role::Head);
+            ways.push(("get\":\"", get, Guard::Loose));
+        }
+        let mut entries: Vec<Entry> = Vec::new();
+        for (index, field) in signatures.fields.iter().enumerate() {
+            let Ok(number) = u16::try_from(index) else { break };
+            let is_first = entries.iter().all(|entry| entry.name != field.name);
+            let has_one = signatures.entities_of(field.kind).next().is_some();
+            if !is_first || !has_one {
+                continue;
+            }
+            let at = self.asm.act(Act::Open(Kind::Field(number)));
+            self.asm.literal(",\"of\":");
+            self.value(&Type::Entity(field.kind), None, Role::Free);
+            if self.comparison(&field.ty, end) {
+                let meaning = Meaning::Named(number);
+                entries.push(Entry { name: field.name.clone(), meaning, to: Some(at) });
+            }
+        }
+        if !entries.is_empty() {
+            let field = self.words(entries, Role::Head);
+            ways.push(("field\":\"", field, Guard::Loose));
+        }
+        self.asm.choose(start, &ways);
+        start
+    }
+
+    pub(super) fn words(&mut self, entries: Vec<Entry>, role: Role) -> OpId {
+        let next = self.asm.here();
+        let table = Arc::new(Table::new(entries));
+        self.asm.put(Op::Word(Words { table, bound: Bound::None, role, quoted: false, next }))
+    }
+
+    /// `,"is":"less","than":0.5`; false where nothing can be compared with.
+    pub(super) fn comparison(&mut self, ty: &Type, end: OpId) -> bool {
+        let range = NumberRange::of(ty, None);
+        let relations: &[Relation] = if range.is_some() { &Relation::ALL } else { &Relation::EQUALITY };
+        self.asm.literal(",\"is\":\"");
+        let next = self.asm.here() + 1;
+        let entries = relations.iter().enumerate().filter_map(|(index, relation)| {
+            let place = Relation::ALL.iter().position(|other| other == relation).unwrap_or(index);
+            let meaning = Meaning::Named(u16::try_from(place).ok()?);
+            Some(Entry { name: SmolStr::new_static(relation.word()), meaning, to: None })
+        });
+        let table = Arc::new(Table::new(entries));
+        self.asm.put(Op::Word(Words { table, bound: Bound::None, role: Role::Free, quoted: false, next }));
+        self.asm.literal(",\"than\":");
+        let can = match ty {
+            Type::Int | Type::Number | Type::Quantity(_) => {
+                self.value(ty, None, Role::Free);
+                range.is_some()
+            }
+            Type::Bool => {
+                self.value(ty, None, Role::Free);
+                true
+            }
+            Type::Text => {
+                self.asm.literal("\"");
+                self.asm.put(Op::Text { arg: None });
+                true
+            }
+            Type::Entity(_) | Type::Enum(_) => {
+                let table = self.table(ty).0;
+                let can = !table.entries.is_empty();
+                let next = self.asm.here() + 1;
+                let (bound, role) = (Bound::None, Role::Free);
+                self.asm.put(Op::Word(Words { table, bound, role, quoted: true, next }));
+                can
+            }
+            Type::Pose | Type::List(_) => false,
+        };
+        self.asm.put(Op::Jump(end));
+        can
+    }
+}

@@ -1,0 +1,103 @@
+//! Values, by the types that are asked for.
+
+use std::sync::Arc;
+
+use motet_compiler::signature::Type;
+
+use super::Compiler;
+use crate::program::{Act, Bound, Guard, Kind, Op, OpId, Plain, Role, Table, Words};
+use crate::surface::{MAX_ITEMS, NumberRange};
+
+impl Compiler<'_> {
+    pub(super) fn type_number(&mut self, ty: &Type) -> u16 {
+        let at = self.types.iter().position(|known| known == ty).unwrap_or_else(|| {
+            self.types.push(ty.clone());
+            self.types.len() - 1
+        });
+        u16::try_from(at).unwrap_or(u16::MAX)
+    }
+
+    pub(super) fn bound(&mut self, ty: &Type) -> Bound {
+        let fits = self.types.iter().any(|actual| self.signatures.fits(ty, actual));
+        if fits { Bound::Type(self.type_number(ty)) } else { Bound::None }
+    }
+
+    /// The words of a type, without and with `any`.
+    pub(super) fn table(&mut self, ty: &Type) -> (Arc<Table>, Arc<Table>) {
+        let signatures = self.signatures;
+        let made = self.tables.entry(ty.clone()).or_insert_with(|| {
+            let table = match ty {
+                Type::Entity(kind) => Table::of_kind(signatures, *kind),
+                Type::Enum(id) => Table::of_cases(signatures, *id),
+                _ => Table::default(),
+            };
+            let any = table.with_any();
+            (Arc::new(table), Arc::new(any))
+        });
+        (Arc::clone(&made.0), Arc::clone(&made.1))
+    }
+
+    /// A value of a type. Its word, and that of its elements.
+    pub(super) fn value(
+        &mut self,
+        ty: &Type,
+        card: Option<(f64, f64)>,
+        role: Role,
+    ) -> (Option<OpId>, Option<OpId>) {
+        match ty {
+            Type::Entity(_) | Type::Enum(_) | Type::Pose => {
+                let table = if role == Role::Of { self.table(ty).1 } else { self.table(ty).0 };
+                (Some(self.word(table, ty, role)), None)
+            }
+            Type::Text => {
+                self.asm.literal("\"");
+                let arg = if let Role::Argument(arg) = role { Some(arg) } else { None };
+                self.text(arg);
+                (None, None)
+            }
+            Type::Bool => {
+                let (choice, t) = (self.asm.later(), self.asm.act(Act::Say(Plain::True)));
+                let over = self.asm.put(Op::Jump(0));
+                let f = self.asm.act(Act::Say(Plain::False));
+                let next = self.asm.here();
+                self.asm.set(over, Op::Jump(next));
+                self.asm.choose(choice, &[("true", t, Guard::Open), ("false", f, Guard::Open)]);
+                (None, None)
+            }
+            Type::Int | Type::Number | Type::Quantity(_) => {
+                if let Some(range) = NumberRange::of(ty, card) {
+                    self.asm.put(Op::Number(range));
+                }
+                (None, None)
+            }
+            Type::List(element) => {
+                let fork = self.asm.later();
+                let open = self.asm.literal("[");
+                self.asm.act(Act::Open(Kind::List));
+                let items = self.asm.put(Op::Call(0));
+                self.asm.act(Act::Close);
+                let over = self.asm.put(Op::Jump(0));
+                let rule = self.asm.here();
+                let (item, _) = self.value(element, None, Role::Free);
+                self.asm.act(Act::Count);
+                let after = self.asm.later();
+                let more = self.asm.put(Op::Jump(rule));
+                let done = self.asm.put(Op::Return);
+                let most = u8::try_from(MAX_ITEMS).unwrap_or(0);
+                self.asm.choose(after, &[(",", more, Guard::Below(most)), ("]", done, Guard::Open)]);
+                self.asm.set(items, Op::Call(rule));
+                let word = self.word(Arc::new(Table::default()), ty, role);
+                let next = self.asm.here();
+                self.asm.set(over, Op::Jump(next));
+                self.asm.set(fork, Op::Fork { byte: b'"', then: word, other: open });
+                (Some(word), item)
+            }
+        }
+    }
+
+    pub(super) fn word(&mut self, table: Arc<Table>, ty: &Type, role: Role) -> OpId {
+        let bound = self.bound(ty);
+        let next = self.asm.here() + 1;
+        self.asm.put(Op::Word(Words { table, bound, role, quoted: true, next }))
+    }
+}

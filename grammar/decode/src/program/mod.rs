@@ -1,0 +1,306 @@
+//! What a policy can be spelled like, compiled for one robot, scene and state: a byte program. It says which bytes may
+//! follow which and what they mean; which of its choices are open in a given policy is [`crate::acceptor`]'s to say.
+//!
+//! A program is a list of operations. One of them takes bytes (a literal, a choice, a word, a text, a name, a number), or
+//! none (an event, a call of a rule, a return). Every operation knows the length of its shortest completion, so that a
+//! walk can be held within a number of bytes.
+
+mod assemble;
+mod json;
+mod table;
+
+use std::sync::Arc;
+
+use motet_compiler::signature::{Signatures, Type};
+use motet_compiler::{Session, draft::Draft};
+
+pub(crate) use self::assemble::Assembler;
+pub(crate) use self::table::{Entry, Meaning, Table};
+use crate::surface::{NumberRange, Surface};
+
+/// The place of an operation.
+pub(crate) type OpId = u32;
+
+/// One operation.
+#[derive(Clone, Debug)]
+pub(crate) enum Op {
+    /// These bytes.
+    Literal(Box<[u8]>),
+    /// One of several literals; no two begin with the same bytes.
+    Choose(Box<[Alternative]>),
+    /// One of a list of words that depends on the policy so far.
+    Word(Words),
+    /// If the next byte is this one and the word at `then` has an alternative, that; otherwise `other`.
+    Fork { byte: u8, then: OpId, other: OpId },
+    /// The characters of a text and the quote behind it. `arg`: of which argument of a call.
+    Text { arg: Option<u8> },
+    /// A new name and the quote behind it.
+    Name(Naming),
+    /// A number.
+    Number(NumberRange),
+    /// Nothing: something is meant.
+    Act(Act),
+    /// A rule, then the next operation.
+    Call(OpId),
+    /// On at another place.
+    Jump(OpId),
+    /// Back to behind the call.
+    Return,
+    /// The end of the document.
+    Accept,
+}
+
+/// One alternative of a choice.
+#[derive(Clone, Debug)]
+pub(crate) struct Alternative {
+    pub(crate) bytes: Box<[u8]>,
+    pub(crate) to: OpId,
+    pub(crate) guard: Guard,
+}
+
+/// When an alternative is open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Guard {
+    /// Always.
+    Open,
+    /// Where less than so many of the rule's members are there.
+    Below(u8),
+    /// Where the block may end: nothing that follows from it is refuted.
+    Close,
+    /// Where the block may be empty and may end.
+    Empty,
+    /// Where some callable may be called.
+    Call,
+    /// Where one more step with blocks may begin.
+    Nest,
+    /// As `Nest`, for what is proved to a fixed point.
+    Fix,
+    /// Where some condition may be waited for.
+    Wait,
+    /// Where the goal is not refuted, so that the policy may be done.
+    Done,
+    /// As `Done`, of a monitor.
+    DoneWhen,
+    /// Where this reaction refutes nothing.
+    React(Kind),
+    /// Where a condition may be several, all of which hold.
+    All,
+    /// Where it may be several, one of which holds.
+    Any,
+    /// Where it may stand under `not`.
+    Not,
+    /// Where some fluent may be asked for.
+    Is,
+    /// Where a condition need not say more than that it is one.
+    Loose,
+    /// Where a loop needs no test.
+    NoTest,
+}
+
+/// What a new name is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Naming {
+    /// The policy.
+    Policy,
+    /// A group.
+    Group,
+    /// A result, of the type with this number.
+    Result(u16),
+    /// The item of a loop, of the type of the elements of its list.
+    Item,
+}
+
+/// A list of words: static ones, and the names that the policy has bound.
+#[derive(Clone, Debug)]
+pub(crate) struct Words {
+    pub(crate) table: Arc<Table>,
+    /// Names of this type.
+    pub(crate) bound: Bound,
+    pub(crate) role: Role,
+    /// Whether the quote before the word is part of it.
+    pub(crate) quoted: bool,
+    /// Where to go on, unless the word says so itself.
+    pub(crate) next: OpId,
+}
+
+/// Which names that the policy has bound are among the words.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Bound {
+    None,
+    /// Those of the type with this number, or of one below it.
+    Type(u16),
+    /// Those of a list.
+    Lists,
+}
+
+/// What a word is in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Role {
+    /// What a step calls.
+    Callable,
+    /// The argument of a call with this number.
+    Argument(u8),
+    /// A fluent.
+    Fluent,
+    /// An argument of a fluent.
+    Of,
+    /// An entity of the kind of the first of its list.
+    Alike,
+    /// A measure or a field: what it is called says what follows.
+    Head,
+    /// Anything else: each is as good as the other.
+    Free,
+}
+
+/// What is meant where no byte is taken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Act {
+    Open(Kind),
+    Close,
+    /// A value that needs no word.
+    Say(Plain),
+    /// One more member of the rule.
+    Count,
+    /// The rule is a block of this sort.
+    Enter(Slot),
+    /// The block ends.
+    Leave,
+    /// A step of a block ends.
+    StepDone,
+    /// Everything before the steps is said.
+    Head,
+    /// The condition that follows is one of these.
+    Condition(Asks),
+    /// It stands in another one.
+    Deeper,
+    /// It stands under `not`.
+    Negate,
+    /// It tells nothing of the facts by itself.
+    Loosen,
+    /// The item of a loop is of the kind of the list that was written out.
+    BindItem,
+    /// The item of a loop is no longer known.
+    Forget,
+}
+
+/// For what a condition is asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Asks {
+    /// The goal: it need not be observable.
+    Goal,
+    /// `if`, `when`: it refutes nothing by itself.
+    Anything,
+    /// `wait`
+    Wait,
+    /// `until`
+    Until,
+}
+
+/// A value that needs no word.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Plain {
+    Null,
+    True,
+    False,
+}
+
+/// A block.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Slot {
+    Body,
+    Group,
+    Then,
+    Else,
+    Try,
+    Catch,
+    During,
+    Reaction,
+    Loop,
+    Branch,
+}
+
+/// What has parts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Kind {
+    Do(u16),
+    Sequence,
+    If,
+    Wait,
+    Monitor,
+    When,
+    Pause,
+    Restart,
+    Resume,
+    Done,
+    Fail,
+    Replan,
+    Try,
+    Catch,
+    Repeat,
+    Each,
+    Parallel,
+    Block,
+    Is(u16),
+    Not,
+    All,
+    Any,
+    Get(u16),
+    Field(u16),
+    List,
+}
+
+/// A callable, and where its parameters are spelled.
+#[derive(Clone, Debug)]
+pub(crate) struct Callable {
+    /// Its number among the library's primitives; a policy has none.
+    pub(crate) primitive: Option<usize>,
+    /// The operation of each argument that is a word; none of one that is anything else.
+    pub(crate) words: Vec<Option<OpId>>,
+    /// Of a list: what its elements are, where they are words.
+    pub(crate) elements: Vec<Option<OpId>>,
+    /// The resources that it uses, one a bit.
+    pub(crate) uses: u64,
+    /// The parameter that its motion is about.
+    pub(crate) target: Option<usize>,
+}
+
+/// A byte program.
+#[derive(Clone, Debug)]
+pub(crate) struct Program {
+    pub(crate) ops: Vec<Op>,
+    /// By operation: how many bytes lead from before it to the end of its rule, at the shortest.
+    pub(crate) rest: Vec<u32>,
+    pub(crate) start: OpId,
+    pub(crate) signatures: Signatures,
+    pub(crate) types: Vec<Type>,
+    pub(crate) callables: Vec<Callable>,
+    /// The operations of the arguments of each fluent.
+    pub(crate) fluents: Vec<Vec<OpId>>,
+    /// Whether a condition can be about a measure.
+    pub(crate) measures: bool,
+    pub(crate) surface: Surface,
+}
+
+impl Program {
+    /// Compiles the program of a session. O(declarations × entities).
+    pub(crate) fn new(session: &Session, surface: Surface) -> Self {
+        json::compile(session, surface)
+    }
+
+    pub(crate) fn op(&self, id: OpId) -> &Op {
+        self.ops.get(id as usize).unwrap_or(&Op::Accept)
+    }
+
+    pub(crate) fn rest(&self, id: OpId) -> u32 {
+        self.rest.get(id as usize).copied().unwrap_or(0)
+    }
+
+    pub(crate) fn ty(&self, id: u16) -> Option<&Type> {
+        self.types.get(usize::from(id))
+    }
+}
+
+/// The number of a primitive in the session's library.
+pub(crate) fn primitive(session: &Session, name: &str) -> Option<usize> {
+    Draft::primitive(session, name)
+}

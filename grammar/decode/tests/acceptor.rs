@@ -1,0 +1,226 @@
+//! The acceptor against the checker: what it lets a model write checks without an error, every walk ends, and every
+//! canonical policy that checks is accepted, byte by byte.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::indexing_slicing,
+    clippy::string_slice,
+    clippy::disallowed_methods,
+    reason = "a test fails by panicking"
+)]
+
+mod common;
+
+use common::dice::Dice;
+use common::walks::{Ended, KINDS, steps, walk};
+use common::{errors, session};
+use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
+use motet_syntax::{FileId, Source};
+
+fn surface(modifiers: Modifiers) -> Surface {
+    Surface { modifiers, ..Surface::default() }
+}
+
+/// How many walks each pair of robot and scene gets; `MOTET_WALKS` says otherwise.
+fn walks() -> usize {
+    std::env::var("MOTET_WALKS").ok().and_then(|count| count.parse().ok()).unwrap_or(8)
+}
+
+#[test]
+fn what_is_written_at_random_checks() {
+    let (mut lengths, mut done, mut all) = (Vec::new(), 0, 0);
+    let mut kinds = [0usize; KINDS.len()];
+    for (index, (robot, scene)) in
+        [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")].into_iter().enumerate()
+    {
+        let session = session(robot, scene);
+        for (kind, modifiers) in [Modifiers::Default, Modifiers::Written].into_iter().enumerate() {
+            let prepared = Prepared::new(&session, surface(modifiers));
+            for round in 0..walks() {
+                let seed = (index * 2 + kind) * 1_000_000 + round;
+                let mut dice = Dice::new(u64::try_from(seed).unwrap());
+                let budget = [300, 2000, 8000][dice.below(3)];
+                let wanted = 1 + dice.below(60);
+                let text = match walk(&prepared, budget, wanted, &mut dice).unwrap() {
+                    Ended::Whole(text) => text,
+                    Ended::Stuck(text) => panic!("{robot} {scene} {seed}: stuck after {text}"),
+                };
+                assert!(text.len() <= budget, "{seed}: {} bytes of {budget}", text.len());
+                let wrong = errors(&session, &text);
+                assert!(wrong.is_empty(), "{robot} {scene} {seed}: {wrong:#?}\n{text}");
+                all += 1;
+                lengths.push(steps(&text));
+                done += usize::from(!text.ends_with("}]}") || !last_fails(&text));
+                for (kind, count) in KINDS.iter().zip(&mut kinds) {
+                    *count += usize::from(text.contains(&format!("{{\"{kind}\":")));
+                }
+            }
+        }
+    }
+    lengths.sort_unstable();
+    println!(
+        "{all} walks, {} steps at the median, {done} end in done, {kinds:?}",
+        lengths[lengths.len() / 2]
+    );
+}
+
+fn last_fails(text: &str) -> bool {
+    let last = text.rfind("{\"end\":").map(|at| &text[at..]);
+    last.is_some_and(|last| {
+        (last.contains("\"fail\"") || last.contains("\"replan\"")) && last.ends_with("}]}")
+    })
+}
+
+#[test]
+fn examples_are_accepted_byte_by_byte() {
+    let mut count = 0;
+    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+        let session = session(robot, scene);
+        let prepared = Prepared::new(&session, surface(Modifiers::Written));
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+        let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
+        files.sort();
+        for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "json")) {
+            let text = std::fs::read_to_string(file).unwrap();
+            if !errors(&session, &text).is_empty() {
+                continue;
+            }
+            let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
+            let policy = parsed.file.policies().next().unwrap();
+            let spelled = match canonical(policy, &session.signatures(), surface(Modifiers::Written)) {
+                Ok(spelled) => spelled,
+                Err(outside) => {
+                    println!("{}: {outside}", file.display());
+                    continue;
+                }
+            };
+            let mut acceptor = prepared.acceptor(100_000).unwrap();
+            let taken = acceptor.accept(spelled.as_bytes());
+            assert!(
+                taken == spelled.len() && acceptor.is_accepting(),
+                "{} in {scene}: refused after {}",
+                file.display(),
+                &spelled[..taken]
+            );
+            count += 1;
+        }
+    }
+    assert!(count >= 10, "{count}");
+}
+
+/// Every byte, and pieces that cross the borders of words, texts and steps.
+fn vocabulary() -> Vocabulary {
+    let mut tokens: Vec<Vec<u8>> = (0..=u8::MAX).map(|byte| vec![byte]).collect();
+    let pieces = [
+        "{\"",
+        "\":\"",
+        "\",\"",
+        "\":{\"",
+        "\":[{\"",
+        "\"}",
+        "\"},{\"",
+        "\"}]",
+        "\"}]}",
+        "\"}]},{\"",
+        "}]}",
+        "]}]",
+        "null",
+        "null}",
+        ",\"as\":\"",
+        "do\":\"",
+        "end\":\"done\"}",
+        "end\":\"fail\",\"why\":\"",
+        "go\"",
+        "pick",
+        "detect\",\"what\":\"",
+        "red mug",
+        "mug",
+        "mug_1\"",
+        "$m",
+        "\"$",
+        "\"$m\"",
+        "m\"}",
+        "1.5",
+        "0.",
+        "00",
+        "99",
+        "2}",
+        "is\":\"holding\",\"",
+        "an",
+        " and",
+        "x1",
+        "_",
+        "why",
+        "\"}}]",
+        "],\"else\":[]}",
+        "\"fail\"",
+    ];
+    tokens.extend(pieces.iter().map(|piece| piece.as_bytes().to_vec()));
+    // The end of a sequence has no bytes.
+    let end = u32::try_from(tokens.len()).unwrap();
+    tokens.push(Vec::new());
+    Vocabulary::new(&tokens, end)
+}
+
+#[test]
+fn a_mask_has_the_tokens_that_are_accepted() {
+    let session = session("hsr", "kitchen");
+    let prepared = Prepared::new(&session, surface(Modifiers::Default));
+    let vocabulary = vocabulary();
+    let count = u32::try_from(vocabulary.len()).unwrap();
+    for seed in 0..6 {
+        let mut dice = Dice::new(seed);
+        let mut decoder = prepared.decoder(&vocabulary, 700).unwrap();
+        for _ in 0..150 {
+            let mask = decoder.mask().to_vec();
+            let is_set = |token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
+            for token in 0..count {
+                let accepted = decoder.accept(token);
+                if accepted {
+                    decoder.rollback(1);
+                }
+                let after = String::from_utf8_lossy(decoder.acceptor().bytes()).into_owned();
+                let text = String::from_utf8_lossy(vocabulary.bytes(token)).into_owned();
+                assert_eq!(is_set(token), accepted, "{seed}: `{text}` after {after}");
+            }
+            let open: Vec<u32> = (0..count).filter(|token| is_set(*token)).collect();
+            assert!(!open.is_empty(), "{seed}: nothing may follow");
+            // Long tokens lead further.
+            let long: Vec<u32> = open.iter().copied().filter(|token| *token >= 256).collect();
+            let from = if long.is_empty() || dice.chance(30) { &open } else { &long };
+            assert!(decoder.accept(from[dice.below(from.len())]));
+            if !decoder.mask().iter().any(|word| *word != 0) {
+                break;
+            }
+        }
+    }
+}
+
+#[test]
+fn what_must_come_next_comes() {
+    let session = session("hsr", "kitchen");
+    let prepared = Prepared::new(&session, surface(Modifiers::Default));
+    let mut acceptor = prepared.acceptor(1000).unwrap();
+    assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
+    let start = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1","from":"auto"}"#;
+    assert_eq!(acceptor.accept(start), start.len());
+    // The hand is not free any more: no second object can be picked, and the checker says why.
+    let again = br#",{"do":"pick","object":"mug_2","from":"auto"}"#;
+    let why = acceptor.why_not(again);
+    assert!(why.iter().any(|said| said.code.0 == "M0501"), "{why:?}");
+    assert!(acceptor.accept(again) < again.len());
+}
+
+#[test]
+fn what_a_query_ruled_out_is_no_argument() {
+    let session = session("hsr", "kitchen");
+    let start =
+        br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1""#;
+    let open = Prepared::new(&session, surface(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
+    assert_eq!(open, start.len());
+    let verdicts = [("pick", "mug_1")];
+    let prepared = Prepared::with_verdicts(&session, surface(Modifiers::Default), &verdicts);
+    assert!(prepared.acceptor(1000).unwrap().accept(start) < start.len());
+}
