@@ -89,10 +89,36 @@ fn fetching_is_feasible_step_by_step() {
         &KITCHEN,
         "policy fetch for hsr { go(kitchen_table) pick(mug_1) go(user) handover(mug_1, user) }",
     );
-    for (query, verdict, why) in &found[..3] {
+    for (query, verdict, why) in &found {
         assert_eq!(*verdict, Verdict::Proven, "{query}: {why}");
     }
     assert_eq!(found.len(), 4);
+}
+
+#[test]
+fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
+    // The mug is put where the robot was to put nothing else: on a stand that has room for one thing only.
+    let mut scene = kitchen();
+    let mut stand = scene.entities["shelf"].clone();
+    stand.id = "stand".into();
+    stand.pose = Some(Placement { xyz: [-0.9, 0.9, 0.35], rpy: [0.0; 3] });
+    stand.shape = Some(scene::Shape::Box([0.1, 0.1, 0.7]));
+    scene.entities.insert("stand".into(), stand);
+    let session = session(&scene);
+    let bring =
+        |thing: &str| format!("go({thing}) inspect({thing}) pick({thing}) go(stand) place({thing}, stand)");
+    for thing in ["mug_1", "glass_1"] {
+        let found = motions(&session, &format!("policy bring for hsr {{ {} }}", bring(thing)));
+        assert!(found.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{found:?}");
+    }
+    let both = format!("policy bring for hsr {{ {} {} }}", bring("mug_1"), bring("glass_1"));
+    let (said, since) = refusal(&session, &both);
+    assert!(
+        said.starts_with("M0602 `place` cannot do `put(glass_1, stand)`: `mug_1` is in the way"),
+        "{said}"
+    );
+    assert!(said.contains("`mug_1` is as `place(mug_1, stand)` left it"), "{said}");
+    assert_eq!(since.first().map(String::as_str), Some("changed here"), "{since:?}");
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn asked(motions: &[String]) -> Result<Vec<Query>, Trouble> {
         Query::parse(motion).ok_or_else(|| Trouble::Unknown {
             what: "motion",
             name: motion.clone(),
-            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front) or posture(NAME)"
+            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), look(ENTITY) or posture(NAME)"
                 .to_owned(),
         })
     });
@@ -117,6 +117,6 @@ fn numbers(reason: &Reason) -> Vec<(&'static str, f64)> {
         Reason::TooHeavy { needs, limit } | Reason::TooWide { needs, limit } => {
             vec![("needs", *needs), ("limit", *limit)]
         }
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => vec![],
+        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } | Reason::NotInView { .. } => vec![],
     }
 }

@@ -85,7 +85,9 @@ impl Walk<'_> {
     fn moves(&self, query: &Query) -> bool {
         match query {
             Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
-            Query::Other(name) => name != "look",
+            Query::Put(..) | Query::Offer(..) | Query::Other(_) => true,
+            // The head may look elsewhere afterwards, which changes nothing that is kept.
+            Query::Look(_) => false,
         }
     }
 
@@ -113,8 +115,10 @@ impl Walk<'_> {
             Query::GoTo(_) | Query::Posture(_) => Change::Gone,
             Query::Reach(..) if self.makes(def, "holding", true).is_some() => Change::Taken,
             Query::Reach(..) => return only(from.clone()),
-            Query::Other(name) if name == "look" => return only(from.clone()),
-            Query::Other(_) => return lost(),
+            Query::Look(_) => return only(from.clone()),
+            Query::Put(..) if self.makes(def, "holding", false).is_some() => Change::Put,
+            Query::Offer(..) if self.makes(def, "holding", false).is_some() => Change::Given,
+            Query::Put(..) | Query::Offer(..) | Query::Other(_) => return lost(),
         };
         let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
         let mut next = Situation { at, ..from.clone() };
@@ -130,7 +134,11 @@ impl Walk<'_> {
                 }
             }
             (Change::Taken, _) => next.held_since = Some(id),
-            (Change::Gone, _) => {}
+            (Change::Put | Change::Given, Query::Put(object, _) | Query::Offer(object, _)) => {
+                next.held_since = None;
+                next.changed.push((object.clone(), id));
+            }
+            (Change::Gone | Change::Put | Change::Given, _) => {}
         }
         only(next)
     }

@@ -76,6 +76,13 @@ motet_syntax::mistakes! {
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
+
+    /// No camera sees a thing.
+    NotInView("M0606", Error) { told: Told }
+    message(m) { message(&m.told) }
+    help(m) { help(&m.told) }
+    related(m) { m.told.since.clone() }
+    about(m) { about(&m.told) }
 }
 
 /// The diagnostic of a reason.
@@ -89,6 +96,7 @@ pub(crate) fn refused(
         Reason::OutOfReach { .. } => OutOfReach { span, told }.into(),
         Reason::NoFreePose { .. } => NoFreePose { span, told }.into(),
         Reason::BlockedPath { .. } => BlockedPath { span, told }.into(),
+        Reason::NotInView { .. } => NotInView { span, told }.into(),
         Reason::TooHeavy { .. } => TooHeavy { span, told }.into(),
         Reason::TooWide { .. } => TooWide { span, told }.into(),
     }

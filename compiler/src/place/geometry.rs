@@ -41,6 +41,10 @@ pub(super) enum Change {
     Gone,
     /// The robot is where it was, with the thing in its hand.
     Taken,
+    /// The robot is where it was, the thing where it was put.
+    Put,
+    /// The robot is where it was, the thing with a person.
+    Given,
 }
 
 impl Geometry {
@@ -101,6 +105,11 @@ impl Geometry {
         let world = match change {
             Change::Gone => Some(room.gone_along(way)),
             Change::Taken => room.taken(way),
+            Change::Put => room.put_there(way),
+            Change::Given => match query {
+                Query::Offer(_, to) => room.given(to),
+                _ => None,
+            },
         };
         let world = world.map(|world| Arc::new(keyed(world)));
         if let Some(mut memo) = self.memo() {

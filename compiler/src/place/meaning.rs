@@ -24,6 +24,9 @@ impl Walk<'_> {
         Ok(match (name.as_str(), second) {
             ("go_to", None) => Query::GoTo(first),
             ("reach", None) => Query::Reach(first, self.side(call)),
+            ("put", Some(on)) => Query::Put(first, on),
+            ("offer", Some(to)) => Query::Offer(first, to),
+            ("look", None) => Query::Look(first),
             ("posture", None) => Query::Posture(first),
             (name, _) => Query::Other(name.into()),
         })

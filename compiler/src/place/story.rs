@@ -21,7 +21,7 @@ impl Walk<'_> {
     ) -> Option<Diagnostic> {
         let span = self.program.steps.get(id.index())?.span;
         let culprit = match &why.reason {
-            Reason::NoFreePose { by } | Reason::BlockedPath { by } => by.as_ref(),
+            Reason::NoFreePose { by } | Reason::BlockedPath { by } | Reason::NotInView { by } => by.as_ref(),
             Reason::OutOfReach { .. } | Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
         };
         let changed = culprit.and_then(|by| Some((by, situation.changer(by)?)));

@@ -68,6 +68,45 @@ impl Room<'_> {
         is_back.then_some(world)
     }
 
+    /// The world after a thing was put where a witness of `put` says, with the robot back where it began; `None` where no way
+    /// back was found.
+    #[must_use]
+    pub fn put_there(&self, witness: &Witness) -> Option<World> {
+        let grasp = witness.grasp.as_ref()?;
+        let (hand, end) = (self.machine.hand()?, witness.path.last()?);
+        let mut world = self.world.clone();
+        world.held = None;
+        world.moved.insert(grasp.object.clone(), grasp.map_from_tip * grasp.tip_from_object);
+        let (index, _) = self.entity(&grasp.object)?;
+        let room = Room::new(self.machine, self.scene, &world);
+        let allowed = Allowed { hand: Some(index), held: None };
+        // The fingers open, then the hand draws back from the thing.
+        let open = State { base: end.base, joints: hand.opened(&end.joints) };
+        room.edge(end, &open, allowed).ok()?;
+        let is_back = BACK.into_iter().any(|far| {
+            let away = grasp.map_from_tip.rotation * -Vector3::from(hand.card.points) * far;
+            let Some(line) = room.line(hand, &open, &grasp.map_from_tip, &away) else { return false };
+            let is_free = line.windows(2).all(|pair| match pair {
+                [one, other] => room.edge(one, other, allowed).is_ok(),
+                _ => true,
+            });
+            let place = grasp.map_from_tip.translation.vector;
+            is_free && line.first().is_some_and(|first| room.leads_back(first, &place))
+        });
+        is_back.then_some(world)
+    }
+
+    /// The world after a person took what was held out to them: the robot is back where it began, by the way it came.
+    #[must_use]
+    pub fn given(&self, to: &str) -> Option<World> {
+        let mut world = self.world.clone();
+        let (held, _) = world.held.take()?;
+        let (_, person) = self.entity(to)?;
+        // With them it stands in nobody's way.
+        world.moved.insert(held, self.world.pose(person)?);
+        Some(world)
+    }
+
     /// Whether a way leads between where the robot is in this room and a state in front of a place.
     pub(super) fn leads_back(&self, state: &State, place: &Vector3<f64>) -> bool {
         let [x, y, _] = state.base;

@@ -22,6 +22,12 @@ pub enum Query {
     GoTo(SmolStr),
     /// A grasp of a thing, from a side where one is given.
     Reach(SmolStr, Option<Side>),
+    /// What is in the hand onto a surface, or into a container.
+    Put(SmolStr, SmolStr),
+    /// What is in the hand held out to a person.
+    Offer(SmolStr, SmolStr),
+    /// A thing in view.
+    Look(SmolStr),
     /// To a posture of the card.
     Posture(SmolStr),
     /// Any other motion of the language, which is not computed: its name.
@@ -35,19 +41,24 @@ impl Query {
         let (name, rest) = text.trim().split_once('(')?;
         let mut args = rest.strip_suffix(')')?.split(',').map(|arg| arg.trim().trim_matches('`'));
         let (first, second, third) = (args.next().filter(|arg| !arg.is_empty())?, args.next(), args.next());
+        if let ("put" | "offer", Some(second), None) = (name, second, third) {
+            let (object, second) = (first.into(), second.into());
+            return Some(if name == "put" { Self::Put(object, second) } else { Self::Offer(object, second) });
+        }
         let side = match second {
             None | Some("auto") => None,
             Some("top") => Some(Side::Top),
             Some("side") => Some(Side::Side),
             Some("front") => Some(Side::Front),
-            Some(_) => return matches!(name, "put" | "offer").then(|| Self::Other(name.into())),
+            Some(_) => return None,
         };
         match name {
             _ if third.is_some() => None,
             "reach" => Some(Self::Reach(first.into(), side)),
             "go_to" if second.is_none() => Some(Self::GoTo(first.into())),
             "posture" if second.is_none() => Some(Self::Posture(first.into())),
-            "pull" | "push" | "look" if second.is_none() => Some(Self::Other(name.into())),
+            "look" if second.is_none() => Some(Self::Look(first.into())),
+            "pull" | "push" if second.is_none() => Some(Self::Other(name.into())),
             _ => None,
         }
     }
@@ -66,6 +77,9 @@ impl std::fmt::Display for Query {
                 };
                 write!(f, "reach({object}, {side})")
             }
+            Self::Put(object, on) => write!(f, "put({object}, {on})"),
+            Self::Offer(object, to) => write!(f, "offer({object}, {to})"),
+            Self::Look(at) => write!(f, "look({at})"),
             Self::Posture(name) => write!(f, "posture({name})"),
             Self::Other(name) => write!(f, "{name}(…)"),
         }
@@ -162,7 +176,7 @@ pub struct Infeasible {
 pub enum Reason {
     /// It is too far away, too high or too low: what is needed and what is reached, both in m, and in which direction.
     OutOfReach {
-        /// What is measured: `height` or `distance`.
+        /// What is measured: `height`, `distance`, or `sight`.
         what: &'static str,
         /// What is needed.
         needs: f64,
@@ -177,6 +191,11 @@ pub enum Reason {
     /// There are free configurations, and no way to one was found.
     BlockedPath {
         /// What is touched most often on the way.
+        by: Option<SmolStr>,
+    },
+    /// No camera sees it from here: what hides it, where something does.
+    NotInView {
+        /// What stands before it most often.
         by: Option<SmolStr>,
     },
     /// It weighs more than the hand carries, both in kg.
@@ -203,6 +222,7 @@ impl Reason {
             Self::OutOfReach { .. } => "out_of_reach",
             Self::NoFreePose { .. } => "no_free_pose",
             Self::BlockedPath { .. } => "blocked_path",
+            Self::NotInView { .. } => "not_in_view",
             Self::TooHeavy { .. } => "too_heavy",
             Self::TooWide { .. } => "too_wide",
         }
@@ -212,6 +232,11 @@ impl Reason {
 impl std::fmt::Display for Reason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            Self::OutOfReach { what: "sight", needs, reach } => {
+                write!(f, "is {needs:.2} m away, the camera sees {reach:.2} m")
+            }
+            Self::NotInView { by: Some(by) } => write!(f, "`{by}` hides it from the camera"),
+            Self::NotInView { by: None } => f.write_str("the camera does not turn there"),
             Self::OutOfReach { what, needs, reach } => {
                 write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
             }

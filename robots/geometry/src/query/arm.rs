@@ -13,8 +13,13 @@ use crate::kinematics::{planar, spread};
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
 
+/// The root of x³ = x + 1.
+pub(super) const PLANE: f64 = 1.324_717_957_244_746;
+/// The root of x⁴ = x + 1.
+pub(super) const SPACE: f64 = 1.220_744_084_605_759_5;
+
 /// The fraction of `at` times the `n`-th power of the inverse of the root of x^(d+1) = x + 1 (Roberts 2018).
-fn part(at: usize, n: i32, ratio: f64) -> f64 {
+pub(super) fn part(at: usize, n: i32, ratio: f64) -> f64 {
     let value = 0.5 + at as f64 * libm::pow(ratio, -f64::from(n));
     value - libm::floor(value)
 }
@@ -22,8 +27,6 @@ fn part(at: usize, n: i32, ratio: f64) -> f64 {
 impl Room<'_> {
     /// Candidate `at` for a pose of the tip: no state, or some.
     pub(super) fn candidates(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, at: usize) -> Vec<State> {
-        const PLANE: f64 = 1.324_717_957_244_746;
-        const SPACE: f64 = 1.220_744_084_605_759_5;
         if let Solver::Lift(arm) = &hand.solver {
             let yaw = (part(at, 1, PLANE) - 0.5) * TAU;
             let limits = hand.solver.chain().variables.get(1).and_then(|variable| variable.limits);
@@ -112,7 +115,9 @@ impl Room<'_> {
 
     /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
     fn with(&self, hand: &Hand, base: [f64; 3], values: &[f64]) -> State {
-        let mut joints = hand.opened(&self.world.robot.joints);
+        let now = &self.world.robot.joints;
+        // Around something the fingers stay as they are.
+        let mut joints = if self.world.held.is_some() { now.clone() } else { hand.opened(now) };
         for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
             if let Some(slot) = joints.get_mut(*at) {
                 *slot = *value;

@@ -9,9 +9,12 @@ mod answer;
 mod arm;
 mod go;
 mod grasp;
+mod look;
 mod machine;
 mod map;
 mod obstacle;
+mod offer;
+mod put;
 mod reach;
 mod room;
 mod state;
@@ -41,6 +44,9 @@ impl Room<'_> {
         match query {
             Query::GoTo(to) => self.go_to(to, budget),
             Query::Reach(object, side) => self.reach(object, *side, budget),
+            Query::Put(object, on) => self.put(object, on, budget),
+            Query::Offer(object, to) => self.offer(object, to, budget),
+            Query::Look(at) => self.look(at, budget),
             Query::Posture(name) => self.to_posture(name),
             Query::Other(name) => Answer::Unknown(Unknown::Because(format!("`{name}` is not computed yet"))),
         }

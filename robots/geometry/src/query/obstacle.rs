@@ -8,7 +8,7 @@ use crate::collision::{Shape, Solid};
 use crate::trigonometry::turn;
 
 /// How thick the walls of an open container are taken to be, in m.
-const WALL: f64 = 0.01;
+pub(super) const WALL: f64 = 0.01;
 
 /// The solids of an entity; none where it has no shape or its place is not known, or where it is in the hand.
 ///

@@ -22,6 +22,10 @@ impl Tally {
         *self.0.entry(name).or_default() += 1;
     }
 
+    pub(super) fn add_entity(&mut self, name: SmolStr) {
+        *self.0.entry(name).or_default() += 1;
+    }
+
     /// What is met most often; of equals the first by name.
     pub(super) fn most(&self) -> Option<SmolStr> {
         let mut most: Option<(&SmolStr, usize)> = None;

@@ -7,7 +7,7 @@ use motet_robots::scene::{Entity, Placement, Scene, Shape};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
-use super::machine::Machine;
+use super::machine::{Hand, Machine};
 use super::state::State;
 
 /// The world after some steps.
@@ -21,6 +21,17 @@ pub struct World {
     pub held: Option<(SmolStr, Isometry3<f64>)>,
     /// Which containers are open or closed, where that differs from the scene.
     pub open: BTreeMap<SmolStr, bool>,
+}
+
+/// A thing in the hand.
+#[derive(Clone, Debug)]
+pub(super) struct Held<'a> {
+    pub(super) id: SmolStr,
+    pub(super) tip_from_object: Isometry3<f64>,
+    pub(super) hand: &'a Hand,
+    pub(super) shape: crate::collision::Shape,
+    /// How wide it is between the fingers, in m.
+    pub(super) width: f64,
 }
 
 impl World {

@@ -60,7 +60,7 @@ fn all(robot: &str, scene: &str) -> BTreeMap<String, Answer> {
         for query in [Query::GoTo(id.clone())].into_iter().chain(reach) {
             let answer = room.answer(&query, Budget { candidates: 128, ..Budget::default() });
             if let Answer::Feasible(witness) = &answer {
-                let faults = verify::faults(&machine, &urdf, &scene, &world, witness);
+                let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
                 assert!(faults.is_empty(), "{robot}, {query}: {:?}", &faults[..faults.len().min(5)]);
             }
             answers.insert(query.to_string(), answer);
@@ -100,7 +100,7 @@ fn the_panda_at_the_workbench() {
     else {
         panic!("the beaker")
     };
-    let faults = verify::faults(&machine, &urdf, &scene, &world, &witness);
+    let faults = verify::faults(&machine, &urdf, &scene, &world, &witness, None);
     assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
     // It stands on another bench.
     let (why, certified) = reason(room.answer(&Query::Reach("sample".into(), None), Budget::default()));
@@ -163,12 +163,65 @@ fn what_is_infeasible_says_why() {
 
 #[test]
 fn what_is_not_computed_is_unknown() {
-    for query in
-        ["pull(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "look(mug_1)", "posture(nowhere)"]
-    {
+    // Nothing is in the hand yet.
+    for query in ["pull(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "posture(nowhere)"] {
         let answer = ask(&embedded("kitchen"), query);
         assert!(matches!(answer, Answer::Unknown(Unknown::Because(_))), "{query}: {answer:?}");
     }
+}
+
+#[test]
+fn what_is_taken_is_put_held_out_and_looked_at() {
+    let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
+    let answer = |world: &World, query: Query, support: Option<&str>| {
+        let room = Room::new(&machine, &scene, world);
+        let Answer::Feasible(witness) = room.answer(&query, Budget::default()) else { panic!("{query}") };
+        let faults = verify::faults(&machine, &urdf, &scene, world, &witness, support);
+        assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);
+        witness
+    };
+    let gone = |world: &World, to: &str| {
+        let witness = answer(world, Query::GoTo(to.into()), None);
+        Room::new(&machine, &scene, world).gone_along(&witness)
+    };
+    let at_table = gone(&World::new(&machine, &scene), "kitchen_table");
+    answer(&at_table, Query::Look("mug_1".into()), None);
+    let reached = answer(&at_table, Query::Reach("mug_1".into(), None), None);
+    let taken = Room::new(&machine, &scene, &at_table).taken(&reached).unwrap();
+    assert!(taken.holds("mug_1") && taken.robot.base == at_table.robot.base);
+    for on in ["sink", "trash"] {
+        let there = gone(&taken, on);
+        let put = answer(&there, Query::Put("mug_1".into(), on.into()), Some(on));
+        let after = Room::new(&machine, &scene, &there).put_there(&put).unwrap();
+        assert!(after.held.is_none());
+        // It stands on it, its middle within its outline.
+        let (mug, support) = (after.moved["mug_1"].translation, scene.entities[on].pose.unwrap().xyz);
+        assert!((mug.x - support[0]).abs() < 0.3 && (mug.y - support[1]).abs() < 0.3);
+    }
+    let at_user = gone(&taken, "user");
+    let offered = answer(&at_user, Query::Offer("mug_1".into(), "user".into()), None);
+    assert!(offered.path.iter().all(|state| state.base == at_user.robot.base));
+    let given = Room::new(&machine, &scene, &at_user).given("user").unwrap();
+    assert!(given.held.is_none());
+    // What is closed takes nothing, and hides what is in it.
+    let at_drawer = gone(&taken, "drawer_1");
+    let room = Room::new(&machine, &scene, &at_drawer);
+    let (why, certified) =
+        reason(room.answer(&Query::Put("mug_1".into(), "drawer_1".into()), Budget::default()));
+    assert_eq!((why, certified), (Reason::NoFreePose { by: Some("drawer_1".into()) }, true));
+}
+
+#[test]
+fn what_stands_behind_something_is_not_in_view() {
+    let hidden = changed(|scene| {
+        let shelf = scene.entities["shelf"].pose.unwrap().xyz;
+        let mug = scene.entities["mug_1"].pose.as_mut().unwrap();
+        mug.xyz = [shelf[0], shelf[1], 0.5];
+    });
+    let (why, _) = reason(ask(&hidden, "look(mug_1)"));
+    assert_eq!(why, Reason::NotInView { by: Some("shelf".into()) });
+    let far = changed(|scene| scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [9.0, 0.0, 0.8]);
+    assert!(matches!(reason(ask(&far, "look(mug_1)")).0, Reason::OutOfReach { what: "sight", .. }));
 }
 
 #[test]
@@ -228,7 +281,7 @@ proptest! {
                 }
                 let answer = room.answer(&query, Budget { candidates: 64, paths: 16 });
                 if let Answer::Feasible(witness) = &answer {
-                    let faults = verify::faults(&machine, &urdf, &scene, &world, witness);
+                    let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
                     prop_assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);
                 }
             }

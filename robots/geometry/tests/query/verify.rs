@@ -102,13 +102,15 @@ fn distance(one: &Solid, other: &Solid) -> f64 {
         .distance
 }
 
-/// What is wrong with a witness; nothing where it holds. Containers have to be closed.
+/// What is wrong with a witness; nothing where it holds. Containers have to be closed. What is held may touch `support` from
+/// where it is lowered onto it.
 pub(crate) fn faults(
     machine: &Machine,
     urdf: &Urdf,
     scene: &Scene,
     world: &World,
     witness: &Witness,
+    support: Option<&str>,
 ) -> Vec<String> {
     let mut faults = Vec::new();
     let hand = machine.hand().unwrap();
@@ -164,6 +166,27 @@ pub(crate) fn faults(
                 }
                 if hand.carried[*at] && distance(solid, &floor) <= 0.001 {
                     faults.push(format!("leg {leg}, step {step}: {} and the floor", urdf.links[*at].name));
+                }
+            }
+            let held = world.held.as_ref().map(|(id, tip_from_object)| {
+                of_scene(scene.entities[id].shape.as_ref().unwrap(), poses[hand.tip] * tip_from_object)
+            });
+            for solid in &held {
+                for (name, obstacle) in &obstacles {
+                    if !(support == Some(name) && leg >= near) && distance(solid, obstacle) <= 0.001 {
+                        faults.push(format!("leg {leg}, step {step}: what is held and {name}"));
+                    }
+                }
+                if distance(solid, &floor) <= 0.001 {
+                    faults.push(format!("leg {leg}, step {step}: what is held and the floor"));
+                }
+                for (at, own) in solids.iter().filter(|(at, _)| !hand.members[*at]) {
+                    if distance(solid, own) <= 0.001 {
+                        faults.push(format!(
+                            "leg {leg}, step {step}: what is held and {}",
+                            urdf.links[*at].name
+                        ));
+                    }
                 }
             }
             for (index, (one, solid)) in solids.iter().enumerate() {

@@ -1,0 +1,219 @@
+//! `put`: a place for what is in the hand on a surface or in a container, and a way of the whole robot to it.
+
+use motet_robots::scene::{Entity, Travel};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
+use super::arm::{PLANE, part};
+use super::machine::Hand;
+use super::obstacle::solid_shape;
+use super::room::{GAP, Room};
+use super::state::State;
+use super::touch::Allowed;
+use super::travel::Tally;
+use super::world::Held;
+use crate::collision::{Shape, Solid};
+use crate::kinematics::planar;
+
+/// How far above its support a thing is let go, in m.
+const ABOVE: f64 = 0.004;
+/// How far it is lowered straight down before, in m; the shorter where the longer does not do.
+const LOWER: [f64; 2] = [0.1, 0.05];
+/// Places that are tried, nearest to the robot first.
+const PLACES: usize = 12;
+/// Directions in which the thing may be turned.
+const TURNS: u32 = 8;
+
+/// A flat rectangle or disc on which things can stand.
+struct Support {
+    /// The middle of its upper face, with its directions.
+    map_from_face: Isometry3<f64>,
+    half: [f64; 2],
+    is_disc: bool,
+}
+
+impl Room<'_> {
+    /// A place for what is held.
+    pub(super) fn put(&self, id: &str, on: &str, budget: Budget) -> Answer {
+        let unknown = |why: String| Answer::Unknown(Unknown::Because(why));
+        let Some(held) = self.held_thing(id) else {
+            return unknown(format!("the hand does not hold `{id}`"));
+        };
+        let Some((index, entity)) = self.entity(on) else { return unknown(format!("there is no `{on}`")) };
+        let support = match self.support_of(entity) {
+            Ok(support) => support,
+            Err(answer) => return answer,
+        };
+        let allowed = Allowed { hand: None, held: Some(index) };
+        let mut met = Tally::default();
+        let places = self.places(&held, &support, index, &mut met);
+        if places.is_empty() {
+            let reason = Reason::NoFreePose { by: met.most() };
+            return Answer::Infeasible(Infeasible { reason, change: None, certified: false });
+        }
+        let (mut poses, mut ways, mut tried, mut is_cut_off) = (Tally::default(), Tally::default(), 0, false);
+        // As many tries for all places together as one grasp has.
+        let rounds = (budget.candidates * 4 / places.len()).max(1);
+        for at in 0..rounds {
+            for place in &places {
+                let map_from_tip = place * held.tip_from_object.inverse();
+                for state in self.candidates(held.hand, &map_from_tip, at) {
+                    if let Some(touch) = self.touch(&state, allowed) {
+                        poses.add(&touch);
+                        continue;
+                    }
+                    if !self.is_near_drivable(&state) {
+                        is_cut_off = true;
+                        continue;
+                    }
+                    tried += 1;
+                    if let Some(path) = self.way_down(held.hand, &state, &map_from_tip, allowed, &mut ways) {
+                        return Answer::Feasible(Box::new(self.put_down(&held, path, map_from_tip, allowed)));
+                    }
+                    if tried >= budget.paths {
+                        return Answer::Unknown(Unknown::Budget);
+                    }
+                }
+            }
+        }
+        let reason = if tried > 0 || is_cut_off {
+            Reason::BlockedPath { by: ways.most() }
+        } else {
+            Reason::NoFreePose { by: poses.most() }
+        };
+        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+    }
+
+    /// What is in the hand, where it is the thing that is asked for.
+    pub(super) fn held_thing(&self, id: &str) -> Option<Held<'_>> {
+        let (held, tip_from_object) = self.world.held.as_ref().filter(|(held, _)| held == id)?;
+        let (hand, (_, entity)) = (self.machine.hand()?, self.entity(held)?);
+        let shape = solid_shape(entity)?;
+        let closes = tip_from_object.rotation.inverse() * Vector3::from(hand.card.closes);
+        let width = 2.0 * Solid::new(&Isometry3::identity(), shape).extent(&closes);
+        Some(Held { id: held.clone(), tip_from_object: *tip_from_object, hand, shape, width })
+    }
+
+    fn support_of(&self, entity: &Entity) -> Result<Support, Answer> {
+        let unknown = |why: String| Err(Answer::Unknown(Unknown::Because(why)));
+        let Some((pose, shape)) = self.world.pose(entity).zip(solid_shape(entity)) else {
+            return unknown(format!("the place or the shape of `{}` is not known", entity.id));
+        };
+        let up = pose.rotation * Vector3::z();
+        if up.z < 0.999 {
+            return unknown(format!("`{}` does not stand upright", entity.id));
+        }
+        let (half, height, is_disc) = match shape {
+            Shape::Box(half) => ([half.x, half.y], half.z, false),
+            Shape::Cylinder { radius, half } => ([radius, radius], half, true),
+            Shape::Capsule { .. } | Shape::HalfSpace => {
+                return unknown(format!("nothing stands on the round shape of `{}`", entity.id));
+            }
+        };
+        if entity.travel.is_some() && !self.world.is_open(entity) {
+            let reason = Reason::NoFreePose { by: Some(entity.id.clone()) };
+            let change = Some(format!("open `{}` before", entity.id));
+            return Err(Answer::Infeasible(Infeasible { reason, change, certified: true }));
+        }
+        let (face, inset) = match &entity.travel {
+            // Inside, on its bottom.
+            Some(Travel::Slide { axis, distance }) => {
+                (pose * Translation3::from(Vector3::from(*axis) * *distance), super::obstacle::WALL)
+            }
+            Some(Travel::Hinge { .. }) => (pose, super::obstacle::WALL),
+            None => (pose, 0.0),
+        };
+        let height = if entity.travel.is_some() { super::obstacle::WALL - height } else { height };
+        let map_from_face = face * Translation3::new(0.0, 0.0, height);
+        Ok(Support { map_from_face, half: half.map(|half| half - inset), is_disc })
+    }
+
+    /// Free places of what is held, upright, nearest to the robot first.
+    fn places(&self, held: &Held<'_>, on: &Support, index: usize, met: &mut Tally) -> Vec<Isometry3<f64>> {
+        let solid = Solid::new(&Isometry3::identity(), held.shape);
+        let bottom = solid.extent(&Vector3::z());
+        let around = libm::hypot(solid.extent(&Vector3::x()), solid.extent(&Vector3::y()));
+        let around = if matches!(held.shape, Shape::Box(_)) { around } else { solid.extent(&Vector3::x()) };
+        // What is too large for it may stand out on all sides, with its middle on the middle.
+        let room = on.half.map(|half| (half - around).max(0.0));
+        let [base_x, base_y, _] = self.world.robot.base;
+        let mut spots: Vec<(f64, Vector3<f64>)> = Vec::new();
+        for at in 0..4 * PLACES {
+            let [x, y] = [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0);
+            if on.is_disc && x * x + y * y > 1.0 {
+                continue;
+            }
+            let spot = on.map_from_face * nalgebra::Point3::new(x * room[0], y * room[1], bottom + ABOVE);
+            spots.push((libm::hypot(spot.x - base_x, spot.y - base_y), spot.coords));
+        }
+        spots.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let turned = |turn: u32| std::f64::consts::TAU * f64::from(turn) / f64::from(TURNS);
+        let mut places = Vec::new();
+        for (_, spot) in spots {
+            let upright = |turn: u32| {
+                let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, turned(turn)).rotation;
+                Isometry3::from_parts(Translation3::from(spot), rotation)
+            };
+            let stands = Solid::new(&upright(0), held.shape);
+            let others = self.things.iter().filter(|thing| thing.entity != index);
+            if let Some(other) = others.into_iter().find(|thing| !stands.is_farther(&thing.solid, GAP)) {
+                met.add_entity(self.name(other.entity));
+                continue;
+            }
+            places.extend((0..TURNS).map(upright));
+            if places.len() >= PLACES * TURNS as usize {
+                break;
+            }
+        }
+        places
+    }
+
+    /// A way from where the robot is to a state, the last part straight down.
+    fn way_down(
+        &self,
+        hand: &Hand,
+        state: &State,
+        map_from_tip: &Isometry3<f64>,
+        allowed: Allowed,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        LOWER.into_iter().find_map(|lower| {
+            let line = self.line(hand, state, map_from_tip, &Vector3::new(0.0, 0.0, lower))?;
+            for pair in line.windows(2) {
+                if let [one, other] = pair
+                    && let Err(touch) = self.edge(one, other, allowed)
+                {
+                    met.add(&touch);
+                    return None;
+                }
+            }
+            let first = line.first()?;
+            let [x, y, _] = first.base;
+            let (dx, dy) = (map_from_tip.translation.x - x, map_from_tip.translation.y - y);
+            let far = libm::hypot(dx, dy).max(1e-9);
+            let mut path = self.route(first, [dx / far, dy / far], met)?;
+            let turns = path.last()?.base[2] - first.base[2];
+            path.extend(line.iter().skip(1).map(|state| {
+                let [x, y, yaw] = state.base;
+                state.at([x, y, yaw + turns])
+            }));
+            Some(path)
+        })
+    }
+
+    /// The witness of a motion with what is held.
+    pub(super) fn put_down(
+        &self,
+        held: &Held<'_>,
+        path: Vec<State>,
+        map_from_tip: Isometry3<f64>,
+        allowed: Allowed,
+    ) -> Witness {
+        let points = map_from_tip.rotation * Vector3::from(held.hand.card.points);
+        let side = if points.z < -0.819 { Side::Top } else { Side::Side };
+        let (object, tip_from_object, width) = (held.id.clone(), held.tip_from_object, held.width);
+        let grasp = Some(Grasp { object, side, map_from_tip, tip_from_object, width });
+        let margins = Margins { payload: None, ..self.margins(&path, allowed) };
+        Witness { path, grasp, margins }
+    }
+}
