@@ -108,10 +108,10 @@ impl Room<'_> {
         let wanted = object * held.tip_from_object.inverse();
         let turn = (part(at, 1, SPACE) - 0.5) * std::f64::consts::TAU;
         let placed = arm.solve(&wanted, turn, lower + part(at, 2, SPACE) * (upper - lower));
-        let states = placed.into_iter().filter_map(|placed| {
+        let states = placed.into_iter().map(|placed| {
             let [from_x, from_y, from_yaw] = placed.base;
             let moved = planar(x, y, yaw) * planar(from_x, from_y, from_yaw).inverse();
-            Some((with(&placed.values), moved * wanted))
+            (with(&placed.values), moved * wanted)
         });
         states.collect()
     }

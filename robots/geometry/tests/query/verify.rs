@@ -171,7 +171,7 @@ pub(crate) fn faults(
             let held = world.held.as_ref().map(|(id, tip_from_object)| {
                 of_scene(scene.entities[id].shape.as_ref().unwrap(), poses[hand.tip] * tip_from_object)
             });
-            for solid in &held {
+            if let Some(solid) = &held {
                 for (name, obstacle) in &obstacles {
                     if !(support == Some(name) && leg >= near) && distance(solid, obstacle) <= 0.001 {
                         faults.push(format!("leg {leg}, step {step}: what is held and {name}"));
