@@ -36,6 +36,7 @@
 //! that one event enables; `belief` is what the engine believes of the world. Only `turn` changes the state.
 
 mod belief;
+pub mod conformance;
 mod describe;
 mod driver;
 mod effect;

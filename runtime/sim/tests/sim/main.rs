@@ -8,6 +8,7 @@
     reason = "a test fails by panicking, and its data is nested"
 )]
 
+mod conformance;
 mod driver;
 mod engine;
 mod faults;

@@ -1,0 +1,40 @@
+//! The example driver in another process keeps the laws of drivers.
+
+use motet_graph::Value;
+use motet_host::remote::protocol::Hello;
+use motet_host::remote::{Address, Patience, RemoteDriver};
+use motet_runtime::conformance::{Subject, check};
+use motet_runtime::{Command, Driver, Query, Time};
+
+const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/drivers/echo.py");
+
+#[test]
+fn the_example_in_python_keeps_the_laws() {
+    let python = std::process::Command::new("python3").arg("--version").output();
+    if !python.is_ok_and(|output| output.status.success()) {
+        println!("skipped: there is no python3");
+        return;
+    }
+    let mut fresh = || -> Box<dyn Driver> {
+        let address: Address = format!("python3 {ECHO} --seconds 1").parse().unwrap();
+        let note = |text: &str| panic!("{text}");
+        let driver =
+            RemoteDriver::connect(address, Hello::default(), Patience::default(), Time::ZERO, Box::new(note));
+        Box::new(driver.unwrap())
+    };
+    let user = || Value::Entity("user".into());
+    let breaches = check(&mut Subject {
+        fresh: &mut fresh,
+        command: Command {
+            primitive: "go".into(),
+            args: vec![("to".into(), user())],
+            uses: vec!["base".into()],
+            deadline_secs: 10.0,
+        },
+        query: Query::Measure { measure: "distance".into(), args: vec![user()] },
+        moment: Time::from_secs(1.0),
+        patience: Time::from_secs(3.0),
+        is_virtual: false,
+    });
+    assert_eq!(breaches, []);
+}

@@ -1,0 +1,84 @@
+//! The simulator keeps the laws of drivers; one around it that breaks them is caught; and on top of that one the engine keeps
+//! its promises.
+
+use crate::{entity, sim};
+use motet_runtime::conformance::{Faulty, Law, Mischief, Subject, check};
+use motet_runtime::{Command, Driver, Query, Time};
+use motet_sim::{Options, Sim};
+use std::collections::BTreeSet;
+
+fn kitchen() -> Sim {
+    sim("hsr", "kitchen", Options::default())
+}
+
+/// The laws that a driver breaks.
+fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<String>) {
+    let breaches = check(&mut Subject {
+        fresh,
+        command: Command {
+            primitive: "go".into(),
+            args: vec![("to".into(), entity("kitchen_table"))],
+            uses: vec!["base".into()],
+            deadline_secs: 60.0,
+        },
+        query: Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] },
+        moment: Time::from_secs(0.01),
+        patience: Time::from_secs(120.0),
+        is_virtual: true,
+    });
+    (breaches.iter().map(|breach| breach.law).collect(), breaches.iter().map(ToString::to_string).collect())
+}
+
+#[test]
+fn the_simulator_keeps_the_laws() {
+    let (_, told) = laws(&mut || Box::new(kitchen()));
+    assert_eq!(told, [""; 0]);
+}
+
+#[test]
+fn what_breaks_a_law_is_named() {
+    let late = Time::from_secs(300.0);
+    for (name, mischief, expected) in [
+        (
+            "loses",
+            Mischief { loses: 1_000, ..Mischief::default() },
+            &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched][..],
+        ),
+        (
+            "doubles",
+            Mischief { doubles: 1_000, ..Mischief::default() },
+            &[Law::Answered, Law::EndsOnce, Law::Observed, Law::Watched],
+        ),
+        (
+            "silent",
+            Mischief { silence: 1_000, ..Mischief::default() },
+            &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched],
+        ),
+        (
+            "deaf",
+            Mischief { deaf: 1_000, ..Mischief::default() },
+            &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched],
+        ),
+        ("late", Mischief { delays: 1_000, late, ..Mischief::default() }, &[Law::Observed]),
+        ("backwards", Mischief { backwards: 1_000, ..Mischief::default() }, &[Law::Time]),
+        // To refuse is no breach.
+        ("refuses", Mischief { refuses: 1_000, ..Mischief::default() }, &[]),
+        ("nothing", Mischief::default(), &[]),
+    ] {
+        let (laws, told) = laws(&mut || Box::new(Faulty::new(kitchen(), mischief, 7)));
+        let missing: Vec<_> = expected.iter().filter(|law| !laws.contains(law)).collect();
+        assert!(missing.is_empty(), "{name}: {missing:?} is not among {told:#?}");
+        assert!(!expected.is_empty() || told.is_empty(), "{name}: {told:#?}");
+    }
+}
+
+#[test]
+fn a_driver_that_is_never_the_same_is_named() {
+    let mut seed = 0;
+    let (laws, _) = laws(&mut || {
+        seed += 1;
+        let late = Time::from_secs(5.0);
+        Box::new(Faulty::new(kitchen(), Mischief { delays: 1_000, late, ..Mischief::default() }, seed))
+    });
+    assert!(laws.contains(&Law::Repeatable), "{laws:?}");
+}
