@@ -25,7 +25,7 @@ fn surface(modifiers: Modifiers) -> Surface {
 
 /// How many walks each pair of robot and scene gets; `MOTET_WALKS` says otherwise.
 fn walks() -> usize {
-    std::env::var("MOTET_WALKS").ok().and_then(|count| count.parse().ok()).unwrap_or(8)
+    std::env::var("MOTET_WALKS").ok().and_then(|count| count.parse().ok()).unwrap_or(4)
 }
 
 #[test]
@@ -41,8 +41,8 @@ fn what_is_written_at_random_checks() {
             for round in 0..walks() {
                 let seed = (index * 2 + kind) * 1_000_000 + round;
                 let mut dice = Dice::new(u64::try_from(seed).unwrap());
-                let budget = [300, 2000, 8000][dice.below(3)];
-                let wanted = 1 + dice.below(60);
+                let budget = [600, 4000, 8000][dice.below(3)];
+                let wanted = 10 + dice.below(50);
                 let text = match walk(&prepared, budget, wanted, &mut dice).unwrap() {
                     Ended::Whole(text) => text,
                     Ended::Stuck(text) => panic!("{robot} {scene} {seed}: stuck after {text}"),

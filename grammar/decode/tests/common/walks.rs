@@ -54,7 +54,7 @@ fn choose(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
     }
     let written = || self::steps(&String::from_utf8_lossy(before));
     if has(b',') && has(b']') && before.ends_with(b"}") {
-        let goes_on = if written() < steps { 80 } else { 10 };
+        let goes_on = if written() < steps { 95 } else { 10 };
         return if dice.chance(goes_on) { b',' } else { b']' };
     }
     if before.ends_with(b"{\"") && has(b'e') && has(b'd') {
