@@ -157,7 +157,8 @@ impl Case {
 
     fn state(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
-            let (facts, said) = json::read::<indexmap::IndexMap<Spanned<String>, bool>>(&source, file);
+            let (facts, said) =
+                json::read::<indexmap::IndexMap<Spanned<String>, Option<bool>>>(&source, file);
             self.said.extend(said);
             let facts = facts.unwrap_or_default().into_iter();
             self.state =

@@ -1,4 +1,4 @@
-//! The state at the start: a JSON object of facts, `{"holding(mug_1)": true, "free(hand)": false}`.
+//! The state at the start: a JSON object of facts, `{"holding(mug_1)": true, "free(hand)": false}`; `null` is not known.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> R
     let file = next_id(sources);
     let (source, mut said) = crate::document::decode(&path.display().to_string(), &bytes, file);
     sources.add(source.clone());
-    let (facts, more) = json::read::<IndexMap<Spanned<String>, bool>>(&source, file);
+    let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     said.extend(more);
     report.usable("state", &said, sources)?;
     let facts = facts.ok_or(Trouble::Diagnosed("state"))?;

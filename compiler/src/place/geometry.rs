@@ -132,10 +132,10 @@ fn begin(machine: &Machine, scene: &mut Scene, state: Option<&State>) -> Result<
         match fluent.trim() {
             "open" => {
                 if let Some(entity) = scene.entities.get_mut(arg) {
-                    entity.open = Some(*holds);
+                    entity.open = *holds;
                 }
             }
-            "holding" if *holds => scene.robot.holding = Some(Some(arg.into())),
+            "holding" if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
             "at" | "on" | "in" | "holding" => {
                 return Err(format_smolstr!(
                     "the state says `{fact}`, and the scene does not say where that is"

@@ -77,13 +77,27 @@ impl World {
 
     /// Records a fact that holds at the start.
     pub(crate) fn tell(&mut self, fact: Fact, value: bool) {
-        let key = Key::new(fact.args.iter().map(|term| match term {
-            Some(Term::Entity(entity)) => arg(*entity),
-            Some(Term::Case(_, case)) => *case,
-            _ => ANY,
-        }));
-        self.facts.set(fact.fluent, key, Value::of(value, Cause::START));
+        self.facts.set(fact.fluent, key(&fact), Value::of(value, Cause::START));
+        // One about every entity says it of those, too, of which something was said. Of a single one the later word counts
+        // by coming later.
+        if fact.args.iter().any(Option::is_none) {
+            self.forget_given(&fact);
+        }
         self.given.push((fact, value));
+    }
+
+    /// Records that a fact is not known at the start, whatever was said of it before; with `any` all that it covers.
+    pub(crate) fn forget(&mut self, fact: &Fact) {
+        self.facts.set(fact.fluent, key(fact), Value::open(Cause::START));
+        self.forget_given(fact);
+    }
+
+    /// What was given of a fact before no longer counts.
+    fn forget_given(&mut self, fact: &Fact) {
+        self.given.retain(|(given, _)| {
+            given.fluent != fact.fluent
+                || !fact.args.iter().zip(&given.args).all(|(of, given)| of.is_none() || of == given)
+        });
     }
 
     /// The entities of a kind that a description fits, in the order of the world.
@@ -112,4 +126,13 @@ impl World {
     pub(crate) fn name(&self, entity: Entity) -> SmolStr {
         self.entities.name(entity).cloned().unwrap_or_else(|| SmolStr::new_static("?"))
     }
+}
+
+/// The key of a ground fact, or of all that one with `any` covers.
+fn key(fact: &Fact) -> Key {
+    Key::new(fact.args.iter().map(|term| match term {
+        Some(Term::Entity(entity)) => arg(*entity),
+        Some(Term::Case(_, case)) => *case,
+        _ => ANY,
+    }))
 }

@@ -13,8 +13,8 @@ use crate::resolve::scope::Scope;
 /// Facts in their text form with their values, in order: `{"holding(mug_1)": true}`.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct State {
-    /// Each fact, whether it holds, and where it stands.
-    pub facts: IndexMap<String, (bool, Span)>,
+    /// Each fact, whether it holds, none where that is not known, and where it stands.
+    pub facts: IndexMap<String, (Option<bool>, Span)>,
 }
 
 impl State {
@@ -49,11 +49,14 @@ impl State {
                 (Some(fact), None) => {
                     let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
                     if let (true, true, false, [Some(Term::Entity(held))]) =
-                        (is_holding, *value, says_free, fact.args.as_slice())
+                        (is_holding, *value == Some(true), says_free, fact.args.as_slice())
                     {
                         super::seed::held(library, world, *held);
                     }
-                    world.tell(fact, *value);
+                    match value {
+                        Some(value) => world.tell(fact, *value),
+                        None => world.forget(&fact),
+                    }
                 }
                 (_, why) => {
                     let why = why.unwrap_or_else(|| "a fluent is asked for".to_owned());

@@ -1,4 +1,10 @@
-//! What a step costs. The driver succeeds at once, the trace is on: each step is an event, its records and the next start.
+//! What a step, an idle event and a swap cost, beside `bonsai-bt`. The driver succeeds at once, the trace is on: each step is
+//! an event, its records and the next start.
+
+#[path = "steps/beside.rs"]
+mod beside;
+#[path = "steps/swaps.rs"]
+mod swaps;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use motet_graph::arbitrary::vocabulary as v;
@@ -29,7 +35,7 @@ fn started(out: &[Effect]) -> Option<GoalId> {
     })
 }
 
-fn engine(steps: &[Step]) -> Engine {
+pub(crate) fn engine(steps: &[Step]) -> Engine {
     // Without a word where a sketch is invalid: the layout's own tests see to it that none is.
     Engine::new(graph(steps), &StartState::default()).unwrap_or_else(|_| engine(&[]))
 }
@@ -130,5 +136,15 @@ fn contracts(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, calls, tests, nesting, monitors, contracts);
+criterion_group!(
+    benches,
+    calls,
+    tests,
+    nesting,
+    monitors,
+    contracts,
+    beside::trees,
+    swaps::swaps,
+    swaps::bindings
+);
 criterion_main!(benches);

@@ -4,7 +4,7 @@
 //! depend on the moment is worked out. Then [`Engine::swap`] **commits** it between two events, in one move. What the new
 //! policy was proved from is checked against what is believed at that moment; a refused swap changes nothing at all.
 
-use crate::belief::{Beliefs, Entities, Standing};
+use crate::belief::{Beliefs, Entities, Standing, covers};
 use crate::effect::Effect;
 use crate::engine::Engine;
 use crate::plan::Plan;
@@ -292,10 +292,10 @@ fn told(graph: &Graph) -> Vec<Told> {
         let fluent = graph.fluents.get(fact.fluent.index())?.name.clone();
         Some(Told { fluent, args: args.collect::<Option<_>>()?, value: *value })
     });
-    // Of one fact the later word counts.
+    // Of one fact the later word counts, and so does one about every entity.
     let mut last: Vec<Told> = Vec::new();
     for told in told {
-        last.retain(|before| before.fluent != told.fluent || before.args != told.args);
+        last.retain(|before| before.fluent != told.fluent || !covers(&told.args, &before.args));
         last.push(told);
     }
     last

@@ -16,6 +16,9 @@ pub(crate) enum Freshness {
     Facts(Time, u64),
 }
 
+/// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not last.
+const DERIVED: &str = "reachable";
+
 /// Judges conditions. Cheap to make.
 pub(crate) struct Judge<'a> {
     pub(crate) graph: &'a Graph,
@@ -131,6 +134,9 @@ impl Judge<'_> {
         let Some(fluent) = self.graph.fluents.get(fact.fluent.index()) else { return Truth::Unknown };
         let Some(args) = self.patterns(fact) else { return Truth::Unknown };
         let (mut truth, seen) = self.beliefs.fact(&fluent.name, &args);
+        if fluent.name == DERIVED && !self.is_current(&fluent.name, &args) {
+            truth = Truth::Unknown;
+        }
         if let Freshness::Facts(_, since) = self.fresh
             && fluent.observable
             && seen <= since
@@ -146,6 +152,13 @@ impl Judge<'_> {
             return Truth::Unknown;
         }
         self.verifier.fact(&query)
+    }
+
+    /// Whether a fact was seen since what counts began, or is watched.
+    fn is_current(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
+        let cell = self.beliefs.find_fact(fluent, args).and_then(|id| self.beliefs.cell(id));
+        cell.is_some_and(|cell| cell.live || cell.at >= since)
     }
 
     fn reading(&mut self, query: Query) -> Option<Value> {

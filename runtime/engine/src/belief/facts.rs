@@ -251,7 +251,7 @@ fn answer_of(truth: Truth) -> Answer {
 }
 
 /// Whether every fact of `other` is one of `wide`.
-fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
+pub(crate) fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
     wide.len() == other.len()
         && wide.iter().zip(other).all(|(wide, other)| *wide == Pattern::Any || wide == other)
 }

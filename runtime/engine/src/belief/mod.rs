@@ -11,4 +11,4 @@ mod facts;
 pub(crate) use cells::{Beliefs, CellId, Facts};
 pub(crate) use entities::{Entities, OfKind};
 pub(crate) use eval::{Freshness, Judge};
-pub(crate) use facts::{Change, Standing, truth_of};
+pub(crate) use facts::{Change, Standing, covers, truth_of};

@@ -212,6 +212,7 @@ impl Turn<'_> {
     }
 
     fn finish(&mut self, end: RunEnd) {
+        self.unwatch_idle();
         self.run.over = true;
         self.out.push(Effect::Finished(Box::new(end)));
     }

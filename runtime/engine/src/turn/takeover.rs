@@ -99,7 +99,7 @@ impl Turn<'_> {
     }
 
     /// Ends the watches that only the old policy needed.
-    fn unwatch_idle(&mut self) {
+    pub(super) fn unwatch_idle(&mut self) {
         for id in std::mem::take(&mut self.run.idle) {
             if let Some(cell) = self.run.beliefs.cell_mut(id)
                 && std::mem::take(&mut cell.idle)

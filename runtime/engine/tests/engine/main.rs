@@ -12,6 +12,7 @@ mod calls;
 mod control;
 mod host;
 mod monitors;
+mod naive;
 mod random;
 mod script;
 mod snapshot;

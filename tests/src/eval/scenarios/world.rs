@@ -156,13 +156,13 @@ fn quoted(name: &str) -> String {
 
 /// Facts in order, the later winning.
 #[derive(Default)]
-struct Facts(IndexMap<String, (bool, Span)>);
+struct Facts(IndexMap<String, (Option<bool>, Span)>);
 
 impl Facts {
     fn tell(&mut self, fluent: &str, args: &[&str], value: bool) {
         let key = format!("{fluent}({})", args.join(", "));
         self.0.shift_remove(&key);
-        self.0.insert(key, (value, Span::default()));
+        self.0.insert(key, (Some(value), Span::default()));
     }
 }
 
