@@ -37,7 +37,6 @@ fn ends_with_the_right_code() {
             &["err:checked 1 document: no errors", "err:not checked geometrically"][..],
         ),
         (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors"]),
-        ("check good.motet".to_owned(), 0, &["err:because no scene was given"]),
         (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),
         (format!("check good.motet good.json {scene}"), 0, &["err:checked 2 documents"]),
         (format!("check good.motet good.motet {scene}"), 0, &["err:checked 1 document"]),
