@@ -106,6 +106,21 @@ impl Session {
         findings.into_iter().map(|finding| finding.diagnostic).collect()
     }
 
+    /// What is wrong with the names, the types and the bounds of a document of one policy, and with what it asks of the
+    /// robot: what can be said without following its state. Cheaper than [`Self::check`], of which it is a part.
+    #[must_use]
+    pub fn check_names(&self, parsed: &Parsed) -> Vec<Diagnostic> {
+        let mut diagnostics = parsed.diagnostics.clone();
+        for policy in parsed.file.policies() {
+            let (mut program, said) =
+                crate::resolve::resolve(policy, parsed.form, &self.library, &self.world);
+            diagnostics.extend(said);
+            let limit = self.options.max_duration_secs;
+            diagnostics.extend(crate::check::check(&mut program, &self.library, &self.world, limit));
+        }
+        diagnostics
+    }
+
     /// As [`Self::check`], each finding with all the ways that are known to mend it, with geometry where it is given.
     pub(crate) fn findings(&self, parsed: &Parsed, geometry: Option<&Geometry>) -> Vec<Finding> {
         let mut diagnostics = parsed.diagnostics.clone();

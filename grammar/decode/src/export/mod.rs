@@ -1,0 +1,77 @@
+//! Grammars of the model surface, for servers that hold a model to one.
+//!
+//! All are generated from one [`Offer`]: what the signatures and the world allow at each place. The JSON form becomes a
+//! tree of [`Shape`]s, of which the JSON Schema is printed; shapes and the text form become one [`Grammar`] of literals,
+//! character classes and bounded repetition, of which GBNF, Lark and EBNF are printed. Nothing recurses: blocks and
+//! conditions are written out to the depth of the surface, so whatever a model writes comes to an end.
+//!
+//! A grammar cannot know what is in scope: a binding is any name. What it generates is read without a mistake, and is right
+//! in names and types but for that.
+
+mod class;
+mod compact;
+mod ebnf;
+mod gbnf;
+mod grammar;
+mod lark;
+mod limits;
+mod number;
+mod offer;
+mod request;
+mod schema;
+mod shape;
+mod slot;
+mod text;
+mod word;
+
+pub use grammar::{Expr, Grammar, Rule, RuleId};
+pub use lark::Header;
+pub use limits::warnings;
+pub use offer::Offer;
+pub use request::{Dialect, Prompt, probe_body, request_body, request_constraint, schema_of};
+pub use shape::{Shape, Shapes};
+pub use word::RESERVED;
+
+use motet_compiler::Signatures;
+use motet_syntax::Form;
+
+use crate::surface::Surface;
+
+/// A notation of a grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Format {
+    /// JSON Schema, in the subset that all servers take; only of the JSON form.
+    JsonSchema,
+    /// The notation of llama.cpp, which xgrammar takes too.
+    Gbnf,
+    /// Lark, as llguidance takes it.
+    Lark,
+    /// EBNF after ISO/IEC 14977: no character classes and no regular expressions.
+    RegexFreeEbnf,
+}
+
+/// The grammar of a surface in a notation; none where the notation cannot say the form, which is a JSON Schema for text.
+/// The same input gives the same bytes. O(declarations + entities) for each level of the surface's depth.
+#[must_use]
+pub fn export(signatures: &Signatures, surface: Surface, format: Format, header: Header) -> Option<String> {
+    let offer = Offer::new(signatures, surface);
+    match format {
+        Format::JsonSchema => {
+            let schema = schema_of(&offer)?;
+            // A value of maps, lists and strings always has a JSON form.
+            Some(serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n")
+        }
+        Format::Gbnf => Some(gbnf::print(&grammar(&offer))),
+        Format::Lark => Some(lark::print(&grammar(&offer), header)),
+        Format::RegexFreeEbnf => Some(ebnf::print(&grammar(&offer))),
+    }
+}
+
+/// The grammar of an offer, character by character.
+#[must_use]
+pub fn grammar(offer: &Offer) -> Grammar {
+    match offer.surface.form {
+        Form::Json => compact::grammar(&Shapes::new(offer)),
+        Form::Text => text::grammar(offer),
+    }
+}

@@ -1,0 +1,106 @@
+//! How servers are asked to hold a model to a grammar: the fields that each dialect adds to a chat request.
+
+use motet_syntax::Form;
+use serde_json::{Map, Value, json};
+
+use super::offer::Offer;
+use super::shape::Shapes;
+use super::{gbnf, grammar, schema};
+
+/// A server's way of taking a grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Dialect {
+    /// vLLM 0.12 and later: `structured_outputs`.
+    Vllm,
+    /// The server of llama.cpp: `response_format`, or `grammar`.
+    LlamaCpp,
+    /// Ollama: `format`, at `/api/chat`. It takes a JSON Schema and nothing else.
+    Ollama,
+    /// SGLang: `response_format`, or `ebnf`.
+    Sglang,
+    /// OpenAI: `response_format`, strict. It takes a JSON Schema and nothing else.
+    OpenAi,
+}
+
+/// What a request asks, beside its grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Prompt<'p> {
+    /// The name of the model.
+    pub model: &'p str,
+    /// What the model is told to be.
+    pub system: &'p str,
+    /// What it is asked.
+    pub user: &'p str,
+}
+
+/// The JSON Schema of an offer; none of the text form.
+#[must_use]
+pub fn schema_of(offer: &Offer) -> Option<Value> {
+    (offer.surface.form == Form::Json).then(|| schema::schema(&Shapes::new(offer)))
+}
+
+/// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request. None where a
+/// server cannot be held to the form: Ollama and OpenAI take a JSON Schema only, so not the text form.
+#[must_use]
+pub fn request_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
+    let named = |schema: Value| json!({"type": "json_schema", "json_schema": {"name": "motet_policy", "strict": true, "schema": schema}});
+    let gbnf = || gbnf::print(&grammar(offer));
+    Some(match (dialect, schema_of(offer)) {
+        (Dialect::Vllm, Some(schema)) => {
+            json!({"structured_outputs": {"json": schema, "disable_any_whitespace": true}})
+        }
+        (Dialect::Vllm, None) => {
+            json!({"structured_outputs": {"grammar": gbnf()}})
+        }
+        (Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi, Some(schema)) => {
+            json!({"response_format": named(schema)})
+        }
+        (Dialect::LlamaCpp, None) => json!({"grammar": gbnf()}),
+        (Dialect::Sglang, None) => json!({"ebnf": gbnf()}),
+        (Dialect::Ollama, Some(schema)) => json!({"format": schema, "stream": false}),
+        (Dialect::OpenAi | Dialect::Ollama, None) => return None,
+    })
+}
+
+/// The whole body of a chat request.
+#[must_use]
+pub fn request_body(dialect: Dialect, offer: &Offer, prompt: Prompt<'_>) -> Option<Value> {
+    Some(body(prompt, request_constraint(dialect, offer)?))
+}
+
+fn body(prompt: Prompt<'_>, constraint: Value) -> Value {
+    let mut body = Map::new();
+    body.insert("model".to_owned(), prompt.model.into());
+    let messages =
+        json!([{"role": "system", "content": prompt.system}, {"role": "user", "content": prompt.user}]);
+    body.insert("messages".to_owned(), messages);
+    if let Value::Object(fields) = constraint {
+        body.extend(fields);
+    }
+    Value::Object(body)
+}
+
+/// The body of a request that asks for a plain word under a grammar that allows only one JSON object, which has no place
+/// for it. An answer that is that object shows that the server holds the model to grammars; any other, that it does not.
+/// The answer that the grammar demands comes with the body.
+#[must_use]
+pub fn probe_body(dialect: Dialect, model: &str) -> (Value, Value) {
+    let schema = json!({
+        "type": "object",
+        "properties": {"probe": {"type": "string", "const": "held"}},
+        "required": ["probe"],
+        "additionalProperties": false,
+    });
+    let constraint = match dialect {
+        Dialect::Vllm => json!({"structured_outputs": {"json": schema}}),
+        Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi => json!({"response_format":
+            {"type": "json_schema", "json_schema": {"name": "probe", "strict": true, "schema": schema}}}),
+        Dialect::Ollama => json!({"format": schema, "stream": false}),
+    };
+    let prompt = Prompt {
+        model,
+        system: "Answer with one word and nothing else. Never write JSON.",
+        user: "Write the word free.",
+    };
+    (body(prompt, constraint), json!({"probe": "held"}))
+}
