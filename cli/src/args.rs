@@ -3,6 +3,7 @@
 mod drive;
 mod duration;
 mod feasible;
+mod grammar;
 mod import;
 mod input;
 mod journal;
@@ -11,6 +12,7 @@ mod run;
 
 pub(crate) use drive::DriveArgs;
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
+pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, Server};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use journal::{Moment, ReplayArgs};
@@ -77,6 +79,8 @@ pub(crate) enum Command {
     Robots(RobotsArgs),
     /// Explain a diagnostic code
     Explain(ExplainArgs),
+    /// Print a grammar of what a language model may write, or a request that holds it to one
+    Grammar(Box<GrammarArgs>),
     /// Print the JSON Schema of a file format
     Schema(SchemaArgs),
     /// Print completions for a shell

@@ -6,6 +6,7 @@ pub(crate) mod completions;
 pub(crate) mod explain;
 pub(crate) mod feasible;
 pub(crate) mod fmt;
+pub(crate) mod grammar;
 pub(crate) mod import;
 pub(crate) mod plan;
 pub(crate) mod replay;

@@ -5,6 +5,7 @@ pub mod depot;
 pub mod eval;
 pub mod examples;
 pub mod generate;
+pub mod misses;
 pub mod notation;
 pub mod oracle;
 pub mod saycan;

@@ -1,7 +1,7 @@
 //! What the exported grammars generate is read without a mistake, and is right in names and types but for what is in scope:
 //! random derivations of every notation, over robots, scenes and both forms.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::string_slice, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
 

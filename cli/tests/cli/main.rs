@@ -4,6 +4,7 @@ mod check;
 mod commands;
 mod drive;
 mod fmt;
+mod grammar;
 mod import;
 mod journal;
 mod run;

@@ -63,7 +63,6 @@ impl Reader<'_> {
         }
     }
 
-    #[expect(clippy::panic, reason = "a test whose grammar cannot be read cannot go on")]
     fn expect(&mut self, mark: &str) {
         assert!(self.take(mark), "`{mark}` is missing before {:.60}", self.rest);
     }

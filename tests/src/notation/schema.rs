@@ -33,7 +33,7 @@ impl Deriver<'_> {
         if let Some(alternatives) = schema["anyOf"].as_array() {
             assert_eq!(keys, 1, "alternatives have siblings: {schema}");
             let chosen = if is_short { random.below(alternatives.len()) } else { 0 };
-            return self.value(&alternatives[chosen], random, out);
+            return self.value(alternatives.get(chosen).unwrap_or(&Value::Null), random, out);
         }
         match schema["type"].as_str() {
             Some("object") => self.object(schema, random, out),
@@ -50,7 +50,7 @@ impl Deriver<'_> {
             }
             Some("string") => self.string(schema, random, out),
             Some("integer") => match schema["enum"].as_array() {
-                Some(values) => out.push_str(&values[0].to_string()),
+                Some(values) => values.iter().take(1).for_each(|value| out.push_str(&value.to_string())),
                 None => {
                     let [least, greatest] =
                         ["minimum", "maximum"].map(|key| schema[key].as_i64().unwrap_or(0));
@@ -95,7 +95,8 @@ impl Deriver<'_> {
         if schema["const"].is_string() {
             out.push_str(&schema["const"].to_string());
         } else if let Some(values) = schema["enum"].as_array() {
-            out.push_str(&values[random.below(values.len())].to_string());
+            let chosen = values.get(random.below(values.len()));
+            out.push_str(&chosen.unwrap_or(&Value::Null).to_string());
         } else {
             out.push_str(&Value::from(pattern(schema["pattern"].as_str().unwrap_or(""), random)).to_string());
         }

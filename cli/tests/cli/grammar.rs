@@ -1,0 +1,98 @@
+//! `motet grammar` and `motet grammar probe`, against a server on the loopback that obeys, and one that does not.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+
+use std::io::{Read, Write};
+use std::net::TcpListener;
+
+use crate::support::Place;
+
+#[test]
+fn a_grammar_is_printed_in_each_notation() {
+    let place = Place::new("grammar_formats");
+    for (flags, begins) in [
+        ("", "{\n  \"type\": \"object\""),
+        ("--format gbnf", "root ::= "),
+        ("--format gbnf --surface text", "root ::= \"policy\""),
+        ("--surface text", "root ::= \"policy\""),
+        ("--format lark", "start: "),
+        ("--format lark --llguidance", "%llguidance {}"),
+        ("--format regex-free-ebnf --modifiers --depth 1", "root = "),
+        ("--request vllm --model m --ask hello", "{\"model\":\"m\",\"messages\":"),
+        ("--request llamacpp --surface text", "{\"model\":\"MODEL\",\"messages\":"),
+    ] {
+        let ran = place.run(&format!("grammar --robot hsr --scene kitchen {flags}"));
+        assert_eq!(ran.code, Some(0), "{flags}: {}", ran.stderr);
+        assert!(ran.stdout.starts_with(begins), "{flags}: {:.200}", ran.stdout);
+        assert_eq!(ran.stderr, "", "{flags}");
+    }
+}
+
+#[test]
+fn what_a_server_cannot_take_is_said() {
+    let place = Place::new("grammar_limits");
+    for flags in [
+        "--format json-schema --surface text",
+        "--request ollama --surface text",
+        "--request openai --surface text",
+    ] {
+        let ran = place.run(&format!("grammar --robot hsr {flags}"));
+        assert_eq!(ran.code, Some(2), "{flags}");
+        assert!(ran.stderr.contains("JSON Schema"), "{flags}: {}", ran.stderr);
+    }
+    let entities: Vec<String> = (0..1_100).map(|index| format!("thing_{index}")).collect();
+    let place = place.file("many.motet", format!("entity {}: Object\n", entities.join(", ")));
+    let ran = place.run("grammar --robot hsr --domain many.motet");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert!(ran.stderr.contains("values of enumerations; OpenAI takes 1000"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("Ollama"), "{}", ran.stderr);
+}
+
+/// A server that answers one request with a chat message; its address.
+fn server(status: &'static str, message: &'static str) -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = format!("http://{}", listener.local_addr().unwrap());
+    std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let (mut request, mut buffer) = (Vec::new(), [0; 4096]);
+        loop {
+            let count = stream.read(&mut buffer).unwrap();
+            request.extend_from_slice(&buffer[..count]);
+            let text = String::from_utf8_lossy(&request);
+            let Some((head, body)) = text.split_once("\r\n\r\n") else { continue };
+            let length = head
+                .lines()
+                .find_map(|line| line.to_lowercase().strip_prefix("content-length: ").map(str::to_owned));
+            if count == 0 || length.is_none_or(|length| body.len() >= length.trim().parse().unwrap()) {
+                break;
+            }
+        }
+        let head = format!(
+            "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+            message.len()
+        );
+        stream.write_all(head.as_bytes()).unwrap();
+        stream.write_all(message.as_bytes()).unwrap();
+    });
+    address
+}
+
+#[test]
+fn a_probe_tells_a_server_that_obeys_from_one_that_does_not() {
+    let place = Place::new("grammar_probe");
+    let held = r#"{"choices": [{"message": {"role": "assistant", "content": "{\"probe\": \"held\"}"}}]}"#;
+    let ran = place.run(&format!("grammar probe {} --dialect vllm", server("200 OK", held)));
+    assert_eq!((ran.code, ran.stdout.contains("is held to the grammar")), (Some(0), true), "{}", ran.stderr);
+    let free = r#"{"message": {"role": "assistant", "content": "free"}}"#;
+    let ran = place.run(&format!("grammar probe {} --dialect ollama", server("200 OK", free)));
+    assert_eq!(
+        (ran.code, ran.stdout.contains("answered `free`")),
+        (Some(1), true),
+        "{}{}",
+        ran.stdout,
+        ran.stderr
+    );
+    let ran = place
+        .run(&format!("grammar probe {}/v1", server("400 Bad Request", r#"{"error": "no such field"}"#)));
+    assert_eq!((ran.code, ran.stderr.contains("no such field")), (Some(2), true), "{}", ran.stderr);
+}

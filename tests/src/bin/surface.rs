@@ -1,0 +1,62 @@
+//! Writes what the tests of other people's engines need, as JSON on standard output: for each robot and scene of the
+//! examples the exported grammars, the examples as canonical lines, and lines that are nearly right.
+
+use std::collections::BTreeMap;
+
+use motet_decode::export::{Format, Header, export};
+use motet_decode::{Modifiers, Surface, canonical};
+use motet_syntax::{FileId, Form, Source, Sources};
+use motet_tests::examples::{examples, read};
+use motet_tests::{misses, setup};
+use serde_json::{Value, json};
+
+fn main() {
+    let mut worlds: BTreeMap<(String, String), Vec<(String, [String; 2])>> = BTreeMap::new();
+    let mut grammars: BTreeMap<(String, String), Value> = BTreeMap::new();
+    for (path, robot, scene) in examples() {
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let (card, room) = (setup::robot(&robot), setup::scene(&scene));
+        let (session, _) = setup::session(Some(&card), Some(&room), &mut Sources::default());
+        let signatures = session.signatures();
+        let surface = |form| Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+        let parsed = motet_syntax::read(&Source::new(name.as_str(), read(&path)), FileId(0));
+        let lines = parsed.file.runnable().next().map(|policy| {
+            [Form::Json, Form::Text]
+                .map(|form| canonical(policy, &signatures, surface(form)).unwrap_or_default())
+        });
+        let key = (robot, scene);
+        worlds.entry(key.clone()).or_default().extend(lines.map(|lines| (name, lines)));
+        grammars.entry(key).or_insert_with(|| {
+            let of = |form, format| export(&signatures, surface(form), format, Header::None);
+            json!({
+                "schema": of(Form::Json, Format::JsonSchema),
+                "json_gbnf": of(Form::Json, Format::Gbnf),
+                "text_gbnf": of(Form::Text, Format::Gbnf),
+                "json_lark": of(Form::Json, Format::Lark),
+                "text_lark": of(Form::Text, Format::Lark),
+            })
+        });
+    }
+    let all: Vec<Value> = worlds
+        .into_iter()
+        .map(|(key, policies)| {
+            let misses: Vec<Value> = policies
+                .iter()
+                .flat_map(|(_, [json, _])| misses::near_misses(json))
+                .map(|(what, line)| json!({"what": what, "line": line}))
+                .collect();
+            let policies: Vec<Value> = policies
+                .into_iter()
+                .map(|(name, [json, text])| json!({"name": name, "json": json, "text": text}))
+                .collect();
+            let grammars = grammars.remove(&key);
+            json!({"robot": key.0, "scene": key.1, "grammars": grammars, "policies": policies, "misses": misses})
+        })
+        .collect();
+    print(&json!(all));
+}
+
+#[expect(clippy::print_stdout, reason = "this program writes to standard output")]
+fn print(value: &Value) {
+    println!("{value}");
+}
