@@ -1,5 +1,6 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
+mod act;
 mod drive;
 mod duration;
 mod feasible;
@@ -8,8 +9,10 @@ mod import;
 mod input;
 mod journal;
 mod plan;
+mod prompt;
 mod run;
 
+pub(crate) use act::DoArgs;
 pub(crate) use drive::DriveArgs;
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, Server};
@@ -17,6 +20,7 @@ pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use journal::{Moment, ReplayArgs};
 pub(crate) use plan::{PlanArgs, PlanForm};
+pub(crate) use prompt::PromptArgs;
 pub(crate) use run::{RunArgs, RunFormat, Speed};
 
 use std::path::PathBuf;
@@ -65,8 +69,12 @@ pub(crate) enum Command {
     Compile(CompileArgs),
     /// Write the files of another planning language as Motet
     Import(ImportArgs),
+    /// Carry out a request in words in simulation: plan, check, run, ask, plan anew
+    Do(DoArgs),
     /// Plan a policy for a request or a goal, without a model
     Plan(PlanArgs),
+    /// Print what a model would see of a request
+    Prompt(PromptArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Check a policy and run it on a driver in another process

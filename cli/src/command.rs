@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub(crate) mod act;
 pub(crate) mod check;
 pub(crate) mod compile;
 pub(crate) mod completions;
@@ -9,6 +10,7 @@ pub(crate) mod fmt;
 pub(crate) mod grammar;
 pub(crate) mod import;
 pub(crate) mod plan;
+pub(crate) mod prompt;
 pub(crate) mod replay;
 pub(crate) mod robots;
 pub(crate) mod run;

@@ -45,6 +45,8 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Fmt(args) => command::fmt::run(args, colors),
         Command::Compile(args) => command::compile::run(args, colors),
         Command::Import(args) => command::import::run(args, colors),
+        Command::Do(args) => command::act::run(args, colors),
+        Command::Prompt(args) => command::prompt::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Drive(args) => command::run::drive(args, colors),

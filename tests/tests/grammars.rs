@@ -1,7 +1,13 @@
 //! What the exported grammars generate is read without a mistake, and is right in names and types but for what is in scope:
 //! random derivations of every notation, over robots, scenes and both forms.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::string_slice, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::string_slice,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and tells what it counted"
+)]
 
 use std::collections::BTreeMap;
 

@@ -16,24 +16,25 @@ mod world;
 use std::path::Path;
 
 use motet_graph::Graph;
+use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, Event, StartState, Time};
-use motet_sim::Sim;
+use motet_sim::{Options, Sim};
 use motet_syntax::{Parsed, Severity};
 
-use crate::args::{Format, RunArgs, RunFormat};
+use crate::args::{Format, RunArgs, RunFormat, Speed};
 use crate::document;
 use crate::exit::{Exit, Trouble};
 use crate::input::one_document;
 use crate::out::{Colors, note};
 use crate::report::Report;
 use crate::workbench::{Setting, Workbench, wanted_robot};
-use pace::Pace;
 use play::Play;
 use saved::Saved;
 use world::Choices;
 
 pub(crate) use drive::run as drive;
+pub(crate) use pace::{Pace, catch_interrupts, is_interrupted};
 pub(super) use play::journal_trouble;
 
 /// Runs the command.
@@ -132,4 +133,25 @@ fn no_robot(wanted: Option<String>) -> Trouble {
             "a robot is needed to run a policy: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
         ),
     }
+}
+
+/// What shows and paces the run of a graph, for other commands that run policies.
+pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Speed) -> Pace {
+    Pace::new(play::view(format, graph, colors), speed)
+}
+
+/// A simulated room, for other commands that run policies.
+///
+/// # Errors
+///
+/// The faults cannot be read or have a mistake.
+pub(super) fn simulator(
+    robot: &Robot,
+    scene: &Scene,
+    seed: u64,
+    faults: Option<&Path>,
+    report: &mut Report,
+) -> Result<Sim, Trouble> {
+    let faults = faults.map(|path| world::faults(path, report)).transpose()?.unwrap_or_default();
+    Ok(Sim::new(robot, scene, Options { seed, faults, ..Options::default() }))
 }

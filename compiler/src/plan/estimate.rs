@@ -26,7 +26,7 @@ const GUARD: u32 = 300;
 /// The same, where a perception could tell.
 const UNSEEN: u32 = 1_000;
 /// The most calls that are looked at for one state.
-const EFFORT: u32 = 4_000;
+const EFFORT: u32 = 1_000;
 /// How deep needs of needs are followed.
 const DEPTH: usize = 14;
 
@@ -224,13 +224,24 @@ impl<'p, 'a> Estimate<'p, 'a> {
     /// A quantified need: for each entity for which it is asked.
     fn each(&mut self, need: &NeedDef, kind: Kind, frame: Frame<'_>) -> Option<Cost> {
         let (candidates, others) = self.prover.asked(need.when.as_ref(), kind, frame);
-        let guards = if others { GUARD } else { 0 };
-        let mut all = Cost { calls: 0, guards };
+        let mut all = if others { self.whatever_else(&need.condition, frame) } else { Cost::default() };
         for candidate in candidates {
             let frame = Frame { each: Some(candidate), ..frame };
             all = all.and(self.condition(&need.condition, true, frame)?);
         }
         Some(all)
+    }
+
+    /// A quantified need where it is not known for which entities it is asked: what settles it for all of them, or a guard.
+    fn whatever_else(&mut self, condition: &Condition, frame: Frame<'_>) -> Cost {
+        let guard = Cost { calls: 0, guards: GUARD };
+        let parts = match condition {
+            Condition::AnyOf(parts) => parts.as_slice(),
+            only => std::slice::from_ref(only),
+        };
+        let settles: Vec<_> = parts.iter().filter(|part| !speaks(part, &Term::Each)).collect();
+        let costs = settles.into_iter().filter_map(|part| self.condition(part, true, frame));
+        costs.chain([guard]).min_by_key(|cost| cost.sum()).unwrap_or(guard)
     }
 
     /// How much more general the parameters of a call are than its arguments.

@@ -28,7 +28,7 @@ use crate::session::Session;
 use crate::world::World;
 
 /// The most states that a search looks at where nothing else is said.
-pub const PLAN_BUDGET: usize = 4_000;
+pub const PLAN_BUDGET: usize = 600;
 /// The most calls of a plan.
 pub const MAX_PLAN: usize = 200;
 

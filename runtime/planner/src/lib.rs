@@ -2,6 +2,11 @@
 //!
 //! [`builtin`] is the planner that needs no model: a small grammar of household requests gives goals, and a search over the
 //! contracts of the robot's primitives gives the calls that reach them. What it does not understand it says.
+//!
+//! [`conversation`] is the loop around a planner: it runs what is planned, asks where something goes wrong, and plans anew.
+//! [`prompt`] is what a model sees.
 
 pub mod builtin;
+pub mod conversation;
+pub mod prompt;
 pub mod request;

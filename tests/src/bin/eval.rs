@@ -1,6 +1,7 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
 //! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
+//! `dialogue` takes a file of wordings.
 //! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
 //! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
 //! of them are mended.
@@ -8,7 +9,7 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use motet_tests::eval::{Judged, planbench, planned, repairs, saycan, scenarios, summary};
+use motet_tests::eval::{Judged, dialogue, planbench, planned, repairs, saycan, scenarios, summary};
 
 /// What a suite has to say of the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -18,6 +19,7 @@ const SUITES: &[(&str, Suite)] = &[
     ("scenarios", |lines| judged(lines, scenarios::judge)),
     ("saycan", |lines| judged(lines, saycan::judge)),
     ("repairs", repaired),
+    ("dialogue", spoken),
 ];
 
 /// Lines for people, and the summary.
@@ -79,6 +81,25 @@ fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) ->
         lines: rows.iter().filter_map(Judged::disagreement).collect(),
         is_good: sums.agree == sums.total,
         summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
+    let wordings: Vec<&str> = lines.iter().map(|(_, line)| *line).collect();
+    let trials: Vec<_> = dialogue::cases(&wordings.join("\n")).into_iter().map(dialogue::run).collect();
+    let notes = trials.iter().filter_map(|trial| {
+        let case = &trial.case;
+        let kinds: Vec<_> = case.failures.iter().map(|kind| kind.name()).collect();
+        let note = trial.note.as_ref()?;
+        Some(format!("{} {} [{}] {}: {note}", case.robot, case.scene, kinds.join(", "), case.request))
+    });
+    let (smooth, troubled): (Vec<_>, Vec<_>) =
+        trials.iter().partition(|trial| trial.case.failures.is_empty());
+    let (smooth, troubled) = (dialogue::sums(smooth.into_iter()), dialogue::sums(troubled.into_iter()));
+    Ok(Report {
+        lines: notes.chain(dialogue::table(&trials)).collect(),
+        is_good: smooth.success * 100 >= smooth.total * 95 && troubled.success * 100 >= troubled.total * 90,
+        summary: serde_json::json!({"without_failure": smooth, "with_failure": troubled}),
     })
 }
 

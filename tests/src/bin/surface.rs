@@ -10,9 +10,14 @@ use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
 use serde_json::{Value, json};
 
+/// A robot and a scene.
+type Setting = (String, String);
+/// A policy's name, its line in JSON and its line in text.
+type Lines = (String, [String; 2]);
+
 fn main() {
-    let mut worlds: BTreeMap<(String, String), Vec<(String, [String; 2])>> = BTreeMap::new();
-    let mut grammars: BTreeMap<(String, String), Value> = BTreeMap::new();
+    let mut worlds: BTreeMap<Setting, Vec<Lines>> = BTreeMap::new();
+    let mut grammars: BTreeMap<Setting, Value> = BTreeMap::new();
     for (path, robot, scene) in examples() {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let (card, room) = (setup::robot(&robot), setup::scene(&scene));

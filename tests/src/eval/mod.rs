@@ -1,5 +1,6 @@
 //! Verdicts of the compiler beside verdicts that are not ours, row by row.
 
+pub mod dialogue;
 pub mod planbench;
 pub mod planned;
 pub mod repairs;

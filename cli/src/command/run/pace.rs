@@ -21,7 +21,7 @@ static PRESSED: AtomicU32 = AtomicU32::new(0);
 /// # Errors
 ///
 /// The system does not allow it.
-pub(super) fn catch_interrupts() -> Result<(), Trouble> {
+pub(crate) fn catch_interrupts() -> Result<(), Trouble> {
     ctrlc::set_handler(|| {
         if PRESSED.fetch_add(1, Ordering::SeqCst) > 0 {
             std::process::exit(130);
@@ -31,12 +31,12 @@ pub(super) fn catch_interrupts() -> Result<(), Trouble> {
 }
 
 /// Whether Ctrl-C was pressed.
-fn is_interrupted() -> bool {
+pub(crate) fn is_interrupted() -> bool {
     PRESSED.load(Ordering::SeqCst) > 0
 }
 
 /// The host's eyes and clock.
-pub(super) struct Pace {
+pub(crate) struct Pace {
     view: Box<dyn View>,
     speed: Speed,
     begun: Option<(Instant, Time)>,
@@ -55,7 +55,7 @@ impl Pace {
     }
 
     /// Says how it ended.
-    pub(super) fn finish(&mut self, end: &RunEnd) {
+    pub(crate) fn finish(&mut self, end: &RunEnd) {
         self.view.finish(self.now, end);
     }
 

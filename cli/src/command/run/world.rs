@@ -64,7 +64,8 @@ impl Choices {
     }
 }
 
-fn faults(path: &Path, report: &mut Report) -> Result<Faults, Trouble> {
+/// Reads faults.
+pub(super) fn faults(path: &Path, report: &mut Report) -> Result<Faults, Trouble> {
     let (_, text) = read::<Faults>(path, "file of faults", report)?;
     // The shape is right; what is left is whether numbers are in range.
     Faults::from_json(&text).map_err(|error| Trouble::Other(format!("`{}`: {error}", path.display())))

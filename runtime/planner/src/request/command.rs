@@ -93,6 +93,8 @@ fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
         "quickly",
         "too",
         "as well",
+        "instead",
+        "rather",
     ]
     .iter()
     .filter_map(|words| stands(tokens, at, words))

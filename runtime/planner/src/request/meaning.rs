@@ -10,7 +10,7 @@ use super::noun::{Noun, Phrase, Which, located, noun};
 use super::token::Token;
 use super::verb::{Act, stands};
 use super::vocabulary::{Role, Vocabulary};
-use super::{Puzzle, Situation};
+use super::{Located, Puzzle, Situation};
 use crate::builtin::Aim;
 
 /// What can be carried.
@@ -25,8 +25,8 @@ const HOLDERS: &[Role] = &[Role::Surface, Role::Container, Role::Person, Role::P
 pub struct Understood {
     /// What shall come about, in order.
     pub aims: Vec<Aim>,
-    /// What was said to be so: facts in the text form of conditions, with their value.
-    pub facts: Vec<(String, bool)>,
+    /// Where things were said to be.
+    pub located: Vec<Located>,
     /// What was read differently from how it was written.
     pub notes: Vec<String>,
     /// What was spoken of, the latest last.
@@ -51,7 +51,7 @@ pub(super) fn understood(
     for statement in &spoken.statements {
         reader.state(statement);
     }
-    if spoken.commands.is_empty() && reader.said.facts.is_empty() {
+    if spoken.commands.is_empty() && reader.said.located.is_empty() {
         return Err(match reader.wished(spoken) {
             Some(question) => Puzzle::AmbiguousTask { question, options: Vec::new() },
             None => Puzzle::NotUnderstood { part: request.trim().to_owned() },
@@ -164,10 +164,8 @@ impl Reader<'_> {
         };
         let ([thing], [place]) = (things.as_slice(), places.as_slice()) else { return false };
         let Some(role) = self.vocabulary.thing(place).map(|place| place.role) else { return false };
-        let name = if role == Role::Container { "in" } else { "on" };
-        for relation in [name, "at"] {
-            self.said.facts.push((motet_syntax::print::expression(&fact(relation, &[thing, place])), true));
-        }
+        let relation = if role == Role::Container { "in" } else { "on" };
+        self.said.located.push(Located { thing: thing.clone(), relation, place: place.clone() });
         self.said.spoken_of.push(thing.clone());
         true
     }
@@ -483,6 +481,12 @@ impl Reader<'_> {
             Some(place) => Some(self.things(&place.clone(), HOLDERS, None)?),
             None => from.map(<[SmolStr]>::to_vec),
         };
+        // Words of which it was found out what they mean.
+        if let Some((_, id)) = self.situation.meant.iter().rev().find(|(said, _)| *said == phrase.said)
+            && self.vocabulary.thing(id).is_some_and(|thing| roles.contains(&thing.role))
+        {
+            return Ok(vec![id.clone()]);
+        }
         let mut words = phrase.words.clone();
         // What someone says of a thing that they opened or emptied tells nothing about which it is.
         words.retain(|word| !matches!(word.as_str(), "open" | "opened" | "nice" | "good" | "other" | "new"));

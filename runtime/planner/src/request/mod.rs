@@ -6,6 +6,7 @@ mod command;
 mod knowledge;
 mod meaning;
 mod noun;
+mod pick;
 mod puzzle;
 mod token;
 mod verb;
@@ -15,6 +16,7 @@ use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
 pub use meaning::Understood;
+pub use pick::{called, named, pick};
 pub use puzzle::Puzzle;
 
 /// What is known where a request is made.
@@ -28,6 +30,19 @@ pub struct Situation<'a> {
     pub supports: Vec<(SmolStr, Option<SmolStr>)>,
     /// What was spoken of before, the latest last.
     pub spoken_of: Vec<SmolStr>,
+    /// What was found out that words mean.
+    pub meant: Vec<(String, SmolStr)>,
+}
+
+/// Where somebody said that a thing is.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Located {
+    /// The thing.
+    pub thing: SmolStr,
+    /// `on` or `in`.
+    pub relation: &'static str,
+    /// Where.
+    pub place: SmolStr,
 }
 
 impl<'a> Situation<'a> {
@@ -35,7 +50,7 @@ impl<'a> Situation<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
         let holding = scene.robot.holding.clone().flatten();
-        Self { scene, holding, supports: Vec::new(), spoken_of: Vec::new() }
+        Self { scene, holding, supports: Vec::new(), spoken_of: Vec::new(), meant: Vec::new() }
     }
 }
 

@@ -119,6 +119,8 @@ const ENDS: &[&str] = &[
     "too",
     "also",
     "using",
+    "instead",
+    "rather",
     "where",
     "not",
     "you",

@@ -99,6 +99,12 @@ impl Vocabulary {
         all().filter(|thing| thing.is_told_by(words)).collect()
     }
 
+    /// The things of some roles of which every word tells something.
+    pub(super) fn told_by(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
+        let all = self.things.iter().filter(|thing| roles.contains(&thing.role));
+        all.filter(|thing| thing.is_told_by(words)).collect()
+    }
+
     /// Words with those that nothing is called replaced by the one name that they are a slip away from. None where one
     /// has no such name.
     pub(super) fn respelt(&self, words: &[String]) -> Option<Vec<String>> {

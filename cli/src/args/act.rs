@@ -1,0 +1,44 @@
+//! The flags of `motet do`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::input::WorldArgs;
+use super::run::{RunFormat, Speed};
+
+/// `motet do`
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    motet do 'bring me the coke' --robot hsr --scene kitchen\n  \
+    motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n\n\
+    A line that is typed while the robot moves is a new request and takes over at once.")]
+pub(crate) struct DoArgs {
+    /// What to do, in words
+    #[arg(value_name = "REQUEST")]
+    pub(crate) request: String,
+    /// In which world.
+    #[command(flatten)]
+    pub(crate) world: WorldArgs,
+    /// Who answers questions: `terminal`, `never`, or `script FILE` with an answer a line
+    #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
+    pub(crate) ask: Vec<String>,
+    /// Folder in which the requests, policies, questions and endings are written down
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) record: Option<PathBuf>,
+    /// How much faster than real time: a factor, or `max` for as fast as it can be computed
+    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
+    pub(crate) speed: Speed,
+    /// Seed of everything random in the simulated world
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    pub(crate) seed: u64,
+    /// Faults to inject: a JSON file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) faults: Option<PathBuf>,
+    /// Scene as it really is, where it is otherwise than the robot is told: a built-in name, or a JSON file
+    #[arg(long = "real", value_name = "NAME|FILE")]
+    pub(crate) real: Option<String>,
+    /// How to show the run
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(crate) format: RunFormat,
+}

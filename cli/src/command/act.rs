@@ -1,0 +1,92 @@
+//! `motet do`: a request in words, carried out in simulation: planned, checked, run, asked about and planned anew.
+
+mod eyes;
+mod person;
+mod record;
+
+use std::rc::Rc;
+
+use motet_compiler::Options;
+use motet_planner::conversation::{Builtin, Conversation, Outcome, Setting};
+use motet_runtime::Time;
+use motet_sim::Sim;
+use motet_syntax::Sources;
+use motet_syntax::ast::File;
+
+use super::run;
+use crate::args::{DoArgs, Format};
+use crate::exit::{Exit, Trouble};
+use crate::out::{Colors, note};
+use crate::report::Report;
+use crate::workbench::{self, Workbench};
+use eyes::Eyes;
+use person::{Asked, Asking};
+use record::Recorder;
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// What it runs against cannot be used, or the record cannot be written.
+pub(crate) fn run(args: &DoArgs, colors: Colors) -> Result<Exit, Trouble> {
+    let mut report = Report::new(Format::Human, colors);
+    report.hold();
+    let result = act(args, colors, &mut report);
+    report.close(result)
+}
+
+fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Trouble> {
+    let mut bench = Workbench::open(&args.world, report)?;
+    let setting = bench.setting(&File::default(), report)?;
+    let Some(robot) = setting.robot.clone() else {
+        return Err(Trouble::Other("a robot is needed to do something: give --robot NAME".to_owned()));
+    };
+    let scene = setting.scene.clone().unwrap_or_default();
+    let (domains, geometry) = (setting.domains.clone(), setting.geometry.clone());
+    let real = match &args.real {
+        Some(name) => workbench::read_scene(name, &mut Sources::default(), report)?,
+        None => scene.clone(),
+    };
+    let mut simulator = run::simulator(&robot, &real, args.seed, args.faults.as_deref(), report)?;
+    let asked = Rc::new(Asked::read(&args.ask)?);
+    let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
+    let setting = Setting {
+        robot,
+        scene,
+        domains,
+        geometry,
+        options: Options { max_duration_secs: args.world.max_duration },
+    };
+    run::catch_interrupts()?;
+    let outcome = carry_out(args, colors, &setting, &mut simulator, &asked, recorder)?;
+    Ok(match &outcome {
+        Outcome::Done => Exit::Clean,
+        Outcome::Stopped => Exit::Interrupted,
+        Outcome::GivenUp => {
+            note("left as it is");
+            Exit::Failed
+        }
+        Outcome::Failed(problem) => {
+            note(&format!("not done ({}): {}", problem.kind.name(), problem.question));
+            Exit::Failed
+        }
+    })
+}
+
+fn carry_out(
+    args: &DoArgs,
+    colors: Colors,
+    setting: &Setting,
+    simulator: &mut Sim,
+    asked: &Rc<Asked>,
+    recorder: Option<Recorder>,
+) -> Result<Outcome, Trouble> {
+    let mut talk = Conversation::new(setting);
+    let mut eyes = Eyes::new(args, colors, Rc::clone(asked), recorder);
+    let mut person = Asking(Rc::clone(asked));
+    eyes.requested(&args.request);
+    let (outcome, _) =
+        talk.carry_out(&args.request, &mut Builtin, simulator, &mut person, &mut eyes, Time::ZERO);
+    eyes.finish(&outcome)?;
+    Ok(outcome)
+}

@@ -1,0 +1,63 @@
+//! A record of a conversation in a folder: `talk.jsonl`, a line for each thing that happens, and every policy in a file of
+//! its own.
+
+use std::fs::{self, File};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::exit::Trouble;
+
+/// Writes a record. A mistake in writing is kept until the end.
+pub(super) struct Recorder {
+    folder: PathBuf,
+    talk: File,
+    policies: usize,
+    trouble: Option<Trouble>,
+}
+
+impl Recorder {
+    /// Makes the folder.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be written to.
+    pub(super) fn create(folder: &Path) -> Result<Self, Trouble> {
+        let cannot = |path: &Path| {
+            let path = path.to_owned();
+            move |source| Trouble::Write { path, source }
+        };
+        fs::create_dir_all(folder).map_err(cannot(folder))?;
+        let path = folder.join("talk.jsonl");
+        let talk = File::create(&path).map_err(cannot(&path))?;
+        Ok(Self { folder: folder.to_owned(), talk, policies: 0, trouble: None })
+    }
+
+    /// Something happened.
+    pub(super) fn write(&mut self, what: &str, more: Value) {
+        let mut line = json!({"what": what});
+        if let (Some(line), Value::Object(more)) = (line.as_object_mut(), more) {
+            line.extend(more);
+        }
+        if let Err(source) = writeln!(self.talk, "{line}") {
+            self.trouble.get_or_insert(Trouble::Write { path: self.folder.join("talk.jsonl"), source });
+        }
+    }
+
+    /// A policy is about to run.
+    pub(super) fn policy(&mut self, text: &str) {
+        self.policies += 1;
+        let name = format!("policy_{}.motet", self.policies);
+        let path = self.folder.join(&name);
+        if let Err(source) = fs::write(&path, text) {
+            self.trouble.get_or_insert(Trouble::Write { path, source });
+        }
+        self.write("policy", json!({"file": name}));
+    }
+
+    /// What went wrong in writing.
+    pub(super) fn finish(self) -> Result<(), Trouble> {
+        self.trouble.map_or(Ok(()), Err)
+    }
+}

@@ -1,0 +1,211 @@
+//! What is known between two policies: what a run believed at its end, and what people said. From it come the scene and the
+//! state that the next policy is checked against, and the start of the next run.
+
+use indexmap::IndexMap;
+use motet_compiler::State;
+use motet_graph::{Graph, Value};
+use motet_robots::scene::Scene;
+use motet_runtime::{Engine, Pattern, Query, StartState, Truth};
+use motet_syntax::{Span, print};
+use smol_str::SmolStr;
+
+use crate::request::{Located, Situation};
+
+/// What is known beside a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// In order: a later fact wins, and one with `any` is meant of every entity.
+    facts: Vec<(Query, Truth)>,
+    some: Vec<Query>,
+    /// What was spoken of, the latest last.
+    pub(super) spoken_of: Vec<SmolStr>,
+}
+
+impl Known {
+    /// Whether nothing is known but what the scene says.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.facts.is_empty()
+    }
+
+    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays.
+    pub fn learn(&mut self, engine: &Engine) {
+        let snapshot = engine.snapshot();
+        let graph: &Graph = engine.graph();
+        let speaks = |query: &Query| match query {
+            Query::Fact { fluent, .. } => graph.fluents.iter().any(|known| known.name == *fluent),
+            Query::Measure { .. } | Query::Field { .. } => true,
+        };
+        self.facts.retain(|(query, _)| !speaks(query));
+        self.facts.extend(snapshot.facts);
+        self.some.retain(|query| !speaks(query));
+        self.some.extend(snapshot.some);
+    }
+
+    /// Takes in where somebody says that a thing is.
+    pub fn hear(&mut self, said: &Located) {
+        let thing = Pattern::Is(Value::Entity(said.thing.clone()));
+        let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
+            self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));
+        };
+        for fluent in ["on", "in", "at"] {
+            tell(fluent, vec![thing.clone(), Pattern::Any], Truth::False);
+        }
+        let place = Pattern::Is(Value::Entity(said.place.clone()));
+        for fluent in [said.relation, "at"] {
+            tell(fluent, vec![thing.clone(), place.clone()], Truth::True);
+        }
+        for fluent in ["visible", "located", "clear"] {
+            tell(fluent, vec![thing.clone()], Truth::Unknown);
+        }
+        self.spoken_of.push(said.thing.clone());
+    }
+
+    /// The scene without what is known otherwise, or no longer.
+    #[must_use]
+    pub fn scene(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        for (query, _) in &self.facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            let Some(Pattern::Is(Value::Entity(id))) = args.first() else {
+                if fluent == "visible" {
+                    scene.entities.values_mut().for_each(|entity| entity.visible = None);
+                }
+                if fluent == "holding" {
+                    scene.robot.holding = None;
+                }
+                continue;
+            };
+            if id == "robot" && fluent == "at" {
+                scene.robot.at = None;
+            }
+            if fluent == "holding" {
+                scene.robot.holding = None;
+            }
+            let Some(entity) = scene.entities.get_mut(id) else { continue };
+            match fluent.as_str() {
+                "on" | "in" | "at" if entity.on.is_some() || entity.inside.is_some() => {
+                    (entity.on, entity.inside) = (None, None);
+                }
+                "visible" => entity.visible = None,
+                _ => {}
+            }
+        }
+        for id in self.moved(&scene) {
+            if let Some(entity) = scene.entities.get_mut(&id) {
+                entity.pose = None;
+            }
+        }
+        scene
+    }
+
+    /// Objects that are known to be elsewhere than where the scene has them, or not known to be there.
+    fn moved(&self, stripped: &Scene) -> Vec<SmolStr> {
+        let fixed = |id: &SmolStr| stripped.entities.get(id).is_none_or(|entity| entity.kind != "Object");
+        let mut moved: Vec<SmolStr> = Vec::new();
+        for (query, truth) in &self.facts {
+            if let Query::Fact { fluent, args } = query
+                && fluent == "holding"
+                && *truth == Truth::True
+                && let Some(Pattern::Is(Value::Entity(id))) = args.first()
+                && !fixed(id)
+            {
+                moved.push(id.clone());
+            }
+        }
+        moved
+    }
+
+    /// The facts as the compiler takes them; of what is no longer known it is told just that.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let mut facts: IndexMap<String, (Option<bool>, Span)> = IndexMap::new();
+        for (query, truth) in &self.facts {
+            let Some(text) = text(query) else { continue };
+            // A later fact stands later.
+            facts.shift_remove(&text);
+            let known = match truth {
+                Truth::True => Some(true),
+                Truth::False => Some(false),
+                Truth::Unknown => None,
+            };
+            facts.insert(text, (known, Span::default()));
+        }
+        State { facts }
+    }
+
+    /// What the next run begins with.
+    #[must_use]
+    pub fn start(&self, scene: &Scene) -> StartState {
+        let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
+        StartState {
+            facts: self.facts.clone(),
+            some: self.some.clone(),
+            entities: entities.collect(),
+            ..StartState::default()
+        }
+    }
+
+    /// What the hand holds.
+    #[must_use]
+    pub fn holding(&self, scene: &Scene) -> Option<SmolStr> {
+        let mut held = scene.robot.holding.clone().flatten();
+        for (query, truth) in &self.facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            if fluent != "holding" {
+                continue;
+            }
+            match (args.first(), truth) {
+                (Some(Pattern::Is(Value::Entity(id))), Truth::True) => held = Some(id.clone()),
+                (Some(Pattern::Is(Value::Entity(id))), _) if held.as_ref() == Some(id) => held = None,
+                (Some(Pattern::Any), Truth::False | Truth::Unknown) => held = None,
+                _ => {}
+            }
+        }
+        held
+    }
+
+    /// The situation in which a request is understood.
+    #[must_use]
+    pub fn situation<'s>(&self, scene: &'s Scene) -> Situation<'s> {
+        let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
+        for (query, truth) in &self.facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            if !matches!(fluent.as_str(), "on" | "in" | "at") {
+                continue;
+            }
+            let [Pattern::Is(Value::Entity(thing)), place] = args.as_slice() else { continue };
+            match (place, truth) {
+                (Pattern::Is(Value::Entity(place)), Truth::True) => {
+                    supports.insert(thing.clone(), Some(place.clone()));
+                }
+                (Pattern::Is(Value::Entity(place)), Truth::False | Truth::Unknown)
+                    if supports.get(thing).is_some_and(|known| known.as_ref() == Some(place)) =>
+                {
+                    supports.insert(thing.clone(), None);
+                }
+                (Pattern::Any, Truth::False | Truth::Unknown) => {
+                    supports.insert(thing.clone(), None);
+                }
+                _ => {}
+            }
+        }
+        Situation {
+            holding: self.holding(scene),
+            supports: supports.into_iter().collect(),
+            spoken_of: self.spoken_of.clone(),
+            ..Situation::new(scene)
+        }
+    }
+}
+
+/// A fact as a state file has it; none where an argument is no name.
+fn text(query: &Query) -> Option<String> {
+    let Query::Fact { fluent, args } = query else { return None };
+    let args = args.iter().map(|arg| match arg {
+        Pattern::Any => Some("any".to_owned()),
+        Pattern::Is(Value::Entity(id) | Value::Case(id)) => Some(print::identifier(id)),
+        Pattern::Is(_) => None,
+    });
+    Some(format!("{}({})", print::identifier(fluent), args.collect::<Option<Vec<_>>>()?.join(", ")))
+}

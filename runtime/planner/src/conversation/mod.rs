@@ -1,0 +1,287 @@
+//! The loop: a request becomes a policy, the policy runs, and what goes wrong becomes a question whose answer goes into the
+//! next policy, until it is done, given up or stopped. A new request may come at any time and takes over.
+//!
+//! Who plans is a [`Planner`], who answers a [`Person`], who looks on a [`Watcher`]; the robot is any
+//! [`Driver`](motet_runtime::Driver).
+
+mod answer;
+mod known;
+mod live;
+mod problem;
+
+use std::sync::Arc;
+
+use motet_compiler::{Geometry, Options, Session};
+use motet_graph::Graph;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::{Driver, Effect, Engine, Event, Refusal, RunEnd, Time};
+use motet_syntax::Sources;
+use motet_syntax::ast::File;
+use smol_str::SmolStr;
+
+pub use answer::Answer;
+pub use known::Known;
+pub use problem::{Kind, Problem};
+
+use crate::builtin::{self, Answered, Unplanned};
+use crate::request::Situation;
+use live::Live;
+
+/// The most policies for one request.
+const MAX_ROUNDS: usize = 12;
+/// The most questions for one request.
+const MAX_QUESTIONS: usize = 6;
+/// How often a step that failed is tried again, with a new plan, before somebody is asked.
+const TRIES: usize = 2;
+
+/// In which world requests are carried out.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The robot.
+    pub robot: Robot,
+    /// What is known of the room at the start.
+    pub scene: Scene,
+    /// Declarations on top of the library.
+    pub domains: Vec<File>,
+    /// The robot's body in the scene, where motions are checked beforehand: as long as all is as the scene says.
+    pub geometry: Option<Arc<Geometry>>,
+    /// Settings of the check.
+    pub options: Options,
+}
+
+/// Makes policies of requests.
+pub trait Planner {
+    /// A policy for a request, or why there is none. It is asked again after a failure, with what is known by then.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned>;
+}
+
+/// What a planner is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Ask<'a> {
+    /// What the policy is checked against.
+    pub session: &'a Session,
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The request, as it stands after the answers that changed it.
+    pub request: &'a str,
+    /// What is known.
+    pub situation: &'a Situation<'a>,
+    /// What was asked and done.
+    pub memory: &'a Memory,
+}
+
+/// The planner that needs no model.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Builtin;
+
+impl Planner for Builtin {
+    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+        builtin::answer(ask.session, Some(ask.robot), ask.request, ask.situation)
+    }
+}
+
+/// Answers questions.
+pub trait Person {
+    /// Asks a question. None where nobody answers.
+    fn ask(&mut self, problem: &Problem) -> Option<String>;
+}
+
+/// Nobody is there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nobody;
+
+impl Person for Nobody {
+    fn ask(&mut self, _problem: &Problem) -> Option<String> {
+        None
+    }
+}
+
+/// Looks on, and brings new requests.
+pub trait Watcher {
+    /// A policy is about to run, or to take over.
+    fn planned(&mut self, _answered: &Answered, _graph: &Arc<Graph>) {}
+    /// An event is about to be handled.
+    fn event(&mut self, _now: Time, _event: &Event) {}
+    /// An effect is about to be carried out.
+    fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    /// Time has passed; whether the run goes on. To pace it against a clock, wait here.
+    fn reached(&mut self, _now: Time) -> motet_runtime::Control {
+        motet_runtime::Control::GoOn
+    }
+    /// The longest span without a call of [`Watcher::reached`].
+    fn at_least_every(&self) -> Time {
+        Time::NEVER
+    }
+    /// A new request that somebody has made meanwhile.
+    fn request(&mut self, _now: Time) -> Option<String> {
+        None
+    }
+    /// A policy took over, or could not.
+    fn swapped(&mut self, _now: Time, _refusal: Option<&Refusal>) {}
+    /// A run has ended.
+    fn ended(&mut self, _now: Time, _end: &RunEnd) {}
+    /// Something is to be asked, or was answered.
+    fn asked(&mut self, _problem: &Problem, _answer: Option<&str>) {}
+}
+
+/// Looks on without a word.
+impl Watcher for () {}
+
+/// How a conversation about one request ended.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Outcome {
+    /// What was asked for is done.
+    Done,
+    /// A person gave it up.
+    GivenUp,
+    /// A person stopped the robot.
+    Stopped,
+    /// It could not be done, and nobody said what to do instead.
+    Failed(Problem),
+}
+
+/// Carries out requests, one after the other, in a world that lasts.
+pub struct Conversation<'a> {
+    setting: &'a Setting,
+    /// What is known beside the setting.
+    pub known: Known,
+    /// What was asked and done.
+    pub memory: Memory,
+}
+
+/// What one request has come to.
+struct Task {
+    request: String,
+    /// What was meant by words that could mean several things.
+    meant: Vec<(String, SmolStr)>,
+    questions: usize,
+    tries: usize,
+}
+
+impl<'a> Conversation<'a> {
+    /// A conversation in a setting.
+    #[must_use]
+    pub fn new(setting: &'a Setting) -> Self {
+        Self { setting, known: Known::default(), memory: Memory::new(Limits::default()) }
+    }
+
+    /// Carries out a request to its end. Runs from the driver's present time `from`; gives the time at the end too.
+    pub fn carry_out(
+        &mut self,
+        request: &str,
+        planner: &mut dyn Planner,
+        driver: &mut dyn Driver,
+        person: &mut dyn Person,
+        watcher: &mut dyn Watcher,
+        from: Time,
+    ) -> (Outcome, Time) {
+        let mut task = Task { request: request.to_owned(), meant: Vec::new(), questions: 0, tries: 0 };
+        let mut now = from;
+        self.memory.instruct(now, request);
+        let mut latest = None;
+        for _ in 0..MAX_ROUNDS {
+            let scene = self.known.scene(&self.setting.scene);
+            let problem = match self.propose(&task, planner, &scene) {
+                Ok(answered) => {
+                    let mut live = Live::new(self, &mut *planner, &mut *watcher, task.meant.clone(), now);
+                    let end = live.run(answered, driver, &scene);
+                    now = live.now;
+                    let pending = live.pending.take();
+                    if let Some(request) = live.request.take() {
+                        task = Task { request, meant: Vec::new(), questions: 0, tries: task.tries };
+                    }
+                    let (end, graph) = match end {
+                        Ok(ended) => ended,
+                        Err(problem) => return (Outcome::Failed(problem), now),
+                    };
+                    match (pending, &end) {
+                        (Some(request), _) => {
+                            task = Task { request, meant: Vec::new(), questions: 0, tries: 0 };
+                            continue;
+                        }
+                        (None, RunEnd::Interrupted) => return (Outcome::Stopped, now),
+                        (None, _) => {}
+                    }
+                    match Problem::of_run(&end, &graph, &scene) {
+                        None => return (Outcome::Done, now),
+                        Some(problem) => problem,
+                    }
+                }
+                Err(why) => Problem::of_planning(&why, &scene),
+            };
+            // What merely did not work is tried again before somebody is troubled.
+            if problem.kind == Kind::ActionFailed && task.tries < TRIES {
+                task.tries += 1;
+                continue;
+            }
+            if task.questions >= MAX_QUESTIONS {
+                return (Outcome::Failed(problem), now);
+            }
+            task.questions += 1;
+            let answer = person.ask(&problem);
+            watcher.asked(&problem, answer.as_deref());
+            let Some(answer) = answer else { return (Outcome::Failed(problem), now) };
+            latest = Some(problem.clone());
+            let situation = self.known.situation(&scene);
+            match answer::read(&answer, &problem, &task.request, &situation) {
+                Answer::GiveUp => return (Outcome::GivenUp, now),
+                Answer::Again => task.tries = 0,
+                Answer::Means { said, id } => task.meant.push((said, id)),
+                Answer::Located(located) => located.iter().for_each(|one| self.known.hear(one)),
+                Answer::Request(request) => {
+                    self.memory.instruct(now, &request);
+                    task = Task { request, meant: Vec::new(), ..task };
+                }
+                Answer::NotUnderstood => {}
+            }
+        }
+        let nothing = Problem {
+            kind: Kind::ActionFailed,
+            question: "I have tried as often as I may. What shall I do?".to_owned(),
+            options: Vec::new(),
+            about: None,
+            said: None,
+        };
+        (Outcome::Failed(latest.unwrap_or(nothing)), now)
+    }
+
+    fn propose(&self, task: &Task, planner: &mut dyn Planner, scene: &Scene) -> Result<Answered, Unplanned> {
+        self.plan_for(&task.request, &task.meant, planner, scene, &self.known)
+    }
+
+    fn plan_for(
+        &self,
+        request: &str,
+        meant: &[(String, SmolStr)],
+        planner: &mut dyn Planner,
+        scene: &Scene,
+        known: &Known,
+    ) -> Result<Answered, Unplanned> {
+        let Setting { robot, domains, options, .. } = self.setting;
+        let state = known.state();
+        let (mut session, _) =
+            Session::new(Some(robot), domains, Some(scene), Some(&state), *options, &mut Sources::default());
+        if let Some(geometry) = self.setting.geometry.as_ref().filter(|_| known.is_empty()) {
+            session = session.with_geometry(Arc::clone(geometry));
+        }
+        let situation = Situation { meant: meant.to_vec(), ..known.situation(scene) };
+        planner.plan(&Ask { session: &session, robot, request, situation: &situation, memory: &self.memory })
+    }
+
+    /// An engine for a policy, in the state that is known.
+    fn engine(&self, graph: Graph, scene: &Scene) -> Result<Engine, Problem> {
+        Engine::new(graph, &self.known.start(scene)).map_err(|wrong| Problem {
+            kind: Kind::ActionFailed,
+            question: wrong.first().map_or_else(|| "the graph is not valid".to_owned(), ToString::to_string),
+            options: Vec::new(),
+            about: None,
+            said: None,
+        })
+    }
+}

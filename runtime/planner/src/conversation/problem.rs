@@ -1,0 +1,231 @@
+//! What keeps a request from being carried out, in the kinds of InteLiPlan's table of failures, and the one question that
+//! each becomes.
+
+use motet_graph::{Graph, NodeKind, Term, Value};
+use motet_robots::scene::Scene;
+use motet_runtime::RunEnd;
+use smol_str::SmolStr;
+
+use crate::builtin::Unplanned;
+use crate::request::Puzzle;
+
+/// The kinds of failure.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Kind {
+    /// What is asked for is not there, or not where it was thought to be.
+    NotFound,
+    /// No motion leads there, or something is in the way.
+    NotReachable,
+    /// More than one thing is called so.
+    AmbiguousReference,
+    /// It is not clear what to do.
+    AmbiguousTask,
+    /// A step was tried and did not work.
+    ActionFailed,
+}
+
+/// A problem with its question.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Problem {
+    /// Its kind.
+    pub kind: Kind,
+    /// What happened, and what to do about it.
+    pub question: String,
+    /// What could be answered; empty where anything could.
+    pub options: Vec<SmolStr>,
+    /// The thing that it is about.
+    pub about: Option<SmolStr>,
+    /// As it was said, where words are the problem.
+    pub said: Option<String>,
+}
+
+impl Kind {
+    /// As it is written in records and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NotFound => "not_found",
+            Self::NotReachable => "not_reachable",
+            Self::AmbiguousReference => "ambiguous_reference",
+            Self::AmbiguousTask => "ambiguous_task",
+            Self::ActionFailed => "action_failed",
+        }
+    }
+}
+
+impl Problem {
+    /// What keeps a request from becoming a policy.
+    #[must_use]
+    pub fn of_planning(why: &Unplanned, scene: &Scene) -> Self {
+        let bare =
+            |kind, question: String| Self { kind, question, options: Vec::new(), about: None, said: None };
+        match why {
+            Unplanned::Puzzle(Puzzle::NotUnderstood { part }) => Self {
+                said: Some(part.clone()),
+                ..bare(Kind::AmbiguousTask, format!("I do not understand \"{part}\". What shall I do?"))
+            },
+            Unplanned::Puzzle(Puzzle::NotFound { what }) => Self {
+                said: Some(what.clone()),
+                ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
+            },
+            Unplanned::Puzzle(Puzzle::AmbiguousReference { what, options }) => {
+                let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
+                let noun = bare_noun(what);
+                let question = format!(
+                    "I know {} that could be the {noun}: {}. Which one?",
+                    number(options.len()),
+                    join(&seen)
+                );
+                Self {
+                    options: options.clone(),
+                    said: Some(what.clone()),
+                    ..bare(Kind::AmbiguousReference, question)
+                }
+            }
+            Unplanned::Puzzle(Puzzle::AmbiguousTask { question, options }) => {
+                Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
+            }
+            Unplanned::NoPlan(_) | Unplanned::Refused { .. } => {
+                bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
+            }
+        }
+    }
+
+    /// What a run ended in; none where it is done, or a person stopped it.
+    #[must_use]
+    pub fn of_run(end: &RunEnd, graph: &Graph, scene: &Scene) -> Option<Self> {
+        match end {
+            RunEnd::Done { .. } | RunEnd::Interrupted => None,
+            RunEnd::Failed { kind, why, node } => Some(failed(kind, why.as_deref(), *node, graph, scene)),
+            RunEnd::Replan { why } => Some(Self {
+                kind: Kind::ActionFailed,
+                question: format!(
+                    "I had to stop: {}. Shall I try again?",
+                    why.as_deref().unwrap_or("the plan no longer fits")
+                ),
+                options: vec!["yes".into(), "no".into()],
+                about: None,
+                said: None,
+            }),
+            RunEnd::Fault(fault) => Some(Self {
+                kind: Kind::ActionFailed,
+                question: format!("I could not go on: {fault}. Shall I try again?"),
+                options: vec!["yes".into(), "no".into()],
+                about: None,
+                said: None,
+            }),
+        }
+    }
+}
+
+fn failed(kind: &str, why: Option<&str>, node: motet_graph::NodeId, graph: &Graph, scene: &Scene) -> Problem {
+    let call = graph.nodes.get(node.index()).and_then(|node| match &node.kind {
+        NodeKind::Call(call) => Some(call),
+        _ => None,
+    });
+    let primitive = call.and_then(|call| graph.primitives.get(call.primitive.index()));
+    let about = call.into_iter().flat_map(|call| &call.args).find_map(|arg| match arg {
+        Term::Literal(Value::Entity(id)) => Some(id.clone()),
+        Term::Literal(Value::Text(text)) => Some(SmolStr::from(text.as_str())),
+        _ => None,
+    });
+    let thing =
+        about.as_ref().map_or_else(|| "what I need".to_owned(), |id| format!("the {}", called(scene, id)));
+    let doing =
+        primitive.map_or_else(|| "a step".to_owned(), |primitive| format!("{}({thing})", primitive.name));
+    let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
+        "not_found" => (
+            Kind::NotFound,
+            format!("I cannot find {thing}{}. Where is it?", believed(scene, about.as_ref())),
+            holders(scene),
+        ),
+        "ambiguous" => (
+            Kind::AmbiguousReference,
+            format!("More than one thing could be {thing}. Which one?"),
+            Vec::new(),
+        ),
+        "unreachable" | "blocked" => (
+            Kind::NotReachable,
+            format!("I cannot reach {thing}: {doing} is {kind}. What shall I do?"),
+            vec!["try again".into(), "leave it".into()],
+        ),
+        "too_heavy" => (
+            Kind::NotReachable,
+            format!("I cannot lift {thing}, it is too heavy. What shall I do?"),
+            vec!["leave it".into()],
+        ),
+        _ => (
+            Kind::ActionFailed,
+            format!(
+                "{doing} did not work: {}. Shall I try again?",
+                why.map_or_else(|| kind.replace('_', " "), ToOwned::to_owned)
+            ),
+            vec!["yes".into(), "no".into()],
+        ),
+    };
+    Problem { kind, question, options, about, said: None }
+}
+
+/// Where a thing can be.
+fn holders(scene: &Scene) -> Vec<SmolStr> {
+    let holds =
+        scene.entities.values().filter(|entity| matches!(entity.kind.as_str(), "Surface" | "Container"));
+    holds.map(|entity| entity.id.clone()).collect()
+}
+
+/// ` on the counter`, where a thing was thought to be.
+fn believed(scene: &Scene, id: Option<&SmolStr>) -> String {
+    let entity = id.and_then(|id| scene.entities.get(id));
+    match entity.map(|entity| (&entity.on, &entity.inside)) {
+        Some((Some(support), _)) => format!(" on the {}", called(scene, support)),
+        Some((None, Some(container))) => format!(" in the {}", called(scene, container)),
+        Some((None, None)) | None => String::new(),
+    }
+}
+
+/// What people call a thing: its first other name, else its id in words.
+#[must_use]
+pub(crate) fn called(scene: &Scene, id: &str) -> String {
+    let entity = scene.entities.get(id);
+    let name = entity.and_then(|entity| entity.names.first());
+    name.map_or_else(|| id.replace(['_', '-'], " "), ToString::to_string)
+}
+
+/// `the red mug on the table`
+fn described(scene: &Scene, id: &SmolStr) -> String {
+    format!("the {}{}", called(scene, id), believed(scene, Some(id)))
+}
+
+fn bare_noun(said: &str) -> &str {
+    let articles = ["the ", "a ", "an ", "some ", "my ", "that ", "this "];
+    articles.iter().find_map(|article| said.strip_prefix(article)).unwrap_or(said)
+}
+
+fn number(count: usize) -> String {
+    match count {
+        2 => "two things".to_owned(),
+        3 => "three things".to_owned(),
+        more => format!("{more} things"),
+    }
+}
+
+fn join(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [only] => only.clone(),
+        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+impl Problem {
+    /// Something that no answer mends.
+    pub(super) fn nothing(what: &str) -> Self {
+        Self {
+            kind: Kind::ActionFailed,
+            question: what.to_owned(),
+            options: Vec::new(),
+            about: None,
+            said: None,
+        }
+    }
+}

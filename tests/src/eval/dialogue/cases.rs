@@ -1,0 +1,178 @@
+//! The cases: every wording in every room, with every kind of failure that it can have.
+
+use motet_planner::conversation::Kind;
+use motet_robots::scene::Scene;
+
+use super::room::{Named, ROOMS, Room};
+
+/// One case.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The robot.
+    pub robot: String,
+    /// The room.
+    pub scene: String,
+    /// The task of the wording.
+    pub task: String,
+    /// What the person says.
+    pub request: String,
+    /// What shall hold at the end.
+    pub goal: Vec<(String, Vec<String>)>,
+    /// What goes wrong, in order; one for each round of recovery.
+    pub failures: Vec<Kind>,
+    /// The thing that is asked for.
+    thing: String,
+    /// Where it is in truth, where it is not found.
+    hidden: Option<(&'static str, String)>,
+    /// What the person answers to the question of each kind.
+    answers: Vec<(Kind, String)>,
+}
+
+/// What goes wrong: nothing, each kind by itself, and two after each other.
+const TROUBLES: &[&[Kind]] = &[
+    &[],
+    &[Kind::NotFound],
+    &[Kind::NotReachable],
+    &[Kind::AmbiguousReference],
+    &[Kind::AmbiguousTask],
+    &[Kind::ActionFailed],
+    &[Kind::AmbiguousReference, Kind::NotFound],
+    &[Kind::NotFound, Kind::ActionFailed],
+    &[Kind::AmbiguousTask, Kind::NotReachable],
+];
+
+/// How a person says where a thing is; `{at}` is the place with its preposition.
+const WHERE: &[&str] =
+    &["It is {at}.", "I put it {at}.", "Look {at}.", "It should be {at}, I think.", "{at}"];
+const AGAIN: &[&str] = &["Please try again.", "Try once more.", "yes, try again", "Again, please."];
+const YES: &[&str] = &["Yes.", "yes please", "Please try again.", "sure"];
+
+/// All cases of a wordings file, in order. The wordings with a failure are every third.
+#[must_use]
+pub fn cases(wordings: &str) -> Vec<Case> {
+    let lines = wordings.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let mut cases = Vec::new();
+    for (index, line) in lines.enumerate() {
+        let Some((task, wording)) = line.split_once(':') else { continue };
+        for (number, robot) in ["hsr", "anymal_z1"].into_iter().enumerate() {
+            for room in ROOMS {
+                let turn = index + number;
+                cases.extend(case(robot, room, task.trim(), wording.trim(), turn, &[]));
+                let carries = !matches!(task, "go" | "open" | "close");
+                if carries {
+                    let trouble = TROUBLES.get(1 + turn % (TROUBLES.len() - 1)).copied().unwrap_or_default();
+                    cases.extend(case(robot, room, task.trim(), wording.trim(), turn, trouble));
+                }
+            }
+        }
+    }
+    cases
+}
+
+fn pick<T: Copy>(from: &[T], turn: usize) -> Option<T> {
+    from.get(turn % from.len().max(1)).copied()
+}
+
+fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failures: &[Kind]) -> Option<Case> {
+    let mut thing: Named = pick(room.things, turn)?;
+    let mut answers = Vec::new();
+    if failures.contains(&Kind::AmbiguousReference) {
+        let (name, id, told) = room.shared;
+        thing = (id, name);
+        answers.push((Kind::AmbiguousReference, pick(told, turn)?.to_owned()));
+    }
+    let place: Named = match task {
+        "put" => pick(room.surfaces, turn)?,
+        "stow" | "open" => pick(room.containers, turn)?,
+        "go" => pick(room.places, turn)?,
+        _ => ("user", "me"),
+    };
+    let mut request = wording.replace("{thing}", thing.1).replace("{place}", place.1);
+    let atom = |fluent: &str, args: &[&str]| {
+        (fluent.to_owned(), args.iter().map(|arg| (*arg).to_owned()).collect::<Vec<_>>())
+    };
+    let goal = match task {
+        "bring" => vec![atom("at", &[thing.0, "user"])],
+        "put" => vec![atom("on", &[thing.0, place.0])],
+        "stow" => vec![atom("in", &[thing.0, place.0])],
+        "throw" => vec![atom("in", &[thing.0, room.bin])],
+        "go" => vec![atom("at", &["robot", place.0])],
+        _ => vec![atom("open", &[place.0])],
+    };
+    if failures.contains(&Kind::AmbiguousTask) {
+        // Something shall be done with the thing, and it is not said what; the answer is the wording.
+        answers.push((Kind::AmbiguousTask, request));
+        request = format!("Do something about {}.", thing.1);
+    }
+    let mut hidden = None;
+    if failures.contains(&Kind::NotFound) {
+        let container = pick(room.containers, turn + 1).filter(|container| container.0 != place.0);
+        let (fluent, spot) = match container {
+            Some(container) => ("in", container),
+            None => (
+                "on",
+                pick(room.surfaces, turn)
+                    .filter(|surface| surface.0 != place.0)
+                    .or(pick(room.surfaces, turn + 1))?,
+            ),
+        };
+        let at = format!("{fluent} {}", spot.1);
+        answers.push((Kind::NotFound, pick(WHERE, turn)?.replace("{at}", &at)));
+        hidden = Some((fluent, spot.0.to_owned()));
+    }
+    if failures.contains(&Kind::NotReachable) {
+        answers.push((Kind::NotReachable, pick(AGAIN, turn)?.to_owned()));
+    }
+    if failures.contains(&Kind::ActionFailed) {
+        answers.push((Kind::ActionFailed, pick(YES, turn)?.to_owned()));
+    }
+    Some(Case {
+        robot: robot.to_owned(),
+        scene: room.scene.to_owned(),
+        task: task.to_owned(),
+        request,
+        goal,
+        failures: failures.to_vec(),
+        thing: thing.0.to_owned(),
+        hidden,
+        answers,
+    })
+}
+
+impl Case {
+    /// The room as it is, where that is not as the robot was told.
+    pub(super) fn real(&self, told: &Scene) -> Scene {
+        let mut real = told.clone();
+        if let (Some((fluent, spot)), Some(thing)) =
+            (&self.hidden, real.entities.get_mut(self.thing.as_str()))
+        {
+            (thing.on, thing.inside, thing.pose) = (None, None, None);
+            thing.visible = Some(false);
+            match *fluent {
+                "in" => thing.inside = Some(spot.as_str().into()),
+                _ => thing.on = Some(spot.as_str().into()),
+            }
+        }
+        real
+    }
+
+    /// What goes wrong with steps.
+    pub(super) fn faults(&self) -> String {
+        let fails = |nth: u32, kind: &str| {
+            format!(r#"{{"primitive": "pick", "nth": {nth}, "then": {{"fails": "{kind}"}}}}"#)
+        };
+        let calls: Vec<String> = if self.failures.contains(&Kind::NotReachable) {
+            vec![fails(1, "unreachable")]
+        } else if self.failures.contains(&Kind::ActionFailed) {
+            (1..=3).map(|nth| fails(nth, "slipped")).collect()
+        } else {
+            Vec::new()
+        };
+        format!(r#"{{"calls": [{}]}}"#, calls.join(", "))
+    }
+
+    /// What the person answers.
+    pub(super) fn answers(&self) -> Vec<(Kind, String)> {
+        self.answers.clone()
+    }
+}

@@ -1,0 +1,153 @@
+//! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use motet_compiler::Options as CheckOptions;
+use motet_planner::conversation::{
+    Builtin, Conversation, Kind, Nobody, Outcome, Person, Problem, Setting, Watcher,
+};
+use motet_runtime::memory::Memory;
+use motet_runtime::{Effect, Time};
+use motet_sim::{Faults, Options, Sim};
+use motet_tests::setup;
+
+fn setting(robot: &str) -> Setting {
+    let (robot, scene) = (setup::robot(robot), setup::scene("kitchen"));
+    Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
+}
+
+/// Gives answers in order, and keeps what was asked.
+struct Answers(Vec<&'static str>, Vec<Problem>);
+
+impl Person for Answers {
+    fn ask(&mut self, problem: &Problem) -> Option<String> {
+        self.1.push(problem.clone());
+        (!self.0.is_empty()).then(|| self.0.remove(0).to_owned())
+    }
+}
+
+fn talk(
+    setting: &Setting,
+    sim: &mut Sim,
+    request: &str,
+    answers: &[&'static str],
+) -> (Outcome, Vec<Problem>, Memory) {
+    let mut talk = Conversation::new(setting);
+    let mut person = Answers(answers.to_vec(), Vec::new());
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, sim, &mut person, &mut (), Time::ZERO);
+    (outcome, person.1, talk.memory)
+}
+
+#[test]
+fn a_clear_request_is_done_without_a_question() {
+    for robot in ["hsr", "anymal_z1"] {
+        let setting = setting(robot);
+        let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+        let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    }
+}
+
+#[test]
+fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the mug", &["the blue one"]);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(asked[0].kind, Kind::AmbiguousReference);
+    assert_eq!(
+        asked[0].question,
+        "I know two things that could be the mug: the red mug on the kitchen table and the blue mug on the wall shelf. Which one?"
+    );
+    assert_eq!(sim.holds("at", &["mug_2", "user"]), Some(true));
+}
+
+#[test]
+fn an_answer_that_states_a_fact_becomes_one() {
+    let setting = setting("hsr");
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
+    let mut sim = Sim::new(&setting.robot, &real, Options::default());
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &["it is in the cupboard"]);
+    assert_eq!(outcome, Outcome::Done, "{asked:?}");
+    assert_eq!(asked.iter().map(|problem| problem.kind).collect::<Vec<_>>(), [Kind::NotFound]);
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    assert_eq!(sim.holds("open", &["cupboard_1"]), Some(false), "what was opened is closed again");
+}
+
+#[test]
+fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
+    let setting = setting("hsr");
+    let faults =
+        Faults::from_json(r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
+            .unwrap();
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() });
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
+}
+
+#[test]
+fn where_nobody_answers_the_problem_is_the_outcome() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut talk = Conversation::new(&setting);
+    let (outcome, _) =
+        talk.carry_out("wash the dishes", &mut Builtin, &mut sim, &mut Nobody, &mut (), Time::ZERO);
+    assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
+}
+
+/// Says something at a time, and counts the starts of picks.
+struct Interrupts {
+    at: Time,
+    says: Option<&'static str>,
+    swapped: usize,
+    picked: usize,
+}
+
+impl Watcher for Interrupts {
+    fn request(&mut self, now: Time) -> Option<String> {
+        if now < self.at {
+            return None;
+        }
+        self.says.take().map(ToOwned::to_owned)
+    }
+
+    fn effect(&mut self, _now: Time, effect: &Effect) {
+        if let Effect::Start { command, .. } = effect {
+            self.picked += usize::from(command.primitive == "pick");
+        }
+    }
+
+    fn swapped(&mut self, _now: Time, refusal: Option<&motet_runtime::Refusal>) {
+        assert!(refusal.is_none(), "{refusal:?}");
+        self.swapped += 1;
+    }
+}
+
+#[test]
+fn a_request_in_between_takes_over() {
+    for robot in ["hsr", "anymal_z1"] {
+        let setting = setting(robot);
+        let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+        let mut talk = Conversation::new(&setting);
+        let mut watcher = Interrupts {
+            at: Time::from_secs(3.0),
+            says: Some("bring me the apple instead"),
+            swapped: 0,
+            picked: 0,
+        };
+        let (outcome, _) = talk.carry_out(
+            "bring me the coke",
+            &mut Builtin,
+            &mut sim,
+            &mut Nobody,
+            &mut watcher,
+            Time::ZERO,
+        );
+        assert_eq!(outcome, Outcome::Done);
+        assert_eq!((watcher.swapped, watcher.picked), (1, 1), "{robot}");
+        assert_eq!(sim.holds("at", &["apple", "user"]), Some(true));
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(false));
+    }
+}
