@@ -53,7 +53,8 @@ impl Builder {
                 let (rest, most) = (bound(least.saturating_sub(1)), bound(greatest.saturating_sub(1)));
                 let items = Expr::seq(vec![item, more.repeat(rest, most)]);
                 let items = if *least == 0 { items.optional() } else { items };
-                Expr::seq(vec![Expr::literal("["), items, Expr::literal("]")])
+                // Lexers of some engines take the longest literal and do not go back: `[` stays one by itself.
+                Expr::Seq(vec![Expr::literal("["), items, Expr::literal("]")])
             }
             Shape::Choice(shapes) => Expr::choice(shapes.iter().map(|shape| self.expr(shape)).collect()),
             Shape::Loose(_, exact) => self.expr(exact),

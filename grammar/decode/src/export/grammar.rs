@@ -58,6 +58,8 @@ impl Expr {
     pub fn repeat(self, least: u32, greatest: u32) -> Self {
         match (least, greatest) {
             (1, 1) => self,
+            // Some notations have no repetition that is none.
+            (_, 0) => Self::Seq(Vec::new()),
             _ => Self::Repeat(Box::new(self), least, greatest),
         }
     }
