@@ -15,6 +15,7 @@ use crate::session::Session;
 use crate::world::World;
 
 pub use edit::apply;
+pub(crate) use write::spelled;
 
 /// The most documents that are checked to mend one.
 const MAX_TRIES: usize = 500;

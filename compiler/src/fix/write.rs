@@ -259,28 +259,11 @@ impl Writer<'_> {
     fn value(&self, term: &Term, renamed: &Renamed) -> Option<ExprKind> {
         let new =
             |id: &BindingId| renamed.iter().rev().find(|(old, _)| old == id).map(|(_, name)| name.clone());
-        Some(match term {
-            // A symbol has no name but that of a binding.
-            Term::Entity(entity) => ExprKind::Name(self.world.entities().name(*entity)?.clone()),
-            Term::Binding(id) => {
-                let bound = self.program.bindings.get(id.index())?;
-                ExprKind::Binding(new(id).unwrap_or_else(|| bound.name.clone()))
-            }
-            Term::Case(of, case) => ExprKind::Name(self.library.case_name(*of, *case).into()),
-            Term::Text(text) => ExprKind::Text(text.clone()),
-            Term::Bool(value) => ExprKind::Bool(*value),
-            // A number would need the unit that its parameter has; no primitive that makes a fact asks for one.
-            Term::Int(_)
-            | Term::Number(_)
-            | Term::List(_)
-            | Term::Param(_)
-            | Term::Result
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Unknown => return None,
-        })
+        if let Term::Binding(id) = term {
+            let bound = self.program.bindings.get(id.index())?;
+            return Some(ExprKind::Binding(new(id).unwrap_or_else(|| bound.name.clone())));
+        }
+        spelled(term, self.library, self.world)
     }
 
     /// Steps before the one at a place, each on a line of its own where that one has one.
@@ -331,6 +314,29 @@ impl Writer<'_> {
         }
         Some(Edit { span, text: String::new() })
     }
+}
+
+/// A value as a policy writes it; none for one that has no word in the language, or whose word its place decides.
+pub(crate) fn spelled(term: &Term, library: &Library, world: &World) -> Option<ExprKind> {
+    Some(match term {
+        // A symbol has no name but that of a binding.
+        Term::Entity(entity) => ExprKind::Name(world.entities().name(*entity)?.clone()),
+        Term::Case(of, case) => ExprKind::Name(library.case_name(*of, *case).into()),
+        Term::Text(text) => ExprKind::Text(text.clone()),
+        Term::Bool(value) => ExprKind::Bool(*value),
+        // A number would need the unit that its parameter has; no primitive that makes a fact asks for one.
+        Term::Int(_)
+        | Term::Number(_)
+        | Term::List(_)
+        | Term::Binding(_)
+        | Term::Param(_)
+        | Term::Result
+        | Term::Each
+        | Term::Field(..)
+        | Term::Measure(..)
+        | Term::Arith(..)
+        | Term::Unknown => return None,
+    })
 }
 
 /// "insert `go(table)` before"

@@ -1,9 +1,8 @@
 //! Calls of a plan as steps of a policy.
 
 use motet_syntax::Span;
-use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
+use motet_syntax::ast::{Arg, Call, Do, Expr, Name};
 
-use crate::ir::Term;
 use crate::library::Library;
 use crate::prove::mend::Proposed;
 use crate::world::World;
@@ -19,23 +18,7 @@ pub(super) fn call(proposed: &Proposed, library: &Library, world: &World) -> Opt
             is_plain = false;
             continue;
         }
-        let kind = match term {
-            Term::Entity(entity) => ExprKind::Name(world.entities().name(*entity)?.clone()),
-            Term::Case(of, case) => ExprKind::Name(library.case_name(*of, *case).into()),
-            Term::Text(text) => ExprKind::Text(text.clone()),
-            Term::Bool(value) => ExprKind::Bool(*value),
-            Term::Int(_)
-            | Term::Number(_)
-            | Term::List(_)
-            | Term::Binding(_)
-            | Term::Param(_)
-            | Term::Result
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Unknown => return None,
-        };
+        let kind = crate::fix::spelled(term, library, world)?;
         let name = (!is_plain).then(|| Name { text: param.name.clone(), span });
         args.push(Arg { name, value: Expr { kind, span }, span });
     }

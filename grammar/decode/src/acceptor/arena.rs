@@ -140,9 +140,10 @@ pub(crate) struct Lengths {
     lists: usize,
 }
 
-impl Arenas {
-    pub(crate) fn new() -> Self {
-        let control = Control {
+impl Control {
+    /// Where nothing is open.
+    pub(crate) fn bottom() -> Self {
+        Self {
             below: 0,
             ret: OpId::MAX,
             rest: 0,
@@ -153,10 +154,21 @@ impl Arenas {
             flags: Flags::default(),
             slot: Slot::Body,
             scope: 0,
-        };
+        }
+    }
+}
+
+impl Arenas {
+    pub(crate) fn new() -> Self {
         let said = Said { below: 0, event: Event::Close, before: 0, serial: 0 };
         let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX };
-        Self { controls: vec![control], said: vec![said], names: vec![name], lists: Vec::new(), serial: 0 }
+        Self {
+            controls: vec![Control::bottom()],
+            said: vec![said],
+            names: vec![name],
+            lists: Vec::new(),
+            serial: 0,
+        }
     }
 
     pub(crate) fn lengths(&self) -> Lengths {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use motet_compiler::Session;
 use rustc_hash::FxHashSet;
 
-use super::arena::{Arenas, Control, Event, Flags, Id, Lengths, Name, State, UNSEEN};
+use super::arena::{Arenas, Control, Event, Id, Lengths, Name, State, UNSEEN};
 use super::ask::Asked;
 use super::number::Digits;
-use crate::program::{Guard, Meaning, Naming, Op, OpId, Program, Slot};
+use crate::program::{Guard, Meaning, Naming, Op, OpId, Program};
 use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
 
 /// Bytes that are kept free beside the shortest completion: where a condition has to be one that refutes nothing, the
@@ -60,18 +60,7 @@ impl Walk {
 
     pub(crate) fn control(&self, id: Id) -> Control {
         // The bottom is always there.
-        self.arenas.control(id).copied().unwrap_or(Control {
-            below: 0,
-            ret: OpId::MAX,
-            rest: 0,
-            count: 0,
-            depth: 0,
-            fix: 0,
-            conditions: 0,
-            flags: Flags::default(),
-            slot: Slot::Body,
-            scope: 0,
-        })
+        self.arenas.control(id).copied().unwrap_or_else(Control::bottom)
     }
 
     /// Whether the bytes so far are a whole policy.
