@@ -8,6 +8,7 @@ mod grammar;
 mod import;
 mod input;
 mod journal;
+mod model;
 mod plan;
 mod prompt;
 mod run;
@@ -19,6 +20,7 @@ pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, 
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
 pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
 pub(crate) use journal::{Moment, ReplayArgs};
+pub(crate) use model::{Held, ModelArgs};
 pub(crate) use plan::{PlanArgs, PlanForm};
 pub(crate) use prompt::PromptArgs;
 pub(crate) use run::{RunArgs, RunFormat, Speed};

@@ -5,13 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::input::WorldArgs;
+use super::model::ModelArgs;
 use super::run::{RunFormat, Speed};
 
 /// `motet do`
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     motet do 'bring me the coke' --robot hsr --scene kitchen\n  \
-    motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n\n\
+    motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n  \
+    motet do 'bring me the coke' --robot hsr --scene kitchen --planner http://localhost:8000 --model NAME --dialect vllm\n\n\
     A line that is typed while the robot moves is a new request and takes over at once.")]
 pub(crate) struct DoArgs {
     /// What to do, in words
@@ -20,6 +22,9 @@ pub(crate) struct DoArgs {
     /// In which world.
     #[command(flatten)]
     pub(crate) world: WorldArgs,
+    /// Who plans.
+    #[command(flatten)]
+    pub(crate) asking: ModelArgs,
     /// Who answers questions: `terminal`, `never`, or `script FILE` with an answer a line
     #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
     pub(crate) ask: Vec<String>,

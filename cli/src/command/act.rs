@@ -1,13 +1,15 @@
 //! `motet do`: a request in words, carried out in simulation: planned, checked, run, asked about and planned anew.
 
 mod eyes;
+mod model;
 mod person;
 mod record;
+mod speaker;
 
 use std::rc::Rc;
 
 use motet_compiler::Options;
-use motet_planner::conversation::{Builtin, Conversation, Outcome, Setting};
+use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
 use motet_runtime::Time;
 use motet_sim::Sim;
 use motet_syntax::Sources;
@@ -22,6 +24,7 @@ use crate::workbench::{self, Workbench};
 use eyes::Eyes;
 use person::{Asked, Asking};
 use record::Recorder;
+use speaker::Speaker;
 
 /// Runs the command.
 ///
@@ -57,8 +60,9 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
         geometry,
         options: Options { max_duration_secs: args.world.max_duration },
     };
+    let mut planner = model::planner(args, colors, recorder.clone())?;
     run::catch_interrupts()?;
-    let outcome = carry_out(args, colors, &setting, &mut simulator, &asked, recorder)?;
+    let outcome = carry_out(args, colors, &setting, &mut *planner, &mut simulator, &asked, recorder)?;
     Ok(match &outcome {
         Outcome::Done => Exit::Clean,
         Outcome::Stopped => Exit::Interrupted,
@@ -77,6 +81,7 @@ fn carry_out(
     args: &DoArgs,
     colors: Colors,
     setting: &Setting,
+    planner: &mut dyn Planner,
     simulator: &mut Sim,
     asked: &Rc<Asked>,
     recorder: Option<Recorder>,
@@ -85,8 +90,8 @@ fn carry_out(
     let mut eyes = Eyes::new(args, colors, Rc::clone(asked), recorder);
     let mut person = Asking(Rc::clone(asked));
     eyes.requested(&args.request);
-    let (outcome, _) =
-        talk.carry_out(&args.request, &mut Builtin, simulator, &mut person, &mut eyes, Time::ZERO);
+    let mut robot = Speaker::new(simulator, Rc::clone(asked));
+    let (outcome, _) = talk.carry_out(&args.request, planner, &mut robot, &mut person, &mut eyes, Time::ZERO);
     eyes.finish(&outcome)?;
     Ok(outcome)
 }

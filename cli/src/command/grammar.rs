@@ -2,6 +2,8 @@
 
 mod probe;
 
+pub(super) use probe::key;
+
 use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Prompt, request_body};
 use motet_decode::{Modifiers, Surface};
 use motet_syntax::ast::File;

@@ -49,7 +49,7 @@ fn what_a_server_cannot_take_is_said() {
 }
 
 /// A server that answers one request with a chat message; its address.
-fn server(status: &'static str, message: &'static str) -> String {
+pub(crate) fn server(status: &'static str, message: &'static str) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = format!("http://{}", listener.local_addr().unwrap());
     std::thread::spawn(move || {

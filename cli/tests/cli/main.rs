@@ -7,5 +7,6 @@ mod fmt;
 mod grammar;
 mod import;
 mod journal;
+mod model;
 mod run;
 mod support;

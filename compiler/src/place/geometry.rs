@@ -57,6 +57,14 @@ impl Geometry {
         Self { machine, scene, start, budget, memo: Mutex::default() }
     }
 
+    /// The same robot in another scene, in no further state.
+    #[must_use]
+    pub fn elsewhere(&self, scene: &Scene) -> Self {
+        let mut scene = scene.clone();
+        let start = begin(&self.machine, &mut scene, None);
+        Self { machine: self.machine.clone(), scene, start, budget: self.budget, memo: Mutex::default() }
+    }
+
     /// The world at the start, or why it is not known.
     pub(super) fn start(&self) -> Result<Arc<Keyed>, SmolStr> {
         self.start.clone()

@@ -36,6 +36,10 @@ pub trait Driver {
     fn capabilities(&self) -> Capabilities {
         Capabilities::default()
     }
+    /// Where the base stands: x and y in m and the heading in rad in the frame `map`, where it knows.
+    fn base(&self) -> Option<[f64; 3]> {
+        None
+    }
     /// Gives a running goal new arguments of the same primitive. Called only where [`Driver::capabilities`] says so.
     fn update(&mut self, now: Time, goal: GoalId, command: &Command);
     /// Keeps a goal still until [`Driver::proceed`].

@@ -4,9 +4,10 @@
 //! contracts of the robot's primitives gives the calls that reach them. What it does not understand it says.
 //!
 //! [`conversation`] is the loop around a planner: it runs what is planned, asks where something goes wrong, and plans anew.
-//! [`prompt`] is what a model sees.
+//! [`model`] is the planner that asks a model, [`prompt`] what a model sees.
 
 pub mod builtin;
 pub mod conversation;
+pub mod model;
 pub mod prompt;
 pub mod request;

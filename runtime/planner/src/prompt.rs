@@ -17,6 +17,9 @@ const BYTES_PER_TOKEN: usize = 4;
 /// The budget where nothing else is said, in tokens.
 pub const TOKENS: usize = 6_000;
 
+/// The most entries of the memory.
+const LATEST: usize = 24;
+
 /// What a prompt is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Prompt<'a> {
@@ -72,7 +75,7 @@ impl Prompt<'_> {
             ("what the primitives need and make", self.primitives(Detail::Contracts)),
             ("the second example", examples.get(1).cloned().unwrap_or_default()),
             ("things that the request does not name", room(&|id| !named.contains(id))),
-            ("what was done", format!("# What was asked and done\n{}", self.memory.short())),
+            ("what was done", self.done()),
             ("the first example", examples.first().cloned().unwrap_or_default()),
         ];
         let mut left_out = Vec::new();
@@ -117,6 +120,14 @@ impl Prompt<'_> {
              {{\"end\": \"replan\", \"why\": \"$answer\"}}.\n",
             self.robot.title, self.robot.name, self.robot.name
         )
+    }
+
+    /// The first request, the latest failure, and the latest of what was said and done.
+    fn done(&self) -> String {
+        let entries = self.memory.entries();
+        let skipped = entries.len().saturating_sub(LATEST).max(1);
+        let lines: String = entries.skip(skipped).map(|entry| format!("- {entry}\n")).collect();
+        format!("# What was asked and done\n{}{lines}", self.memory.short())
     }
 
     fn primitives(&self, detail: Detail) -> String {

@@ -9,6 +9,11 @@ use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
 impl Driver for Sim {
+    fn base(&self) -> Option<[f64; 3]> {
+        let at = self.world.base;
+        Some([at.x, at.y, at.heading])
+    }
+
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         self.pass(now);
         let jitter = self.random.between(0.9, 1.1);

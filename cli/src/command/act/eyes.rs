@@ -36,7 +36,7 @@ impl<'a> Eyes<'a> {
     }
 
     fn record(&mut self, what: &str, more: serde_json::Value) {
-        if let Some(recorder) = &mut self.recorder {
+        if let Some(recorder) = &self.recorder {
             recorder.write(what, more);
         }
     }
@@ -61,7 +61,7 @@ impl<'a> Eyes<'a> {
 
 impl Watcher for Eyes<'_> {
     fn planned(&mut self, answered: &Answered, graph: &Arc<Graph>) {
-        if let Some(recorder) = &mut self.recorder {
+        if let Some(recorder) = &self.recorder {
             recorder.policy(&answered.planned.text);
         }
         answered.understood.notes.iter().for_each(|text| note(text));

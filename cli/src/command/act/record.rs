@@ -1,16 +1,21 @@
 //! A record of a conversation in a folder: `talk.jsonl`, a line for each thing that happens, and every policy in a file of
 //! its own.
 
+use std::cell::RefCell;
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use serde_json::{Value, json};
 
 use crate::exit::Trouble;
 
-/// Writes a record. A mistake in writing is kept until the end.
-pub(super) struct Recorder {
+/// Writes a record, from several places. A mistake in writing is kept until the end.
+#[derive(Clone)]
+pub(super) struct Recorder(Rc<RefCell<Record>>);
+
+struct Record {
     folder: PathBuf,
     talk: File,
     policies: usize,
@@ -31,11 +36,28 @@ impl Recorder {
         fs::create_dir_all(folder).map_err(cannot(folder))?;
         let path = folder.join("talk.jsonl");
         let talk = File::create(&path).map_err(cannot(&path))?;
-        Ok(Self { folder: folder.to_owned(), talk, policies: 0, trouble: None })
+        let record = Record { folder: folder.to_owned(), talk, policies: 0, trouble: None };
+        Ok(Self(Rc::new(RefCell::new(record))))
     }
 
     /// Something happened.
-    pub(super) fn write(&mut self, what: &str, more: Value) {
+    pub(super) fn write(&self, what: &str, more: Value) {
+        self.0.borrow_mut().write(what, more);
+    }
+
+    /// A policy is about to run.
+    pub(super) fn policy(&self, text: &str) {
+        self.0.borrow_mut().policy(text);
+    }
+
+    /// What went wrong in writing.
+    pub(super) fn finish(self) -> Result<(), Trouble> {
+        self.0.borrow_mut().trouble.take().map_or(Ok(()), Err)
+    }
+}
+
+impl Record {
+    fn write(&mut self, what: &str, more: Value) {
         let mut line = json!({"what": what});
         if let (Some(line), Value::Object(more)) = (line.as_object_mut(), more) {
             line.extend(more);
@@ -45,8 +67,7 @@ impl Recorder {
         }
     }
 
-    /// A policy is about to run.
-    pub(super) fn policy(&mut self, text: &str) {
+    fn policy(&mut self, text: &str) {
         self.policies += 1;
         let name = format!("policy_{}.motet", self.policies);
         let path = self.folder.join(&name);
@@ -54,10 +75,5 @@ impl Recorder {
             self.trouble.get_or_insert(Trouble::Write { path, source });
         }
         self.write("policy", json!({"file": name}));
-    }
-
-    /// What went wrong in writing.
-    pub(super) fn finish(self) -> Result<(), Trouble> {
-        self.trouble.map_or(Ok(()), Err)
     }
 }

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use motet_decode::export::{Dialect, probe_body};
+use motet_client::{Address, Client, Key, Settings, content};
+use motet_decode::export::probe_body;
 use serde_json::Value;
 
 use super::dialect;
@@ -20,9 +21,9 @@ const SHOWN_CHARS: usize = 80;
 /// The server cannot be reached, refuses the request, or answers with something that is no chat answer.
 pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
     let dialect = dialect(args.dialect);
-    let url = address(&args.url, dialect);
+    let url = Address::new(&args.url, Some(dialect)).map_err(Trouble::Other)?;
     let (body, demanded) = probe_body(dialect, &args.model);
-    let answer = ask(args, &url, &body)?;
+    let answer = ask(args, url.clone(), &body)?;
     let said = content(&answer)
         .ok_or_else(|| Trouble::Other(format!("`{url}` did not answer with a chat message")))?;
     let is_held = serde_json::from_str::<Value>(said.trim()).is_ok_and(|answer| answer == demanded);
@@ -40,46 +41,22 @@ pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
     crate::report::close(&mut out, Ok(exit))
 }
 
-/// The address of chat requests, from that of a server.
-fn address(url: &str, dialect: Dialect) -> String {
-    let base = url.trim_end_matches('/');
-    if base.ends_with("/chat/completions") || base.ends_with("/api/chat") {
-        return base.to_owned();
-    }
-    match dialect {
-        Dialect::Ollama => format!("{base}/api/chat"),
-        Dialect::Vllm | Dialect::LlamaCpp | Dialect::Sglang | Dialect::OpenAi => {
-            format!("{}/v1/chat/completions", base.strip_suffix("/v1").unwrap_or(base))
-        }
-    }
+fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, Trouble> {
+    let trouble = |why: String| Trouble::Other(format!("cannot ask `{address}`: {why}"));
+    let timeout = Duration::from_secs(args.timeout);
+    let key = args.key_from.as_deref().map(key).transpose()?;
+    let settings =
+        Settings { key, timeout, idle_timeout: timeout, ..Settings::new(address.clone(), &args.model) };
+    let answer = Client::new(settings).and_then(|client| client.once(body));
+    answer.map_err(|why| trouble(why.to_string()))
 }
 
-fn ask(args: &ProbeArgs, url: &str, body: &Value) -> Result<Value, Trouble> {
-    let trouble = |why: String| Trouble::Other(format!("cannot ask `{url}`: {why}"));
-    let config = ureq::Agent::config_builder()
-        .timeout_global(Some(Duration::from_secs(args.timeout)))
-        .http_status_as_error(false)
-        .build();
-    let mut request = ureq::Agent::new_with_config(config).post(url);
-    if let Some(variable) = &args.key_from {
-        let key =
-            std::env::var(variable).map_err(|_| trouble(format!("there is no variable `{variable}`")))?;
-        request = request.header("Authorization", format!("Bearer {key}"));
-    }
-    let mut response = request.send_json(body).map_err(|error| trouble(error.to_string()))?;
-    let status = response.status();
-    let text = response.body_mut().read_to_string().map_err(|error| trouble(error.to_string()))?;
-    if !status.is_success() {
-        let shown: String = text.trim().chars().take(4 * SHOWN_CHARS).collect();
-        return Err(trouble(format!("it answers {status}: {shown}")));
-    }
-    serde_json::from_str(&text).map_err(|error| trouble(format!("its answer is no JSON: {error}")))
-}
-
-/// The text of a chat answer: of an OpenAI-like server, or of Ollama.
-fn content(answer: &Value) -> Option<&str> {
-    answer
-        .pointer("/choices/0/message/content")
-        .or_else(|| answer.pointer("/message/content"))
-        .and_then(Value::as_str)
+/// The key in a variable of the environment.
+///
+/// # Errors
+///
+/// There is none.
+pub(in crate::command) fn key(variable: &str) -> Result<Key, Trouble> {
+    Key::from_variable(variable)
+        .ok_or_else(|| Trouble::Other(format!("there is no variable `{variable}` with a key in it")))
 }

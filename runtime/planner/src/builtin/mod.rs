@@ -51,6 +51,15 @@ pub enum Unplanned {
         /// What the compiler says.
         diagnostics: Vec<Diagnostic>,
     },
+    /// The model that is asked gives no reply, and asking somebody else will not change that.
+    #[error("{why}")]
+    NoModel {
+        /// Which model, and why.
+        why: String,
+    },
+    /// A person stopped it.
+    #[error("it was stopped")]
+    Stopped,
 }
 
 /// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same policy.

@@ -99,6 +99,42 @@ impl Known {
         scene
     }
 
+    /// The scene as it is now, as motions are looked for in it, with the base where it stands (x, y, heading in the frame
+    /// `map`); none where it is not known where some object is, which could then stand in the way of anything.
+    #[must_use]
+    pub fn placed(&self, scene: &Scene, base: [f64; 3]) -> Option<Scene> {
+        let situation = self.situation(scene);
+        let mut placed = scene.clone();
+        (placed.robot.base, placed.robot.at) = (base, None);
+        // What the scene says of the joints was said of the start.
+        placed.robot.joints = IndexMap::new();
+        placed.robot.holding = Some(situation.holding.clone());
+        for (id, support) in &situation.supports {
+            let Some(entity) = placed.entities.get_mut(id).filter(|entity| entity.kind == "Object") else {
+                continue;
+            };
+            let before = entity.on.as_ref().or(entity.inside.as_ref());
+            if situation.holding.as_ref() != Some(id) && support.as_ref() != before {
+                return None;
+            }
+        }
+        for (query, truth) in &self.facts {
+            let Query::Fact { fluent, args } = query else { continue };
+            if fluent != "open" {
+                continue;
+            }
+            let [Pattern::Is(Value::Entity(id))] = args.as_slice() else { return None };
+            if let Some(entity) = placed.entities.get_mut(id) {
+                entity.open = match truth {
+                    Truth::True => Some(true),
+                    Truth::False => Some(false),
+                    Truth::Unknown => None,
+                };
+            }
+        }
+        Some(placed)
+    }
+
     /// Objects that are known to be elsewhere than where the scene has them, or not known to be there.
     fn moved(&self, stripped: &Scene) -> Vec<SmolStr> {
         let fixed = |id: &SmolStr| stripped.entities.get(id).is_none_or(|entity| entity.kind != "Object");

@@ -9,8 +9,10 @@ use motet_runtime::{
 };
 use smol_str::SmolStr;
 
-use super::{Conversation, Planner, Problem, Watcher};
+use super::{Conversation, First, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
+use crate::model::{Judged, judge};
+use crate::request::{Situation, Understood};
 
 /// The eyes and ears of a run.
 pub(super) struct Live<'r, 'a> {
@@ -24,8 +26,12 @@ pub(super) struct Live<'r, 'a> {
     pub(super) pending: Option<String>,
     /// The request that took over.
     pub(super) request: Option<String>,
+    /// A request for which a policy is being written.
+    awaited: Option<String>,
     /// A policy that waits to take over, with its request.
-    next: Option<(Answered, String)>,
+    next: Option<(Answered, Option<String>)>,
+    /// Where what runs is only the first step of a policy that is still being written.
+    pub(super) first: Option<First>,
 }
 
 impl<'r, 'a> Live<'r, 'a> {
@@ -36,7 +42,18 @@ impl<'r, 'a> Live<'r, 'a> {
         meant: Vec<(String, SmolStr)>,
         now: Time,
     ) -> Self {
-        Self { talk, planner, watcher, meant, now, pending: None, request: None, next: None }
+        Self {
+            talk,
+            planner,
+            watcher,
+            meant,
+            now,
+            pending: None,
+            request: None,
+            awaited: None,
+            next: None,
+            first: None,
+        }
     }
 
     /// Runs a policy to its end, and learns from it. Gives the graph that ran last too.
@@ -54,11 +71,80 @@ impl<'r, 'a> Live<'r, 'a> {
         self.watcher.planned(&answered, &shared);
         let mut engine = self.talk.engine(graph, scene)?;
         self.talk.memory.policy(self.now, 0, shared);
+        self.first = match self.planner.rest(Wait::Not) {
+            Rest::Nothing => None,
+            Rest::Coming => Some(First::new(None, &answered)),
+            rest @ (Rest::Whole(_) | Rest::Broken | Rest::Stopped) => Some(First::new(Some(rest), &answered)),
+        };
         let from = self.now;
         let end = motet_runtime::run(&mut engine, driver, self, from);
+        self.pending = self.pending.take().or(self.awaited.take());
         self.watcher.ended(self.now, &end);
         self.talk.known.learn(&engine);
+        if let Some(first) = &mut self.first {
+            first.bound = engine.snapshot().bindings;
+        }
         Ok((end, Arc::new(engine.graph().clone())))
+    }
+}
+
+impl Live<'_, '_> {
+    /// What has been written meanwhile, ready to take over: the policy for a new request, or that of which the first step
+    /// runs.
+    fn written(&mut self, engine: &Engine) -> Option<Prepared> {
+        if let Some(request) = self.awaited.take() {
+            let prepared = match self.planner.rest(Wait::Not) {
+                Rest::Coming => {
+                    self.awaited = Some(request);
+                    return None;
+                }
+                Rest::Whole(policy) => {
+                    let understood =
+                        Understood { spoken_of: self.talk.known.spoken_of.clone(), ..Understood::default() };
+                    self.prepared(&policy, understood, Some(request.clone()), engine)
+                }
+                Rest::Nothing | Rest::Broken | Rest::Stopped => None,
+            };
+            if prepared.is_none() {
+                self.pending = Some(request);
+            }
+            return prepared;
+        }
+        let first = self.first.as_mut().filter(|first| first.rest.is_none())?;
+        let rest = self.planner.rest(Wait::Not);
+        if rest == Rest::Coming {
+            return None;
+        }
+        first.rest = Some(rest.clone());
+        let understood = first.understood.clone();
+        let Rest::Whole(policy) = rest else { return None };
+        self.prepared(&policy, understood, None, engine)
+    }
+
+    /// A policy that was written, ready to take over in what is believed now.
+    fn prepared(
+        &mut self,
+        policy: &str,
+        understood: Understood,
+        request: Option<String>,
+        engine: &Engine,
+    ) -> Option<Prepared> {
+        let mut known = self.talk.known.clone();
+        known.learn(engine);
+        let scene = known.scene(&self.talk.setting.scene);
+        // Where the base is while it moves nobody knows beforehand.
+        let Judged::Good { planned, .. } = judge(&self.talk.session(&scene, &known, None), policy) else {
+            return None;
+        };
+        let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
+        self.next = Some((Answered { understood, planned: *planned }, request));
+        Some(prepared)
+    }
+}
+
+impl First {
+    fn new(rest: Option<Rest>, answered: &Answered) -> Self {
+        Self { rest, bound: Vec::new(), understood: answered.understood.clone() }
     }
 }
 
@@ -85,20 +171,26 @@ impl Onlooker for Live<'_, '_> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
-        let request = self.watcher.request(now)?;
+        let Some(request) = self.watcher.request(now) else { return self.written(engine) };
         self.talk.memory.instruct(now, &request);
         let mut known = self.talk.known.clone();
         known.learn(engine);
         let scene = known.scene(&self.talk.setting.scene);
         let meant = std::mem::take(&mut self.meant);
-        let planned = self.talk.plan_for(&request, &meant, self.planner, &scene, &known);
+        let session = self.talk.session(&scene, &known, None);
+        let situation = Situation { meant: meant.clone(), ..known.situation(&scene) };
+        if self.planner.begin(&self.talk.ask(&session, &request, &situation)) {
+            (self.awaited, self.first) = (Some(request), None);
+            return None;
+        }
+        let planned = self.talk.plan_for(&request, &meant, self.planner, (&session, &scene, &known));
         let prepared = planned.ok().and_then(|answered| {
             let graph = answered.planned.compiled.graph.clone()?;
             Some((Prepared::new(graph, &engine.running()).ok()?, answered))
         });
         match prepared {
             Some((prepared, answered)) => {
-                self.next = Some((answered, request));
+                self.next = Some((answered, Some(request)));
                 Some(prepared)
             }
             // It needs a question, or another start: the robot stops, and it is the next request.
@@ -116,11 +208,16 @@ impl Onlooker for Live<'_, '_> {
                 self.talk.memory.policy(now, retired.revision() + 1, graph.clone());
                 self.watcher.swapped(now, None);
                 self.watcher.planned(&answered, graph);
-                self.request = Some(request);
+                self.first = None;
+                if request.is_some() {
+                    self.request = request;
+                }
             }
             (Err(refusal), Some((_, request))) => {
                 self.watcher.swapped(now, Some(&refusal));
-                self.pending = Some(request);
+                if request.is_some() {
+                    self.pending = request;
+                }
             }
             (_, None) => {}
         }

@@ -12,7 +12,7 @@ mod problem;
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options, Session};
-use motet_graph::Graph;
+use motet_graph::{Graph, Value};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Limits, Memory};
@@ -26,7 +26,8 @@ pub use known::Known;
 pub use problem::{Kind, Problem};
 
 use crate::builtin::{self, Answered, Unplanned};
-use crate::request::Situation;
+use crate::model::{Judged, judge, without_first_step};
+use crate::request::{Situation, Understood};
 use live::Live;
 
 /// The most policies for one request.
@@ -59,6 +60,46 @@ pub trait Planner {
     ///
     /// Why there is none.
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned>;
+
+    /// Whether it makes something of any answer. Else an answer that was not understood is asked for again.
+    fn reads_answers(&self) -> bool {
+        false
+    }
+
+    /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`] gives what comes
+    /// of it. False where [`Planner::plan`] answers at once.
+    fn begin(&mut self, _ask: &Ask<'_>) -> bool {
+        false
+    }
+
+    /// The rest of the policy that was given last, where that was only its first step, or what was begun.
+    fn rest(&mut self, _wait: Wait) -> Rest {
+        Rest::Nothing
+    }
+}
+
+/// Whether something is waited for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wait {
+    /// No: what has come has come.
+    Not,
+    /// Yes, until it is complete.
+    ToTheEnd,
+}
+
+/// The rest of a policy that is still being written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Rest {
+    /// There is none: what was given was the whole.
+    Nothing,
+    /// It has not come yet.
+    Coming,
+    /// The whole policy, first step and all, as it was written.
+    Whole(String),
+    /// It cannot be used: what follows the first step has to be planned anew.
+    Broken,
+    /// A person stopped it.
+    Stopped,
 }
 
 /// What a planner is asked.
@@ -164,6 +205,23 @@ struct Task {
     tries: usize,
 }
 
+/// The first step of a policy that is still being written.
+struct First {
+    /// What became of the rest, where that is known: the whole policy, which could not take over at once, or none.
+    rest: Option<Rest>,
+    /// What the names of the first step were bound to.
+    bound: Vec<(SmolStr, Value)>,
+    understood: Understood,
+}
+
+/// What follows such a first step.
+enum After {
+    Done,
+    Stopped,
+    Runs(Box<Answered>),
+    PlansAnew,
+}
+
 impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
@@ -185,14 +243,19 @@ impl<'a> Conversation<'a> {
         let mut now = from;
         self.memory.instruct(now, request);
         let mut latest = None;
+        let mut ready = None;
         for _ in 0..MAX_ROUNDS {
             let scene = self.known.scene(&self.setting.scene);
-            let problem = match self.propose(&task, planner, &scene) {
+            let proposed = match ready.take() {
+                Some(answered) => Ok(answered),
+                None => self.propose(&task, planner, &scene, driver.base()),
+            };
+            let problem = match proposed {
                 Ok(answered) => {
                     let mut live = Live::new(self, &mut *planner, &mut *watcher, task.meant.clone(), now);
                     let end = live.run(answered, driver, &scene);
                     now = live.now;
-                    let pending = live.pending.take();
+                    let (pending, first) = (live.pending.take(), live.first.take());
                     if let Some(request) = live.request.take() {
                         task = Task { request, meant: Vec::new(), questions: 0, tries: task.tries };
                     }
@@ -208,10 +271,24 @@ impl<'a> Conversation<'a> {
                         (None, RunEnd::Interrupted) => return (Outcome::Stopped, now),
                         (None, _) => {}
                     }
+                    if let (Some(first), RunEnd::Done { .. }) = (first, &end) {
+                        match self.after_first(first, planner, driver.base()) {
+                            After::Done => return (Outcome::Done, now),
+                            After::Stopped => return (Outcome::Stopped, now),
+                            After::Runs(answered) => ready = Some(*answered),
+                            After::PlansAnew => {}
+                        }
+                        continue;
+                    }
                     match Problem::of_run(&end, &graph, &scene) {
                         None => return (Outcome::Done, now),
                         Some(problem) => problem,
                     }
+                }
+                Err(Unplanned::Stopped) => return (Outcome::Stopped, now),
+                // No answer of a person brings a model back.
+                Err(why @ Unplanned::NoModel { .. }) => {
+                    return (Outcome::Failed(Problem::of_planning(&why, &scene)), now);
                 }
                 Err(why) => Problem::of_planning(&why, &scene),
             };
@@ -229,16 +306,22 @@ impl<'a> Conversation<'a> {
             let Some(answer) = answer else { return (Outcome::Failed(problem), now) };
             latest = Some(problem.clone());
             let situation = self.known.situation(&scene);
+            // What it says beside what is understood of it is for who plans.
+            let is_told = planner.reads_answers();
             match answer::read(&answer, &problem, &task.request, &situation) {
                 Answer::GiveUp => return (Outcome::GivenUp, now),
-                Answer::Again => task.tries = 0,
-                Answer::Means { said, id } => task.meant.push((said, id)),
-                Answer::Located(located) => located.iter().for_each(|one| self.known.hear(one)),
                 Answer::Request(request) => {
                     self.memory.instruct(now, &request);
                     task = Task { request, meant: Vec::new(), ..task };
+                    continue;
                 }
+                Answer::Again => task.tries = 0,
+                Answer::Means { said, id } => task.meant.push((said, id)),
+                Answer::Located(located) => located.iter().for_each(|one| self.known.hear(one)),
                 Answer::NotUnderstood => {}
+            }
+            if is_told {
+                self.memory.instruct(now, &answer);
             }
         }
         let nothing = Problem {
@@ -251,8 +334,49 @@ impl<'a> Conversation<'a> {
         (Outcome::Failed(latest.unwrap_or(nothing)), now)
     }
 
-    fn propose(&self, task: &Task, planner: &mut dyn Planner, scene: &Scene) -> Result<Answered, Unplanned> {
-        self.plan_for(&task.request, &task.meant, planner, scene, &self.known)
+    fn propose(
+        &self,
+        task: &Task,
+        planner: &mut dyn Planner,
+        scene: &Scene,
+        base: Option<[f64; 3]>,
+    ) -> Result<Answered, Unplanned> {
+        let session = self.session(scene, &self.known, base);
+        self.plan_for(&task.request, &task.meant, planner, (&session, scene, &self.known))
+    }
+
+    /// What follows the first step of a policy, which is done.
+    fn after_first(&self, first: First, planner: &mut dyn Planner, base: Option<[f64; 3]>) -> After {
+        let policy = match first.rest.unwrap_or_else(|| planner.rest(Wait::ToTheEnd)) {
+            Rest::Whole(policy) => policy,
+            Rest::Stopped => return After::Stopped,
+            Rest::Nothing | Rest::Coming | Rest::Broken => return After::PlansAnew,
+        };
+        let Ok(rest) = without_first_step(&policy, &first.bound) else { return After::PlansAnew };
+        let Some(rest) = rest else { return After::Done };
+        let scene = self.known.scene(&self.setting.scene);
+        match judge(&self.session(&scene, &self.known, base), &rest) {
+            Judged::Good { planned, .. } => {
+                After::Runs(Box::new(Answered { understood: first.understood, planned: *planned }))
+            }
+            Judged::Bad { .. } => After::PlansAnew,
+        }
+    }
+
+    /// A session in what is known; with motions where it is known where everything is.
+    fn session(&self, scene: &Scene, known: &Known, base: Option<[f64; 3]>) -> Session {
+        let Setting { robot, domains, options, .. } = self.setting;
+        let state = known.state();
+        let (session, _) =
+            Session::new(Some(robot), domains, Some(scene), Some(&state), *options, &mut Sources::default());
+        let Some(geometry) = &self.setting.geometry else { return session };
+        if known.is_empty() {
+            return session.with_geometry(Arc::clone(geometry));
+        }
+        match base.and_then(|base| known.placed(&self.setting.scene, base)) {
+            Some(placed) => session.with_geometry(Arc::new(geometry.elsewhere(&placed))),
+            None => session,
+        }
     }
 
     fn plan_for(
@@ -260,18 +384,14 @@ impl<'a> Conversation<'a> {
         request: &str,
         meant: &[(String, SmolStr)],
         planner: &mut dyn Planner,
-        scene: &Scene,
-        known: &Known,
+        (session, scene, known): (&Session, &Scene, &Known),
     ) -> Result<Answered, Unplanned> {
-        let Setting { robot, domains, options, .. } = self.setting;
-        let state = known.state();
-        let (mut session, _) =
-            Session::new(Some(robot), domains, Some(scene), Some(&state), *options, &mut Sources::default());
-        if let Some(geometry) = self.setting.geometry.as_ref().filter(|_| known.is_empty()) {
-            session = session.with_geometry(Arc::clone(geometry));
-        }
         let situation = Situation { meant: meant.to_vec(), ..known.situation(scene) };
-        planner.plan(&Ask { session: &session, robot, request, situation: &situation, memory: &self.memory })
+        planner.plan(&self.ask(session, request, &situation))
+    }
+
+    fn ask<'s>(&'s self, session: &'s Session, request: &'s str, situation: &'s Situation<'s>) -> Ask<'s> {
+        Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory }
     }
 
     /// An engine for a policy, in the state that is known.

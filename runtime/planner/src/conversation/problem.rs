@@ -85,6 +85,7 @@ impl Problem {
             Unplanned::Puzzle(Puzzle::AmbiguousTask { question, options }) => {
                 Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
             }
+            Unplanned::NoModel { .. } | Unplanned::Stopped => bare(Kind::ActionFailed, why.to_string()),
             Unplanned::NoPlan(_) | Unplanned::Refused { .. } => {
                 bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
             }

@@ -1,0 +1,86 @@
+//! The simulated robot with a person before it: what it asks, it asks them.
+
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use motet_graph::Value;
+use motet_planner::conversation::{Kind, Person as _, Problem};
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
+use motet_sim::Sim;
+
+use super::person::{Asked, Asking};
+
+/// Answers `ask` itself, and leaves everything else to the simulator.
+pub(super) struct Speaker<'a> {
+    sim: &'a mut Sim,
+    person: Asking,
+    /// What is to be reported of questions, which are answered at once.
+    outbox: VecDeque<(Time, DriverEvent)>,
+}
+
+impl<'a> Speaker<'a> {
+    pub(super) fn new(sim: &'a mut Sim, asked: Rc<Asked>) -> Self {
+        Self { sim, person: Asking(asked), outbox: VecDeque::new() }
+    }
+}
+
+impl Driver for Speaker<'_> {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        let question = match command.arg("question") {
+            Some(Value::Text(question)) if command.primitive == "ask" => question.to_string(),
+            _ => return self.sim.start(now, goal, command),
+        };
+        let problem =
+            Problem { kind: Kind::AmbiguousTask, question, options: Vec::new(), about: None, said: None };
+        let outcome = match self.person.ask(&problem) {
+            Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
+            None => Outcome::Failure("refused".into()),
+        };
+        self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
+        self.outbox.push_back((now, DriverEvent::Ended { goal, outcome }));
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.sim.cancel(now, goal);
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.sim.capabilities()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        Driver::base(self.sim)
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.sim.update(now, goal, command);
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.sim.hold(now, goal);
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.sim.proceed(now, goal);
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.sim.safe_stop(now, goal);
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.sim.observe(now, query);
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.sim.watch(now, query);
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.sim.unwatch(now, query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        self.outbox.pop_front().or_else(|| self.sim.advance(until))
+    }
+}

@@ -1,0 +1,174 @@
+//! What planning costs beside the model, part by part, and when the robot first moves on replayed replies.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::indexing_slicing,
+    missing_docs,
+    reason = "a benchmark that cannot be set up has failed"
+)]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use common::server::{Act, Server};
+use common::world::{Heard, brisk, geometry, right, setting};
+use motet_client::{Client, Settings};
+use motet_compiler::Session;
+use motet_decode::export::{Dialect, Offer, request_constraint};
+use motet_decode::{Prepared as Acceptors, Surface};
+use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
+use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
+use motet_planner::prompt::{Prompt, TOKENS};
+use motet_planner::request::Situation;
+use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::{Effect, Engine, Event, Prepared, StartState, Time};
+use motet_sim::{Options, Sim};
+use motet_syntax::Sources;
+
+const REQUESTS: &[&str] = &["bring me the coke", "put the red mug in the cupboard", "open the fridge"];
+const RUNS: usize = 50;
+
+fn main() {
+    overhead();
+    first_action();
+}
+
+fn overhead() {
+    let mut setting = setting();
+    let geometry = geometry(&setting);
+    setting.geometry = Some(Arc::clone(&geometry));
+    let mut parts: Vec<(&str, Vec<Duration>)> = Vec::new();
+    let mut all = Vec::new();
+    for _ in 0..RUNS {
+        for request in REQUESTS {
+            let reply = right(&setting, request);
+            let laps = once(&setting, request, &reply);
+            all.push(laps.iter().map(|(_, lap)| *lap).sum::<Duration>());
+            for (name, lap) in laps {
+                match parts.iter_mut().find(|(known, _)| *known == name) {
+                    Some((_, laps)) => laps.push(lap),
+                    None => parts.push((name, vec![lap])),
+                }
+            }
+        }
+    }
+    println!("kitchen, hsr, {} requests; median and 95th percentile", all.len());
+    for (name, laps) in &mut parts {
+        println!("  {name:<24} {:>9.3?} {:>9.3?}", rank(laps, 50), rank(laps, 95));
+    }
+    println!("  {:<24} {:>9.3?} {:>9.3?}", "together", rank(&mut all, 50), rank(&mut all, 95));
+    let fresh: Vec<Duration> = REQUESTS
+        .iter()
+        .map(|request| {
+            let reply = right(&setting, request);
+            let new = Arc::new(geometry.elsewhere(&setting.scene));
+            let session = session(&setting).with_geometry(new);
+            let from = Instant::now();
+            let _ = judge(&session, &reply);
+            from.elapsed()
+        })
+        .collect();
+    println!("  check, motions and compile where no motion has been asked for before: {fresh:.1?}");
+}
+
+fn session(setting: &Setting) -> Session {
+    let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
+    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+}
+
+/// Everything between a request and the new policy, with its times.
+fn once(setting: &Setting, request: &str, reply: &str) -> Vec<(&'static str, Duration)> {
+    let mut laps = Vec::new();
+    let mut from = Instant::now();
+    let mut lap = |name| {
+        let now = Instant::now();
+        laps.push((name, now - from));
+        from = Instant::now();
+    };
+    let session = session(setting).with_geometry(Arc::clone(setting.geometry.as_ref().unwrap()));
+    lap("session");
+    let situation = Situation::new(&setting.scene);
+    let mut memory = Memory::new(Limits::default());
+    memory.instruct(Time::ZERO, request);
+    let prompt = Prompt {
+        session: &session,
+        robot: &setting.robot,
+        scene: &setting.scene,
+        situation: &situation,
+        memory: &memory,
+        tokens: TOKENS,
+    };
+    let _ = prompt.write(request);
+    lap("prompt");
+    let offer = Offer::new(&session.signatures(), Surface::default());
+    let constraint = request_constraint(Dialect::Vllm, &offer).unwrap().to_string();
+    assert!(!constraint.is_empty());
+    lap("constraint");
+    let mut reading = Reading::new(&session, Acceptors::new(&session, Surface::default()).acceptor(16_000));
+    let _ = reading.push(reply);
+    lap("read as it arrives");
+    let judged = judge(&session, reading.policy());
+    assert!(matches!(judged, Judged::Good { .. }), "{judged:?}");
+    let Judged::Good { planned, .. } = judged else { return laps };
+    lap("check, motions, compile");
+    let graph = planned.compiled.graph.unwrap();
+    let entities = setting.scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
+    let start = StartState { entities: entities.collect(), ..StartState::default() };
+    let mut engine = Engine::new(graph.clone(), &start).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    // The engine was there before: only the swap counts.
+    from = Instant::now();
+    let prepared = Prepared::new(graph, &engine.running()).unwrap();
+    engine.swap(Time::ZERO, prepared, &mut out).unwrap();
+    laps.push(("swap", from.elapsed()));
+    laps
+}
+
+fn rank(laps: &mut [Duration], percent: usize) -> Duration {
+    laps.sort();
+    laps[(laps.len() * percent / 100).min(laps.len() - 1)]
+}
+
+/// Notes when the robot is first told to do something.
+struct First(Instant, Option<Duration>);
+
+impl Watcher for First {
+    fn effect(&mut self, _: Time, effect: &Effect) {
+        if matches!(effect, Effect::Start { .. }) {
+            self.1.get_or_insert(self.0.elapsed());
+        }
+    }
+}
+
+fn first_action() {
+    let setting = setting();
+    println!("from the request to the first action, replies of 4 characters each 20 ms (50 tokens a second)");
+    for request in REQUESTS {
+        let reply = right(&setting, request);
+        let mut times = Vec::new();
+        for start in [Start::Whole, Start::FirstStep] {
+            let says = Act::Says { text: reply.clone(), each: 4, pause: Duration::from_millis(20) };
+            let server = Server::new(vec![says]);
+            let settings = Settings { idle_timeout: Duration::from_secs(5), ..brisk(&server) };
+            let how = model::Settings { start, ..model::Settings::default() };
+            let mut planner = ModelPlanner::new(Client::new(settings).unwrap(), Heard::default(), how);
+            let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+            let mut first = First(Instant::now(), None);
+            let (outcome, _) = Conversation::new(&setting).carry_out(
+                request,
+                &mut planner,
+                &mut sim,
+                &mut Nobody,
+                &mut first,
+                Time::ZERO,
+            );
+            times.push(format!("{:.2} s ({outcome:?})", first.1.unwrap().as_secs_f64()));
+        }
+        println!("  {request:<34} {} bytes: whole {}, first step {}", reply.len(), times[0], times[1]);
+    }
+}

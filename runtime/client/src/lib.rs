@@ -1,0 +1,140 @@
+//! Asks models on servers that speak like OpenAI's, or like Ollama, for policies.
+//!
+//! [`Client`] sends a chat and hands the reply on as it arrives. It knows nothing of policies: what a reply is worth is
+//! judged by `motet_planner::model`. A server may be slow, refuse, break off, talk nonsense or never stop; each of these
+//! ends in a [`ModelError`] within the times and sizes of the [`Settings`], and leaves nothing behind.
+
+mod address;
+mod body;
+mod image;
+mod key;
+mod once;
+mod settings;
+mod stream;
+mod talk;
+
+pub use address::Address;
+pub use image::{Image, ImageError, MAX_IMAGE_BYTES};
+pub use key::Key;
+pub use once::content;
+pub use settings::Settings;
+
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::time::Duration;
+
+use motet_decode::export::Offer;
+use motet_planner::model::{Message, Model, ModelError, News, Reply};
+use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue};
+use reqwest::redirect;
+use serde_json::Value;
+use tokio::runtime::Runtime;
+use tokio::task::AbortHandle;
+
+/// A connection to one server. Dropping it ends what it does.
+#[derive(Debug)]
+pub struct Client {
+    http: reqwest::Client,
+    settings: Arc<Settings>,
+    runtime: Option<Runtime>,
+}
+
+impl Client {
+    /// Prepares requests to a server; nothing is sent yet.
+    ///
+    /// # Errors
+    ///
+    /// The key cannot stand in a header, or the system gives no thread or no certificates.
+    pub fn new(settings: Settings) -> Result<Self, ModelError> {
+        let wrong = |why: String| ModelError::Unreachable { why };
+        // The first to set it wins, and all set the same.
+        let _ = rustls::crypto::ring::default_provider().install_default();
+        let mut headers = HeaderMap::new();
+        if let Some(key) = &settings.key {
+            let mut value = HeaderValue::try_from(key.bearer())
+                .map_err(|_| wrong("the key has characters that no header takes".to_owned()))?;
+            value.set_sensitive(true);
+            headers.insert(AUTHORIZATION, value);
+        }
+        let mut builder = reqwest::Client::builder()
+            .default_headers(headers)
+            .connect_timeout(settings.connect_timeout)
+            // A key is not carried to where a server points.
+            .redirect(redirect::Policy::none());
+        if settings.address.is_loopback() {
+            builder = builder.no_proxy();
+        }
+        let http = builder.build().map_err(|error| wrong(talk::reason(error)))?;
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .thread_name("motet-client")
+            .enable_all()
+            .build()
+            .map_err(|error| wrong(error.to_string()))?;
+        Ok(Self { http, settings: Arc::new(settings), runtime: Some(runtime) })
+    }
+
+    /// Sends a body as it is, with the retries and times of the settings, and gives the whole answer. Blocks.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn once(&self, body: &Value) -> Result<Value, ModelError> {
+        let Some(runtime) = &self.runtime else { return Err(ModelError::Cancelled) };
+        runtime.block_on(once::once(&self.http, &self.settings, body.to_string()))
+    }
+
+    fn send(&self, body: &Value) -> Incoming {
+        let (sender, news) = mpsc::channel();
+        let (http, settings, text) = (self.http.clone(), Arc::clone(&self.settings), body.to_string());
+        let task = self.runtime.as_ref().map(|runtime| {
+            runtime.spawn(async move { talk::talk(&http, &settings, text, &sender).await }).abort_handle()
+        });
+        Incoming { news, task }
+    }
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        // A name that is being looked up would otherwise be waited for.
+        if let Some(runtime) = self.runtime.take() {
+            runtime.shutdown_background();
+        }
+    }
+}
+
+impl Model for Client {
+    fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError> {
+        let body = body::chat(&self.settings, chat, constraint)?;
+        Ok(Box::new(self.send(&body)))
+    }
+
+    fn name(&self) -> String {
+        format!("{} at {}", self.settings.model, self.settings.address)
+    }
+}
+
+/// A reply on its way. Dropping it hangs up.
+struct Incoming {
+    news: Receiver<News>,
+    task: Option<AbortHandle>,
+}
+
+impl Reply for Incoming {
+    fn next(&mut self, wait: Duration) -> News {
+        match self.news.recv_timeout(wait) {
+            Ok(news) => news,
+            Err(RecvTimeoutError::Timeout) => News::Nothing,
+            // The task has told how it ended before it went, unless it was ended from outside.
+            Err(RecvTimeoutError::Disconnected) => News::Failed(ModelError::Cancelled),
+        }
+    }
+}
+
+impl Drop for Incoming {
+    fn drop(&mut self) {
+        if let Some(task) = &self.task {
+            task.abort();
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! One request with its retries, and the reply as it arrives.
+
+use std::error::Error as _;
+use std::sync::mpsc::Sender;
+use std::time::Duration;
+
+use motet_planner::model::{ModelError, News};
+use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
+use reqwest::{Response, StatusCode};
+
+use crate::settings::Settings;
+use crate::stream;
+
+/// How much of what a server says about a refusal is shown.
+const SHOWN_CHARS: usize = 320;
+
+/// Sends a body and passes on what comes, the ending last. Who no longer listens is not told.
+pub(crate) async fn talk(http: &reqwest::Client, settings: &Settings, body: String, news: &Sender<News>) {
+    let whole = async {
+        let response = send(http, settings, body, |news_of| drop(news.send(news_of))).await?;
+        stream::pass_on(response, settings, news).await
+    };
+    let end = match tokio::time::timeout(settings.timeout, whole).await {
+        Ok(Ok(finish)) => News::End(finish),
+        Ok(Err(error)) => News::Failed(error),
+        Err(_) => News::Failed(timed_out(settings.timeout)),
+    };
+    let _ = news.send(end);
+}
+
+/// Sends a body until the server takes it, or there is no use in trying again.
+pub(crate) async fn send(
+    http: &reqwest::Client,
+    settings: &Settings,
+    body: String,
+    tell: impl Fn(News),
+) -> Result<Response, ModelError> {
+    let mut back_off = settings.back_off;
+    let mut tries = 0;
+    loop {
+        let request =
+            http.post(settings.address.url()).header(CONTENT_TYPE, "application/json").body(body.clone());
+        let sent = tokio::time::timeout(settings.idle_timeout, request.send()).await;
+        let (error, asked) = match sent {
+            Ok(Ok(response)) if response.status().is_success() => return Ok(response),
+            Ok(Ok(response)) => {
+                let status = response.status();
+                let asked = retry_after(response.headers());
+                let error = refusal(response, settings).await;
+                if !is_passing(status) {
+                    return Err(error);
+                }
+                (error, asked)
+            }
+            Ok(Err(error)) if error.is_builder() => {
+                return Err(ModelError::Refused { why: reason(error) });
+            }
+            Ok(Err(error)) => (ModelError::Unreachable { why: reason(error) }, None),
+            Err(_) => return Err(timed_out(settings.idle_timeout)),
+        };
+        if tries == settings.retries {
+            return Err(error);
+        }
+        tries += 1;
+        let after = asked.unwrap_or(back_off).min(settings.longest_back_off);
+        tell(News::Retrying { why: error.to_string(), after });
+        tokio::time::sleep(after).await;
+        back_off = back_off.saturating_mul(2);
+    }
+}
+
+/// Whether a server that answers so may answer otherwise soon.
+fn is_passing(status: StatusCode) -> bool {
+    status == StatusCode::TOO_MANY_REQUESTS
+        || status == StatusCode::REQUEST_TIMEOUT
+        || status.is_server_error() && status != StatusCode::NOT_IMPLEMENTED
+}
+
+/// How long the server asks to wait: in seconds. A date is not read, since two clocks seldom agree.
+fn retry_after(headers: &HeaderMap) -> Option<Duration> {
+    let seconds: u64 = headers.get(RETRY_AFTER)?.to_str().ok()?.trim().parse().ok()?;
+    Some(Duration::from_secs(seconds))
+}
+
+/// What the server says where it does not answer.
+async fn refusal(response: Response, settings: &Settings) -> ModelError {
+    let status = response.status();
+    // The words are a courtesy: what does not come soon is not waited for.
+    let words = tokio::time::timeout(
+        settings.idle_timeout.min(Duration::from_secs(5)),
+        stream::text(response, settings.max_bytes.min(64 << 10)),
+    );
+    let said = words.await.ok().and_then(Result::ok).unwrap_or_default();
+    let said = settings.key.as_ref().map_or_else(|| said.clone(), |key| key.cut_from(&said));
+    let said: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said: String = said.chars().take(SHOWN_CHARS).collect();
+    let colon = if said.is_empty() { "" } else { ": " };
+    let why = format!("it answers {status}{colon}{said}");
+    if is_passing(status) { ModelError::Busy { why } } else { ModelError::Refused { why } }
+}
+
+pub(crate) fn timed_out(after: Duration) -> ModelError {
+    ModelError::TimedOut { secs: after.as_secs_f64() }
+}
+
+/// What went wrong, down to its cause, without the address, which the caller knows.
+pub(crate) fn reason(error: reqwest::Error) -> String {
+    let error = error.without_url();
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(next) = cause {
+        let words = next.to_string();
+        if !text.contains(&words) {
+            text.push_str(": ");
+            text.push_str(&words);
+        }
+        cause = next.source();
+    }
+    text
+}

@@ -1,0 +1,118 @@
+//! The kitchen, a robot in it, and clients of a scripted server.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::Duration;
+
+use motet_client::{Address, Client, Settings};
+use motet_compiler::{Geometry, Options as CheckOptions, Session};
+use motet_decode::{Surface, canonical};
+use motet_geometry::query::Budget;
+use motet_planner::builtin;
+use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
+use motet_planner::model::{self, Happening, Listener, ModelPlanner};
+use motet_planner::request::Situation;
+use motet_runtime::Time;
+use motet_sim::{Options, Sim};
+use motet_syntax::{Source, Sources};
+
+use super::server::Server;
+
+/// The HSR in the kitchen.
+pub(crate) fn setting() -> Setting {
+    let cards = motet_robots::card::embedded();
+    let (name, toml, declarations) = cards.iter().find(|row| row.0 == "hsr").unwrap();
+    let mut sources = Sources::default();
+    let source = Source::new(*name, *toml);
+    let id = sources.add(source.clone());
+    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
+    let scenes = motet_robots::scene::embedded();
+    let (name, json) = scenes.iter().find(|row| row.0 == "kitchen").unwrap();
+    let source = Source::new(*name, *json);
+    let id = sources.add(source.clone());
+    let scene = motet_robots::scene::read(&source, id).0.unwrap();
+    Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
+}
+
+pub(crate) fn session(setting: &Setting) -> Session {
+    let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
+    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+}
+
+/// The robot's body in the scene of a setting.
+pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
+    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
+    let mut sources = Sources::default();
+    let source = Source::new("hsr.urdf", text);
+    let id = sources.add(source.clone());
+    let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
+    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, Budget::default()))
+}
+
+/// What a model that knows the right policy would write for a request.
+pub(crate) fn right(setting: &Setting, request: &str) -> String {
+    let session = session(setting);
+    let situation = Situation::new(&setting.scene);
+    let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
+    let policy = answered.planned.parsed.file.policies().next().unwrap();
+    canonical(policy, &session.signatures(), Surface::default()).unwrap()
+}
+
+/// Settings with short times.
+pub(crate) fn brisk(server: &Server) -> Settings {
+    Settings {
+        connect_timeout: Duration::from_millis(500),
+        idle_timeout: Duration::from_millis(300),
+        timeout: Duration::from_secs(20),
+        retries: 2,
+        back_off: Duration::from_millis(1),
+        longest_back_off: Duration::from_millis(20),
+        max_bytes: 1 << 20,
+        ..Settings::new(Address::new(&server.url, None).unwrap(), "scripted")
+    }
+}
+
+/// Keeps what happens, in short.
+#[derive(Clone, Default)]
+pub(crate) struct Heard(pub(crate) Rc<RefCell<Vec<String>>>);
+
+impl Listener for Heard {
+    fn hear(&mut self, happening: &Happening<'_>) {
+        let line = match happening {
+            Happening::Asked { round, .. } => format!("asked {round}"),
+            Happening::Retrying { .. } => "retrying".to_owned(),
+            Happening::Wrote(_) => return,
+            Happening::Stopped { at } => format!("stopped {at}"),
+            Happening::Mended { titles } => format!("mended {}", titles.join("; ")),
+            Happening::Refused { findings, .. } => format!("refused {}", findings.trim()),
+            Happening::Failed { why, .. } => format!("failed {why}"),
+            Happening::Taken { .. } => "taken".to_owned(),
+            Happening::Begun { .. } => "begun".to_owned(),
+        };
+        self.0.borrow_mut().push(line);
+    }
+}
+
+/// A planner that asks a server.
+pub(crate) fn planner(settings: Settings, heard: &Heard) -> ModelPlanner<'static> {
+    ModelPlanner::new(Client::new(settings).unwrap(), heard.clone(), model::Settings::default())
+}
+
+/// Carries a request out with nobody to ask.
+pub(crate) fn carry_out(setting: &Setting, planner: &mut dyn Planner, request: &str) -> (Outcome, Sim) {
+    carry_out_with(setting, planner, &mut Nobody, request)
+}
+
+/// Carries a request out.
+pub(crate) fn carry_out_with(
+    setting: &Setting,
+    planner: &mut dyn Planner,
+    person: &mut dyn Person,
+    request: &str,
+) -> (Outcome, Sim) {
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut talk = Conversation::new(setting);
+    let (outcome, _) = talk.carry_out(request, planner, &mut sim, person, &mut (), Time::ZERO);
+    (outcome, sim)
+}

@@ -1,0 +1,138 @@
+//! A model as the planner sees it: a chat goes out, a reply comes in piece by piece.
+
+use std::time::Duration;
+
+use motet_decode::export::Offer;
+use thiserror::Error;
+
+/// Who says something.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Role {
+    /// What the model is told to be.
+    System,
+    /// Who asks.
+    User,
+    /// The model.
+    Assistant,
+}
+
+/// A message of a chat.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Message {
+    /// Who says it.
+    pub role: Role,
+    /// What is said.
+    pub text: String,
+}
+
+/// Answers chats.
+pub trait Model {
+    /// Sends a chat. The reply is to keep to what `constraint` offers, where whoever answers can be held to that; nobody
+    /// relies on it. Does not wait.
+    ///
+    /// # Errors
+    ///
+    /// The chat cannot be sent like that.
+    fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError>;
+
+    /// What to call it: its name, and where it is.
+    fn name(&self) -> String;
+}
+
+/// A reply on its way. To drop it is to hang up.
+pub trait Reply {
+    /// What has come, waiting for it at most so long. After [`News::End`] and [`News::Failed`] nothing more comes.
+    fn next(&mut self, wait: Duration) -> News;
+}
+
+/// What has come of a reply.
+#[derive(Clone, PartialEq, Debug)]
+pub enum News {
+    /// Nothing yet.
+    Nothing,
+    /// The next piece of its text.
+    Piece(String),
+    /// Something went wrong before the first piece, and is tried again after a while.
+    Retrying {
+        /// What.
+        why: String,
+        /// After how long.
+        after: Duration,
+    },
+    /// It is complete.
+    End(Finish),
+    /// It will not be complete.
+    Failed(ModelError),
+}
+
+/// How a reply finished.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Finish {
+    /// The model had no more to say.
+    Stop,
+    /// It had written as much as it may.
+    Length,
+}
+
+/// Why there is no reply, or not a whole one.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum ModelError {
+    /// There is no connection.
+    #[error("it cannot be reached: {why}")]
+    Unreachable {
+        /// Why.
+        why: String,
+    },
+    /// The request was refused: no key, no such model, a grammar that it does not take.
+    #[error("it refuses the request: {why}")]
+    Refused {
+        /// In its words.
+        why: String,
+    },
+    /// It was busy, or failed, each time it was asked.
+    #[error("it is busy or fails: {why}")]
+    Busy {
+        /// In its words.
+        why: String,
+    },
+    /// It took too long.
+    #[error("it did not answer within {secs} s")]
+    TimedOut {
+        /// How long it was waited for, in s.
+        secs: f64,
+    },
+    /// It wrote more than is read.
+    #[error("its reply is longer than {bytes} bytes")]
+    TooLong {
+        /// How much is read.
+        bytes: usize,
+    },
+    /// The reply broke off.
+    #[error("its reply broke off: {why}")]
+    CutOff {
+        /// Why.
+        why: String,
+    },
+    /// What came is no reply to a chat.
+    #[error("its answer is no reply: {why}")]
+    Malformed {
+        /// What is wrong.
+        why: String,
+    },
+    /// The reply was given up here.
+    #[error("the reply was cancelled")]
+    Cancelled,
+}
+
+impl ModelError {
+    /// Whether asking again is of no use: what keeps it from answering lasts.
+    #[must_use]
+    pub const fn is_lasting(&self) -> bool {
+        match self {
+            Self::Unreachable { .. } | Self::Refused { .. } | Self::Busy { .. } | Self::Cancelled => true,
+            Self::TimedOut { .. } | Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. } => {
+                false
+            }
+        }
+    }
+}

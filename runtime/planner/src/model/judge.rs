@@ -1,0 +1,89 @@
+//! A whole reply: what it is as a policy, after the fixes that are known, or what is wrong with it.
+
+use motet_compiler::{Session, fix, settle};
+use motet_syntax::ast::{File, Item};
+use motet_syntax::{Diagnostic, FileId, Form, Parsed, Severity, Source};
+
+use crate::builtin::Planned;
+
+/// The most fixes to one reply.
+const MOST_FIXES: usize = 8;
+
+/// What a reply came to.
+#[derive(Clone, Debug)]
+pub enum Judged {
+    /// A policy.
+    Good {
+        /// The policy, with its graph.
+        planned: Box<Planned>,
+        /// The fixes that were made first.
+        mended: Vec<String>,
+    },
+    /// None.
+    Bad {
+        /// What is wrong: errors only.
+        findings: Vec<Diagnostic>,
+    },
+}
+
+/// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form. What else it
+/// declares is left out, or a reply could say of its own steps what they need.
+#[must_use]
+pub fn judge(session: &Session, reply: &str) -> Judged {
+    let document = without_thoughts(reply);
+    let mut parsed = read(document);
+    if parsed.file.items.iter().any(|item| !matches!(item, Item::Policy(_))) {
+        let items = parsed.file.items.iter().filter(|item| matches!(item, Item::Policy(_)));
+        parsed = read(&motet_syntax::print::text(&File { items: items.cloned().collect() }));
+    }
+    let findings = errors(session.compile(&parsed, None).diagnostics);
+    let mut mended = Vec::new();
+    if !findings.is_empty() {
+        let Some((text, titles)) = mend(session, &parsed.text) else { return Judged::Bad { findings } };
+        (parsed, mended) = (read(&text), titles);
+    }
+    let mut file = parsed.file.clone();
+    for item in &mut file.items {
+        if let Item::Policy(policy) = item {
+            settle(policy, session.library(), Form::Text);
+        }
+    }
+    let text = motet_syntax::print::text(&file);
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+    let compiled = session.compile(&parsed, None);
+    if compiled.graph.is_none() {
+        // Motions are looked at only where nothing else is wrong, and no fix is known for them.
+        return Judged::Bad { findings: errors(compiled.diagnostics) };
+    }
+    Judged::Good { planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }), mended }
+}
+
+/// A document after known fixes, and what they do; none where errors are left.
+pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<String>)> {
+    let source = Source::new(name(document), document);
+    let fixed = fix::fix(session, &source, FileId(0), MOST_FIXES);
+    if fixed.applied.is_empty() || !errors(fixed.diagnostics).is_empty() {
+        return None;
+    }
+    Some((fixed.text, fixed.applied.into_iter().map(|applied| applied.title).collect()))
+}
+
+pub(super) fn read(document: &str) -> Parsed {
+    motet_syntax::read(&Source::new(name(document), document), FileId(0))
+}
+
+pub(super) fn errors(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.into_iter().filter(|said| said.severity == Severity::Error).collect()
+}
+
+fn name(document: &str) -> &'static str {
+    if document.trim_start().starts_with('{') { "reply.json" } else { "reply.motet" }
+}
+
+/// What stands behind the thoughts of a model that writes them down.
+fn without_thoughts(reply: &str) -> &str {
+    if !reply.trim_start().starts_with("<think>") {
+        return reply;
+    }
+    reply.split_once("</think>").map_or("", |(_, rest)| rest)
+}

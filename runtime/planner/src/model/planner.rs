@@ -1,0 +1,303 @@
+//! The planner: a prompt out, a reply in, and what is wrong with it back to the model, a few times at most.
+
+use std::time::Duration;
+
+use motet_compiler::Session;
+use motet_decode::export::Offer;
+use motet_decode::{Prepared, Surface};
+use motet_syntax::{Diagnostic, Sources, render};
+
+use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
+use super::judge::{Judged, judge};
+use super::later::{Came, Later, first_step};
+use super::listen::{Happening, Listener};
+use super::reading::{Reading, Verdict, Wrong};
+use crate::builtin::{Answered, Planned, Unplanned};
+use crate::conversation::{Ask, Planner, Rest, Wait};
+use crate::prompt::{self, Prompt};
+use crate::request::{self, Understood};
+
+/// How long a piece of a reply is waited for until somebody is asked whether to stop.
+const SLICE: Duration = Duration::from_millis(50);
+/// The most bytes of a policy for which room is kept by the acceptor.
+const POLICY_BYTES: usize = 16 << 10;
+/// The most bytes of a reply that are read, thoughts included.
+const REPLY_BYTES: usize = 256 << 10;
+
+/// When a policy begins to run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Start {
+    /// Once it is complete.
+    #[default]
+    Whole,
+    /// As soon as its first step is complete and nothing later can refute it.
+    FirstStep,
+}
+
+/// How a model is asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Settings {
+    /// How often a reply that is wrong goes back to the model with the reason.
+    pub repairs: u32,
+    /// The most tokens of a prompt, as far as bytes tell.
+    pub tokens: usize,
+    /// What the model is held to.
+    pub surface: Surface,
+    /// When a policy begins to run.
+    pub start: Start,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { repairs: 3, tokens: prompt::TOKENS, surface: Surface::default(), start: Start::Whole }
+    }
+}
+
+/// Plans by asking a model.
+pub struct ModelPlanner<'m> {
+    model: Box<dyn Model + 'm>,
+    listener: Box<dyn Listener + 'm>,
+    settings: Settings,
+    /// The rest of the policy of which the first step was given out.
+    later: Option<Later>,
+}
+
+/// How far a reply was read.
+enum Read {
+    /// To its end, or to where this ends it.
+    Ended(Verdict),
+    /// To the end of its first step, which may begin.
+    First(Box<Planned>),
+}
+
+/// What one round came to.
+enum Round {
+    Good(Box<Planned>),
+    /// The reply as far as it was read, and what is wrong with it.
+    Bad(String, Vec<Diagnostic>),
+    /// No whole reply.
+    Failed(ModelError),
+}
+
+impl<'m> ModelPlanner<'m> {
+    /// A planner that asks a model.
+    #[must_use]
+    pub fn new(model: impl Model + 'm, listener: impl Listener + 'm, settings: Settings) -> Self {
+        Self { model: Box::new(model), listener: Box::new(listener), settings, later: None }
+    }
+
+    /// What the model is told and asked.
+    fn chat(&self, ask: &Ask<'_>) -> Vec<Message> {
+        let prompt = Prompt {
+            session: ask.session,
+            robot: ask.robot,
+            scene: ask.situation.scene,
+            situation: ask.situation,
+            memory: ask.memory,
+            tokens: self.settings.tokens,
+        };
+        let written = prompt.write(&asked(ask));
+        vec![
+            Message { role: Role::System, text: written.system },
+            Message { role: Role::User, text: written.user },
+        ]
+    }
+
+    /// Asks until a reply is a policy that passes the check.
+    fn rounds(&mut self, session: &Session, first: &[Message]) -> Result<Planned, Unplanned> {
+        let offer = Offer::new(&session.signatures(), self.settings.surface);
+        let prepared = Prepared::new(session, self.settings.surface);
+        let mut chat = first.to_vec();
+        let mut last = Unplanned::NoModel { why: String::new() };
+        for round in 0..=self.settings.repairs {
+            let name = self.model.name();
+            self.listener.hear(&Happening::Asked { round, model: &name, chat: &chat });
+            match self.round(session, &prepared, &offer, &chat, round) {
+                Round::Good(planned) => return Ok(*planned),
+                Round::Bad(reply, findings) => {
+                    let words = render::llm(&findings, &Sources::default());
+                    self.listener.hear(&Happening::Refused { round, reply: &reply, findings: &words });
+                    chat = first.to_vec();
+                    chat.push(Message { role: Role::User, text: again(&words) });
+                    chat.insert(first.len(), Message { role: Role::Assistant, text: reply.clone() });
+                    last = Unplanned::Refused { text: reply, diagnostics: findings };
+                }
+                Round::Failed(ModelError::Cancelled) => return Err(Unplanned::Stopped),
+                Round::Failed(why) => {
+                    let is_lasting = why.is_lasting();
+                    last = Unplanned::NoModel { why: format!("{name}: {why}") };
+                    if is_lasting {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(last)
+    }
+
+    fn round(
+        &mut self,
+        session: &Session,
+        prepared: &Prepared,
+        offer: &Offer,
+        chat: &[Message],
+        round: u32,
+    ) -> Round {
+        let mut reading = Reading::new(session, prepared.acceptor(POLICY_BYTES));
+        let mut reply = match self.model.ask(chat, offer) {
+            Ok(reply) => reply,
+            Err(why) => return self.failed(round, "", why),
+        };
+        match self.read(&mut reading, &mut *reply, session) {
+            Ok(Read::First(planned)) => {
+                self.listener.hear(&Happening::Begun { reply: reading.reply() });
+                self.later = Some(Later { reply, reading: reading.into_owned(), round });
+                Round::Good(planned)
+            }
+            Ok(Read::Ended(Verdict::Wrong(Wrong { at, findings }))) => {
+                self.listener.hear(&Happening::Stopped { at });
+                Round::Bad(reading.reply().to_owned(), findings)
+            }
+            Ok(Read::Ended(verdict)) => {
+                let whole = if verdict == Verdict::Whole { reading.policy() } else { reading.reply() };
+                match judge(session, whole) {
+                    Judged::Good { planned, mended } => {
+                        if !mended.is_empty() {
+                            self.listener.hear(&Happening::Mended { titles: &mended });
+                        }
+                        self.listener.hear(&Happening::Taken { round, reply: reading.reply() });
+                        Round::Good(planned)
+                    }
+                    Judged::Bad { findings } => Round::Bad(reading.reply().to_owned(), findings),
+                }
+            }
+            Err(why) => self.failed(round, reading.reply(), why),
+        }
+    }
+
+    fn failed(&mut self, round: u32, reply: &str, why: ModelError) -> Round {
+        self.listener.hear(&Happening::Failed { round, reply, why: &why });
+        Round::Failed(why)
+    }
+
+    /// Reads until the reply is complete, wrong, or ends. To return is to hang up.
+    fn read(
+        &mut self,
+        reading: &mut Reading<'_>,
+        reply: &mut dyn Reply,
+        session: &Session,
+    ) -> Result<Read, ModelError> {
+        let mut begins = self.settings.start == Start::FirstStep;
+        loop {
+            if self.listener.is_stopped() {
+                return Err(ModelError::Cancelled);
+            }
+            match reply.next(SLICE) {
+                News::Nothing => {}
+                News::Retrying { why, after } => {
+                    self.listener.hear(&Happening::Retrying { why: &why, after });
+                }
+                News::Piece(piece) => {
+                    self.listener.hear(&Happening::Wrote(&piece));
+                    if reading.reply().len() + piece.len() > REPLY_BYTES {
+                        return Err(ModelError::TooLong { bytes: REPLY_BYTES });
+                    }
+                    match reading.push(&piece) {
+                        Verdict::Steps(_) if std::mem::take(&mut begins) => {
+                            let first = reading.first().and_then(|first| first_step(session, &first));
+                            if let Some(planned) = first {
+                                return Ok(Read::First(planned));
+                            }
+                        }
+                        Verdict::GoOn | Verdict::Steps(_) => {}
+                        end @ (Verdict::Whole | Verdict::Wrong(_)) => return Ok(Read::Ended(end)),
+                    }
+                }
+                News::End(Finish::Stop) => return Ok(Read::Ended(Verdict::GoOn)),
+                News::End(Finish::Length) => {
+                    let why = "it had written as much as it may".to_owned();
+                    return Err(ModelError::CutOff { why });
+                }
+                News::Failed(why) => return Err(why),
+            }
+        }
+    }
+}
+
+impl Planner for ModelPlanner<'_> {
+    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+        self.later = None;
+        let chat = self.chat(ask);
+        let planned = self.rounds(ask.session, &chat)?;
+        let mut spoken_of = ask.situation.spoken_of.clone();
+        spoken_of.extend(request::named(ask.request, ask.situation));
+        Ok(Answered { understood: Understood { spoken_of, ..Understood::default() }, planned })
+    }
+
+    fn reads_answers(&self) -> bool {
+        true
+    }
+
+    fn begin(&mut self, ask: &Ask<'_>) -> bool {
+        self.later = None;
+        let chat = self.chat(ask);
+        let name = self.model.name();
+        self.listener.hear(&Happening::Asked { round: 0, model: &name, chat: &chat });
+        let offer = Offer::new(&ask.session.signatures(), self.settings.surface);
+        let Ok(reply) = self.model.ask(&chat, &offer) else { return false };
+        let acceptor = Prepared::new(ask.session, self.settings.surface).acceptor(POLICY_BYTES);
+        let reading = Reading::new(ask.session, acceptor).into_owned();
+        self.later = Some(Later { reply, reading, round: 0 });
+        true
+    }
+
+    fn rest(&mut self, wait: Wait) -> Rest {
+        loop {
+            let Some(later) = &mut self.later else { return Rest::Nothing };
+            if self.listener.is_stopped() {
+                self.later = None;
+                return Rest::Stopped;
+            }
+            let came = later.next(if wait == Wait::ToTheEnd { SLICE } else { Duration::ZERO });
+            let (round, reply) = (later.round, later.reading.reply());
+            match came {
+                Came::Some(piece) => self.listener.hear(&Happening::Wrote(&piece)),
+                Came::Nothing if wait == Wait::ToTheEnd => {}
+                Came::Nothing => return Rest::Coming,
+                Came::Whole(policy) => {
+                    self.listener.hear(&Happening::Taken { round, reply });
+                    self.later = None;
+                    return Rest::Whole(policy);
+                }
+                Came::Wrong(findings) => {
+                    let findings = render::llm(&findings, &Sources::default());
+                    self.listener.hear(&Happening::Refused { round, reply, findings: &findings });
+                    self.later = None;
+                    return Rest::Broken;
+                }
+                Came::Failed(why) => {
+                    self.listener.hear(&Happening::Failed { round, reply, why: &why });
+                    self.later = None;
+                    return Rest::Broken;
+                }
+            }
+        }
+    }
+}
+
+/// The request, with what was found out that its words mean.
+fn asked(ask: &Ask<'_>) -> String {
+    let mut request = ask.request.to_owned();
+    for (said, id) in &ask.situation.meant {
+        request.push_str(&format!("\n(\"{said}\" is {id}.)"));
+    }
+    request
+}
+
+/// What the model is told of a reply that is wrong.
+fn again(findings: &str) -> String {
+    format!(
+        "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy that mends this, \
+         and nothing else."
+    )
+}
