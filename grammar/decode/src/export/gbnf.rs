@@ -1,6 +1,7 @@
 //! GBNF, the notation of llama.cpp: `root ::=`, ranges written out, lower bounds written, no recursion.
 
-use super::grammar::{Expr, Grammar};
+use super::grammar::{Expr, Grammar, RuleId};
+use super::notation::{Level, Notation, times};
 
 /// The grammar, a rule a line.
 pub(super) fn print(grammar: &Grammar) -> String {
@@ -8,68 +9,44 @@ pub(super) fn print(grammar: &Grammar) -> String {
     for rule in &grammar.rules {
         out.push_str(&name(&rule.name));
         out.push_str(" ::= ");
-        expr(&mut out, &rule.body, grammar, Level::Choice);
+        Gbnf(grammar).expr(&mut out, &rule.body, Level::Choice);
         out.push('\n');
     }
     out
 }
 
-/// How tightly an expression has to hold together where it stands.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
-    Choice,
-    Seq,
-    Item,
-}
+struct Gbnf<'g>(&'g Grammar);
 
 /// Words of a rule's name are joined by a minus sign, the only mark that llama.cpp has in one.
 fn name(name: &str) -> String {
     name.replace('_', "-")
 }
 
-fn expr(out: &mut String, expr: &Expr, grammar: &Grammar, level: Level) {
-    let own = match expr {
-        Expr::Choice(_) => Level::Choice,
-        Expr::Seq(parts) if !parts.is_empty() => Level::Seq,
-        Expr::Seq(_) | Expr::Literal(_) | Expr::Class(_) | Expr::Repeat(..) | Expr::Rule(_) => Level::Item,
-    };
-    let in_parentheses = own < level;
-    if in_parentheses {
-        out.push('(');
-    }
-    match expr {
-        Expr::Literal(text) => literal(out, text),
-        Expr::Class(ranges) => class(out, ranges),
-        Expr::Seq(parts) if parts.is_empty() => out.push_str("\"\""),
-        Expr::Seq(parts) => joined(out, parts, " ", grammar, Level::Item),
-        Expr::Choice(parts) => joined(out, parts, " | ", grammar, Level::Seq),
-        Expr::Repeat(inner, least, greatest) => {
-            let is_repeat = matches!(**inner, Expr::Repeat(..));
-            if is_repeat {
-                out.push('(');
-            }
-            self::expr(out, inner, grammar, Level::Item);
-            if is_repeat {
-                out.push(')');
-            }
-            match (least, greatest) {
-                (0, 1) => out.push('?'),
-                (least, greatest) => out.push_str(&format!("{{{least},{greatest}}}")),
-            }
-        }
-        Expr::Rule(id) => out.push_str(&grammar.rule(*id).map_or_else(String::new, |rule| name(&rule.name))),
-    }
-    if in_parentheses {
-        out.push(')');
-    }
-}
+impl Notation for Gbnf<'_> {
+    const THEN: &'static str = " ";
 
-fn joined(out: &mut String, parts: &[Expr], with: &str, grammar: &Grammar, level: Level) {
-    for (index, part) in parts.iter().enumerate() {
-        if index > 0 {
-            out.push_str(with);
+    fn literal(&self, out: &mut String, text: &str) {
+        literal(out, text);
+    }
+
+    fn class(&self, out: &mut String, ranges: &[(char, char)]) {
+        class(out, ranges);
+    }
+
+    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
+        let is_repeat = matches!(inner, Expr::Repeat(..));
+        if is_repeat {
+            out.push('(');
         }
-        expr(out, part, grammar, level);
+        self.expr(out, inner, Level::Item);
+        if is_repeat {
+            out.push(')');
+        }
+        times(out, least, greatest);
+    }
+
+    fn rule(&self, out: &mut String, id: RuleId) {
+        out.push_str(&self.0.rule(id).map_or_else(String::new, |rule| name(&rule.name)));
     }
 }
 

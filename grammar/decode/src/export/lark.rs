@@ -1,6 +1,7 @@
 //! Lark, as llguidance reads it: rules in lower case, what is a word of its own as a terminal with a regular expression.
 
-use super::grammar::{Expr, Grammar, Rule};
+use super::grammar::{Expr, Grammar, Rule, RuleId};
+use super::notation::{Level, Notation, times};
 
 /// Whether the line stands at the top by which llguidance knows its dialect.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -22,31 +23,16 @@ pub(super) fn print(grammar: &Grammar, header: Header) -> String {
         if rule.is_token {
             out.push_str(&name(rule, index));
             out.push_str(": /");
-            regex(&mut out, &rule.body, Level::Choice);
+            Regex.expr(&mut out, &rule.body, Level::Choice);
             out.push_str("/\n");
         } else {
             out.push_str(&name(rule, index));
             out.push_str(": ");
-            expr(&mut out, &rule.body, grammar, Level::Choice);
+            Lark(grammar).expr(&mut out, &rule.body, Level::Choice);
             out.push('\n');
         }
     }
     out
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
-    Choice,
-    Seq,
-    Item,
-}
-
-fn level(expr: &Expr) -> Level {
-    match expr {
-        Expr::Choice(_) => Level::Choice,
-        Expr::Seq(parts) if !parts.is_empty() => Level::Seq,
-        Expr::Seq(_) | Expr::Literal(_) | Expr::Class(_) | Expr::Repeat(..) | Expr::Rule(_) => Level::Item,
-    }
 }
 
 fn name(rule: &Rule, index: usize) -> String {
@@ -57,96 +43,68 @@ fn name(rule: &Rule, index: usize) -> String {
     }
 }
 
-fn expr(out: &mut String, expr: &Expr, grammar: &Grammar, least: Level) {
-    let in_parentheses = level(expr) < least;
-    if in_parentheses {
+struct Lark<'g>(&'g Grammar);
+
+impl Notation for Lark<'_> {
+    const THEN: &'static str = " ";
+
+    fn literal(&self, out: &mut String, text: &str) {
+        // A string of JSON is one of Lark.
+        out.push_str(&serde_json::to_string(text).unwrap_or_default());
+    }
+
+    fn class(&self, out: &mut String, ranges: &[(char, char)]) {
+        out.push('/');
+        Regex.class(out, ranges);
+        out.push('/');
+    }
+
+    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
         out.push('(');
-    }
-    match expr {
-        Expr::Literal(text) => literal(out, text),
-        Expr::Class(_) => {
-            out.push('/');
-            regex(out, expr, Level::Choice);
-            out.push('/');
-        }
-        Expr::Seq(parts) if parts.is_empty() => out.push_str("\"\""),
-        Expr::Seq(parts) => joined(out, parts, " ", grammar, Level::Item),
-        Expr::Choice(parts) => joined(out, parts, " | ", grammar, Level::Seq),
-        Expr::Repeat(inner, least, greatest) => {
-            out.push('(');
-            self::expr(out, inner, grammar, Level::Choice);
-            out.push(')');
-            match (least, greatest) {
-                (0, 1) => out.push('?'),
-                (least, greatest) => out.push_str(&format!("{{{least},{greatest}}}")),
-            }
-        }
-        Expr::Rule(id) => {
-            out.push_str(&grammar.rule(*id).map_or_else(String::new, |rule| name(rule, id.0)));
-        }
-    }
-    if in_parentheses {
+        self.expr(out, inner, Level::Choice);
         out.push(')');
+        times(out, least, greatest);
     }
-}
 
-fn joined(out: &mut String, parts: &[Expr], with: &str, grammar: &Grammar, level: Level) {
-    for (index, part) in parts.iter().enumerate() {
-        if index > 0 {
-            out.push_str(with);
-        }
-        expr(out, part, grammar, level);
+    fn rule(&self, out: &mut String, id: RuleId) {
+        out.push_str(&self.0.rule(id).map_or_else(String::new, |rule| name(rule, id.0)));
     }
-}
-
-fn literal(out: &mut String, text: &str) {
-    // A string of JSON is one of Lark.
-    out.push_str(&serde_json::to_string(text).unwrap_or_default());
 }
 
 /// A token as a regular expression: it has no rules within.
-fn regex(out: &mut String, expr: &Expr, least: Level) {
-    let in_parentheses = level(expr) < least;
-    if in_parentheses {
+struct Regex;
+
+impl Notation for Regex {
+    const THEN: &'static str = "";
+    const OR: &'static str = "|";
+    const PARENTHESES: (&'static str, &'static str) = ("(?:", ")");
+
+    fn literal(&self, out: &mut String, text: &str) {
+        text.chars().for_each(|character| escaped(out, character));
+    }
+
+    fn class(&self, out: &mut String, ranges: &[(char, char)]) {
+        out.push('[');
+        for (from, to) in ranges {
+            escaped(out, *from);
+            if from != to {
+                out.push('-');
+                escaped(out, *to);
+            }
+        }
+        out.push(']');
+    }
+
+    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
         out.push_str("(?:");
-    }
-    match expr {
-        Expr::Literal(text) => text.chars().for_each(|character| escaped(out, character)),
-        Expr::Class(ranges) => {
-            out.push('[');
-            for (from, to) in ranges {
-                escaped(out, *from);
-                if from != to {
-                    out.push('-');
-                    escaped(out, *to);
-                }
-            }
-            out.push(']');
-        }
-        Expr::Seq(parts) => parts.iter().for_each(|part| regex(out, part, Level::Item)),
-        Expr::Choice(parts) => {
-            for (index, part) in parts.iter().enumerate() {
-                if index > 0 {
-                    out.push('|');
-                }
-                regex(out, part, Level::Seq);
-            }
-        }
-        Expr::Repeat(inner, least, greatest) => {
-            out.push_str("(?:");
-            regex(out, inner, Level::Choice);
-            out.push(')');
-            match (least, greatest) {
-                (0, 1) => out.push('?'),
-                (least, greatest) => out.push_str(&format!("{{{least},{greatest}}}")),
-            }
-        }
-        // A token has none.
-        Expr::Rule(_) => {}
-    }
-    if in_parentheses {
+        self.expr(out, inner, Level::Choice);
         out.push(')');
+        times(out, least, greatest);
     }
+
+    fn rule(&self, _out: &mut String, _id: RuleId) {}
+
+    fn nothing(&self, _out: &mut String) {}
 }
 
 fn escaped(out: &mut String, character: char) {

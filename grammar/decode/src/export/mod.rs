@@ -15,6 +15,7 @@ mod gbnf;
 mod grammar;
 mod lark;
 mod limits;
+mod notation;
 mod number;
 mod offer;
 mod request;

@@ -1,0 +1,82 @@
+//! How a grammar is written down: the walk that all notations share, and what each of them has of its own.
+
+use super::grammar::{Expr, RuleId};
+
+/// How tightly an expression has to hold together where it stands.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Level {
+    Choice,
+    Seq,
+    Item,
+}
+
+/// A notation.
+pub(super) trait Notation {
+    /// Between what stands one after the other.
+    const THEN: &'static str;
+    /// Between what stands one instead of the other.
+    const OR: &'static str = " | ";
+    /// Around what has to hold together.
+    const PARENTHESES: (&'static str, &'static str) = ("(", ")");
+
+    fn literal(&self, out: &mut String, text: &str);
+
+    fn class(&self, out: &mut String, ranges: &[(char, char)]);
+
+    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32);
+
+    fn rule(&self, out: &mut String, id: RuleId);
+
+    /// Nothing.
+    fn nothing(&self, out: &mut String) {
+        out.push_str("\"\"");
+    }
+
+    /// How tightly an expression holds together by itself.
+    fn level(&self, expr: &Expr) -> Level {
+        match expr {
+            Expr::Choice(_) => Level::Choice,
+            Expr::Seq(parts) if !parts.is_empty() => Level::Seq,
+            Expr::Seq(_) | Expr::Literal(_) | Expr::Class(_) | Expr::Repeat(..) | Expr::Rule(_) => {
+                Level::Item
+            }
+        }
+    }
+
+    /// Writes an expression where it has to hold together as tightly as this.
+    fn expr(&self, out: &mut String, expr: &Expr, least: Level) {
+        let in_parentheses = self.level(expr) < least;
+        if in_parentheses {
+            out.push_str(Self::PARENTHESES.0);
+        }
+        match expr {
+            Expr::Literal(text) => self.literal(out, text),
+            Expr::Class(ranges) => self.class(out, ranges),
+            Expr::Seq(parts) if parts.is_empty() => self.nothing(out),
+            Expr::Seq(parts) => self.joined(out, parts, Self::THEN, Level::Item),
+            Expr::Choice(parts) => self.joined(out, parts, Self::OR, Level::Seq),
+            Expr::Repeat(inner, least, greatest) => self.repeat(out, inner, *least, *greatest),
+            Expr::Rule(id) => self.rule(out, *id),
+        }
+        if in_parentheses {
+            out.push_str(Self::PARENTHESES.1);
+        }
+    }
+
+    fn joined(&self, out: &mut String, parts: &[Expr], with: &str, level: Level) {
+        for (index, part) in parts.iter().enumerate() {
+            if index > 0 {
+                out.push_str(with);
+            }
+            self.expr(out, part, level);
+        }
+    }
+}
+
+/// How often, as GBNF, Lark and regular expressions write it.
+pub(super) fn times(out: &mut String, least: u32, greatest: u32) {
+    match (least, greatest) {
+        (0, 1) => out.push('?'),
+        (least, greatest) => out.push_str(&format!("{{{least},{greatest}}}")),
+    }
+}
