@@ -83,6 +83,12 @@ impl Session {
         &self.library
     }
 
+    /// Whether a text is a description of anything in the scene.
+    #[must_use]
+    pub fn describes(&self, text: &str) -> bool {
+        self.world.is_description(text)
+    }
+
     /// What a policy for this robot, scene and state can be made of.
     #[must_use]
     pub fn signatures(&self) -> Signatures {

@@ -73,6 +73,27 @@ pub(crate) struct Fact {
 }
 
 impl Term {
+    /// Whether it, or a term within it, is one of these.
+    pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
+        is_one(self)
+            || match self {
+                Self::Field(of, _) => of.any(is_one),
+                Self::Arith(_, left, right) => left.any(is_one) || right.any(is_one),
+                Self::List(terms) | Self::Measure(_, terms) => terms.iter().any(|term| term.any(is_one)),
+                Self::Bool(_)
+                | Self::Int(_)
+                | Self::Number(_)
+                | Self::Text(_)
+                | Self::Case(..)
+                | Self::Entity(_)
+                | Self::Binding(_)
+                | Self::Param(_)
+                | Self::Result
+                | Self::Each
+                | Self::Unknown => false,
+            }
+    }
+
     /// The last parameter of its contract that it speaks of.
     pub(crate) fn last_param(&self) -> Option<u16> {
         match self {
@@ -103,6 +124,17 @@ impl Condition {
             Self::Not(inner) => inner.last_param(),
             Self::All(parts) | Self::AnyOf(parts) => parts.iter().filter_map(Self::last_param).max(),
             Self::Literal(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => None,
+        }
+    }
+
+    /// Whether any term in it is one of these; terms within others are looked at, too.
+    pub(crate) fn any_term(&self, is_one: &impl Fn(&Term) -> bool) -> bool {
+        match self {
+            Self::Fact(fact) => fact.args.iter().flatten().any(|term| term.any(is_one)),
+            Self::Compare(_, left, right) => left.any(is_one) || right.any(is_one),
+            Self::Not(inner) => inner.any_term(is_one),
+            Self::All(parts) | Self::AnyOf(parts) => parts.iter().any(|part| part.any_term(is_one)),
+            Self::Literal(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => false,
         }
     }
 }

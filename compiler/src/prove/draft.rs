@@ -6,11 +6,11 @@ use rustc_hash::FxHashMap;
 
 use super::apply::Lasting;
 use super::eval::Frame;
-use super::facts::{Facts, Split};
+use super::facts::{ANY, Facts, Key, Split};
 use super::symbols::Symbols;
 use super::value::Value;
 use super::{Mood, Proof, Prover, Verdict, Volatile, Watched};
-use crate::ir::{Condition, Fluent, Program, StepId, Term};
+use crate::ir::{Condition, Fact, Fluent, Program, StepId, Term};
 use crate::library::{Library, PrimitiveDef};
 use crate::world::World;
 
@@ -42,6 +42,27 @@ pub(crate) struct Mark {
     symbols: (usize, usize),
     steps: usize,
     live: bool,
+}
+
+impl Mark {
+    /// Whether the steps since then have written anything that a fact may speak of.
+    pub(crate) fn touches(&self, stand: &Stand, fact: &Fact) -> bool {
+        let mut key = Key(0);
+        for (index, term) in fact.args.iter().enumerate() {
+            let arg = match term {
+                None => ANY,
+                Some(Term::Entity(entity)) => entity.0,
+                Some(Term::Case(_, case)) => *case,
+                // A name may be one of several.
+                Some(_) => return true,
+            };
+            key = key.with(index, arg);
+        }
+        let is_same = |other: Key| key.covers(other) || other.covers(key);
+        let mut writes = stand.facts.writes(self.trail);
+        writes.any(|(fluent, other, _)| fluent == fact.fluent && is_same(other))
+            || stand.splits.iter().any(|split| split.differs(|fluent| fluent == fact.fluent))
+    }
 }
 
 /// What proving a step gave.
@@ -172,6 +193,17 @@ impl Prover<'_> {
         });
     }
 
+    /// What was found so far, so that what a run finds that is only a rehearsal can be forgotten.
+    pub(crate) fn said(&self) -> (usize, usize) {
+        (self.diagnostics.len(), self.stands.len())
+    }
+
+    /// Forgets what was found since: a run that counts follows.
+    pub(crate) fn unsay(&mut self, (diagnostics, stands): (usize, usize)) {
+        self.diagnostics.truncate(diagnostics);
+        self.stands.truncate(stands);
+    }
+
     pub(crate) fn is_refuted(&self) -> bool {
         self.diagnostics.iter().any(|said| said.severity == Severity::Error)
     }
@@ -215,6 +247,11 @@ impl Prover<'_> {
         self.live = live;
         self.lasting.retain(|other, _| *other < step);
         permits
+    }
+
+    /// Whether a condition holds here, whatever way led here.
+    pub(crate) fn proves(&self, condition: &Condition) -> bool {
+        self.evaluate(condition, Frame::default()).is_true()
     }
 
     /// Whether a condition is refuted here.

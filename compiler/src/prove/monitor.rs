@@ -19,7 +19,7 @@ impl Prover<'_> {
             return;
         }
         let mark = self.facts.mark();
-        let said = self.diagnostics.len();
+        let said = self.said();
         let volatile = self.volatile.len();
         self.disturb(id, whens, &Delta::default(), mark, volatile);
         let watched = self.watched_by(whens);
@@ -29,7 +29,7 @@ impl Prover<'_> {
         let mut head = Delta::default();
         // The body may begin again from any of its states, where a restart asks for it.
         let (end, states) = loop {
-            self.diagnostics.truncate(said);
+            self.unsay(said);
             self.live = true;
             self.facts.replay(&head);
             self.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
@@ -118,7 +118,7 @@ impl Prover<'_> {
         let mut grown = false;
         for when in whens {
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
-            let said = self.diagnostics.len();
+            let said = self.said();
             self.live = true;
             self.facts.replay(states);
             self.assume(&when.condition, true, Cause::step(id), Frame::default());
@@ -140,7 +140,7 @@ impl Prover<'_> {
                 }
             }
             self.back_to(mark);
-            self.diagnostics.truncate(said);
+            self.unsay(said);
             self.live = true;
         }
         grown

@@ -14,7 +14,7 @@ impl Prover<'_> {
             return;
         }
         let mark = self.facts.mark();
-        let said = self.diagnostics.len();
+        let said = self.said();
         // What each branch may change, found by proving it alone.
         let mut changed = Vec::with_capacity(branches.len());
         for branch in branches {
@@ -23,7 +23,7 @@ impl Prover<'_> {
             self.back_to(mark);
             self.live = true;
         }
-        self.diagnostics.truncate(said);
+        self.unsay(said);
         let mut deltas = Vec::with_capacity(branches.len());
         let mut live = true;
         for (index, branch) in branches.iter().enumerate() {

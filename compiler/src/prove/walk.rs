@@ -235,10 +235,10 @@ impl Prover<'_> {
             return;
         }
         let mark = self.facts.mark();
-        let said = self.diagnostics.len();
+        let said = self.said();
         let mut head = Delta::default();
         loop {
-            self.diagnostics.truncate(said);
+            self.unsay(said);
             self.facts.replay(&head);
             begin(self);
             self.block(body);

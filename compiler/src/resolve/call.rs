@@ -167,9 +167,29 @@ impl Steps<'_> {
             };
             terms.push(term);
         }
+        self.body(id, policy, &types, terms)
+    }
+
+    /// A call of a policy outside of any step.
+    pub(super) fn write_out(&mut self, policy: &Policy, args: Vec<Term>) -> Option<StepId> {
+        if self.calls.contains(&policy.name.text) {
+            let (span, name) = (policy.name.span, policy.name.text.clone());
+            self.resolver.say(Recursion { span, name });
+            return None;
+        }
+        let id = self.reserve(policy.span, Place { parent: None, slot: Slot::Steps, index: 0 })?;
+        let types = policy.params.iter();
+        let types: Vec<Ty> =
+            types.map(|param| crate::library::resolve_type(&mut self.resolver, &param.ty)).collect();
+        self.body(id, policy, &types, args)
+    }
+
+    /// The steps of a policy that is called with these arguments.
+    fn body(&mut self, id: StepId, policy: &Policy, types: &[Ty], args: Vec<Term>) -> Option<StepId> {
+        let name = policy.name.text.clone();
         let mark = self.resolver.scope.mark();
         self.resolver.scope.raise_barrier();
-        for ((param, ty), term) in policy.params.iter().zip(&types).zip(terms) {
+        for ((param, ty), term) in policy.params.iter().zip(types).zip(args) {
             self.resolver.scope.push(param.name.text.clone(), term, *ty, param.name.span);
         }
         let outer = self.inline.replace(id);

@@ -79,6 +79,31 @@ pub(crate) fn resolve_step(
     (id, steps.finish())
 }
 
+/// Appends to a program a call of a policy with these arguments; its first step.
+pub(crate) fn resolve_inlined(
+    policy: &Policy,
+    args: Vec<Term>,
+    (library, world): (&Library, &World),
+    program: &mut Program,
+) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
+    let resolver = Resolver {
+        library,
+        entities: world.entities(),
+        has_scene: world.has_scene(),
+        form: Form::Text,
+        scope: scope::Scope::default(),
+        bindings: std::mem::take(&mut program.bindings),
+        diagnostics: Vec::new(),
+    };
+    let mut steps = Steps::new(resolver);
+    steps.program = std::mem::take(program);
+    steps.calls.push(steps.program.name.clone());
+    let id = steps.write_out(policy, args);
+    *program = std::mem::take(&mut steps.program);
+    program.bindings = std::mem::take(&mut steps.resolver.bindings);
+    (id, steps.finish())
+}
+
 impl Resolver<'_> {
     /// A duration that is known beforehand, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {

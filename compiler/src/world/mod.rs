@@ -12,7 +12,7 @@ pub use state::State;
 
 use motet_robots::scene::{Scene, normal};
 use motet_syntax::Diagnostic;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use crate::ir::{Entity, Fact, Kind, ROBOT, Term};
@@ -30,6 +30,8 @@ pub struct World {
     scene: Option<Scene>,
     /// What a description finds.
     descriptions: FxHashMap<String, Vec<Entity>>,
+    /// The last two bytes of each, by which most texts are seen to be none.
+    endings: FxHashSet<(u8, u8)>,
     pub(crate) facts: Facts<'static>,
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
@@ -54,7 +56,15 @@ impl World {
         let default = if library.closed_world { closed } else { Value::NOTHING_KNOWN };
         let facts = Facts::new(library.fluents.len(), default);
         let descriptions = seed::descriptions(scene, &entities);
-        let mut world = Self { entities, scene: scene.cloned(), descriptions, facts, given: Vec::new() };
+        let endings = descriptions.keys().flat_map(|key| match key.as_bytes() {
+            [.., first, last] => [(*first, *last), (*first, *last)],
+            // An article may stand before it.
+            [only] => [(0, *only), (b' ', *only)],
+            [] => [(0, 0), (0, 0)],
+        });
+        let endings = endings.collect();
+        let mut world =
+            Self { entities, scene: scene.cloned(), descriptions, endings, facts, given: Vec::new() };
         seed::facts(library, &mut world);
         for (fact, value, _) in &library.initially {
             world.tell(fact.clone(), *value);
@@ -106,6 +116,17 @@ impl World {
         let fits =
             |entity: &Entity| self.entities.kind(*entity).is_some_and(|found| library.is_kind(found, kind));
         found.iter().copied().filter(fits).collect()
+    }
+
+    /// Whether a description fits any entity.
+    pub(crate) fn is_description(&self, description: &str) -> bool {
+        let is_gap = |byte: u8| matches!(byte, b' ' | b'_' | b'-');
+        let mut bytes = description.bytes().rev().skip_while(|byte| is_gap(*byte));
+        let last = bytes.next().unwrap_or(0);
+        let first = bytes.next().unwrap_or(0);
+        let first = if is_gap(first) { b' ' } else { first.to_ascii_lowercase() };
+        let may_be = self.endings.contains(&(first, last.to_ascii_lowercase()));
+        (may_be || !description.is_ascii()) && self.descriptions.contains_key(&normal(description))
     }
 
     /// A number that an entity of the scene has: `mass`, `width`, or a field of its own, in SI units.

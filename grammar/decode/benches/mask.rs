@@ -1,5 +1,6 @@
-//! What a mask costs with the vocabulary o200k over the examples, what preparing a scene costs, and which share of the
-//! bytes must come next whatever the model means.
+//! What a mask costs with the vocabulary o200k: at each token of the examples and of policies that were written at random,
+//! 200 to 600 tokens long. Beside it what preparing a scene costs, what 5,000 entities cost, and which share of the bytes of
+//! the examples must come next whatever the model means. A time is of the mask alone; taking the token is told apart.
 
 #![allow(
     clippy::unwrap_used,
@@ -15,13 +16,18 @@ mod common;
 
 use std::time::{Duration, Instant};
 
+use common::dice::Dice;
+use common::walks::{Ended, walk};
+use motet_compiler::{Options, Session};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
-use motet_syntax::{FileId, Source};
+use motet_syntax::{FileId, Source, Sources};
 
 /// The tokens with bytes; those above are special.
 const TOKENS: u32 = 199_998;
 /// `<|endoftext|>`
 const END: u32 = 199_999;
+/// How many policies are written at random for each robot and scene: 21 in all.
+const WRITTEN: usize = 7;
 
 fn main() {
     let encoding = tiktoken_rs::o200k_base_singleton();
@@ -30,58 +36,130 @@ fn main() {
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
     let surface = Surface { modifiers: Modifiers::Written, ..Surface::default() };
-    let (mut times, mut forced, mut all) = (Vec::new(), 0, 0);
+    let (mut examples, mut written) = (Times::default(), Times::default());
+    let (mut forced, mut all) = (0, 0);
+    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+        let session = common::session(robot, scene);
+        let mut taken: Vec<Duration> = (0..21).map(|_| time(|| Prepared::new(&session, surface)).1).collect();
+        taken.sort_unstable();
+        println!("{robot} in {scene}: prepared in {:?} at the median of 21", taken[10]);
+        let prepared = Prepared::new(&session, surface);
+        for policy in canonical_examples(&session, surface) {
+            follow(&prepared, &vocabulary, &encoding.encode_ordinary(&policy), &mut examples);
+            forced += forced_bytes(&prepared, &policy);
+            all += policy.len();
+        }
+        // Walks of their own session, so that no answer is known beforehand.
+        let apart = Prepared::new(&session, surface);
+        let mut dice = Dice::new(7);
+        let mut count = 0;
+        while count < WRITTEN {
+            let Some(Ended::Whole(policy)) = walk(&apart, 6000, 12 + dice.below(8), &mut dice) else {
+                continue;
+            };
+            let tokens = encoding.encode_ordinary(&policy);
+            if (200..=600).contains(&tokens.len()) {
+                follow(&prepared, &vocabulary, &tokens, &mut written);
+                count += 1;
+            }
+        }
+    }
+    examples.print("examples");
+    written.print("written at random");
+    println!("{forced} of {all} bytes of the examples are forced");
+    many_entities(surface);
+}
+
+fn time<T>(run: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let made = run();
+    (made, start.elapsed())
+}
+
+#[derive(Default)]
+struct Times {
+    masks: Vec<Duration>,
+    both: Vec<Duration>,
+    slow: Vec<(Duration, String)>,
+}
+
+impl Times {
+    fn print(&mut self, what: &str) {
+        for (name, times) in [("mask", &mut self.masks), ("mask and token", &mut self.both)] {
+            times.sort_unstable();
+            let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+            let mean = times.iter().sum::<Duration>() / u32::try_from(times.len()).unwrap();
+            let (count, half, most) = (times.len(), at(0.5), at(1.0));
+            println!(
+                "{what}: {count} times {name}: mean {mean:?}, p50 {half:?}, p90 {:?}, p99 {:?}, max {most:?}",
+                at(0.9),
+                at(0.99)
+            );
+        }
+        self.slow.sort_by_key(|(taken, _)| std::cmp::Reverse(*taken));
+        for (taken, place) in self.slow.iter().take(25) {
+            println!("    {taken:?} after …{place}");
+        }
+    }
+}
+
+fn follow(prepared: &Prepared, vocabulary: &Vocabulary, tokens: &[u32], times: &mut Times) {
+    let mut decoder = prepared.decoder(vocabulary, 20_000).unwrap();
+    for token in tokens {
+        let (is_set, taken) = time(|| decoder.mask()[*token as usize / 32] >> (token % 32) & 1 == 1);
+        assert!(is_set, "{}", String::from_utf8_lossy(decoder.acceptor().bytes()));
+        if taken > Duration::from_micros(100) {
+            let bytes = decoder.acceptor().bytes();
+            let from = bytes.len().saturating_sub(70);
+            times.slow.push((taken, String::from_utf8_lossy(&bytes[from..]).into_owned()));
+        }
+        let (accepted, more) = time(|| decoder.accept(*token));
+        assert!(accepted);
+        times.masks.push(taken);
+        times.both.push(taken + more);
+    }
+}
+
+/// The examples that check for a session, as the surface spells them.
+fn canonical_examples(session: &Session, surface: Surface) -> Vec<String> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
-    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
-        let session = common::session(robot, scene);
-        let start = Instant::now();
-        let prepared = Prepared::new(&session, surface);
-        println!("{robot} in {scene}: prepared in {:?}", start.elapsed());
-        for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "json")) {
-            let text = std::fs::read_to_string(file).unwrap();
-            let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
-            let policy = parsed.file.policies().next().unwrap();
-            if !common::errors(&session, &text).is_empty() {
-                continue;
-            }
-            let Ok(spelled) = canonical(policy, &session.signatures(), surface) else { continue };
-            let mut decoder = prepared.decoder(&vocabulary, 20_000).unwrap();
-            for token in encoding.encode_ordinary(&spelled) {
-                let start = Instant::now();
-                let mask = decoder.mask();
-                let taken = start.elapsed();
-                times.push(taken);
-                let is_set = mask[token as usize / 32] >> (token % 32) & 1 == 1;
-                if taken > Duration::from_millis(5) {
-                    let bytes = decoder.acceptor().bytes();
-                    let from = bytes.len().saturating_sub(60);
-                    println!("{taken:?} after …{}", String::from_utf8_lossy(&bytes[from..]));
-                }
-                assert!(is_set);
-                assert!(decoder.accept(token));
-            }
-            let mut acceptor = prepared.acceptor(20_000).unwrap();
-            while !acceptor.is_accepting() {
-                let must = acceptor.forced();
-                forced += must.len();
-                acceptor.accept(&must);
-                let at = acceptor.bytes().len();
-                acceptor.accept(&spelled.as_bytes()[at..(at + 1).min(spelled.len())]);
-            }
-            all += spelled.len();
+    let mut found = Vec::new();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "json")) {
+        let text = std::fs::read_to_string(file).unwrap();
+        let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
+        let policy = parsed.file.policies().next().unwrap();
+        if common::errors(session, &text).is_empty() {
+            found.extend(canonical(policy, &session.signatures(), surface));
         }
     }
-    times.sort_unstable();
-    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
-    let mean = times.iter().sum::<Duration>() / u32::try_from(times.len()).unwrap();
-    println!(
-        "{} masks: mean {mean:?}, p50 {:?}, p99 {:?}, max {:?}",
-        times.len(),
-        at(0.5),
-        at(0.99),
-        at(1.0)
-    );
-    println!("{forced} of {all} bytes are forced");
+    found
+}
+
+fn forced_bytes(prepared: &Prepared, policy: &str) -> usize {
+    let mut acceptor = prepared.acceptor(20_000).unwrap();
+    let mut forced = 0;
+    while !acceptor.is_accepting() {
+        let must = acceptor.forced();
+        forced += must.len();
+        acceptor.accept(&must);
+        let at = acceptor.bytes().len();
+        acceptor.accept(&policy.as_bytes()[at..(at + 1).min(policy.len())]);
+    }
+    forced
+}
+
+fn many_entities(surface: Surface) {
+    let names: Vec<String> = (0..5000).map(|index| format!("thing_{index}")).collect();
+    let domain = format!("entity {}: Object\n", names.join(", "));
+    let mut sources = Sources::default();
+    let source = Source::new("many.motet", domain.as_str());
+    let id = sources.add(source.clone());
+    let domain = motet_syntax::read(&source, id).file;
+    let (session, said) = Session::new(None, &[domain], None, None, Options::default(), &mut sources);
+    assert!(said.is_empty(), "{said:?}");
+    let mut taken: Vec<Duration> = (0..21).map(|_| time(|| Prepared::new(&session, surface)).1).collect();
+    taken.sort_unstable();
+    println!("5,000 entities: prepared in {:?} at the median of 21", taken[10]);
 }

@@ -16,6 +16,12 @@ pub(crate) struct Tokens {
     pub(crate) text: SimpleVob,
     /// Those that end a text, or whose place in it matters.
     pub(crate) text_ends: TokTrie,
+    /// Of tokens that begin with `$`: those that can stand within a text, but not begin it.
+    pub(crate) dollars: SimpleVob,
+    /// All that begin with `$` and reach into a text.
+    pub(crate) dollar_ends: TokTrie,
+    /// Those that end a text, by what follows it.
+    pub(crate) text_tails: Tails,
     /// By length: tokens that can stand within a name and have at most so many bytes.
     pub(crate) names: Vec<SimpleVob>,
     /// Of those, the ones that can begin it.
@@ -57,6 +63,13 @@ impl Vocabulary {
             bytes.first() == Some(&b'$')
                 || (ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_text_byte)))
         });
+        let dollars = set(&|bytes| bytes.iter().all(is_text_byte) && bytes.first() == Some(&b'$'));
+        let dollar_ends = trie.filter(&set(&|bytes| bytes.first() == Some(&b'$')));
+        let ends = (0..size).zip(tokens).filter_map(|(id, bytes)| {
+            let quote = bytes.iter().position(|byte| *byte == b'"')?;
+            bytes.get(..quote)?.iter().all(is_text_byte).then_some((id, bytes.split_at_checked(quote)?))
+        });
+        let text_tails = Tails::new(ends);
         let name_ends = set(&|bytes| {
             let ends = bytes.contains(&b'"');
             ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_name_byte))
@@ -75,7 +88,19 @@ impl Vocabulary {
         let (text_ends, name_ends) = (trie.filter(&text_ends), trie.filter(&name_ends));
         let longest = trie.max_token_len();
         let (first_names, names) = (names(true), names(false));
-        Self(Arc::new(Tokens { trie, text, text_ends, names, first_names, name_ends, longest, end }))
+        Self(Arc::new(Tokens {
+            trie,
+            text,
+            text_ends,
+            dollars,
+            dollar_ends,
+            text_tails,
+            names,
+            first_names,
+            name_ends,
+            longest,
+            end,
+        }))
     }
 
     /// How many tokens there are.
@@ -104,5 +129,45 @@ impl Vocabulary {
 
     pub(crate) fn tokens(&self) -> &Tokens {
         &self.0
+    }
+}
+
+/// Tokens that end a text, by what of them follows it: where any text may stand they may follow or not by that alone.
+pub(crate) struct Tails {
+    /// The tails, each a token of its own.
+    pub(crate) trie: TokTrie,
+    /// By tail.
+    pub(crate) tokens: Vec<Tail>,
+}
+
+/// The tokens with one tail.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tail {
+    /// The one that is nothing else.
+    pub(crate) bare: Option<u32>,
+    /// Those with text before it.
+    pub(crate) within: Vec<u32>,
+    /// Those with text before it that begins with `$`.
+    pub(crate) dollars: Vec<u32>,
+}
+
+impl Tails {
+    /// From tokens, each as its text and its tail.
+    fn new<'t>(tokens: impl Iterator<Item = (u32, (&'t [u8], &'t [u8]))>) -> Self {
+        let mut found: std::collections::BTreeMap<&[u8], Tail> = std::collections::BTreeMap::new();
+        for (id, (text, tail)) in tokens {
+            let tail = found.entry(tail).or_default();
+            match text.first() {
+                None => tail.bare = Some(id),
+                Some(b'$') => tail.dollars.push(id),
+                Some(_) => tail.within.push(id),
+            }
+        }
+        let spelled: Vec<Vec<u8>> = found.keys().map(|tail| tail.to_vec()).collect();
+        let size = u32::try_from(spelled.len()).unwrap_or(u32::MAX);
+        Self {
+            trie: TokTrie::from(&TokRxInfo::new(size, 0), &spelled),
+            tokens: found.into_values().collect(),
+        }
     }
 }

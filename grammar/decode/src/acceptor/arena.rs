@@ -76,7 +76,7 @@ impl Flags {
 }
 
 /// Something that was said.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Event {
     /// Something with parts begins.
     Open(Kind),
@@ -107,8 +107,8 @@ pub(crate) struct Said {
     pub(crate) event: Event,
     /// The last event before the step of the policy's body in which this is.
     pub(crate) before: Id,
-    /// No other event has this number, not even one that takes its place later.
-    pub(crate) serial: u32,
+    /// A hash of everything that was said up to here. What is said again after a way back has the same.
+    pub(crate) hash: u64,
 }
 
 /// A name that was bound.
@@ -128,7 +128,6 @@ pub(crate) struct Arenas {
     pub(crate) said: Vec<Said>,
     pub(crate) names: Vec<Name>,
     pub(crate) lists: Vec<u32>,
-    serial: u32,
 }
 
 /// How long the arenas were.
@@ -160,15 +159,9 @@ impl Control {
 
 impl Arenas {
     pub(crate) fn new() -> Self {
-        let said = Said { below: 0, event: Event::Close, before: 0, serial: 0 };
+        let said = Said { below: 0, event: Event::Close, before: 0, hash: 0 };
         let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX };
-        Self {
-            controls: vec![Control::bottom()],
-            said: vec![said],
-            names: vec![name],
-            lists: Vec::new(),
-            serial: 0,
-        }
+        Self { controls: vec![Control::bottom()], said: vec![said], names: vec![name], lists: Vec::new() }
     }
 
     pub(crate) fn lengths(&self) -> Lengths {
@@ -195,8 +188,8 @@ impl Arenas {
         self.names.get(id as usize).filter(|_| id > 0)
     }
 
-    pub(crate) fn serial(&self, id: Id) -> u32 {
-        self.said(id).map_or(0, |said| said.serial)
+    pub(crate) fn hash(&self, id: Id) -> u64 {
+        self.said(id).map_or(0, |said| said.hash)
     }
 
     pub(crate) fn push_control(&mut self, control: Control) -> Id {
@@ -205,18 +198,17 @@ impl Arenas {
         id
     }
 
-    /// Says something in the same step of the body.
-    pub(crate) fn say(&mut self, below: Id, event: Event) -> Id {
-        let before = self.said(below).map_or(0, |said| said.before);
-        self.serial = self.serial.wrapping_add(1);
+    /// Says something in the same step of the body; `content` is a hash of it.
+    pub(crate) fn say(&mut self, below: Id, event: Event, content: u64) -> Id {
+        let (before, hash) = self.said(below).map_or((0, 0), |said| (said.before, said.hash));
         let id = end(&self.said);
-        self.said.push(Said { below, event, before, serial: self.serial });
+        self.said.push(Said { below, event, before, hash: mix(hash, content) });
         id
     }
 
     /// The last event of a step of the body: the next one begins another.
     pub(crate) fn say_last(&mut self, below: Id) -> Id {
-        let id = self.say(below, Event::Close);
+        let id = self.say(below, Event::Close, LAST);
         if let Some(said) = self.said.get_mut(id as usize) {
             said.before = id;
         }
@@ -247,6 +239,17 @@ impl Arenas {
         let first = self.name(scope).map(|name| (scope, name));
         std::iter::successors(first, |(_, name)| self.name(name.below).map(|below| (name.below, below)))
     }
+}
+
+/// The content of the event that ends a step of the body.
+const LAST: u64 = 0x6c61_7374;
+
+/// A hash with one thing more behind it (the finaliser of splitmix64).
+pub(crate) fn mix(hash: u64, more: u64) -> u64 {
+    let mut mixed = hash.rotate_left(17).wrapping_add(0x9e37_79b9_7f4a_7c15) ^ more;
+    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
 }
 
 fn end<T>(list: &[T]) -> Id {

@@ -1,15 +1,15 @@
 //! What the checker says of a place of a walk. Two drafts follow the walk: one stands where the next step will stand and
 //! is asked of calls, the other is asked whether steps that are closed for the time being are errors.
 
-use motet_compiler::draft::Draft;
-use motet_compiler::{Session, draft::Value};
-use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Form, Span};
+use motet_compiler::Session;
+use motet_compiler::draft::{Draft, Test, Value};
+use motet_compiler::signature::Type;
 
-use super::arena::{Arenas, Event, Id};
-use super::build::Builder;
-use super::walk::{Machine, Walk};
-use crate::program::{Kind, Op, Plain};
+use super::arena::{Event, Id};
+use super::follow::{Follower, Told};
+use super::memo::Question;
+use super::walk::Walk;
+use crate::program::{Kind, Meaning, Op, Plain, Program};
 
 /// The drafts of a walk, and how far they are.
 #[derive(Clone, Debug, Default)]
@@ -18,106 +18,8 @@ pub(crate) struct Asked {
     place: Follower,
     /// Asked of whole steps.
     judge: Follower,
-    /// The event behind which the first of them stands.
-    stands: Option<u32>,
-}
-
-/// A draft that follows a walk.
-#[derive(Clone, Debug, Default)]
-struct Follower {
-    draft: Option<Draft>,
-    /// The event that ended what stands before the steps.
-    head: u32,
-    /// The event that ended each step.
-    steps: Vec<u32>,
-}
-
-/// What a walk has said, for a follower to read.
-struct Told<'w> {
-    machine: &'w Machine,
-    arenas: &'w Arenas,
-    bytes: &'w [u8],
-}
-
-impl Told<'_> {
-    fn step(&self, events: &[Event]) -> Option<Step> {
-        let Self { machine, arenas, bytes } = self;
-        Builder { program: &machine.program, arenas, bytes, events }.step()
-    }
-
-    /// Name, robot and goal of the policy, from what was said before its steps.
-    fn head(&self, last: Id) -> Policy {
-        let events = self.arenas.between(0, last);
-        let Self { machine, arenas, bytes } = self;
-        let mut text = String::new();
-        let mut rest = events.as_slice();
-        if let Some((Event::Name(start, len), behind)) = events.split_first() {
-            let end = start.saturating_add(*len) as usize;
-            text = String::from_utf8_lossy(bytes.get(*start as usize..end).unwrap_or_default()).into_owned();
-            rest = behind;
-        }
-        let program = &machine.program;
-        let named = |text: smol_str::SmolStr| ast::Name { text, span: Span::default() };
-        let achieves = matches!(rest.first(), Some(Event::Open(_)))
-            .then(|| Builder { program, arenas, bytes, events: rest }.condition());
-        let robot = Some(&program.signatures.robot).filter(|robot| !robot.is_empty());
-        Policy {
-            doc: ast::Doc::default(),
-            name: named(text.into()),
-            params: Vec::new(),
-            robot: robot.cloned().map(named),
-            achieves,
-            body: ast::Block::default(),
-            span: Span::default(),
-        }
-    }
-}
-
-impl Follower {
-    /// Follows the walk to the end of the last whole step of the body before `last`, which is the event that ended it.
-    fn follow(&mut self, told: &Told<'_>, last: Id) -> Option<&mut Draft> {
-        let serial = told.arenas.serial(last);
-        let latest = self.steps.last().copied().unwrap_or(self.head);
-        if self.draft.is_some() && latest == serial {
-            return self.draft.as_mut();
-        }
-        let session = &told.machine.session;
-        let mut ends = Vec::new();
-        let mut at = last;
-        while at > 0 {
-            ends.push(at);
-            at = told
-                .arenas
-                .said(at)
-                .and_then(|said| told.arenas.said(said.below))
-                .map_or(0, |said| said.before);
-        }
-        ends.reverse();
-        let (head, steps) = ends.split_first()?;
-        if self.draft.is_none() || self.head != told.arenas.serial(*head) {
-            let (draft, _) = Draft::new(session, &told.head(*head), Form::Json);
-            self.draft = Some(draft);
-            self.head = told.arenas.serial(*head);
-            self.steps.clear();
-        }
-        let draft = self.draft.as_mut()?;
-        let known =
-            steps.iter().zip(&self.steps).take_while(|(id, known)| told.arenas.serial(**id) == **known);
-        let known = known.count();
-        draft.truncate(known);
-        self.steps.truncate(known);
-        let mut before = known.checked_sub(1).and_then(|last| steps.get(last)).copied().unwrap_or(*head);
-        for id in steps.iter().skip(known) {
-            let events = told.arenas.between(before, *id);
-            let step = told.step(&events)?;
-            if !draft.push(session, &step) {
-                return None;
-            }
-            self.steps.push(told.arenas.serial(*id));
-            before = *id;
-        }
-        Some(draft)
-    }
+    /// The hash of what was said up to where the first of them stands.
+    stands: Option<u64>,
 }
 
 /// An argument that is tried.
@@ -141,25 +43,33 @@ pub(crate) struct Spot {
 impl Walk {
     /// Whether the step of the body that is being written is no error, with `more` behind what was said and closed.
     pub(crate) fn verify(&mut self, event: Id, more: &[Event]) -> bool {
-        let before = self.arenas.said(event).map_or(0, |said| said.before);
-        let mut events = self.arenas.between(before, event);
-        events.extend_from_slice(more);
-        let told = Told { machine: &self.machine, arenas: &self.arenas, bytes: &self.bytes };
-        let step = told.step(&events);
-        let draft = self.asked.judge.follow(&told, before);
-        match (draft, step) {
-            (Some(draft), Some(step)) => draft.permits_step(&self.machine.session, &step),
-            (Some(_), None) => true,
-            (None, _) => false,
-        }
+        let key = self.key(Question::Verify, event, more.iter().copied());
+        self.answer(key, |walk| {
+            let before = walk.arenas.said(event).map_or(0, |said| said.before);
+            let mut events = walk.arenas.between(before, event);
+            events.extend_from_slice(more);
+            let told = Told { machine: &walk.machine, arenas: &walk.arenas, bytes: &walk.bytes };
+            let step = told.step(&events);
+            let draft = walk.asked.judge.follow(&told, before);
+            match (draft, step) {
+                (Some(draft), Some(step)) => draft.permits_step(&walk.machine.session, &step),
+                (Some(_), None) => true,
+                (None, _) => false,
+            }
+        })
+    }
+
+    /// Whether what stands beside the place behind `event` is no error either, with `more` at the place.
+    pub(crate) fn verify_beside(&mut self, event: Id, more: &[Event]) -> bool {
+        self.is_apart(event, more) || self.verify(event, more)
     }
 
     /// The draft where the next step will stand, behind `event`.
-    fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session, &Arenas)> {
+    fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session)> {
         let before = self.arenas.said(event).map_or(0, |said| said.before);
         let told = Told { machine: &self.machine, arenas: &self.arenas, bytes: &self.bytes };
-        let serial = told.arenas.serial(event);
-        if self.asked.stands != Some(serial) {
+        let hash = told.arenas.hash(event);
+        if self.asked.stands != Some(hash) {
             self.asked.stands = None;
             let draft = self.asked.place.follow(&told, before)?;
             let mut events = told.arenas.between(before, event);
@@ -170,34 +80,60 @@ impl Walk {
                 told.step(&events)
             };
             draft.go(&self.machine.session, step.as_ref());
-            self.asked.stands = Some(serial);
+            self.asked.stands = Some(hash);
         }
-        Some((self.asked.place.draft.as_mut()?, &self.machine.session, &self.arenas))
+        Some((self.asked.place.draft.as_mut()?, &self.machine.session))
     }
 
-    /// Whether the state where the next step will stand refutes nothing of a step.
-    fn permits_here(&mut self, events: &[Event], spot: Spot) -> bool {
-        if self.place(spot.event).is_none() {
-            return false;
-        }
-        let told = Told { machine: &self.machine, arenas: &self.arenas, bytes: &self.bytes };
-        let Some(step) = told.step(events) else { return false };
-        let names = self.arenas.in_scope(spot.scope).map(|(_, name)| {
-            let bytes = self.bytes.get(name.start as usize..(name.start + name.len) as usize);
-            smol_str::SmolStr::new(String::from_utf8_lossy(bytes.unwrap_or_default()))
+    /// What a test with this fluent and these arguments tells at the end of a loop's body, which is behind `event`.
+    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> Test {
+        let values = args.iter().map(|event| match meaning(&self.machine.program, *event) {
+            Some(Meaning::Any) => Some(None),
+            Some(meaning) => Some(Some(meaning.value())),
+            None => None,
         });
-        let names: Vec<_> = names.collect();
-        let draft = self.asked.place.draft.as_mut();
-        draft.is_some_and(|draft| draft.permits_here(&self.machine.session, &step, &names))
+        // A name may be one of several entities.
+        let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
+        let machine = std::sync::Arc::clone(&self.machine);
+        let Some(name) =
+            machine.program.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name)
+        else {
+            return Test::Open;
+        };
+        self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
     }
 
     /// Whether the policy may be done where the next step will stand.
     pub(crate) fn may_be_done(&mut self, event: Id) -> bool {
-        self.place(event).is_some_and(|(draft, session, _)| draft.permits_done(session))
+        let key = self.key(Question::Done, event, None);
+        self.answer(key, |walk| walk.place(event).is_some_and(|(draft, session)| draft.permits_done(session)))
+    }
+
+    /// Where a call can be tried; none where what runs at once uses what it uses.
+    pub(crate) fn spot_of(&self, callable: u16, spot: Spot) -> Option<Spot> {
+        let made = self.machine.program.callables.get(usize::from(callable))?;
+        if !spot.shared {
+            return Some(spot);
+        }
+        let is_free = made.uses & self.resources_taken(spot.event) == 0;
+        let call = [Event::Open(Kind::Do(callable)), Event::Close];
+        is_free.then(|| Spot { shared: !self.is_apart(spot.event, &call), ..spot })
+    }
+
+    /// Whether a callable can be called with some arguments.
+    pub(crate) fn can_be_called(&mut self, callable: u16, spot: Spot) -> bool {
+        let spot = self.spot_of(callable, spot);
+        spot.is_some_and(|spot| self.completes_call(callable, &mut Vec::new(), spot))
     }
 
     /// Whether a call can be completed from the arguments that are given.
-    pub(crate) fn can_be_called(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> bool {
+    pub(crate) fn completes_call(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> bool {
+        let question = if spot.shared { Question::SharedCall } else { Question::Call };
+        let key = self.key(question, spot.event, of_call(callable, given));
+        self.answer(key, |walk| walk.completes_anew(callable, given, spot))
+    }
+
+    fn completes_anew(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> bool {
         let machine = std::sync::Arc::clone(&self.machine);
         let index = usize::from(callable);
         let (Some(made), Some(signature)) =
@@ -205,45 +141,27 @@ impl Walk {
         else {
             return false;
         };
-        // What a branch uses no later one may use; that is seen without a proof.
-        if given.is_empty() && spot.shared && made.uses & self.resources_taken(spot.event) != 0 {
+        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
+        for given in &*given {
+            let Some(value) = self.value_of(*given, spot) else { return false };
+            args.push(Some(value));
+        }
+        args.resize_with(signature.params.len(), || None);
+        let permits = self.place(spot.event).is_some_and(|(draft, session)| match made.primitive {
+            Some(primitive) => draft.permits_call(session, primitive, &args),
+            None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
+        });
+        if !permits {
             return false;
         }
-        if let Some(primitive) = made.primitive {
-            let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
-            for given in &*given {
-                let Some(value) = self.value_of(*given, spot) else { return false };
-                args.push(Some(value));
-            }
-            args.resize_with(signature.params.len(), || None);
-            let permits = self
-                .place(spot.event)
-                .is_some_and(|(draft, session, _)| draft.permits_call(session, primitive, &args));
-            if !permits {
-                return false;
-            }
-        }
-        let is_whole = given.len() >= signature.params.len();
-        if made.primitive.is_none() || (is_whole && spot.shared) {
-            let mut events = vec![Event::Open(Kind::Do(callable))];
-            for given in &*given {
-                match given {
-                    Given::One(event) => events.push(*event),
-                    Given::List(event) => events.extend([Event::Open(Kind::List), *event, Event::Close]),
-                }
-            }
-            events.push(Event::Close);
-            let permits = (made.primitive.is_some() || self.permits_here(&events, spot))
-                && (!is_whole || !spot.shared || self.verify(spot.event, &events));
-            if !permits {
-                return false;
-            }
-        }
-        let Some(param) = signature.params.get(given.len()) else { return true };
         let place = given.len();
+        let Some(param) = signature.params.get(place) else {
+            let events: Vec<Event> = of_call(callable, given).collect();
+            return !spot.shared || self.verify(spot.event, &events);
+        };
         for option in self.options(index, place, &param.ty, spot) {
             given.push(option);
-            let can = self.can_be_called(callable, given, spot);
+            let can = self.completes_call(callable, given, spot);
             given.pop();
             if can {
                 return true;
@@ -252,45 +170,19 @@ impl Walk {
         false
     }
 
-    /// What the branches use that stand beside those around an event.
-    fn resources_taken(&self, event: Id) -> u64 {
-        let before = self.arenas.said(event).map_or(0, |said| said.before);
-        // Of all that is open: what it is, what its whole parts use, and what all of it uses.
-        let mut open: Vec<(Kind, u64, u64)> = Vec::new();
-        for event in self.arenas.between(before, event) {
-            match event {
-                Event::Open(kind) => {
-                    if let Kind::Do(callable) = kind {
-                        let made = self.machine.program.callables.get(usize::from(callable));
-                        let uses = made.map_or(0, |made| made.uses);
-                        open.iter_mut().for_each(|(.., all)| *all |= uses);
-                    }
-                    open.push((kind, 0, 0));
-                }
-                Event::Close => {
-                    let closed = open.pop();
-                    if let (Some((Kind::Block, _, uses)), Some((Kind::Parallel, taken, _))) =
-                        (closed, open.last_mut())
-                    {
-                        *taken |= uses;
-                    }
-                }
-                _ => {}
-            }
+    /// A text, or what stands for any where it describes nothing and so is as good as any other that does not.
+    pub(crate) fn plain_text(&self, text: Event) -> Event {
+        let Event::Text(start, len) = text else { return text };
+        let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
+        let written = bytes.and_then(|bytes| std::str::from_utf8(bytes).ok());
+        match written {
+            Some(written) if self.machine.session.describes(written) => text,
+            _ => Event::AnyText,
         }
-        let parallel = open.iter().filter(|(kind, ..)| *kind == Kind::Parallel);
-        parallel.fold(0, |taken, (_, more, _)| taken | more)
     }
 
     /// What can be tried as an argument: every word, and one of all values between which no contract tells.
-    fn options(
-        &self,
-        callable: usize,
-        place: usize,
-        ty: &motet_compiler::signature::Type,
-        spot: Spot,
-    ) -> Vec<Given> {
-        use motet_compiler::signature::Type;
+    fn options(&self, callable: usize, place: usize, ty: &Type, spot: Spot) -> Vec<Given> {
         let made = self.machine.program.callables.get(callable);
         let word = made.and_then(|made| made.words.get(place).copied().flatten());
         let element = made.and_then(|made| made.elements.get(place).copied().flatten());
@@ -324,20 +216,21 @@ impl Walk {
             Given::List(_) => return Some(Value::unknown()),
             Given::One(event) => event,
         };
+        let text = |start: u32, len: u32| {
+            let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize)?;
+            std::str::from_utf8(bytes).ok()
+        };
         Some(match event {
-            Event::Word(op, index) => match self.machine.program.op(op) {
-                Op::Word(words) => words.table.get(index)?.meaning.value(),
-                _ => return None,
-            },
+            Event::Word(..) => meaning(&self.machine.program, event)?.value(),
             Event::Bound(id) => {
                 let name = *self.arenas.name(id)?;
-                let start = name.start as usize;
-                let bytes = self.bytes.get(start..start + name.len as usize)?.to_vec();
-                let text = String::from_utf8(bytes).ok()?;
-                let (draft, ..) = self.place(spot.event)?;
-                draft.binding(&text)?
+                let name = smol_str::SmolStr::new(text(name.start, name.len)?);
+                let (draft, _) = self.place(spot.event)?;
+                draft.binding(&name)?
             }
-            _ => Value::unknown(),
+            Event::Text(start, len) => Value::text(text(start, len)?),
+            Event::Plain(_) | Event::Number(..) | Event::AnyText => Value::unknown(),
+            Event::Open(_) | Event::Close | Event::Name(..) | Event::Hole => Value::unknown(),
         })
     }
 
@@ -367,4 +260,21 @@ impl Walk {
         }
         None
     }
+}
+
+/// A call as it is said.
+fn of_call(callable: u16, given: &[Given]) -> impl Iterator<Item = Event> {
+    let open = Event::Open(Kind::Do(callable));
+    let args = given.iter().flat_map(|given| match given {
+        Given::One(event) => [Some(*event), None, None],
+        Given::List(event) => [Some(Event::Open(Kind::List)), Some(*event), Some(Event::Close)],
+    });
+    std::iter::once(open).chain(args.flatten()).chain([Event::Close])
+}
+
+/// What a word means.
+fn meaning(program: &Program, event: Event) -> Option<Meaning> {
+    let Event::Word(op, index) = event else { return None };
+    let Op::Word(words) = program.op(op) else { return None };
+    words.table.get(index).map(|entry| entry.meaning)
 }

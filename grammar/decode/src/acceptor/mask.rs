@@ -1,12 +1,12 @@
 //! From bytes to tokens: which of a vocabulary may follow.
 
-use toktrie::{Recognizer, SimpleVob};
+use toktrie::{Recognizer, SimpleVob, TokTrie};
 
 use super::walk::Walk;
 use super::{Acceptor, Prepared};
 use crate::program::Op;
 use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
-use crate::vocabulary::Vocabulary;
+use crate::vocabulary::{Tokens, Vocabulary};
 
 /// What may follow in a policy that is being written, token by token.
 #[derive(Clone, Debug)]
@@ -50,21 +50,17 @@ impl Decoder {
         let tokens = vocabulary.tokens();
         let walk = &mut acceptor.walk;
         let lengths = walk.lengths();
-        let trie = match walk.free_text(tokens.longest) {
-            Some(Free::Text) => {
-                set.or(&tokens.text);
-                &tokens.text_ends
-            }
+        match walk.free_text(tokens.longest) {
+            Some(Free::Text { pos }) => walk.mask_text(tokens, pos, set),
             Some(Free::Name { pos, most }) => {
                 let names = if pos == 0 { &tokens.first_names } else { &tokens.names };
                 if let Some(names) = names.get(most) {
                     set.or(names);
                 }
-                &tokens.name_ends
+                tokens.name_ends.add_bias(&mut Stepper(walk), set, &[]);
             }
-            None => &tokens.trie,
-        };
-        trie.add_bias(&mut Stepper(walk), set, &[]);
+            None => walk.mask_literal(&tokens.trie, set),
+        }
         walk.keep(lengths);
         if acceptor.is_accepting() {
             set.allow_token(tokens.end);
@@ -115,12 +111,10 @@ impl Decoder {
 /// Where nearly all may follow.
 #[derive(Clone, Copy, Debug)]
 enum Free {
-    Text,
+    /// So many bytes in.
+    Text { pos: usize },
     /// So many bytes in, with room for at most so many.
-    Name {
-        pos: usize,
-        most: usize,
-    },
+    Name { pos: usize, most: usize },
 }
 
 impl Walk {
@@ -131,8 +125,8 @@ impl Walk {
         let text = |op| matches!(program.op(op), Op::Text { .. });
         let pos = state.pos as usize;
         let (free, op) = match program.op(state.op) {
-            Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text, state.op),
-            Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text, *other),
+            Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
+            Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => {
                 // Where a name of the greatest length is taken, one byte is kept to become another.
                 let longest = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize).max();
@@ -143,6 +137,55 @@ impl Walk {
             _ => return None,
         };
         self.fits(longest.max(MAX_NAME_CHARS) + 4, op + 1, state.control).then_some(free)
+    }
+}
+
+impl Walk {
+    /// The tokens that may follow where a text goes on.
+    fn mask_text(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
+        set.or(&tokens.text);
+        if self.text_matters() {
+            tokens.text_ends.add_bias(&mut Stepper(self), set, &[]);
+            return;
+        }
+        if pos > 0 {
+            set.or(&tokens.dollars);
+        } else {
+            tokens.dollar_ends.add_bias(&mut Stepper(self), set, &[]);
+        }
+        let tails = &tokens.text_tails;
+        let mut open = tails.trie.alloc_token_set();
+        // Any character of a text: one is there where it ends.
+        let before = self.bytes.len();
+        if pos > 0 || self.push(b'a') {
+            tails.trie.add_bias(&mut Stepper(self), &mut open, &[]);
+        }
+        self.pop(self.bytes.len().saturating_sub(before));
+        for (_, row) in (0..).zip(&tails.tokens).filter(|(tail, _)| open.is_allowed(*tail)) {
+            row.within.iter().for_each(|token| set.allow_token(*token));
+            if pos > 0 {
+                row.bare.iter().chain(&row.dollars).for_each(|token| set.allow_token(*token));
+            }
+        }
+    }
+
+    /// The tokens that may follow; those of a literal are found without trying others.
+    fn mask_literal(&mut self, trie: &TokTrie, set: &mut SimpleVob) {
+        let before = self.bytes.len();
+        let mut node = trie.root();
+        while let Some(byte) = self.literal_byte() {
+            let Some(child) = trie.child_at_byte(node, byte).filter(|_| self.push(byte)) else {
+                self.pop(self.bytes.len().saturating_sub(before));
+                return;
+            };
+            node = child;
+            if let Some(token) = node.token_id() {
+                set.allow_token(token);
+            }
+        }
+        let start = self.bytes.get(before..).unwrap_or_default().to_vec();
+        trie.add_bias(&mut Stepper(self), set, &start);
+        self.pop(self.bytes.len().saturating_sub(before));
     }
 }
 

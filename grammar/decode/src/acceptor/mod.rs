@@ -1,9 +1,13 @@
 //! The acceptor: bytes in, and whether a policy can go on like that.
 
+mod apart;
 mod arena;
 mod ask;
 mod build;
+mod condition;
+mod follow;
 mod mask;
+mod memo;
 mod number;
 mod open;
 mod settle;
@@ -16,6 +20,7 @@ use motet_compiler::Session;
 use motet_syntax::{Diagnostic, FileId, Severity, Source};
 
 pub use self::mask::Decoder;
+use self::memo::Memo;
 use self::walk::{Machine, Walk};
 use crate::program::Program;
 use crate::surface::Surface;
@@ -43,7 +48,8 @@ impl Prepared {
             Some((callable, u16::try_from(entity).ok()?))
         };
         let infeasible = infeasible.iter().filter_map(number).collect();
-        Self(Arc::new(Machine { program, session: session.clone(), infeasible }))
+        let (session, memo) = (session.clone(), Memo::default());
+        Self(Arc::new(Machine { program, session, infeasible, memo }))
     }
 
     /// An acceptor of a policy of at most `budget` bytes; none where no policy is that short.

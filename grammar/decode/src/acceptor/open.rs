@@ -32,7 +32,7 @@ impl Walk {
             Guard::Close => self.may_close(state, control.slot, flags),
             Guard::Empty => {
                 let block = [Event::Open(Kind::Block), Event::Close];
-                !flags.has(Flags::SHARED) || self.verify(state.event, &block)
+                !flags.has(Flags::SHARED) || self.verify_beside(state.event, &block)
             }
             Guard::Call => has_room && self.can_call_something(state),
             Guard::Nest => may_nest,
@@ -41,19 +41,19 @@ impl Walk {
                 let wait = [Event::Open(Kind::Wait)];
                 has_room
                     && (!flags.has(Flags::SHARED)
-                        || (self.machine.program.measures && self.verify(state.event, &wait))
+                        || (self.machine.program.measures && self.verify_beside(state.event, &wait))
                         || self.some_condition_holds(state, &wait, false)
                         || self.some_condition_holds(state, &wait, true))
             }
             Guard::Done => {
                 let done = [Event::Open(Kind::Done), Event::Close];
                 self.may_be_done(state.event)
-                    && (!flags.has(Flags::SHARED) || self.verify(state.event, &done))
+                    && (!flags.has(Flags::SHARED) || self.verify_beside(state.event, &done))
             }
             Guard::DoneWhen => self.verify(state.event, &[Event::Open(Kind::Done), Event::Close]),
             Guard::React(Kind::Pause) => {
                 let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
-                is_plain || self.verify(state.event, &[Event::Open(Kind::Pause), Event::Close])
+                is_plain || self.verify_beside(state.event, &[Event::Open(Kind::Pause), Event::Close])
             }
             Guard::React(Kind::Resume) => {
                 usize::from(control.depth) < self.machine.program.surface.depth
@@ -102,7 +102,7 @@ impl Walk {
             | Slot::Then
             | Slot::Else
             | Slot::Try
-            | Slot::Catch => !flags.has(Flags::SHARED) || self.verify(state.event, &close),
+            | Slot::Catch => !flags.has(Flags::SHARED) || self.verify_beside(state.event, &close),
         }
     }
 
@@ -126,47 +126,7 @@ impl Walk {
     fn can_call_something(&mut self, state: &State) -> bool {
         let spot = self.spot(state, state.event);
         let count = u16::try_from(self.machine.program.callables.len()).unwrap_or(0);
-        (0..count).any(|callable| self.can_be_called(callable, &mut Vec::new(), spot))
-    }
-
-    /// Whether the step of the body, with `more` behind what was said, is no error with some fluent as the condition that
-    /// comes then, or with some fluent under `not`.
-    fn some_condition_holds(&mut self, state: &State, more: &[Event], negated: bool) -> bool {
-        let mut events = more.to_vec();
-        let is_negated = self.control(state.control).flags.has(Flags::NEGATED);
-        if negated && !is_negated {
-            events.push(Event::Open(Kind::Not));
-        }
-        let count = u16::try_from(self.machine.program.fluents.len()).unwrap_or(0);
-        (0..count).any(|fluent| self.condition_holds(state, fluent, &mut events))
-    }
-
-    fn condition_holds(&mut self, state: &State, fluent: u16, events: &mut Vec<Event>) -> bool {
-        let signature = self.machine.program.signatures.fluents.get(usize::from(fluent));
-        if !signature.is_some_and(|signature| signature.is_observable && signature.name != "monitored") {
-            return false;
-        }
-        let before = events.len();
-        events.push(Event::Open(Kind::Is(fluent)));
-        let holds = self.completes(state, fluent, 0, events);
-        events.truncate(before);
-        holds
-    }
-
-    /// Whether some arguments from the one at `place` on make a condition that refutes nothing.
-    fn completes(&mut self, state: &State, fluent: u16, place: usize, events: &mut Vec<Event>) -> bool {
-        let op =
-            self.machine.program.fluents.get(usize::from(fluent)).and_then(|args| args.get(place)).copied();
-        let Some(op) = op else { return self.verify(state.event, events) };
-        let mut options = self.words_of(op, state.scope, None);
-        // `any` first: it speaks of what the names in scope do not reach.
-        options.reverse();
-        options.into_iter().any(|option| {
-            events.push(option);
-            let holds = self.completes(state, fluent, place + 1, events);
-            events.pop();
-            holds
-        })
+        (0..count).any(|callable| self.can_be_called(callable, spot))
     }
 
     /// Every word of an operation, in the order of the list.
@@ -204,10 +164,14 @@ impl Walk {
 
     /// The words of an operation that are open, as a range of the list arena.
     pub(crate) fn list(&mut self, state: &State, words: &Words) -> (u32, u32) {
-        let call = match words.role {
+        let mut call = match words.role {
             Role::Argument(_) => self.call_so_far(state.event),
             Role::Callable | Role::Fluent | Role::Of | Role::Alike | Role::Head | Role::Free => None,
         };
+        let spot = call.as_ref().and_then(|(callable, _, before)| {
+            let spot = self.spot(state, *before);
+            self.spot_of(*callable, spot)
+        });
         let control = self.control(state.control);
         let arg = match (&call, words.role) {
             (Some((callable, ..)), Role::Argument(place)) => {
@@ -230,16 +194,17 @@ impl Walk {
             let is_open = match words.role {
                 Role::Callable => number.is_some_and(|callable| {
                     let spot = self.spot(state, state.event);
-                    self.can_be_called(callable, &mut Vec::new(), spot)
+                    self.can_be_called(callable, spot)
                 }),
-                Role::Argument(_) => match &call {
-                    Some((callable, given, before)) => {
-                        let mut given = given.clone();
+                Role::Argument(_) => match (&mut call, spot) {
+                    (Some((callable, given, _)), Some(spot)) => {
                         given.push(Given::One(event));
-                        let spot = self.spot(state, *before);
-                        self.can_be_called(*callable, &mut given, spot)
+                        let can = self.completes_call(*callable, given, spot);
+                        given.pop();
+                        can
                     }
-                    None => true,
+                    (Some(_), None) => false,
+                    (None, _) => true,
                 },
                 Role::Fluent if control.flags.has(Flags::STRICT) => {
                     number.is_some_and(|fluent| self.condition_holds(state, fluent, &mut Vec::new()))
@@ -252,10 +217,7 @@ impl Walk {
                             .is_some_and(|fluent| fluent.is_observable)
                 }
                 Role::Of if control.flags.has(Flags::STRICT) => match self.fluent_so_far(state.event) {
-                    Some((fluent, place)) => {
-                        let mut events = vec![event];
-                        self.completes(state, fluent, place + 1, &mut events)
-                    }
+                    Some((fluent, place)) => self.completes_with(state, fluent, place, event),
                     None => true,
                 },
                 Role::Alike => {
@@ -321,20 +283,35 @@ impl Walk {
         None
     }
 
+    /// Whether it may depend on what the text that is being written says whether it can stand where it does.
+    pub(crate) fn text_matters(&mut self) -> bool {
+        let state = self.state();
+        let op = match self.machine.program.op(state.op) {
+            Op::Fork { other, .. } => *other,
+            _ => state.op,
+        };
+        let Op::Text { arg: Some(_) } = self.machine.program.op(op) else { return false };
+        let Some((callable, _, before)) = self.call_so_far(state.event) else { return false };
+        let made = self.machine.program.callables.get(usize::from(callable));
+        let spot = self.spot(&state, before);
+        made.is_none_or(|made| made.primitive.is_none())
+            || self.spot_of(callable, spot).is_none_or(|spot| spot.shared)
+    }
+
     /// Whether a text may be an argument of the call that is being written: what it describes may matter there.
     pub(crate) fn permits_text(&mut self, state: &State, text: Event) -> bool {
         let Some((callable, mut given, before)) = self.call_so_far(state.event) else { return true };
+        let made = self.machine.program.callables.get(usize::from(callable));
+        let is_policy = made.is_some_and(|made| made.primitive.is_none());
         let spot = self.spot(state, before);
-        let is_policy = self
-            .machine
-            .program
-            .callables
-            .get(usize::from(callable))
-            .is_some_and(|callable| callable.primitive.is_none());
         if !is_policy && !spot.shared {
             return true;
         }
+        let Some(spot) = self.spot_of(callable, spot) else { return false };
+        // A policy may ask what a text says.
+        let is_plain = made.is_some_and(|made| made.template.as_ref().is_none_or(|made| !made.compares()));
+        let text = if is_plain { self.plain_text(text) } else { text };
         given.push(Given::One(text));
-        self.can_be_called(callable, &mut given, spot)
+        self.completes_call(callable, &mut given, spot)
     }
 }

@@ -49,15 +49,15 @@ impl Walk {
         let control = self.control(state.control);
         let changed = match act {
             Act::Open(kind) => {
-                state.event = self.arenas.say(state.event, Event::Open(kind));
+                state.event = self.say(state.event, Event::Open(kind));
                 return;
             }
             Act::Close => {
-                state.event = self.arenas.say(state.event, Event::Close);
+                state.event = self.say(state.event, Event::Close);
                 return;
             }
             Act::Say(plain) => {
-                state.event = self.arenas.say(state.event, Event::Plain(plain));
+                state.event = self.say(state.event, Event::Plain(plain));
                 return;
             }
             Act::Head => {
@@ -78,7 +78,7 @@ impl Walk {
             }
             Act::Leave => {
                 if control.slot != Slot::Body {
-                    state.event = self.arenas.say(state.event, Event::Close);
+                    state.event = self.say(state.event, Event::Close);
                 }
                 state.scope = control.scope;
                 return;
@@ -103,7 +103,7 @@ impl Walk {
                     Asks::Anything => flags,
                     Asks::Wait if flags.has(Flags::SHARED) => {
                         let flags = flags.with(Flags::STRICT);
-                        if self.verify(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
+                        if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
                     }
                     Asks::Wait => flags,
                     Asks::Until if self.verify(state.event, &[]) => flags,
@@ -132,7 +132,7 @@ impl Walk {
         let is_fixpoint = matches!(slot, Slot::Loop | Slot::Branch | Slot::During | Slot::Reaction);
         let (depth, fix) = (control.depth, control.fix);
         if slot != Slot::Body {
-            state.event = self.arenas.say(state.event, Event::Open(Kind::Block));
+            state.event = self.say(state.event, Event::Open(Kind::Block));
         }
         Control {
             count: 0,

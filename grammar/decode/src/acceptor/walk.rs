@@ -7,6 +7,7 @@ use rustc_hash::FxHashSet;
 
 use super::arena::{Arenas, Control, Event, Id, Lengths, Name, State, UNSEEN};
 use super::ask::Asked;
+use super::memo::Memo;
 use super::number::Digits;
 use crate::program::{Guard, Meaning, Naming, Op, OpId, Program};
 use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
@@ -22,6 +23,7 @@ pub(crate) struct Machine {
     pub(crate) session: Session,
     /// Callables and entities of which a motion query found that there is no motion.
     pub(crate) infeasible: FxHashSet<(usize, u16)>,
+    pub(crate) memo: Memo,
 }
 
 /// A walk through the program.
@@ -159,7 +161,29 @@ impl Walk {
         only
     }
 
+    /// Whether it is seen at once that a byte does not follow: most that are tried do not.
+    fn refuses(&self, state: &State, byte: u8) -> bool {
+        let pos = state.pos as usize;
+        match self.machine.program.op(state.op) {
+            Op::Literal(bytes) => bytes.get(pos) != Some(&byte),
+            Op::Choose(ways) => ways.iter().all(|way| way.bytes.get(pos) != Some(&byte)),
+            _ => false,
+        }
+    }
+
+    /// The next byte of a literal in which the walk is.
+    pub(super) fn literal_byte(&self) -> Option<u8> {
+        let state = self.states.last()?;
+        match self.machine.program.op(state.op) {
+            Op::Literal(bytes) => bytes.get(state.pos as usize).copied(),
+            _ => None,
+        }
+    }
+
     fn advance(&mut self, byte: u8) -> Option<State> {
+        if self.refuses(&self.state(), byte) {
+            return None;
+        }
         let machine = Arc::clone(&self.machine);
         let program = &machine.program;
         let mut state = self.state();
@@ -231,7 +255,7 @@ impl Walk {
                         return Some(state);
                     }
                     let units = digits.finish(range)?;
-                    state.event = self.arenas.say(state.event, Event::Number(units, range.decimals));
+                    state.event = self.say(state.event, Event::Number(units, range.decimals));
                     state = self.settle(state, state.op + 1);
                 }
                 Op::Act(_) | Op::Call(_) | Op::Jump(_) | Op::Return | Op::Accept => return None,
@@ -268,7 +292,7 @@ impl Walk {
             if arg.is_some() && !self.permits_text(&state, event) {
                 return None;
             }
-            state.event = self.arenas.say(state.event, event);
+            state.event = self.say(state.event, event);
             return Some(self.settle(state, next));
         }
         let can = is_text_char(char::from(byte))
@@ -287,7 +311,7 @@ impl Walk {
             if is_new && self.is_bound(state.scope, start, len, None) {
                 return None;
             }
-            state.event = self.arenas.say(state.event, Event::Name(start, len));
+            state.event = self.say(state.event, Event::Name(start, len));
             if let Naming::Result(ty) = naming {
                 state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
             }

@@ -40,14 +40,14 @@ impl Walk {
                 if words.bound == Bound::Lists {
                     state = self.bind_item(state, id);
                 } else {
-                    state.event = self.arenas.say(state.event, Event::Bound(id));
+                    state.event = self.say(state.event, Event::Bound(id));
                 }
                 words.next
             }
             None => {
                 let says = !matches!(words.role, Role::Callable | Role::Fluent | Role::Head);
                 if says {
-                    state.event = self.arenas.say(state.event, Event::Word(state.op, entry));
+                    state.event = self.say(state.event, Event::Word(state.op, entry));
                 }
                 words.table.get(entry).and_then(|entry| entry.to).unwrap_or(words.next)
             }
@@ -65,7 +65,7 @@ impl Walk {
         let ty = element.and_then(|element| program.types.iter().position(|ty| ty == &**element));
         let ty = ty.and_then(|ty| u16::try_from(ty).ok()).unwrap_or(u16::MAX);
         let item = self.arenas.said(state.event).map(|said| said.event);
-        state.event = self.arenas.say(state.event, Event::Bound(list));
+        state.event = self.say(state.event, Event::Bound(list));
         if let Some(Event::Name(start, len)) = item {
             state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
         }

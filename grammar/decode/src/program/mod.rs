@@ -12,7 +12,9 @@ mod table;
 use std::sync::Arc;
 
 use motet_compiler::signature::{Signatures, Type};
-use motet_compiler::{Session, draft::Draft};
+use motet_compiler::{Session, draft::Draft, draft::Template};
+
+use motet_syntax::ast::{Clause, ExprKind};
 
 pub(crate) use self::assemble::Assembler;
 pub(crate) use self::table::{Entry, Meaning, Table};
@@ -197,7 +199,7 @@ pub(crate) enum Asks {
 }
 
 /// A value that needs no word.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Plain {
     Null,
     True,
@@ -220,7 +222,7 @@ pub(crate) enum Slot {
 }
 
 /// What has parts.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Kind {
     Do(u16),
     Sequence,
@@ -258,8 +260,12 @@ pub(crate) struct Callable {
     pub(crate) words: Vec<Option<OpId>>,
     /// Of a list: what its elements are, where they are words.
     pub(crate) elements: Vec<Option<OpId>>,
+    /// Of a policy: itself, resolved.
+    pub(crate) template: Option<Template>,
     /// The resources that it uses, one a bit.
     pub(crate) uses: u64,
+    /// The fluents that it speaks of, as bits; several may share one.
+    pub(crate) fluents: u64,
     /// The parameter that its motion is about.
     pub(crate) target: Option<usize>,
 }
@@ -276,6 +282,8 @@ pub(crate) struct Program {
     pub(crate) callables: Vec<Callable>,
     /// The operations of the arguments of each fluent.
     pub(crate) fluents: Vec<Vec<OpId>>,
+    /// By fluent its bit among those that a callable speaks of.
+    pub(crate) fluent_bits: Vec<u64>,
     /// Whether a condition can be about a measure.
     pub(crate) measures: bool,
     pub(crate) surface: Surface,
@@ -300,7 +308,30 @@ impl Program {
     }
 }
 
-/// The number of a primitive in the session's library.
-pub(crate) fn primitive(session: &Session, name: &str) -> Option<usize> {
-    Draft::primitive(session, name)
+impl Callable {
+    /// A callable, but for how its arguments are spelled.
+    pub(crate) fn new(session: &Session, signature: &motet_compiler::signature::Callable) -> Self {
+        let name = &signature.name;
+        let template = if signature.is_policy { Template::new(session, name) } else { None };
+        Self {
+            primitive: if signature.is_policy { None } else { Draft::primitive(session, name) },
+            words: Vec::with_capacity(signature.params.len()),
+            elements: Vec::with_capacity(signature.params.len()),
+            uses: Draft::resources(session, name, template.as_ref()),
+            fluents: Draft::fluents(session, name, template.as_ref()),
+            template,
+            target: target(session, name),
+        }
+    }
+}
+
+/// The parameter that the motion of a primitive is about.
+fn target(session: &Session, name: &str) -> Option<usize> {
+    let decl = session.library().signatures().find(|decl| decl.name.text == name)?;
+    let motion = decl.clauses.iter().find_map(|clause| match clause {
+        Clause::Motion(call) => call.args.first(),
+        _ => None,
+    })?;
+    let ExprKind::Name(of) = &motion.value.kind else { return None };
+    decl.params.iter().position(|param| param.name.text == *of)
 }

@@ -6,9 +6,8 @@ mod value;
 
 use std::sync::Arc;
 
-use motet_compiler::Session;
 use motet_compiler::signature::{Signatures, Type};
-use motet_syntax::ast::{Clause, ExprKind};
+use motet_compiler::{Session, draft::Draft};
 use rustc_hash::FxHashMap;
 
 use super::{
@@ -34,7 +33,10 @@ pub(super) fn compile(session: &Session, surface: Surface) -> Program {
     let start = compiler.document();
     let Compiler { asm, types, callables, fluents, measures, .. } = compiler;
     let rest = asm.rests();
-    Program { ops: asm.ops, rest, start, types, callables, fluents, measures, surface, signatures }
+    let bits = signatures.fluents.iter().map(|fluent| Draft::fluent(session, &fluent.name));
+    let fluent_bits = bits.collect();
+    let ops = asm.ops;
+    Program { ops, rest, start, types, callables, fluents, fluent_bits, measures, surface, signatures }
 }
 
 /// The types that a name can have.
@@ -344,17 +346,7 @@ impl Compiler<'_> {
         for (index, callable) in signatures.callables.iter().enumerate() {
             let Ok(number) = u16::try_from(index) else { break };
             let at = self.asm.act(Act::Open(Kind::Do(number)));
-            let mut made = Callable {
-                primitive: if callable.is_policy {
-                    None
-                } else {
-                    super::primitive(self.session, &callable.name)
-                },
-                words: Vec::new(),
-                elements: Vec::new(),
-                uses: motet_compiler::draft::Draft::resources(self.session, &callable.name),
-                target: self.target(&callable.name),
-            };
+            let mut made = Callable::new(self.session, callable);
             for (place, param) in callable.params.iter().enumerate() {
                 self.asm.literal(&format!(",\"{}\":", param.name));
                 let role = Role::Argument(u8::try_from(place).unwrap_or(u8::MAX));
@@ -383,16 +375,5 @@ impl Compiler<'_> {
         let words = Words { table, bound: Bound::None, role: Role::Callable, quoted: false, next: after };
         self.asm.set(start, Op::Word(words));
         start
-    }
-
-    /// The parameter that the motion of a primitive is about.
-    fn target(&self, name: &str) -> Option<usize> {
-        let decl = self.session.library().signatures().find(|decl| decl.name.text == name)?;
-        let motion = decl.clauses.iter().find_map(|clause| match clause {
-            Clause::Motion(call) => call.args.first(),
-            _ => None,
-        })?;
-        let ExprKind::Name(of) = &motion.value.kind else { return None };
-        decl.params.iter().position(|param| param.name.text == *of)
     }
 }

@@ -5,12 +5,16 @@
 //! in which the steps before it left the proof, so an answer costs what one step costs and not what the policy does. What
 //! only the end of a policy can tell is asked of a step that is closed for the time being: see [`Draft::permits_step`].
 
+mod fluents;
+mod template;
+
 use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Diagnostic, FileId, Form, Mistake, Severity, Span};
+use motet_syntax::{Diagnostic, FileId, Form, Severity, Span};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
-use crate::ir::{BindingId, Entity, EnumId, Program, StepId, StepKind, Term};
+pub use self::template::Template;
+use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Program, StepId, Term};
 use crate::prove::Prover;
 use crate::prove::draft::{Mark, Outcome, Parts, Stand};
 use crate::resolve::scope::{self, Scope};
@@ -61,6 +65,17 @@ impl Value {
     }
 }
 
+/// What a test at the end of a loop's body tells.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Test {
+    /// It holds whenever it is asked, so the body does not run again.
+    Holds,
+    /// Only a proof tells.
+    Open,
+    /// It is about what the steps have left as it was, so what is wrong without it is wrong with it.
+    Idle,
+}
+
 /// A policy that is being written.
 #[derive(Clone, Debug)]
 pub struct Draft {
@@ -105,28 +120,13 @@ impl Draft {
 
     /// The resources, one a bit, that a primitive or a policy of this name uses while it runs.
     #[must_use]
-    pub fn resources(session: &Session, name: &str) -> u64 {
+    pub fn resources(session: &Session, name: &str, template: Option<&Template>) -> u64 {
         let library = session.parts().0;
-        let mut open = vec![SmolStr::new(name)];
-        let mut seen: Vec<SmolStr> = Vec::new();
-        let mut uses = 0;
-        while let Some(name) = open.pop() {
-            if let Some(def) = library.names.primitives.get(&name).and_then(|id| library.primitive(*id)) {
-                uses |= def.uses;
-            } else if let Some(index) = library.names.policies.get(&name).filter(|_| !seen.contains(&name)) {
-                let (program, _) = match library.policies.get(*index) {
-                    Some(policy) => crate::resolve::resolve(policy, Form::Text, library, session.parts().1),
-                    None => continue,
-                };
-                let called = program.steps.iter().filter_map(|step| match &step.kind {
-                    StepKind::Call(call) => library.primitive(call.primitive).map(|def| def.name.clone()),
-                    _ => None,
-                });
-                open.extend(called);
-            }
-            seen.push(name);
+        match (library.names.primitives.get(name).and_then(|id| library.primitive(*id)), template) {
+            (Some(def), _) => def.uses,
+            (None, Some(template)) => template.uses,
+            (None, None) => 0,
         }
-        uses
     }
 
     /// How many steps its body has.
@@ -215,39 +215,29 @@ impl Draft {
         self.everywhere(session, |prover| !prover.refutes(def, &terms, count))
     }
 
-    /// Whether a step may stand at the place, as far as the state there tells: a call of a policy, say. `names` are those in
-    /// scope there. In a call that lacks arguments, what depends on them is left open.
-    pub fn permits_here(&mut self, session: &Session, step: &Step, names: &[SmolStr]) -> bool {
+    /// What a test with a fluent tells at the place, where what began the step that is being written may come round again.
+    /// An argument that is none is `any`.
+    pub fn test(&mut self, session: &Session, fluent: &str, args: &[Option<Value>], negated: bool) -> Test {
         let (library, world) = session.parts();
-        let (steps, bindings) = (self.program.steps.len(), self.program.bindings.len());
-        let mut scope = Scope::default();
-        for name in names {
-            let Some(index) = self.program.bindings.iter().rposition(|binding| binding.name == *name) else {
-                continue;
-            };
-            let Some(binding) = self.program.bindings.get(index) else { continue };
-            let id = BindingId(u32::try_from(index).unwrap_or(u32::MAX));
-            scope.push(name.clone(), Term::Binding(id), binding.ty, binding.span);
-        }
-        let Self { form, program, proof, inside, .. } = self;
-        let name = program.name.clone();
-        let (id, said) =
-            crate::resolve::resolve_step(step, (*form, &name), (library, world), program, &mut scope);
-        let symbols = proof.symbols.len();
-        proof.symbols.extend(program, library, world);
+        let Some(fluent) = library.names.fluents.get(fluent).copied() else { return Test::Open };
+        let Self { proof, program, inside, .. } = self;
+        let Some((start, stands)) = inside.as_mut().filter(|(_, stands)| !stands.is_empty()) else {
+            return Test::Open;
+        };
+        let args = args.iter().map(|arg| arg.as_ref().map(|value| value.0.clone()));
+        let fact = Fact { fluent, args: args.collect() };
+        let touches = stands.iter().any(|stand| start.proof.touches(stand, &fact));
+        let plain = Condition::Fact(fact);
+        let condition = if negated { Condition::Not(Box::new(plain)) } else { plain };
         let given = (&*program, library, world);
-        let permits = id.is_some_and(|id| match inside {
-            _ if said.iter().any(|said| said.code == crate::resolve::errors::Recursion::CODE) => false,
-            None if !proof.live => true,
-            None => proof.here(given, |prover| prover.permits(id)),
-            Some((_, stands)) => {
-                stands.iter_mut().all(|stand| proof.at(stand, given, |prover| prover.permits(id)))
-            }
-        });
-        proof.symbols.truncate(symbols);
-        program.steps.truncate(steps);
-        program.bindings.truncate(bindings);
-        permits
+        let mut holds = |stand: &mut Stand| proof.at(stand, given, |prover| prover.proves(&condition));
+        if stands.iter_mut().all(&mut holds) {
+            Test::Holds
+        } else if touches {
+            Test::Open
+        } else {
+            Test::Idle
+        }
     }
 
     /// Whether the policy may be done at the place: its goal is not refuted there.

@@ -1,0 +1,103 @@
+//! Conditions that have to refute nothing: the test of a loop whose back edge is wrong without one, and what is waited for
+//! beside something that runs at once.
+
+use motet_compiler::draft::Test;
+
+use super::arena::{Event, Flags, Id, State};
+use super::memo::Question;
+use super::walk::Walk;
+use crate::program::Kind;
+
+impl Walk {
+    /// Whether the step of the body, with `more` behind what was said, is no error with some fluent as the condition that
+    /// comes then, or with some fluent under `not`.
+    pub(super) fn some_condition_holds(&mut self, state: &State, more: &[Event], negated: bool) -> bool {
+        let mut events = more.to_vec();
+        let is_negated = self.control(state.control).flags.has(Flags::NEGATED);
+        if negated && !is_negated {
+            events.push(Event::Open(Kind::Not));
+        }
+        let key = self.key(Question::Test, state.event, events.iter().copied());
+        self.answer(key, |walk| {
+            let count = u16::try_from(walk.machine.program.fluents.len()).unwrap_or(0);
+            (0..count).any(|fluent| walk.condition_holds(state, fluent, &mut events))
+        })
+    }
+
+    pub(super) fn condition_holds(&mut self, state: &State, fluent: u16, events: &mut Vec<Event>) -> bool {
+        let signature = self.machine.program.signatures.fluents.get(usize::from(fluent));
+        if !signature.is_some_and(|signature| signature.is_observable && signature.name != "monitored") {
+            return false;
+        }
+        let before = events.len();
+        events.push(Event::Open(Kind::Is(fluent)));
+        let key = self.key(Question::Test, state.event, events.iter().copied());
+        let holds = self.answer(key, |walk| walk.completes(state, fluent, 0, events));
+        events.truncate(before);
+        holds
+    }
+
+    /// Whether the argument at `place` can be this one, with some arguments behind it.
+    pub(super) fn completes_with(&mut self, state: &State, fluent: u16, place: usize, arg: Event) -> bool {
+        self.completes(state, fluent, place + 1, &mut vec![arg])
+    }
+
+    /// Whether some arguments from the one at `place` on make a condition that refutes nothing.
+    fn completes(&mut self, state: &State, fluent: u16, place: usize, events: &mut Vec<Event>) -> bool {
+        let op =
+            self.machine.program.fluents.get(usize::from(fluent)).and_then(|args| args.get(place)).copied();
+        let Some(op) = op else { return self.refutes_nothing(state.event, events) };
+        let mut options = self.words_of(op, state.scope, None);
+        // `any` first: it speaks of what the names in scope do not reach.
+        options.reverse();
+        options.into_iter().any(|option| {
+            events.push(option);
+            let holds = self.completes(state, fluent, place + 1, events);
+            events.pop();
+            holds
+        })
+    }
+
+    /// Whether a whole condition, of which what was said is the beginning and `more` the rest, refutes nothing.
+    fn refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
+        let Some((body, fluent, negated, args)) = self.test_of_loop(event, more) else {
+            return self.verify_beside(event, more);
+        };
+        match self.test(body, fluent, negated, &args) {
+            Test::Holds if self.is_apart(event, more) => true,
+            // The body was no error without a test, so it was the back edge.
+            Test::Idle if !self.verify(body, &[Event::Close]) => false,
+            Test::Holds | Test::Idle | Test::Open => self.verify(event, more),
+        }
+    }
+
+    /// Where a condition is the test of a loop: the event before the end of the loop's body, and the condition.
+    fn test_of_loop(&self, event: Id, more: &[Event]) -> Option<(Id, u16, bool, Vec<Event>)> {
+        if more.contains(&Event::Open(Kind::Wait)) {
+            return None;
+        }
+        let (mut said, mut at) = (Vec::new(), event);
+        let mut is_closed = more.contains(&Event::Close);
+        let mut body = if is_closed { event } else { 0 };
+        while !is_closed {
+            let said_here = self.arenas.said(at).filter(|_| at > 0)?;
+            match said_here.event {
+                Event::Close => {
+                    is_closed = true;
+                    body = said_here.below;
+                }
+                event @ (Event::Open(Kind::Not | Kind::Is(_)) | Event::Word(..) | Event::Bound(_)) => {
+                    said.push(event);
+                }
+                _ => return None,
+            }
+            at = said_here.below;
+        }
+        said.reverse();
+        said.extend(more.iter().copied().filter(|event| *event != Event::Close));
+        let negated = said.first() == Some(&Event::Open(Kind::Not));
+        let mut rest = said.into_iter().skip(usize::from(negated));
+        let Some(Event::Open(Kind::Is(fluent))) = rest.next() else { return None };
+        Some((body, fluent, negated, rest.collect()))
+    }
+}
