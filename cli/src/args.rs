@@ -3,6 +3,7 @@
 mod act;
 mod drive;
 mod duration;
+mod export;
 mod feasible;
 mod grammar;
 mod import;
@@ -15,6 +16,7 @@ mod run;
 
 pub(crate) use act::DoArgs;
 pub(crate) use drive::DriveArgs;
+pub(crate) use export::{ExportArgs, ExportCommand, McapArgs};
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, Server};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
@@ -83,6 +85,8 @@ pub(crate) enum Command {
     Drive(DriveArgs),
     /// Step the engine through the journal of a run again, and say where it differs
     Replay(ReplayArgs),
+    /// Write the journal of a run in another format
+    Export(ExportArgs),
     /// Find out whether a robot can do a motion in a scene
     Feasible(FeasibleArgs),
     /// Show the robots that are built in

@@ -51,6 +51,12 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Run(args) => command::run::run(args, colors),
         Command::Drive(args) => command::run::drive(args, colors),
         Command::Replay(args) => command::replay::run(args, colors),
+        Command::Export(args) => match &args.command {
+            args::ExportCommand::Mcap(args) => command::run::mcap(args),
+        },
+        Command::Export(args) => match &args.command {
+            args::ExportCommand::Mcap(args) => command::run::mcap(args),
+        },
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),

@@ -3,6 +3,7 @@
 mod branch;
 mod drive;
 mod events;
+mod export;
 mod lines;
 mod pace;
 mod play;
@@ -34,6 +35,7 @@ use saved::Saved;
 use world::Choices;
 
 pub(crate) use drive::run as drive;
+pub(crate) use export::mcap;
 pub(crate) use pace::{Pace, catch_interrupts, is_interrupted};
 pub(super) use play::journal_trouble;
 

@@ -98,24 +98,32 @@ impl Saved {
     }
 }
 
+fn unreadable(what: &str) -> Trouble {
+    Trouble::Other(format!("the {what} in the journal cannot be read"))
+}
+
 impl SavedSim {
+    /// The scene; an empty one where none was given.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be read any more.
+    pub(super) fn scene(&self) -> Result<scene::Scene, Trouble> {
+        let Some(text) = &self.scene else { return Ok(scene::Scene::default()) };
+        let (scene, _) = scene::read(&Source::new("scene.json", text.as_str()), FileId(0));
+        scene.ok_or_else(|| unreadable("scene"))
+    }
+
     /// The simulator as it was at the start.
     ///
     /// # Errors
     ///
     /// The card or the scene cannot be read any more.
     pub(super) fn make(&self) -> Result<Sim, Trouble> {
-        let unreadable = |what: &str| Trouble::Other(format!("the {what} in the journal cannot be read"));
         let source = Source::new("robot.toml", self.card.as_str());
         let (robot, _) = card::read(&source, FileId(0), self.declarations.as_deref());
         let robot = robot.ok_or_else(|| unreadable("robot card"))?;
-        let scene = match &self.scene {
-            Some(text) => {
-                let (scene, _) = scene::read(&Source::new("scene.json", text.as_str()), FileId(0));
-                scene.ok_or_else(|| unreadable("scene"))?
-            }
-            None => scene::Scene::default(),
-        };
+        let scene = self.scene()?;
         let told = self.told.iter();
         let options = Options {
             seed: self.seed,

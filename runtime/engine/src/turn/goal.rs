@@ -165,8 +165,8 @@ impl Turn<'_> {
 
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
-        if plan.step(node).is_silent && self.is_quiet() {
-            // The common case, without a detour over the work list.
+        if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
+            // The common case, without a detour over the work list. What waits for this goal to end has its own place there.
             let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node };
             self.node_ended(node, exit);
             return;

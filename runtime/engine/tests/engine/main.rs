@@ -14,6 +14,7 @@ mod host;
 mod monitors;
 mod naive;
 mod random;
+mod rescan;
 mod script;
 mod snapshot;
 mod swap;

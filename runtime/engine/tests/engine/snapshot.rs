@@ -59,3 +59,23 @@ fn an_engine_that_starts_from_it_believes_the_same() {
     let shelf = [Pattern::Any, Pattern::Is(Value::Entity("shelf".into()))];
     assert_eq!(again.believes("at", &shelf), first.believes("at", &shelf));
 }
+
+#[test]
+fn the_words_of_the_language_stand_in_back_quotes() {
+    let grammar = include_str!("../../../../grammar/syntax/src/motet.pest");
+    let rule = grammar.split("\nreserved = _{").nth(1).and_then(|rest| rest.split("~ !rest").next()).unwrap();
+    let words: Vec<&str> = rule.split('"').skip(1).step_by(2).collect();
+    assert!(words.len() > 20, "{words:?}");
+    let mut engine = halfway();
+    for word in &words {
+        let args = [*word, "shelf"].map(|id| Pattern::Is(Value::Entity(id.into()))).to_vec();
+        let query = Query::Fact { fluent: "at".into(), args };
+        let seen = DriverEvent::Observed { query, answer: Answer::Truth(true) };
+        engine.handle(Time::from_secs(3.0), Event::Driver(seen), &mut Vec::new());
+    }
+    let state = engine.snapshot().state();
+    for word in words {
+        let fact = format!("at(`{word}`, shelf)");
+        assert!(state.contains(&(fact.clone(), Some(true))), "{fact} is not among {state:?}");
+    }
+}

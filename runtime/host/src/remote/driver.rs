@@ -1,24 +1,19 @@
 //! The driver that the engine's host sees.
 
+mod carry_out;
+mod hear;
+
 use super::clock::Clock;
 use super::connect::Address;
 use super::link::{Breakage, Link};
 use super::protocol::{
-    Answered, Asked, Call, Goal, Goals, Heard, Hello, Nothing, REFUSED, RefusedData, Report, Start, Told,
-    VERSION, Welcome, Wrong, hear, say,
+    Asked, Call, Goal, Goals, Heard, Hello, Nothing, Told, VERSION, Welcome, hear, say,
 };
-use super::settings::{Patience, SAYINGS};
-use motet_runtime::{Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time, wire};
-use serde_json::Value;
+use super::settings::Patience;
+use motet_runtime::{Capabilities, DriverEvent, Query, Time, wire};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::thread;
-use std::time::{Duration, Instant};
-
-/// The longest wait without looking after what is due.
-const SLICE: Duration = Duration::from_millis(50);
-/// The most lines that are heard before what they say is handed on.
-const BATCH: usize = 64;
+use std::time::Instant;
 
 /// A driver in another process. Its time is the wall clock's, from where it was connected.
 ///
@@ -165,7 +160,7 @@ impl RemoteDriver {
             return false;
         }
         for query in self.watches.clone() {
-            self.call(Call::Watch(asked(&query)));
+            self.call(Call::Watch(Asked::from(&query)));
         }
         for goal in self.stopping.clone() {
             self.call(Call::SafeStop(Goal { goal }));
@@ -207,233 +202,6 @@ impl RemoteDriver {
             self.report(DriverEvent::DriverLost);
         }
     }
-
-    /// Hears what is said, for so long at most until something is.
-    fn listen(&mut self, within: Duration) {
-        let mut within = within;
-        for _ in 0..BATCH {
-            let Some(link) = &self.link else { return };
-            match link.hear(within) {
-                Ok(Some(line)) => self.heard(&line),
-                Ok(None) => return,
-                Err(breakage) => self.broke(&breakage),
-            }
-            within = Duration::ZERO;
-        }
-    }
-
-    fn heard(&mut self, line: &str) {
-        self.heard_at = Instant::now();
-        match hear(line) {
-            Ok(Heard::Answer(id, answer)) => {
-                // An answer to what is no longer waited for says nothing new.
-                if let Some(waiting) = self.waiting.remove(&id) {
-                    self.answered(waiting.call, answer, line);
-                } else if id >= self.next_id {
-                    self.broke(&nonsense(line, "nothing with this number was asked".to_owned()));
-                }
-            }
-            Ok(Heard::Report(report)) => self.told(report),
-            Err(why) => self.broke(&nonsense(line, why)),
-        }
-    }
-
-    fn told(&mut self, report: Report) {
-        let id = GoalId::from_number;
-        match report {
-            Report::Ended(ended) => {
-                self.report(DriverEvent::Ended { goal: id(ended.goal), outcome: ended.outcome.into() });
-            }
-            Report::NotHeld(Goal { goal }) => self.report(DriverEvent::NotHeld { goal: id(goal) }),
-            Report::Stopped(Goal { goal }) => {
-                self.stopping.remove(&goal);
-                self.report(DriverEvent::Stopped { goal: id(goal) });
-            }
-            Report::Lost(Goal { goal }) => self.report(DriverEvent::Lost { goal: id(goal) }),
-            Report::Observed(observed) => {
-                let (query, answer) = (observed.query.into(), observed.answer.into());
-                self.report(DriverEvent::Observed { query, answer });
-            }
-            Report::Feedback(feedback) => {
-                (self.note)(&format!("goal {}: {}", id(feedback.goal), feedback.text));
-            }
-        }
-    }
-
-    fn answered(&mut self, call: Call, answer: Result<Value, Wrong>, line: &str) {
-        match (call, answer) {
-            (Call::Start(start), Ok(_)) => {
-                self.report(DriverEvent::Acknowledged { goal: GoalId::from_number(start.goal) });
-            }
-            (Call::Start(start), Err(wrong)) => {
-                let data: Option<RefusedData> = serde_json::from_value(wrong.data.clone()).ok();
-                if wrong.code != REFUSED {
-                    (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
-                }
-                let failure = data.map_or_else(failed, |data| data.failure.into());
-                self.report(DriverEvent::Refused { goal: GoalId::from_number(start.goal), failure });
-            }
-            (Call::Observe(asked) | Call::Watch(asked), Ok(value)) => {
-                match serde_json::from_value::<Answered>(value) {
-                    Ok(answered) => self.observed(asked, answered.answer.into()),
-                    Err(why) => self.broke(&nonsense(line, why.to_string())),
-                }
-            }
-            (Call::Observe(asked) | Call::Watch(asked), Err(_)) => self.observed(asked, Answer::Unknown),
-            (Call::Hold(Goal { goal }), Err(_)) => {
-                self.report(DriverEvent::NotHeld { goal: GoalId::from_number(goal) });
-            }
-            (Call::Update(start), Err(wrong)) => {
-                (self.note)(&format!("the driver does not update a goal: {}", wrong.message));
-                self.report(DriverEvent::Lost { goal: GoalId::from_number(start.goal) });
-            }
-            (
-                Call::Cancel(_)
-                | Call::Proceed(_)
-                | Call::SafeStop(_)
-                | Call::Unwatch(_)
-                | Call::Ping(_)
-                | Call::Status(_)
-                | Call::Hello(_)
-                | Call::Bye(_),
-                Err(wrong),
-            ) => (self.note)(&format!("the driver says: {}", wrong.message)),
-            (_, Ok(_)) => {}
-        }
-    }
-
-    fn observed(&mut self, asked: Asked, answer: Answer) {
-        self.report(DriverEvent::Observed { query: asked.query.into(), answer });
-    }
-
-    /// Looks after answers that are overdue, and signs of life.
-    fn tend(&mut self) {
-        if self.link.is_none() {
-            // What may still move is to be stopped, whoever has to be called for it.
-            if !self.stopping.is_empty() {
-                self.reach();
-            }
-            return;
-        }
-        let now = Instant::now();
-        let overdue: Vec<u64> =
-            self.waiting.iter().filter(|(_, waiting)| waiting.due <= now).map(|(id, _)| *id).collect();
-        for id in overdue {
-            if let Some(Waiting { call, sayings, .. }) = self.waiting.remove(&id) {
-                self.overdue(call, sayings);
-            }
-        }
-        let silent = self.heard_at.elapsed();
-        if silent >= self.patience.silence {
-            self.broke(&Breakage::Silent(silent));
-        } else if silent >= self.patience.heartbeat
-            && !self.waiting.values().any(|waiting| matches!(waiting.call, Call::Ping(_)))
-        {
-            self.call(Call::Ping(Nothing {}));
-        }
-    }
-
-    /// An answer did not come in time. That says nothing of what was done.
-    fn overdue(&mut self, call: Call, sayings: u32) {
-        match call {
-            Call::Start(start) if sayings < SAYINGS => self.call_again(Call::Start(start), sayings + 1),
-            Call::Start(start) | Call::Update(start) => {
-                let goal = GoalId::from_number(start.goal);
-                (self.note)(&format!("the driver does not say whether goal {goal} runs"));
-                self.report(DriverEvent::Lost { goal });
-            }
-            Call::Observe(asked) | Call::Watch(asked) => self.observed(asked, Answer::Unknown),
-            // The engine waits for what follows from these, and not for ever.
-            Call::Cancel(_) | Call::Hold(_) | Call::Proceed(_) | Call::SafeStop(_) | Call::Unwatch(_) => {}
-            Call::Status(_) | Call::Ping(_) | Call::Hello(_) | Call::Bye(_) => {}
-        }
-    }
-}
-
-impl Driver for RemoteDriver {
-    fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
-        if self.reach() {
-            self.call(Call::Start(Start { goal: goal.number(), command: command.into() }));
-        } else {
-            // It was never said, so it was never done.
-            self.report(DriverEvent::Refused { goal, failure: failed() });
-        }
-    }
-
-    fn cancel(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Cancel(Goal { goal: goal.number() }));
-    }
-
-    fn capabilities(&self) -> Capabilities {
-        self.welcome.capabilities.clone().into()
-    }
-
-    fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {
-        self.call(Call::Update(Start { goal: goal.number(), command: command.into() }));
-    }
-
-    fn hold(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Hold(Goal { goal: goal.number() }));
-    }
-
-    fn proceed(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Proceed(Goal { goal: goal.number() }));
-    }
-
-    fn safe_stop(&mut self, _now: Time, goal: GoalId) {
-        let was_reached = self.link.is_some();
-        self.stopping.insert(goal.number());
-        // Who is called again is told all that is to stop.
-        if self.reach() && was_reached {
-            self.call(Call::SafeStop(Goal { goal: goal.number() }));
-        }
-    }
-
-    fn observe(&mut self, _now: Time, query: &Query) {
-        if self.link.is_some() {
-            self.call(Call::Observe(asked(query)));
-        } else {
-            self.observed(asked(query), Answer::Unknown);
-        }
-    }
-
-    fn watch(&mut self, _now: Time, query: &Query) {
-        if self.watches.contains(query) {
-            return;
-        }
-        self.watches.push(query.clone());
-        if self.link.is_some() {
-            self.call(Call::Watch(asked(query)));
-        } else {
-            self.observed(asked(query), Answer::Unknown);
-        }
-    }
-
-    fn unwatch(&mut self, _now: Time, query: &Query) {
-        self.watches.retain(|watched| watched != query);
-        self.call(Call::Unwatch(asked(query)));
-    }
-
-    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
-        let mut wait = Duration::ZERO;
-        loop {
-            self.listen(wait);
-            self.tend();
-            if let Some((at, event)) = self.outbox.pop_front() {
-                self.last = at.min(until).max(self.last);
-                return Some((self.last, event));
-            }
-            let left = self.clock.left(until);
-            match (left, &self.link) {
-                (Some(Duration::ZERO), _) | (None, None) => return None,
-                (Some(left), None) => {
-                    thread::sleep(left.min(SLICE));
-                    wait = Duration::ZERO;
-                }
-                (left, Some(_)) => wait = left.map_or(SLICE, |left| left.min(SLICE)),
-            }
-        }
-    }
 }
 
 impl Drop for RemoteDriver {
@@ -444,8 +212,10 @@ impl Drop for RemoteDriver {
     }
 }
 
-fn asked(query: &Query) -> Asked {
-    Asked { query: wire::Query::from(query) }
+impl From<&Query> for Asked {
+    fn from(query: &Query) -> Self {
+        Self { query: wire::Query::from(query) }
+    }
 }
 
 const fn failed() -> SmolStr {

@@ -1,14 +1,16 @@
 //! Journals on disk: cut where torn, refused where damaged, written by one process at a time.
 
+use motet_graph::Graph;
 use motet_graph::arbitrary::{Step, graph};
 use motet_host::journal::{JournalError, Recorder, Writer, read};
 use motet_runtime::journal::{Entry, Head, Replay};
 use motet_runtime::{
-    Command, Control, Driver, DriverEvent, Effect, Engine, GoalId, Onlooker, Outcome, Query, RunEnd,
-    StartState, Time, run,
+    Command, Control, Driver, DriverEvent, Effect, Engine, GoalId, Onlooker, Outcome, Prepared, Query,
+    Refusal, Retired, RunEnd, StartState, Time, run,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Every goal takes a second.
 #[derive(Default)]
@@ -162,4 +164,44 @@ fn where_nothing_can_be_written_nothing_starts() {
     let end = run(&mut engine, &mut OneSecond::default(), &mut full, Time::ZERO);
     assert_eq!(full.starts, 2, "the third start was never carried out");
     assert!(matches!(end, RunEnd::Failed { .. } | RunEnd::Interrupted), "{end}");
+}
+
+/// Lets these graphs take over, one after each event.
+struct Swapping {
+    graphs: Vec<Graph>,
+    results: Vec<bool>,
+}
+
+impl Onlooker for Swapping {
+    fn swap(&mut self, _now: Time, engine: &Engine) -> Option<Prepared> {
+        let graph = self.graphs.pop()?;
+        Some(Prepared::new(graph, &engine.running()).unwrap())
+    }
+    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+        self.results.push(result.is_ok());
+    }
+}
+
+#[test]
+fn a_policy_that_takes_over_is_written_down_and_replayed() {
+    let folder = folder("swap");
+    let saying = |text: &str, calls: usize| graph(&vec![Step::say(text); calls]);
+    let first = saying("first", 3);
+    let mut refuted = saying("refuted", 1);
+    for (_, value) in &mut refuted.initial {
+        *value = !*value;
+    }
+    let mut swapping =
+        Swapping { graphs: vec![saying("third", 2), refuted, saying("second", 2)], results: Vec::new() };
+    let writer = Writer::create(&folder, Head::new(&first)).unwrap();
+    let mut engine = Engine::new(first, &StartState::default()).unwrap();
+    let mut recorder = Recorder::new(writer, &mut swapping);
+    let end = run(&mut engine, &mut OneSecond::default(), &mut recorder, Time::ZERO);
+    recorder.finish().unwrap();
+    assert_eq!(end, RunEnd::Done { why: None });
+    assert_eq!(swapping.results, [true, false, true]);
+    let all = entries(&folder).unwrap();
+    let swaps = all.iter().filter(|entry| matches!(entry, Entry::Swap(_))).count();
+    assert_eq!(swaps, 2, "a refused one leaves no line");
+    replays(&all);
 }

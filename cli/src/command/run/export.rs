@@ -1,0 +1,90 @@
+//! `motet export mcap`: a journal as an MCAP file, with the simulated world where the run was a simulation.
+
+use std::fs::File;
+use std::io::BufWriter;
+
+use motet_host::mcap::{Body, Exporter, Picture, Solid};
+use motet_robots::scene::{Scene, Shape};
+use motet_runtime::journal::{Entry, Retrace};
+use motet_sim::Sim;
+
+use super::play::journal_trouble;
+use super::saved::Saved;
+use crate::args::McapArgs;
+use crate::exit::{Exit, Trouble};
+use crate::out::note;
+
+/// Runs the command.
+///
+/// # Errors
+///
+/// The journal cannot be read, or the file not be written.
+pub(crate) fn mcap(args: &McapArgs) -> Result<Exit, Trouble> {
+    let path = &args.output;
+    let file = File::create(path).map_err(|source| Trouble::Write { path: path.clone(), source })?;
+    let wrong = |error: motet_host::mcap::ExportError| Trouble::Other(error.to_string());
+    let mut exporter = Exporter::new(BufWriter::new(file)).map_err(wrong)?;
+    let mut world = None;
+    let (mut result, mut entries) = (Ok(()), 0);
+    let read = motet_host::journal::read(&args.folder, &mut |seq, entry| {
+        if result.is_err() {
+            return;
+        }
+        if let Entry::Head(head) = &entry {
+            world = World::of(&head.driver);
+        }
+        let picture = world.as_mut().and_then(|world| world.after(&entry));
+        result = exporter.entry(seq, &entry, picture);
+        entries += 1;
+    });
+    read.map_err(journal_trouble)?;
+    result.and_then(|()| exporter.finish()).map_err(wrong)?;
+    note(&format!("wrote {entries} entries to {}", path.display()));
+    Ok(Exit::Clean)
+}
+
+/// The simulated world along a journal.
+struct World {
+    sim: Sim,
+    scene: Scene,
+    retrace: Retrace,
+}
+
+impl World {
+    /// None where the run was no simulation.
+    fn of(driver: &serde_json::Value) -> Option<Self> {
+        match Saved::of(driver).ok()? {
+            Saved::Simulator(saved) => {
+                let (sim, scene) = (saved.make().ok()?, saved.scene().ok()?);
+                Some(Self { sim, scene, retrace: Retrace::default() })
+            }
+            Saved::Process { .. } => None,
+        }
+    }
+
+    /// The world after an entry; none once it goes another way than it went.
+    fn after(&mut self, entry: &Entry) -> Option<Picture> {
+        self.retrace.take(&mut self.sim, entry).ok()?;
+        let base = self.sim.base();
+        let bodies = self.scene.entities.values().filter_map(|entity| {
+            let pose = entity.pose?;
+            let solid = match entity.shape.as_ref()? {
+                Shape::Box(size) => Solid::Box(*size),
+                Shape::Cylinder { radius, height } => Solid::Cylinder { radius: *radius, height: *height },
+                Shape::Capsule { radius, height } => {
+                    Solid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                }
+                Shape::Sphere { radius } => Solid::Sphere { radius: *radius },
+                Shape::Mesh { .. } => return None,
+            };
+            let mut xyz = self.sim.position(&entity.id)?;
+            if let (true, Solid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
+                // A person's pose is that of the feet.
+                xyz[2] = 0.5 * height;
+            }
+            let heading = pose.rpy[2];
+            Some(Body { id: entity.id.to_string(), xyz, heading, solid })
+        });
+        Some(Picture { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
+    }
+}

@@ -1,0 +1,196 @@
+//! Writes the entries of a journal as messages.
+
+use super::foxglove::{FrameTransforms, Picture, SceneUpdate, flat_schema};
+use super::message::{EffectMessage, EventMessage, GraphMessage, StateMessage};
+use mcap::records::MessageHeader;
+use mcap::{McapError, WriteOptions, Writer};
+use motet_runtime::journal::{CannotReplay, Entry, Replay};
+use motet_runtime::wire;
+use schemars::{JsonSchema, schema_for};
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{Seek, Write};
+use thiserror::Error;
+
+/// A journal that cannot be exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The file cannot be written.
+    #[error("the MCAP file cannot be written: {0}")]
+    Mcap(#[from] McapError),
+    /// The engine does not take the journal.
+    #[error("{0}")]
+    Replay(#[from] CannotReplay),
+    /// A message cannot be written.
+    #[error("a message cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// Writes an MCAP file. The engine is stepped along, for its states.
+pub struct Exporter<W: Write + Seek> {
+    writer: Writer<W>,
+    channels: Channels,
+    replay: Option<Replay>,
+    began_unix_ns: u64,
+    from: u64,
+    revision: u32,
+    sequence: u32,
+    state: Option<wire::Snapshot>,
+    picture: Option<Picture>,
+}
+
+struct Channels {
+    event: u16,
+    effect: u16,
+    graph: u16,
+    state: u16,
+    transforms: u16,
+    scene: u16,
+}
+
+impl<W: Write + Seek> Exporter<W> {
+    /// An empty file. Chunks are not compressed.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be written.
+    pub fn new(out: W) -> Result<Self, ExportError> {
+        let library = format!("motet {}", env!("CARGO_PKG_VERSION"));
+        let mut writer = WriteOptions::new().compression(None).library(library).create(out)?;
+        let channels = Channels {
+            event: own::<EventMessage>(&mut writer, "/motet/event", "motet.Event")?,
+            effect: own::<EffectMessage>(&mut writer, "/motet/effect", "motet.Effect")?,
+            graph: own::<GraphMessage>(&mut writer, "/motet/graph", "motet.Graph")?,
+            state: own::<StateMessage>(&mut writer, "/motet/state", "motet.State")?,
+            transforms: foxglove::<FrameTransforms>(&mut writer, "/tf", "foxglove.FrameTransforms")?,
+            scene: foxglove::<SceneUpdate>(&mut writer, "/scene", "foxglove.SceneUpdate")?,
+        };
+        Ok(Self {
+            writer,
+            channels,
+            replay: None,
+            began_unix_ns: 0,
+            from: 0,
+            revision: 0,
+            sequence: 0,
+            state: None,
+            picture: None,
+        })
+    }
+
+    /// Writes an entry, and the world after it where it is known.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be written, or the engine does not take it.
+    pub fn entry(&mut self, seq: u64, entry: &Entry, picture: Option<Picture>) -> Result<(), ExportError> {
+        let Some((at, effects)) = entry.happened() else { return Ok(()) };
+        if let Entry::Head(head) = entry {
+            (self.began_unix_ns, self.from) = (head.began_unix_ns, head.from);
+            self.replay = Some(Replay::new(head)?);
+        }
+        let now = self.began_unix_ns.saturating_add(at.saturating_sub(self.from));
+        match entry {
+            Entry::Head(head) => self.graph(now, seq, head.graph.clone())?,
+            Entry::Swap(swap) => {
+                self.revision += 1;
+                self.graph(now, seq, swap.graph.clone())?;
+            }
+            Entry::Step(step) | Entry::GaveUp(step) => {
+                let event = EventMessage { seq, at, event: step.event.clone() };
+                self.write(self.channels.event, now, &event)?;
+            }
+            Entry::Resumed(_) => {}
+        }
+        for (index, effect) in (0..).zip(effects) {
+            let message = EffectMessage { seq, index, at, effect: effect.clone() };
+            self.write(self.channels.effect, now, &message)?;
+        }
+        if let Some(replay) = &mut self.replay {
+            // Whether it differs is what `motet replay` tells.
+            let _ = replay.take(entry)?;
+            let state = wire::Snapshot::from(&replay.engine().snapshot());
+            self.state(now, seq, state)?;
+        }
+        self.picture(now, picture)
+    }
+
+    /// Writes what stands at the end of a file.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be written.
+    pub fn finish(mut self) -> Result<(), ExportError> {
+        self.writer.finish()?;
+        Ok(())
+    }
+
+    fn graph(&mut self, now: u64, seq: u64, graph: wire::Document) -> Result<(), ExportError> {
+        let message = GraphMessage { seq, revision: self.revision, graph };
+        self.write(self.channels.graph, now, &message)
+    }
+
+    /// A state, where more has changed than the time and the readings.
+    fn state(&mut self, now: u64, seq: u64, state: wire::Snapshot) -> Result<(), ExportError> {
+        let same = self.state.as_ref().is_some_and(|last| {
+            let (at, readings) = (state.at, state.readings.clone());
+            wire::Snapshot { at, readings, ..last.clone() } == state
+        });
+        if !same {
+            self.state = Some(state.clone());
+            self.write(self.channels.state, now, &StateMessage { seq, state })?;
+        }
+        Ok(())
+    }
+
+    fn picture(&mut self, now: u64, picture: Option<Picture>) -> Result<(), ExportError> {
+        let Some(picture) = picture else { return Ok(()) };
+        let last = self.picture.as_ref();
+        let (moved, changed) = (
+            last.is_none_or(|last| last.base != picture.base),
+            last.is_none_or(|last| last.bodies != picture.bodies),
+        );
+        if moved {
+            self.write(self.channels.transforms, now, &picture.transforms(now))?;
+        }
+        if changed {
+            self.write(self.channels.scene, now, &picture.scene(now))?;
+        }
+        self.picture = Some(picture);
+        Ok(())
+    }
+
+    fn write(&mut self, channel_id: u16, now: u64, message: &impl Serialize) -> Result<(), ExportError> {
+        let header = MessageHeader { channel_id, sequence: self.sequence, log_time: now, publish_time: now };
+        self.sequence = self.sequence.wrapping_add(1);
+        self.writer.write_to_known_channel(&header, &serde_json::to_vec(message)?)?;
+        Ok(())
+    }
+}
+
+fn own<T: JsonSchema>(
+    writer: &mut Writer<impl Write + Seek>,
+    topic: &str,
+    name: &str,
+) -> Result<u16, ExportError> {
+    channel(writer, topic, name, &serde_json::to_value(schema_for!(T))?)
+}
+
+fn foxglove<T: JsonSchema>(
+    writer: &mut Writer<impl Write + Seek>,
+    topic: &str,
+    name: &str,
+) -> Result<u16, ExportError> {
+    channel(writer, topic, name, &flat_schema::<T>())
+}
+
+fn channel(
+    writer: &mut Writer<impl Write + Seek>,
+    topic: &str,
+    name: &str,
+    schema: &Value,
+) -> Result<u16, ExportError> {
+    let schema = writer.add_schema(name, "jsonschema", schema.to_string().as_bytes())?;
+    Ok(writer.add_channel(schema, topic, "json", &BTreeMap::new())?)
+}

@@ -1,0 +1,49 @@
+//! What stands in the messages of our own topics.
+
+use motet_runtime::wire::{Document, Effect, Event, Snapshot};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// On `/motet/event`.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct EventMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The engine's time in ns.
+    pub(super) at: u64,
+    /// What it took in; none where it gave up.
+    pub(super) event: Option<Event>,
+}
+
+/// On `/motet/effect`.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct EffectMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The place among the entry's effects.
+    pub(super) index: u32,
+    /// The engine's time in ns.
+    pub(super) at: u64,
+    /// What it gave out.
+    pub(super) effect: Effect,
+}
+
+/// On `/motet/graph`: at the beginning and at every swap.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct GraphMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The number of the graph.
+    pub(super) revision: u32,
+    /// The graph.
+    pub(super) graph: Document,
+}
+
+/// On `/motet/state`: whenever what is believed, bound or running has changed.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct StateMessage {
+    /// The number of the journal's entry.
+    pub(super) seq: u64,
+    /// The state after it.
+    pub(super) state: Snapshot,
+}

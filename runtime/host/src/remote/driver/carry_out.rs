@@ -1,0 +1,96 @@
+//! What the engine wants of the driver.
+
+use super::super::protocol::{Asked, Call, Goal, Start};
+use super::{RemoteDriver, failed};
+use motet_runtime::{Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
+use std::thread;
+use std::time::Duration;
+
+/// The longest wait without looking after what is due.
+const SLICE: Duration = Duration::from_millis(50);
+
+impl Driver for RemoteDriver {
+    fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
+        if self.reach() {
+            self.call(Call::Start(Start { goal: goal.number(), command: command.into() }));
+        } else {
+            // It was never said, so it was never done.
+            self.report(DriverEvent::Refused { goal, failure: failed() });
+        }
+    }
+
+    fn cancel(&mut self, _now: Time, goal: GoalId) {
+        self.call(Call::Cancel(Goal { goal: goal.number() }));
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.welcome.capabilities.clone().into()
+    }
+
+    fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {
+        self.call(Call::Update(Start { goal: goal.number(), command: command.into() }));
+    }
+
+    fn hold(&mut self, _now: Time, goal: GoalId) {
+        self.call(Call::Hold(Goal { goal: goal.number() }));
+    }
+
+    fn proceed(&mut self, _now: Time, goal: GoalId) {
+        self.call(Call::Proceed(Goal { goal: goal.number() }));
+    }
+
+    fn safe_stop(&mut self, _now: Time, goal: GoalId) {
+        let was_reached = self.link.is_some();
+        self.stopping.insert(goal.number());
+        // Who is called again is told all that is to stop.
+        if self.reach() && was_reached {
+            self.call(Call::SafeStop(Goal { goal: goal.number() }));
+        }
+    }
+
+    fn observe(&mut self, _now: Time, query: &Query) {
+        if self.link.is_some() {
+            self.call(Call::Observe(Asked::from(query)));
+        } else {
+            self.observed(Asked::from(query), Answer::Unknown);
+        }
+    }
+
+    fn watch(&mut self, _now: Time, query: &Query) {
+        if self.watches.contains(query) {
+            return;
+        }
+        self.watches.push(query.clone());
+        if self.link.is_some() {
+            self.call(Call::Watch(Asked::from(query)));
+        } else {
+            self.observed(Asked::from(query), Answer::Unknown);
+        }
+    }
+
+    fn unwatch(&mut self, _now: Time, query: &Query) {
+        self.watches.retain(|watched| watched != query);
+        self.call(Call::Unwatch(Asked::from(query)));
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        let mut wait = Duration::ZERO;
+        loop {
+            self.listen(wait);
+            self.tend();
+            if let Some((at, event)) = self.outbox.pop_front() {
+                self.last = at.min(until).max(self.last);
+                return Some((self.last, event));
+            }
+            let left = self.clock.left(until);
+            match (left, &self.link) {
+                (Some(Duration::ZERO), _) | (None, None) => return None,
+                (Some(left), None) => {
+                    thread::sleep(left.min(SLICE));
+                    wait = Duration::ZERO;
+                }
+                (left, Some(_)) => wait = left.map_or(SLICE, |left| left.min(SLICE)),
+            }
+        }
+    }
+}

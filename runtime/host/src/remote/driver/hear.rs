@@ -1,0 +1,157 @@
+//! What the driver says, and what it should have said by now.
+
+use super::super::link::Breakage;
+use super::super::protocol::{
+    Answered, Asked, Call, Goal, Heard, Nothing, REFUSED, RefusedData, Report, Wrong, hear,
+};
+use super::super::settings::SAYINGS;
+use super::{RemoteDriver, Waiting, failed, nonsense};
+use motet_runtime::{Answer, DriverEvent, GoalId};
+use serde_json::Value;
+use std::time::{Duration, Instant};
+
+/// The most lines that are heard before what they say is handed on.
+const BATCH: usize = 64;
+
+impl RemoteDriver {
+    /// Hears what is said, for so long at most until something is.
+    pub(super) fn listen(&mut self, within: Duration) {
+        let mut within = within;
+        for _ in 0..BATCH {
+            let Some(link) = &self.link else { return };
+            match link.hear(within) {
+                Ok(Some(line)) => self.heard(&line),
+                Ok(None) => return,
+                Err(breakage) => self.broke(&breakage),
+            }
+            within = Duration::ZERO;
+        }
+    }
+
+    pub(super) fn heard(&mut self, line: &str) {
+        self.heard_at = Instant::now();
+        match hear(line) {
+            Ok(Heard::Answer(id, answer)) => {
+                // An answer to what is no longer waited for says nothing new.
+                if let Some(waiting) = self.waiting.remove(&id) {
+                    self.answered(waiting.call, answer, line);
+                } else if id >= self.next_id {
+                    self.broke(&nonsense(line, "nothing with this number was asked".to_owned()));
+                }
+            }
+            Ok(Heard::Report(report)) => self.told(report),
+            Err(why) => self.broke(&nonsense(line, why)),
+        }
+    }
+
+    fn told(&mut self, report: Report) {
+        let id = GoalId::from_number;
+        match report {
+            Report::Ended(ended) => {
+                self.report(DriverEvent::Ended { goal: id(ended.goal), outcome: ended.outcome.into() });
+            }
+            Report::NotHeld(Goal { goal }) => self.report(DriverEvent::NotHeld { goal: id(goal) }),
+            Report::Stopped(Goal { goal }) => {
+                self.stopping.remove(&goal);
+                self.report(DriverEvent::Stopped { goal: id(goal) });
+            }
+            Report::Lost(Goal { goal }) => self.report(DriverEvent::Lost { goal: id(goal) }),
+            Report::Observed(observed) => {
+                let (query, answer) = (observed.query.into(), observed.answer.into());
+                self.report(DriverEvent::Observed { query, answer });
+            }
+            Report::Feedback(feedback) => {
+                (self.note)(&format!("goal {}: {}", id(feedback.goal), feedback.text));
+            }
+        }
+    }
+
+    fn answered(&mut self, call: Call, answer: Result<Value, Wrong>, line: &str) {
+        match (call, answer) {
+            (Call::Start(start), Ok(_)) => {
+                self.report(DriverEvent::Acknowledged { goal: GoalId::from_number(start.goal) });
+            }
+            (Call::Start(start), Err(wrong)) => {
+                let data: Option<RefusedData> = serde_json::from_value(wrong.data.clone()).ok();
+                if wrong.code != REFUSED {
+                    (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
+                }
+                let failure = data.map_or_else(failed, |data| data.failure.into());
+                self.report(DriverEvent::Refused { goal: GoalId::from_number(start.goal), failure });
+            }
+            (Call::Observe(asked) | Call::Watch(asked), Ok(value)) => {
+                match serde_json::from_value::<Answered>(value) {
+                    Ok(answered) => self.observed(asked, answered.answer.into()),
+                    Err(why) => self.broke(&nonsense(line, why.to_string())),
+                }
+            }
+            (Call::Observe(asked) | Call::Watch(asked), Err(_)) => self.observed(asked, Answer::Unknown),
+            (Call::Hold(Goal { goal }), Err(_)) => {
+                self.report(DriverEvent::NotHeld { goal: GoalId::from_number(goal) });
+            }
+            (Call::Update(start), Err(wrong)) => {
+                (self.note)(&format!("the driver does not update a goal: {}", wrong.message));
+                self.report(DriverEvent::Lost { goal: GoalId::from_number(start.goal) });
+            }
+            (
+                Call::Cancel(_)
+                | Call::Proceed(_)
+                | Call::SafeStop(_)
+                | Call::Unwatch(_)
+                | Call::Ping(_)
+                | Call::Status(_)
+                | Call::Hello(_)
+                | Call::Bye(_),
+                Err(wrong),
+            ) => (self.note)(&format!("the driver says: {}", wrong.message)),
+            (_, Ok(_)) => {}
+        }
+    }
+
+    pub(super) fn observed(&mut self, asked: Asked, answer: Answer) {
+        self.report(DriverEvent::Observed { query: asked.query.into(), answer });
+    }
+
+    /// Looks after answers that are overdue, and signs of life.
+    pub(super) fn tend(&mut self) {
+        if self.link.is_none() {
+            // What may still move is to be stopped, whoever has to be called for it.
+            if !self.stopping.is_empty() {
+                self.reach();
+            }
+            return;
+        }
+        let now = Instant::now();
+        let overdue: Vec<u64> =
+            self.waiting.iter().filter(|(_, waiting)| waiting.due <= now).map(|(id, _)| *id).collect();
+        for id in overdue {
+            if let Some(Waiting { call, sayings, .. }) = self.waiting.remove(&id) {
+                self.overdue(call, sayings);
+            }
+        }
+        let silent = self.heard_at.elapsed();
+        if silent >= self.patience.silence {
+            self.broke(&Breakage::Silent(silent));
+        } else if silent >= self.patience.heartbeat
+            && !self.waiting.values().any(|waiting| matches!(waiting.call, Call::Ping(_)))
+        {
+            self.call(Call::Ping(Nothing {}));
+        }
+    }
+
+    /// An answer did not come in time. That says nothing of what was done.
+    fn overdue(&mut self, call: Call, sayings: u32) {
+        match call {
+            Call::Start(start) if sayings < SAYINGS => self.call_again(Call::Start(start), sayings + 1),
+            Call::Start(start) | Call::Update(start) => {
+                let goal = GoalId::from_number(start.goal);
+                (self.note)(&format!("the driver does not say whether goal {goal} runs"));
+                self.report(DriverEvent::Lost { goal });
+            }
+            Call::Observe(asked) | Call::Watch(asked) => self.observed(asked, Answer::Unknown),
+            // The engine waits for what follows from these, and not for ever.
+            Call::Cancel(_) | Call::Hold(_) | Call::Proceed(_) | Call::SafeStop(_) | Call::Unwatch(_) => {}
+            Call::Status(_) | Call::Ping(_) | Call::Hello(_) | Call::Bye(_) => {}
+        }
+    }
+}
