@@ -15,13 +15,72 @@ pub(super) struct Cell {
     pub(super) time: u32,
 }
 
-/// Facts and patterns with one first argument, in no order.
-type Row = SmallVec<[Cell; 2]>;
+/// Facts and patterns, in no order.
+type Row = SmallVec<[Cell; 4]>;
+
+/// More facts and patterns than this are kept apart by their first argument.
+const FEW: usize = 16;
+
+/// Facts and patterns whose first argument is not `any`.
+#[derive(Clone, Debug)]
+enum Rows {
+    /// All in one row: of most fluents a policy says little.
+    One(Row),
+    /// By first argument.
+    Many(FxHashMap<u16, Row>),
+}
+
+impl Rows {
+    /// All with a first argument, perhaps among others.
+    fn with(&self, head: u16) -> &[Cell] {
+        match self {
+            Self::One(row) => row,
+            Self::Many(rows) => rows.get(&head).map_or(&[], |row| row.as_slice()),
+        }
+    }
+
+    fn with_mut(&mut self, head: u16) -> Option<&mut Row> {
+        match self {
+            Self::One(row) => Some(row),
+            Self::Many(rows) => rows.get_mut(&head),
+        }
+    }
+
+    fn for_each(&self, mut visit: impl FnMut(&[Cell])) {
+        match self {
+            Self::One(row) => visit(row),
+            Self::Many(rows) => rows.values().for_each(|row| visit(row)),
+        }
+    }
+
+    fn for_each_mut(&mut self, mut visit: impl FnMut(&mut Row)) {
+        match self {
+            Self::One(row) => visit(row),
+            Self::Many(rows) => rows.values_mut().for_each(visit),
+        }
+    }
+
+    fn push(&mut self, head: u16, cell: Cell) {
+        if let Self::One(row) = self {
+            if row.len() < FEW {
+                return row.push(cell);
+            }
+            let mut rows: FxHashMap<u16, Row> = FxHashMap::default();
+            for cell in row.drain(..) {
+                rows.entry(cell.key.arg(0)).or_default().push(cell);
+            }
+            *self = Self::Many(rows);
+        }
+        if let Self::Many(rows) = self {
+            rows.entry(head).or_default().push(cell);
+        }
+    }
+}
 
 /// One fluent.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    rows: FxHashMap<u16, Row>,
+    rows: Rows,
     /// How many patterns there are among the rows.
     patterns: usize,
     /// Patterns whose first argument is `any`.
@@ -32,37 +91,32 @@ pub(super) struct Table {
 
 impl Table {
     pub(super) fn new(default: Value) -> Self {
-        Self { rows: FxHashMap::default(), patterns: 0, wide: Vec::new(), default }
+        Self { rows: Rows::One(Row::new()), patterns: 0, wide: Vec::new(), default }
     }
 
+    /// The entries that begin like a key, perhaps among others.
     fn row(&self, key: Key) -> &[Cell] {
-        match key.head() {
-            Some(head) if !self.rows.is_empty() => self.rows.get(&head).map_or(&[], |row| row.as_slice()),
-            Some(_) => &[],
-            None => &self.wide,
-        }
+        key.head().map_or(&self.wide, |head| self.rows.with(head))
     }
 
     /// What is known of a fact or a pattern: its own entry, or else that of the latest pattern that covers it.
     pub(super) fn get(&self, key: Key) -> Option<Value> {
-        let mut found: Option<&Cell> = None;
-        for cell in self.row(key) {
-            if cell.key == key {
-                return Some(cell.value);
-            }
-            if self.patterns > 0 && cell.key.covers(key) && found.is_none_or(|found| found.time < cell.time) {
-                found = Some(cell);
-            }
-        }
-        let wide = self.wide.iter().filter(|cell| cell.key != key && cell.key.covers(key));
-        found.into_iter().chain(wide).max_by_key(|cell| cell.time).map(|cell| cell.value)
+        self.entry(key).or_else(|| self.covering(key))
     }
 
     /// What the latest pattern says that covers a fact, whatever its own entry.
     pub(super) fn covering(&self, key: Key) -> Option<Value> {
+        let mut latest: Option<&Cell> = None;
         let row = if self.patterns > 0 { self.row(key) } else { &[] };
-        let patterns = row.iter().chain(&self.wide).filter(|cell| cell.key != key && cell.key.covers(key));
-        patterns.max_by_key(|cell| cell.time).map(|cell| cell.value)
+        for cells in [row, &self.wide] {
+            for cell in cells {
+                let covers = cell.key != key && cell.key.covers(key);
+                if covers && latest.is_none_or(|latest| latest.time < cell.time) {
+                    latest = Some(cell);
+                }
+            }
+        }
+        latest.map(|cell| cell.value)
     }
 
     /// The entry of a fact or a pattern itself.
@@ -78,7 +132,7 @@ impl Table {
             }
         };
         if pattern.head().is_none() {
-            self.rows.values().for_each(|row| visit(row));
+            self.rows.for_each(&mut visit);
         }
         visit(self.row(pattern));
     }
@@ -92,7 +146,7 @@ impl Table {
         match pattern.head() {
             _ if self.patterns == 0 => {}
             Some(_) => visit(self.row(pattern)),
-            None => self.rows.values().for_each(|row| visit(row)),
+            None => self.rows.for_each(visit),
         }
     }
 
@@ -100,10 +154,9 @@ impl Table {
     pub(super) fn put(&mut self, cell: Cell) -> Option<Cell> {
         match cell.key.head() {
             Some(head) => {
-                let row = self.rows.entry(head).or_default();
-                let old = replace(row, cell);
+                let old = self.rows.with_mut(head).and_then(|row| replace(row, cell));
                 if old.is_none() {
-                    row.push(cell);
+                    self.rows.push(head, cell);
                     self.patterns += usize::from(cell.key.is_pattern());
                 }
                 old
@@ -124,7 +177,7 @@ impl Table {
         match key.head() {
             Some(head) => {
                 self.patterns -= usize::from(key.is_pattern());
-                self.rows.get_mut(&head).map(|row| row.swap_remove(at))
+                self.rows.with_mut(head).map(|row| row.swap_remove(at))
             }
             None => Some(self.wide.swap_remove(at)),
         }
@@ -143,12 +196,12 @@ impl Table {
         };
         match pattern.head() {
             Some(head) => {
-                if let Some(row) = self.rows.get_mut(&head).filter(|row| !row.is_empty()) {
+                if let Some(row) = self.rows.with_mut(head).filter(|row| !row.is_empty()) {
                     row.retain(keep);
                 }
             }
             None => {
-                self.rows.values_mut().filter(|row| !row.is_empty()).for_each(|row| row.retain(&mut keep));
+                self.rows.for_each_mut(|row| row.retain(&mut keep));
                 self.wide.retain_mut(keep);
             }
         }
