@@ -43,6 +43,7 @@ impl Collector {
             return;
         }
         let from = if self.hit && !self.cut { self.last } else { self.mark };
+        self.pending.reserve(facts.mark().saturating_sub(from));
         // Single facts first: one that is new here had, until now, the values of the patterns that cover it.
         for patterns in [false, true] {
             for (fluent, key, before) in facts.writes(from).filter(|(_, key, _)| key.is_pattern() == patterns)

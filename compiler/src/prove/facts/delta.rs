@@ -1,55 +1,88 @@
 //! What one way through a fork changed.
 
-use std::cmp::Reverse;
-
 use super::super::value::Value;
 use super::{Atom, Facts, Key};
 use crate::ir::Fluent;
 
-/// Patterns first, the widest before the others, so that the facts they cover are written after them.
-pub(super) fn order((fluent, key): &Atom) -> (Reverse<u32>, Fluent, Key) {
-    (Reverse(key.width()), *fluent, *key)
+/// A fact or a pattern as one number, in the order in which a way is written: patterns first, the widest before the
+/// others, so that the facts they cover are written after them; then by fluent and key.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Rank(u128);
+
+impl Rank {
+    /// How many parts of a key are not `any`, where it is that of a single fact.
+    const SINGLE: u32 = 4;
+
+    pub(super) fn of((fluent, key): Atom) -> Self {
+        let narrow = Self::SINGLE.saturating_sub(key.width());
+        Self(u128::from(narrow) << 80 | u128::from(fluent.0) << 64 | u128::from(key.0))
+    }
+
+    pub(super) fn atom(self) -> Atom {
+        (Fluent((self.0 >> 64) as u16), Key(self.0 as u64))
+    }
+
+    fn is_pattern(self) -> bool {
+        self.0 >> 80 < u128::from(Self::SINGLE)
+    }
+
+    /// Each of the facts and patterns once, in order.
+    pub(super) fn each_once(atoms: impl Iterator<Item = Self>) -> Vec<Self> {
+        let mut ranks: Vec<_> = atoms.collect();
+        ranks.sort_unstable();
+        ranks.dedup();
+        ranks
+    }
 }
 
-/// What one way through a fork left written, in [`order`].
+/// What one way through a fork left written, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Delta {
-    pub(super) written: Vec<(Atom, Value)>,
+    pub(super) written: Vec<(Rank, Value)>,
 }
 
 impl Delta {
     pub(crate) fn new(written: impl Iterator<Item = (Atom, Value)>) -> Self {
-        let mut written: Vec<_> = written.collect();
-        written.sort_unstable_by_key(|(atom, _)| order(atom));
+        let mut written: Vec<_> = written.map(|(atom, value)| (Rank::of(atom), value)).collect();
+        written.sort_unstable_by_key(|(rank, _)| *rank);
         Self { written }
     }
 
     /// This way or the other, from the same fork.
     pub(crate) fn or(&self, other: &Self, base: &Facts<'_>) -> Self {
-        let mut atoms: Vec<_> = self.written.iter().chain(&other.written).map(|(atom, _)| *atom).collect();
-        atoms.sort_unstable_by_key(order);
-        atoms.dedup();
-        let joined = atoms.into_iter().map(|atom| (atom, self.get(base, atom).join(other.get(base, atom))));
+        let ranks = Rank::each_once(self.ranks().chain(other.ranks())).into_iter();
+        let joined = ranks.map(|rank| (rank, self.at(base, rank).join(other.at(base, rank))));
         Self { written: joined.collect() }
     }
 
     /// Whether both ways leave the same sets of values, whatever caused them.
     pub(crate) fn same_sets(&self, other: &Self, base: &Facts<'_>) -> bool {
-        let mut atoms = self.written.iter().chain(&other.written).map(|(atom, _)| *atom);
-        atoms.all(|atom| self.get(base, atom).same_set(other.get(base, atom)))
+        let mut ranks = self.ranks().chain(other.ranks());
+        ranks.all(|rank| self.at(base, rank).same_set(other.at(base, rank)))
+    }
+
+    /// What is written.
+    pub(super) fn ranks(&self) -> impl Iterator<Item = Rank> {
+        self.written.iter().map(|(rank, _)| *rank)
     }
 
     /// What this way knows of a fact; `base` is where the fork began.
     pub(crate) fn get(&self, base: &Facts<'_>, atom: Atom) -> Value {
-        let wanted = order(&atom);
-        let written = self.written.binary_search_by_key(&wanted, |(atom, _)| order(atom));
+        self.at(base, Rank::of(atom))
+    }
+
+    pub(super) fn at(&self, base: &Facts<'_>, rank: Rank) -> Value {
+        let written = self.written.binary_search_by_key(&rank, |(rank, _)| *rank);
         if let Some((_, value)) = written.ok().and_then(|at| self.written.get(at)) {
             return *value;
         }
-        let (fluent, key) = atom;
+        let (fluent, key) = rank.atom();
         // Patterns stand first, the narrowest of them last: that one says most of this fact.
-        let patterns = self.written.iter().take_while(|((_, key), _)| key.is_pattern());
-        let covering = patterns.filter(|((other, pattern), _)| *other == fluent && pattern.covers(key));
+        let patterns = self.written.iter().take_while(|(rank, _)| rank.is_pattern());
+        let covering = patterns.filter(|(rank, _)| {
+            let (other, pattern) = rank.atom();
+            other == fluent && pattern.covers(key)
+        });
         covering.last().map_or_else(|| base.get(fluent, key), |(_, value)| *value)
     }
 }

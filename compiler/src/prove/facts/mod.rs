@@ -14,7 +14,7 @@ mod table;
 use smallvec::SmallVec;
 
 pub(crate) use self::delta::Delta;
-use self::delta::order;
+use self::delta::Rank;
 pub(crate) use self::key::{ANY, Atom, Key, arg, show};
 pub(crate) use self::split::Split;
 use self::table::{Cell, Table};
@@ -197,7 +197,7 @@ impl<'w> Facts<'w> {
             self.crossings(fluent, key, |key| apart.push((key, self.get(fluent, key))));
             apart.retain(|(other, _)| *other != key);
             // The wider first, so that what they cover is written after them.
-            apart.sort_unstable_by_key(|(key, _)| order(&(fluent, *key)));
+            apart.sort_unstable_by_key(|(key, _)| Rank::of((fluent, *key)));
         }
         let known = self.get(fluent, key);
         let new = change(key, known);
@@ -246,24 +246,29 @@ impl<'w> Facts<'w> {
         trail.iter().map(|entry| (entry.fluent, entry.key, entry.before))
     }
 
+    fn ranks(&self, mark: usize) -> Vec<Rank> {
+        Rank::each_once(self.writes(mark).map(|(fluent, key, _)| Rank::of((fluent, key))))
+    }
+
     /// The facts and patterns written since `mark`, each once.
     pub(crate) fn touched(&self, mark: usize) -> Vec<Atom> {
-        let mut atoms: Vec<Atom> = self.writes(mark).map(|(fluent, key, _)| (fluent, key)).collect();
-        atoms.sort_unstable_by_key(order);
-        atoms.dedup();
-        atoms
+        self.ranks(mark).into_iter().map(Rank::atom).collect()
     }
 
     /// The writes since `mark` and what they leave: one way through a fork.
     pub(crate) fn delta(&self, mark: usize) -> Delta {
-        let atoms = self.touched(mark).into_iter();
-        Delta { written: atoms.map(|atom| (atom, self.get(atom.0, atom.1))).collect() }
+        let known = |rank: Rank| {
+            let (fluent, key) = rank.atom();
+            (rank, self.get(fluent, key))
+        };
+        Delta { written: self.ranks(mark).into_iter().map(known).collect() }
     }
 
     /// Goes one way on.
     pub(crate) fn replay(&mut self, way: &Delta) {
-        for ((fluent, key), value) in &way.written {
-            self.set(*fluent, *key, *value);
+        for (rank, value) in &way.written {
+            let (fluent, key) = rank.atom();
+            self.set(fluent, key, *value);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The ways that met at a join, kept for a while: a later test that some of them cannot pass tells them apart again.
 
 use super::super::value::Value;
-use super::{Atom, Delta, Facts, order};
+use super::{Atom, Delta, Facts, Rank};
 
 /// Ways that met.
 #[derive(Clone, Debug, Default)]
@@ -39,12 +39,12 @@ impl Facts<'_> {
             self.replay(only);
             return Split::default();
         }
-        let mut atoms: Vec<Atom> =
-            ways.iter().flat_map(|way| way.written.iter().map(|(atom, _)| *atom)).collect();
-        atoms.sort_unstable_by_key(order);
-        atoms.dedup();
-        let each = ways.iter().flat_map(|way| atoms.iter().map(|atom| way.get(self, *atom)));
-        let values: Vec<Value> = each.collect();
+        let ranks = Rank::each_once(ways.iter().flat_map(Delta::ranks));
+        let mut values = Vec::with_capacity(ways.len() * ranks.len());
+        for way in ways {
+            values.extend(ranks.iter().map(|rank| way.at(self, *rank)));
+        }
+        let atoms: Vec<Atom> = ranks.into_iter().map(Rank::atom).collect();
         for (index, (fluent, key)) in atoms.iter().copied().enumerate() {
             let found = values.iter().skip(index).step_by(atoms.len()).copied().reduce(Value::join);
             let Some(value) = found else { continue };
