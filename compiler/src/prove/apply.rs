@@ -140,7 +140,7 @@ impl Prover<'_> {
                 let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
                 let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
                 let mut known = Entities::new();
-                let mut rest = self.facts.get(fact.fluent, pattern);
+                let mut rest = Value::default();
                 let Some(aliases) = self.aliases(fact.fluent, pattern) else {
                     return (Entities::new(), Some(Sure::Unknown));
                 };
@@ -233,7 +233,6 @@ impl Prover<'_> {
             let known = self.read(fluent, key);
             self.facts.set(fluent, key, new(known));
         }
-        let value = self.facts.get(fluent, key);
         if self.symbols.is_empty() {
             return;
         }
@@ -245,6 +244,7 @@ impl Prover<'_> {
         if let Some(aliased) = self.aliased.get_mut(fluent.index()) {
             *aliased |= symbolic;
             if *aliased {
+                let value = self.facts.get(fluent, key);
                 self.echo(fluent, key, value, cause);
             }
         }
@@ -296,14 +296,16 @@ impl Prover<'_> {
         if self.lasting.is_empty() {
             return;
         }
-        let moved = self.moved(def, frame);
+        let mut moved = None;
         let mut stale = Vec::new();
         for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
             self.facts.written(fluent, |key, value| {
                 let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };
                 let Some(lasting) = self.lasting.get(&source) else { return };
                 let used = lasting.resources & def.uses != 0;
-                if used || lasting.entities.iter().any(|entity| moved.contains(entity)) {
+                let mut has_moved =
+                    |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
+                if used || lasting.entities.iter().any(&mut has_moved) {
                     stale.push((fluent, key, value));
                 }
             });
