@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use motet_syntax::Span;
 use motet_syntax::ast::{Do, Expr, Policy, PrimitiveForm};
+use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
 use super::errors::{
@@ -22,6 +23,9 @@ struct Formal<'p> {
     ty: Ty,
     optional: bool,
 }
+
+/// The parameters of something called: few, as a rule.
+type Formals<'p> = SmallVec<[Formal<'p>; 4]>;
 
 impl Steps<'_> {
     pub(super) fn call(&mut self, call: &Do, span: Span, place: Place) -> Option<StepId> {
@@ -83,7 +87,7 @@ impl Steps<'_> {
         place: Place,
     ) -> Option<StepId> {
         let id = self.reserve(span, place)?;
-        let formals: Vec<_> = def
+        let formals: Formals<'_> = def
             .params
             .iter()
             .map(|param| Formal { name: &param.name, ty: param.ty, optional: param.default.is_some() })
@@ -150,7 +154,7 @@ impl Steps<'_> {
         for param in &policy.params {
             types.push(crate::library::resolve_type(&mut self.resolver, &param.ty));
         }
-        let formals: Vec<_> = policy
+        let formals: Formals<'_> = policy
             .params
             .iter()
             .zip(&types)
@@ -215,8 +219,8 @@ impl Steps<'_> {
         call: &'e Do,
         callee: &SmolStr,
         formals: &[Formal<'_>],
-    ) -> Vec<Option<&'e Expr>> {
-        let mut given: Vec<Option<&Expr>> = vec![None; formals.len()];
+    ) -> SmallVec<[Option<&'e Expr>; 4]> {
+        let mut given: SmallVec<[Option<&Expr>; 4]> = smallvec![None; formals.len()];
         let mut unknown = 0;
         for (position, arg) in call.call.args.iter().enumerate() {
             let index = match &arg.name {
