@@ -9,7 +9,7 @@ use smol_str::SmolStr;
 
 use super::contract;
 use super::layer::Declarations;
-use super::model::{EnumDef, FluentDef, KindDef, Library, MeasureDef};
+use super::model::{EnumDef, FluentDef, KindDef, Known, Library, MeasureDef};
 use crate::ir::{Base, Entity, EnumId, Failure, Fluent, Kind, Measure, Ty};
 use crate::resolve::errors::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
 use crate::resolve::expr::Resolver;
@@ -79,6 +79,7 @@ impl LibraryBuilder {
         fields(&mut library, &declarations, &mut diagnostics);
         fluents(&mut library, &declarations, robot.as_ref(), &mut diagnostics);
         measures(&mut library, &declarations, robot.as_ref(), &mut diagnostics);
+        library.known = Known::of(&library.names);
         let entities = entities(&mut library, &declarations, &mut diagnostics);
         contract::primitives(&mut library, &declarations, robot.as_ref(), &entities, &mut diagnostics);
         for (index, (name, policy)) in declarations.policies.iter().enumerate() {

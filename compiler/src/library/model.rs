@@ -34,6 +34,7 @@ pub struct Library {
     /// Seconds that one observation may take.
     pub(crate) observe_within_secs: f64,
     pub(crate) names: Names,
+    pub(crate) known: Known,
     /// Fluents that some perception makes and that do not last.
     pub(crate) perceived: Vec<Fluent>,
 }
@@ -51,6 +52,35 @@ pub(crate) struct Names {
     pub(crate) entities: FxHashMap<SmolStr, Entity>,
     /// A case to its enumeration and place there; of two enumerations with the same case the first.
     pub(crate) cases: FxHashMap<SmolStr, (EnumId, u16)>,
+}
+
+/// What the prover asks for by name at every step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known {
+    pub(crate) person: Option<Kind>,
+    pub(crate) open: Option<Fluent>,
+    pub(crate) holding: Option<Fluent>,
+    pub(crate) distance: Option<Measure>,
+    pub(crate) exhausted: Option<Failure>,
+    pub(crate) failed: Option<Failure>,
+    /// `unsafe`
+    pub(crate) harm: Option<Failure>,
+}
+
+impl Known {
+    /// Those among the names of a library that has its kinds, fluents, measures and failures.
+    pub(super) fn of(names: &Names) -> Self {
+        let Names { kinds, fluents, measures, failures, .. } = names;
+        Self {
+            person: kinds.get("Person").copied(),
+            open: fluents.get("open").copied(),
+            holding: fluents.get("holding").copied(),
+            distance: measures.get("distance").copied(),
+            exhausted: failures.get("exhausted").copied(),
+            failed: failures.get("failed").copied(),
+            harm: failures.get("unsafe").copied(),
+        }
+    }
 }
 
 /// An entity kind.

@@ -58,8 +58,8 @@ impl Prover<'_> {
             return;
         }
         let mut certain = Vec::new();
-        for name in ["open", "holding"] {
-            let Some(fluent) = self.library.names.fluents.get(name).copied() else { continue };
+        let known = &self.library.known;
+        for fluent in [known.open, known.holding].into_iter().flatten() {
             self.facts.written(fluent, |key, value| {
                 if value.is_true() || value.is_false() {
                     let (entity, value) = (Entity(key.arg(0)), value.is_true());

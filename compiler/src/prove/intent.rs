@@ -27,8 +27,9 @@ impl Prover<'_> {
         if self.mood == Mood::Judge {
             return;
         }
-        let ends = |name: &str, of_a_step: bool| {
-            let fluent = *self.library.names.fluents.get(name)?;
+        let known = &self.library.known;
+        let ends = |fluent: Option<Fluent>, of_a_step: bool| {
+            let fluent = fluent?;
             let meant = self.program.achieves.as_ref().is_some_and(|(goal, _)| mentions(goal, fluent));
             if meant {
                 return None;
@@ -45,7 +46,7 @@ impl Prover<'_> {
                 ((fluent, key, false), name, self.cause_span(cause))
             })
         };
-        let (holding, open) = (ends("holding", false), ends("open", true));
+        let (holding, open) = (ends(known.holding, false), ends(known.open, true));
         if let Some((want, object, since)) = holding {
             let mistake: Diagnostic = EndsHolding { span, object, since }.into();
             self.offer_ended(want, end, &mistake);
@@ -68,14 +69,12 @@ impl Prover<'_> {
     /// A base that moves to a person, with nothing that watches how near it comes.
     pub(crate) fn check_watched(&mut self, def: &PrimitiveDef, frame: Frame<'_>, span: Span) {
         let Some((query, args)) = def.motion.as_ref().filter(|_| self.is_own(span)) else { return };
-        let measure = self.library.names.measures.get("distance");
-        let can = measure.and_then(|id| self.library.measure(*id)).is_some_and(|def| def.observable);
-        let target = args.first().and_then(|arg| self.argument(arg, frame)).map(Entity);
-        let person = self.library.kind_named("Person");
-        let (true, "go_to", Some(target)) = (can, query.as_str(), target) else { return };
-        if !self.is_of_kind(target, person) {
+        let measure = self.library.known.distance.and_then(|id| self.library.measure(id));
+        if query != "go_to" || !measure.is_some_and(|def| def.observable) {
             return;
         }
+        let target = args.first().and_then(|arg| self.argument(arg, frame)).map(Entity);
+        let Some(target) = target.filter(|target| self.is_person(*target)) else { return };
         if !self.watched.iter().any(|watched| watched.near.contains(&target)) {
             let person = self.entity_name(target);
             self.diagnostics.push(Unwatched { span, callee: def.name.clone(), person }.into());
@@ -118,14 +117,17 @@ impl Prover<'_> {
         let in_reaction = |step: &Step| matches!(step.place.slot, Slot::Reaction(_));
         let here = self.here.and_then(|id| self.program.step(id));
         let mut around = self.here.into_iter().flat_map(|id| self.program.around(id));
-        let person = self.library.kind_named("Person");
         let mut args = frame.args.iter();
         here.is_some_and(in_reaction)
             || around.any(|(_, step)| in_reaction(step))
             || args.any(|arg| {
                 matches!(arg, Term::Entity(_) | Term::Binding(_))
-                    && self.argument(arg, frame).is_some_and(|arg| self.is_of_kind(Entity(arg), person))
+                    && self.argument(arg, frame).is_some_and(|arg| self.is_person(Entity(arg)))
             })
+    }
+
+    fn is_person(&self, entity: Entity) -> bool {
+        self.library.known.person.is_some_and(|person| self.is_of_kind(entity, person))
     }
 
     fn holds_already(&self, change: &Change, makes: &[Change]) -> bool {
@@ -180,8 +182,8 @@ impl Prover<'_> {
 
     /// A `catch any` that takes `unsafe` and goes on.
     pub(crate) fn check_catch(&mut self, catch: &Catch, kinds: &[Failure]) {
-        let hidden = self.library.names.failures.get("unsafe");
-        let hides = catch.on.is_none() && hidden.is_some_and(|kind| kinds.contains(kind));
+        let hidden = self.library.known.harm;
+        let hides = catch.on.is_none() && hidden.is_some_and(|kind| kinds.contains(&kind));
         if hides && self.live && self.is_own(catch.span) {
             self.diagnostics.push(HidesUnsafe { span: catch.span }.into());
         }

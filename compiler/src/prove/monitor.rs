@@ -190,7 +190,7 @@ impl Prover<'_> {
         }
         if self.live {
             let depth = self.enclosing.len();
-            let exhausted = self.library.names.failures.get("exhausted").copied();
+            let exhausted = self.library.known.exhausted;
             match &when.reaction {
                 Reaction::Pause { .. } => self.throw(TIMEOUT, depth),
                 Reaction::Restart { .. } => {

@@ -50,8 +50,7 @@ impl Prover<'_> {
                 self.looped(id, body, |prover, back| prover.repeat_exits(id, *times, until, back));
             }
             StepKind::Each { item, body, .. } => {
-                let exhausted = self.library.names.failures.get("exhausted").copied();
-                if let Some(kind) = exhausted {
+                if let Some(kind) = self.library.known.exhausted {
                     self.throw(kind, self.enclosing.len());
                 }
                 let before = Delta::default();
@@ -211,7 +210,7 @@ impl Prover<'_> {
         }
         self.back_to(here);
         if self.assume(until, false, cause, Frame::default()) {
-            if let Some(kind) = self.library.names.failures.get("exhausted").copied() {
+            if let Some(kind) = self.library.known.exhausted {
                 self.throw(kind, self.enclosing.len());
             }
             back.back = (times > 1).then(|| self.facts.delta(back.mark));
@@ -287,7 +286,7 @@ impl Prover<'_> {
                 }
             }
             (EndKind::Fail, Some(_), Some(depth)) => {
-                if let Some(kind) = self.library.names.failures.get("failed").copied() {
+                if let Some(kind) = self.library.known.failed {
                     self.throw(kind, depth);
                 }
             }
