@@ -1,6 +1,7 @@
 //! What a condition can be, from what is known of the facts.
 
 use motet_syntax::ast::{ArithOp, CompareOp};
+use smallvec::SmallVec;
 
 use super::Prover;
 use super::facts::{ANY, Key};
@@ -143,10 +144,13 @@ impl Prover<'_> {
         if !key.is_pattern() {
             return self.read(fact.fluent, key);
         }
-        // Some entity: those that are known one by one, then all the rest.
-        let mut some = self.read(fact.fluent, key);
-        self.facts.entries(fact.fluent, key, |key, _| some = self.read(fact.fluent, key).or(some));
-        some
+        // Some entity: all the rest, then those that are known one by one, in an order of their own: the cause is the
+        // last one's.
+        let mut known: SmallVec<[Key; 8]> = SmallVec::new();
+        self.facts.entries(fact.fluent, key, |key, _| known.push(key));
+        known.sort_unstable();
+        let rest = self.read(fact.fluent, key);
+        known.into_iter().fold(rest, |some, key| self.read(fact.fluent, key).or(some))
     }
 
     fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: Frame<'_>) -> Value {

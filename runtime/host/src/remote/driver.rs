@@ -6,9 +6,7 @@ mod hear;
 use super::clock::Clock;
 use super::connect::Address;
 use super::link::{Breakage, Link};
-use super::protocol::{
-    Asked, Call, Goal, Goals, Heard, Hello, Nothing, Told, VERSION, Welcome, hear, say,
-};
+use super::protocol::{Asked, Call, Goal, Goals, Heard, Hello, Nothing, Told, VERSION, Welcome, hear, say};
 use super::settings::Patience;
 use motet_runtime::{Capabilities, DriverEvent, Query, Time, wire};
 use smol_str::SmolStr;
