@@ -36,8 +36,18 @@ pub struct Writer {
     grouping: Grouping,
     segment_bytes: u64,
     waiting: Option<Waiting>,
-    /// Held until the process ends.
-    _lock: File,
+    _lock: Lock,
+}
+
+/// That nobody else writes here. Taken back by the system where the process ends.
+#[derive(Debug)]
+struct Lock(File);
+
+impl Drop for Lock {
+    /// Closing the file alone would not do: a process that is just being started may still have it open.
+    fn drop(&mut self) {
+        let _ = self.0.unlock();
+    }
 }
 
 /// Lines that are written and not synced.
@@ -183,12 +193,12 @@ impl Drop for Writer {
     }
 }
 
-fn lock(folder: &Path) -> Result<File, JournalError> {
+fn lock(folder: &Path) -> Result<Lock, JournalError> {
     let path = folder.join(LOCK);
     let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
     let file = file.map_err(JournalError::io("cannot write", &path))?;
     match file.try_lock() {
-        Ok(()) => Ok(file),
+        Ok(()) => Ok(Lock(file)),
         Err(fs::TryLockError::WouldBlock) => Err(JournalError::Busy { path: folder.to_owned() }),
         Err(fs::TryLockError::Error(source)) => Err(JournalError::Io { what: "cannot lock", path, source }),
     }
