@@ -54,9 +54,6 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Export(args) => match &args.command {
             args::ExportCommand::Mcap(args) => command::run::mcap(args),
         },
-        Command::Export(args) => match &args.command {
-            args::ExportCommand::Mcap(args) => command::run::mcap(args),
-        },
         Command::Feasible(args) => command::feasible::run(args, colors),
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),
