@@ -186,3 +186,61 @@ fn after_a_failure_it_is_not_known_where_the_robot_stopped() {
     assert_eq!(found[0].1, Verdict::Proven);
     assert_eq!((found[1].1, found[1].2.as_str()), (Verdict::Deferred, "where `go` stopped is not known"));
 }
+
+#[test]
+fn what_follows_an_open_drawer_is_answered_with_it_open() {
+    let found = motions(
+        &KITCHEN,
+        "policy look for hsr { go(drawer_1) open(drawer_1) go(kitchen_table) go(drawer_1) close(drawer_1) go(sink) }",
+    );
+    let told: Vec<_> =
+        found.iter().map(|(query, verdict, why)| format!("{query}: {verdict:?} {why}")).collect();
+    assert_eq!(found.len(), 6);
+    assert!(found.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{told:#?}");
+}
+
+#[test]
+fn what_stands_before_a_drawer_is_named() {
+    let mut scene = kitchen();
+    let mut chair = scene.entities["trash"].clone();
+    chair.id = "chair".into();
+    chair.pose = Some(Placement { xyz: [2.95, -1.7, 0.4], rpy: [0.0; 3] });
+    chair.shape = Some(scene::Shape::Cylinder { radius: 0.1, height: 0.8 });
+    scene.entities.insert(chair.id.clone(), chair);
+    let (said, _) =
+        refusal(&session(&scene), "policy look for hsr { go(drawer_1) open(drawer_1) close(drawer_1) }");
+    assert!(said.starts_with("M0603 `open` cannot do `pull(drawer_1)`: `chair` blocks the way"), "{said}");
+}
+
+#[test]
+fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
+    let mut scene = kitchen();
+    let mut screen = scene.entities["shelf"].clone();
+    screen.id = "screen".into();
+    screen.pose = Some(Placement { xyz: [1.7, 0.3, 1.2], rpy: [0.0; 3] });
+    screen.shape = Some(scene::Shape::Box([0.05, 1.4, 1.0]));
+    scene.entities.insert(screen.id.clone(), screen);
+    let (graph, said) = compile(&session(&scene), "policy see for hsr { go(kitchen_table) inspect(mug_1) }");
+    assert!(graph.is_some(), "{:?}", errors(&said));
+    let warned: Vec<_> = said.iter().filter(|it| it.code.to_string().starts_with("M06")).collect();
+    for it in &warned {
+        assert_eq!(it.severity, Severity::Warning);
+        assert!(it.help.as_ref().is_some_and(|help| help.contains("that is not proven")), "{it:?}");
+    }
+}
+
+#[test]
+fn what_is_reached_is_reachable() {
+    let (graph, said) =
+        compile(&KITCHEN, "policy take for hsr achieves holding(mug_1) { go(kitchen_table) pick(mug_1) }");
+    assert!(errors(&said).is_empty(), "{:?}", errors(&said));
+    let graph = graph.unwrap();
+    let pick = graph.nodes.iter().find_map(|node| match &node.kind {
+        NodeKind::Call(call) if call.needs.len() > 4 => Some(call),
+        _ => None,
+    });
+    let fluent = graph.fluents.iter().position(|fluent| fluent.name == "reachable").unwrap();
+    let is_it = |need: &&motet_graph::Need| matches!(&need.condition, motet_graph::Condition::Fact(fact) if fact.fluent.index() == fluent);
+    let need = pick.unwrap().needs.iter().find(is_it).unwrap();
+    assert_eq!(need.verdict, Verdict::Proven);
+}

@@ -66,7 +66,7 @@ fn asked(motions: &[String]) -> Result<Vec<Query>, Trouble> {
         Query::parse(motion).ok_or_else(|| Trouble::Unknown {
             what: "motion",
             name: motion.clone(),
-            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), look(ENTITY) or posture(NAME)"
+            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
                 .to_owned(),
         })
     });
@@ -78,8 +78,12 @@ fn all(machine: &Machine, scene: &Scene) -> Vec<Query> {
     let drives = scene.entities.keys().filter(|_| machine.drives()).cloned().map(Query::GoTo);
     let objects = scene.entities.iter().filter(|(_, entity)| entity.kind == "Object");
     let reaches = objects.map(|(id, _)| Query::Reach(id.clone(), None));
+    let world = World::new(machine, scene);
+    let doors = scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()).map(|(id, entity)| {
+        if world.is_open(entity) { Query::Push(id.clone()) } else { Query::Pull(id.clone()) }
+    });
     let postures = machine.card().postures.keys().cloned().map(Query::Posture);
-    drives.chain(reaches).chain(postures).collect()
+    drives.chain(reaches).chain(doors).chain(postures).collect()
 }
 
 fn told(query: &Query, answer: &Answer) -> String {

@@ -21,9 +21,9 @@ fn answers() {
         ),
         ("feasible --robot hsr --scene kitchen --for reach(plate)", 1, &["out:no_free_pose", "out:(proven)"]),
         (
-            "feasible --robot hsr --scene kitchen --for pull(drawer_1)",
+            "feasible --robot hsr --scene kitchen --for push(drawer_1)",
             1,
-            &["out:unknown", "out:not computed"],
+            &["out:unknown", "out:is closed already"],
         ),
         (
             "feasible --robot hsr --scene kitchen --for jump(mug_1)",

@@ -278,7 +278,6 @@ impl super::Draft {
         (name, template): (&str, Option<&Template>),
         args: &[Option<Value>],
     ) -> bool {
-        let (library, world) = session.parts();
         if template.is_some_and(|template| template.calls.contains(&self.program.name)) {
             return false;
         }
@@ -291,9 +290,20 @@ impl super::Draft {
             let frame = Frame { args: &terms, result: None, each: None };
             !heads.iter().filter(is_known).any(|need| prover.need(need, frame).0.no.is_some())
         });
-        if !permits || given < args.len() {
-            return permits;
-        }
+        permits && (given < args.len() || self.permits_open_policy(session, (name, template), args))
+    }
+
+    /// The same by a proof of all its steps, in which an argument that is not known yet may be anything: what is refuted then is
+    /// refuted whatever it is. It costs more than a proof with all arguments.
+    pub fn permits_open_policy(
+        &mut self,
+        session: &Session,
+        (name, template): (&str, Option<&Template>),
+        args: &[Option<Value>],
+    ) -> bool {
+        let (library, world) = session.parts();
+        let terms: Vec<Term> =
+            args.iter().map(|arg| arg.as_ref().map_or(Term::Unknown, |value| value.0.clone())).collect();
         let (steps, bindings) = (self.program.steps.len(), self.program.bindings.len());
         let Self { program, proof, inside, .. } = self;
         let id = match template {

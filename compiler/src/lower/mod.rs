@@ -235,8 +235,12 @@ impl Lowering<'_> {
         let verdicts =
             self.proof.needs.get(step.index()).map(|verdicts| verdicts.as_slice()).unwrap_or_default();
         let mut needs = Vec::with_capacity(def.needs.len());
+        let placed = self.placed.get_mut(step.index()).and_then(Option::take);
+        let is_placed = matches!(placed, Some(place::Verdict::Feasible(_)));
         for (need, verdict) in def.needs.iter().zip(verdicts) {
-            needs.push(self.need(need, *verdict, call, &def.fails));
+            // What is derived from the motion is proven with it.
+            let verdict = if is_placed && self.is_of_motion(need, def) { Verdict::Proven } else { *verdict };
+            needs.push(self.need(need, verdict, call, &def.fails));
         }
         graph::CallNode {
             primitive,
@@ -246,7 +250,6 @@ impl Lowering<'_> {
             retries: call.retries,
             needs,
             motion: def.motion.as_ref().map(|(query, args)| {
-                let placed = self.placed.get_mut(step.index()).and_then(Option::take);
                 let (verdict, witness, why) = match placed {
                     Some(place::Verdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
                     Some(place::Verdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
@@ -258,6 +261,20 @@ impl Lowering<'_> {
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
         }
+    }
+
+    /// Whether a need is the verdict of the primitive's own motion, such as `reachable(object)` of `reach(object)`.
+    fn is_of_motion(&self, need: &NeedDef, def: &crate::library::PrimitiveDef) -> bool {
+        let (crate::ir::Condition::Fact(fact), Some((motion, args))) = (&need.condition, &def.motion) else {
+            return false;
+        };
+        let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
+        is_derived
+            && motion == "reach"
+            && need.when.is_none()
+            && need.each.is_none()
+            && fact.args.len() == args.len()
+            && fact.args.iter().flatten().eq(args)
     }
 
     fn need(

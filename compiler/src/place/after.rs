@@ -42,6 +42,7 @@ impl Walk<'_> {
         }
         let mut after = Ways { known: Vec::new(), lost: before.lost.clone() };
         let (mut witness, mut unknown, mut refused, mut is_refused) = (None, before.lost.clone(), None, true);
+        let mut warned = None;
         for situation in before.known {
             let answer = self.geometry.answer(&situation.at, &query);
             match &*answer {
@@ -55,6 +56,15 @@ impl Walk<'_> {
                 Answer::Unknown(why) => {
                     is_refused = false;
                     unknown = unknown.or(Some(in_words(why)));
+                    let why = format_smolstr!("how `{}` ends is not known", def.name);
+                    after.join(if moves { Ways::lost(why) } else { only(situation) });
+                }
+                // The search found nothing and proves nothing: the run will see.
+                Answer::Infeasible(why) if !why.certified => {
+                    is_refused = false;
+                    warned = warned.or_else(|| self.refusal(id, &def.name, &query, why, &situation));
+                    unknown = unknown
+                        .or_else(|| Some(format_smolstr!("the search found no motion: {}", why.reason)));
                     let why = format_smolstr!("how `{}` ends is not known", def.name);
                     after.join(if moves { Ways::lost(why) } else { only(situation) });
                 }
@@ -77,7 +87,7 @@ impl Walk<'_> {
             (unknown, ..) => Verdict::Deferred(unknown),
         };
         let refused = refused.filter(|(_, certain)| is_error(*certain)).map(|(told, _)| told);
-        self.found(id, Some(verdict), refused);
+        self.found(id, Some(verdict), refused.or(warned));
         after
     }
 
@@ -85,7 +95,7 @@ impl Walk<'_> {
     fn moves(&self, query: &Query) -> bool {
         match query {
             Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
-            Query::Put(..) | Query::Offer(..) | Query::Other(_) => true,
+            Query::Put(..) | Query::Offer(..) | Query::Pull(_) | Query::Push(_) | Query::Other(_) => true,
             // The head may look elsewhere afterwards, which changes nothing that is kept.
             Query::Look(_) => false,
         }
@@ -118,7 +128,10 @@ impl Walk<'_> {
             Query::Look(_) => return only(from.clone()),
             Query::Put(..) if self.makes(def, "holding", false).is_some() => Change::Put,
             Query::Offer(..) if self.makes(def, "holding", false).is_some() => Change::Given,
-            Query::Put(..) | Query::Offer(..) | Query::Other(_) => return lost(),
+            Query::Pull(_) if self.makes(def, "open", true).is_some() => Change::Travelled,
+            Query::Push(_) if self.makes(def, "open", false).is_some() => Change::Travelled,
+            Query::Put(..) | Query::Offer(..) => return lost(),
+            Query::Pull(_) | Query::Push(_) | Query::Other(_) => return lost(),
         };
         let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
         let mut next = Situation { at, ..from.clone() };
@@ -138,7 +151,13 @@ impl Walk<'_> {
                 next.held_since = None;
                 next.changed.push((object.clone(), id));
             }
-            (Change::Gone | Change::Put | Change::Given, _) => {}
+            (Change::Travelled, Query::Pull(what) | Query::Push(what)) => {
+                if from.at.world.robot != next.at.world.robot {
+                    next.stands_since = Some(id);
+                }
+                next.changed.push((what.clone(), id));
+            }
+            (Change::Gone | Change::Put | Change::Given | Change::Travelled, _) => {}
         }
         only(next)
     }

@@ -28,10 +28,12 @@ fn message(told: &Told) -> String {
 }
 
 fn help(told: &Told) -> Option<String> {
-    let proof = (!told.is_certified).then_some("no motion was found by a search that was not cut short");
-    match (&told.change, proof) {
-        (Some(change), _) => Some(change.clone()),
-        (None, proof) => proof.map(str::to_owned),
+    let left = "that is not proven: a search found no motion, and the run will see";
+    match (&told.change, told.is_certified) {
+        (Some(change), true) => Some(change.clone()),
+        (Some(change), false) => Some(format!("{change}; {left}")),
+        (None, false) => Some(left.to_owned()),
+        (None, true) => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use motet_geometry::query::{Answer, Budget, Machine, Query, Room, Witness, World};
+use motet_geometry::query::{Answer, Budget, Machine, Maps, Query, Room, Witness, World};
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
 use motet_robots::urdf::Urdf;
@@ -23,6 +23,7 @@ pub struct Geometry {
     start: Result<Arc<Keyed>, SmolStr>,
     budget: Budget,
     memo: Mutex<Memo>,
+    maps: Maps,
 }
 
 #[derive(Debug, Default)]
@@ -45,6 +46,8 @@ pub(super) enum Change {
     Put,
     /// The robot is where it was, the thing with a person.
     Given,
+    /// What was closed is open, or the other way round.
+    Travelled,
 }
 
 impl Geometry {
@@ -54,7 +57,7 @@ impl Geometry {
         let machine = Machine::new(robot, urdf, None);
         let mut scene = scene.clone();
         let start = begin(&machine, &mut scene, state);
-        Self { machine, scene, start, budget, memo: Mutex::default() }
+        Self { machine, scene, start, budget, memo: Mutex::default(), maps: Maps::default() }
     }
 
     /// The same robot in another scene, in no further state.
@@ -62,7 +65,14 @@ impl Geometry {
     pub fn elsewhere(&self, scene: &Scene) -> Self {
         let mut scene = scene.clone();
         let start = begin(&self.machine, &mut scene, None);
-        Self { machine: self.machine.clone(), scene, start, budget: self.budget, memo: Mutex::default() }
+        Self {
+            machine: self.machine.clone(),
+            scene,
+            start,
+            budget: self.budget,
+            memo: Mutex::default(),
+            maps: Maps::default(),
+        }
     }
 
     /// The world at the start, or why it is not known.
@@ -87,7 +97,7 @@ impl Geometry {
         if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
             return known;
         }
-        let answer = Arc::new(Room::new(&self.machine, &self.scene, &at.world).answer(query, self.budget));
+        let answer = Arc::new(self.room(&at.world).answer(query, self.budget));
         if let Some(mut memo) = self.memo() {
             if memo.answers.len() >= MOST_ANSWERS {
                 *memo = Memo::default();
@@ -95,6 +105,15 @@ impl Geometry {
             memo.answers.insert(key, Arc::clone(&answer));
         }
         answer
+    }
+
+    /// Whether a thing can be grasped from where the robot is; none where neither was proven.
+    pub(super) fn reaches(&self, at: &Keyed, object: &str) -> Option<bool> {
+        match &*self.answer(at, &Query::Reach(object.into(), None)) {
+            Answer::Feasible(_) => Some(true),
+            Answer::Infeasible(why) => why.certified.then_some(false),
+            Answer::Unknown(_) => None,
+        }
     }
 
     /// The world after a motion that was found; none where it is not known.
@@ -109,11 +128,12 @@ impl Geometry {
         if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
             return known;
         }
-        let room = Room::new(&self.machine, &self.scene, &at.world);
+        let room = self.room(&at.world);
         let world = match change {
             Change::Gone => Some(room.gone_along(way)),
             Change::Taken => room.taken(way),
             Change::Put => room.put_there(way),
+            Change::Travelled => room.travelled(way),
             Change::Given => match query {
                 Query::Offer(_, to) => room.given(to),
                 _ => None,
@@ -124,6 +144,10 @@ impl Geometry {
             memo.after.insert(key, world.clone());
         }
         world
+    }
+
+    fn room<'w>(&'w self, world: &'w World) -> Room<'w> {
+        Room::new(&self.machine, &self.scene, world).sharing(&self.maps)
     }
 
     /// A lock that was poisoned by a panic elsewhere only loses what was kept.

@@ -27,6 +27,8 @@ impl Walk<'_> {
             ("put", Some(on)) => Query::Put(first, on),
             ("offer", Some(to)) => Query::Offer(first, to),
             ("look", None) => Query::Look(first),
+            ("pull", None) => Query::Pull(first),
+            ("push", None) => Query::Push(first),
             ("posture", None) => Query::Posture(first),
             (name, _) => Query::Other(name.into()),
         })

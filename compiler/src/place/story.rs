@@ -1,7 +1,7 @@
 //! The story of a motion that cannot be done: which steps made the world in which it cannot.
 
 use motet_geometry::query::{Infeasible, Query, Reason};
-use motet_syntax::{Diagnostic, Related};
+use motet_syntax::{Diagnostic, Related, Severity};
 use smol_str::SmolStr;
 
 use super::errors::{Told, refused};
@@ -10,7 +10,8 @@ use super::ways::Situation;
 use crate::ir::{StepId, StepKind, Term};
 
 impl Walk<'_> {
-    /// The diagnostic of a motion that is infeasible in a situation.
+    /// The diagnostic of a motion that is infeasible in a situation: an error where that is proven, a warning where a search
+    /// found none.
     pub(super) fn refusal(
         &self,
         id: StepId,
@@ -49,7 +50,11 @@ impl Walk<'_> {
             is_certified: why.certified,
             since,
         };
-        Some(refused(&why.reason, span, told))
+        let mut diagnostic = refused(&why.reason, span, told);
+        if !why.certified {
+            diagnostic.severity = Severity::Warning;
+        }
+        Some(diagnostic)
     }
 
     fn related(&self, message: &'static str, step: StepId) -> Option<Related> {

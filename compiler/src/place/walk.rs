@@ -9,7 +9,7 @@ use smol_str::SmolStr;
 
 use super::after::at_start;
 use super::geometry::Geometry;
-use super::ways::Ways;
+use super::ways::{Keyed, Ways};
 use super::{Placed, Verdict};
 use crate::ir::{Condition, Program, Reaction, StepId, StepKind, Term, When};
 use crate::library::Library;
@@ -125,7 +125,7 @@ impl<'a> Walk<'a> {
             StepKind::If { condition, then, otherwise, .. } => {
                 let where_it = |walk: &Self, truth: bool| {
                     let mut ways = ways.clone();
-                    ways.known.retain(|it| walk.truth(condition, &it.at.world).is_none_or(|is| is == truth));
+                    ways.known.retain(|it| walk.truth(condition, &it.at).is_none_or(|is| is == truth));
                     ways
                 };
                 let (yes, no) = (where_it(self, true), where_it(self, false));
@@ -251,24 +251,27 @@ impl<'a> Walk<'a> {
     }
 
     /// Whether a condition holds in a world, where its geometry says so.
-    fn truth(&self, condition: &Condition, world: &Room) -> Option<bool> {
+    fn truth(&self, condition: &Condition, at: &Keyed) -> Option<bool> {
         match condition {
             Condition::Literal(value) => Some(*value),
             Condition::Fact(fact) => {
                 let name = &self.library.fluent(fact.fluent)?.name;
                 let [Some(Term::Entity(entity))] = fact.args.as_slice() else { return None };
-                self.holds(world, name, &self.world.name(*entity))
+                if name == "reachable" {
+                    return self.geometry.reaches(at, &self.world.name(*entity));
+                }
+                self.holds(&at.world, name, &self.world.name(*entity))
             }
-            Condition::Not(inner) => self.truth(inner, world).map(|value| !value),
+            Condition::Not(inner) => self.truth(inner, at).map(|value| !value),
             Condition::All(parts) => {
-                let parts: Vec<_> = parts.iter().map(|part| self.truth(part, world)).collect();
+                let parts: Vec<_> = parts.iter().map(|part| self.truth(part, at)).collect();
                 if parts.contains(&Some(false)) {
                     return Some(false);
                 }
                 parts.iter().all(|part| *part == Some(true)).then_some(true)
             }
             Condition::AnyOf(parts) => {
-                let parts: Vec<_> = parts.iter().map(|part| self.truth(part, world)).collect();
+                let parts: Vec<_> = parts.iter().map(|part| self.truth(part, at)).collect();
                 if parts.contains(&Some(true)) {
                     return Some(true);
                 }

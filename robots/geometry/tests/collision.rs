@@ -1,6 +1,12 @@
 //! Distances against parry3d, and what touches what on the built-in robots.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    clippy::print_stderr,
+    reason = "a test fails by panicking"
+)]
 
 use glamx::{DPose3, DVec3};
 use motet_geometry::Tree;
@@ -93,4 +99,40 @@ fn an_arm_against_the_body_is_seen() {
     }
     let near = body.to_itself(&body.placed(&tree.root_from_links(&configuration))).unwrap();
     assert!(near.metres <= 0.0, "{near:?}");
+}
+
+/// What is published of the meshes of the gripper of the Z1: the box around each.
+#[test]
+fn the_jaws_of_the_z1_enclose_their_meshes() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/robots/mesh_aabb.csv");
+    let Ok(text) = std::fs::read_to_string(path) else {
+        eprintln!("no {path}");
+        return;
+    };
+    let urdf = urdf::read(&Source::new("anymal_z1", card::embedded_urdf("anymal_z1").unwrap()), FileId(0)).0;
+    let urdf = urdf.unwrap();
+    let tree = Tree::new(&urdf);
+    let body = Body::new(&urdf, &tree, &[]);
+    let mut seen = 0;
+    for row in text.lines().filter(|row| row.starts_with("z1,")) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let Ok(link) = tree.link(fields[1]) else { continue };
+        let number = |at: usize| fields[at].parse::<f64>().unwrap();
+        for (axis, at) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(0..) {
+            let parts = body.parts().iter().filter(|part| part.link == link).map(|part| &part.solid);
+            let (low, high) = parts.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), solid| {
+                let (middle, extent) = (solid.centre.dot(&axis), solid.extent(&axis));
+                (low.min(middle - extent), high.max(middle + extent))
+            });
+            assert!(low <= number(4 + at) && number(7 + at) <= high, "{}: {low} to {high}", fields[1]);
+            // And are no wider than they have to be.
+            assert!(
+                number(4 + at) - low < 0.003 && high - number(7 + at) < 0.003,
+                "{}: {low} to {high}",
+                fields[1]
+            );
+        }
+        seen += 1;
+    }
+    assert_eq!(seen, 2);
 }

@@ -25,7 +25,7 @@ use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
 use motet_planner::prompt::{Prompt, TOKENS};
 use motet_planner::request::Situation;
 use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Effect, Engine, Event, Prepared, StartState, Time};
+use motet_runtime::{Effect, Engine, Prepared, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::Sources;
 
@@ -120,8 +120,8 @@ fn once(setting: &Setting, request: &str, reply: &str) -> Vec<(&'static str, Dur
     let start = StartState { entities: entities.collect(), ..StartState::default() };
     let mut engine = Engine::new(graph.clone(), &start).unwrap();
     let mut out = Vec::new();
-    engine.handle(Time::ZERO, Event::Begin, &mut out);
-    // The engine was there before: only the swap counts.
+    // The engine was there before: only the swap counts. It is one before the first step, which takes from the facts that
+    // the policy was proved from.
     from = Instant::now();
     let prepared = Prepared::new(graph, &engine.running()).unwrap();
     engine.swap(Time::ZERO, prepared, &mut out).unwrap();

@@ -3,16 +3,20 @@
 
 mod common;
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, session, setting};
 use motet_client::Client;
+use motet_decode::export::Offer;
 use motet_decode::{Prepared, Surface};
 use motet_planner::builtin::Answered;
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Problem, Watcher};
-use motet_planner::model::{ModelPlanner, Reading, Settings, Start, Verdict};
-use motet_runtime::{Effect, Time};
+use motet_planner::model::{
+    Finish, Message, Model, ModelError, ModelPlanner, News, Reading, Reply, Settings, Start, Verdict,
+};
+use motet_runtime::{Effect, Refusal, Time};
 use motet_sim::{Options, Sim};
 
 const COKE: &str = "bring me the coke";
@@ -220,4 +224,75 @@ fn a_rest_that_is_wrong_is_planned_anew_from_where_the_first_step_has_led() {
     assert_eq!(heard[..2], ["asked 0", "begun"]);
     assert!(heard[2].starts_with("refused") && heard[2].contains("juggle"), "{heard:?}");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true), "{:?}", steps.0);
+}
+
+/// A model whose replies come a piece each time somebody looks.
+struct Told(VecDeque<Vec<News>>);
+
+impl Told {
+    fn new(replies: &[String]) -> Self {
+        let pieces = |reply: &String| {
+            let letters: Vec<char> = reply.chars().collect();
+            let pieces = letters.chunks(30).map(|piece| News::Piece(piece.iter().collect()));
+            pieces.chain([News::End(Finish::Stop)]).collect()
+        };
+        Self(replies.iter().map(pieces).collect())
+    }
+}
+
+impl Model for Told {
+    fn ask(&mut self, _: &[Message], _: &Offer) -> Result<Box<dyn Reply>, ModelError> {
+        Ok(Box::new(Bits(self.0.pop_front().unwrap().into_iter())))
+    }
+
+    fn name(&self) -> String {
+        "told".to_owned()
+    }
+}
+
+struct Bits(std::vec::IntoIter<News>);
+
+impl Reply for Bits {
+    fn next(&mut self, _: Duration) -> News {
+        self.0.next().unwrap_or(News::Nothing)
+    }
+}
+
+/// Somebody who asks for something else after a second.
+#[derive(Default)]
+struct Impatient {
+    has_asked: bool,
+    swaps: usize,
+}
+
+impl Watcher for Impatient {
+    fn at_least_every(&self) -> Time {
+        Time::from_secs(0.02)
+    }
+
+    fn request(&mut self, now: Time) -> Option<String> {
+        let asks =
+            now > Time::from_secs(1.0) && !std::mem::replace(&mut self.has_asked, now > Time::from_secs(1.0));
+        asks.then(|| "open the fridge".to_owned())
+    }
+
+    fn swapped(&mut self, _: Time, refusal: Option<&Refusal>) {
+        assert_eq!(refusal, None);
+        self.swaps += 1;
+    }
+}
+
+#[test]
+fn a_request_made_meanwhile_is_planned_without_making_the_robot_wait() {
+    let setting = setting();
+    let heard = Heard::default();
+    let told = Told::new(&[right(&setting, COKE), right(&setting, "open the fridge")]);
+    let mut planner = ModelPlanner::new(told, heard.clone(), Settings::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let (mut talk, mut watcher) = (Conversation::new(&setting), Impatient::default());
+    let (outcome, _) = talk.carry_out(COKE, &mut planner, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    assert_eq!((outcome, watcher.swaps), (Outcome::Done, 1), "{:?}", heard.0.borrow());
+    assert_eq!(*heard.0.borrow(), ["asked 0", "taken", "asked 0", "taken"]);
+    assert_eq!(sim.holds("open", &["fridge_1"]), Some(true), "{:?}", heard.0.borrow());
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(false));
 }

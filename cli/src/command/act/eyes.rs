@@ -9,6 +9,7 @@ use motet_planner::conversation::{Outcome, Problem, Watcher};
 use motet_runtime::{Control, Effect, Onlooker as _, Refusal, RunEnd, Time};
 use serde_json::json;
 
+use super::model::printable;
 use super::person::Asked;
 use super::record::Recorder;
 use crate::args::{DoArgs, RunFormat};
@@ -66,7 +67,7 @@ impl Watcher for Eyes<'_> {
         }
         answered.understood.notes.iter().for_each(|text| note(text));
         if self.args.format == RunFormat::Human {
-            note(answered.planned.text.trim_end());
+            note(&printable(answered.planned.text.trim_end()));
         }
         self.pace = Some(run::stage(self.args.format, graph, self.colors, self.args.speed));
     }

@@ -200,6 +200,6 @@ impl Listener for Screen {
 }
 
 /// A text of a model without what a terminal would obey.
-fn printable(text: &str) -> String {
+pub(super) fn printable(text: &str) -> String {
     text.chars().filter(|letter| !letter.is_control() || *letter == '\n').collect()
 }

@@ -8,6 +8,7 @@ use motet_planner::conversation::{Kind, Person as _, Problem};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
 use motet_sim::Sim;
 
+use super::model::printable;
 use super::person::{Asked, Asking};
 
 /// Answers `ask` itself, and leaves everything else to the simulator.
@@ -27,7 +28,7 @@ impl<'a> Speaker<'a> {
 impl Driver for Speaker<'_> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         let question = match command.arg("question") {
-            Some(Value::Text(question)) if command.primitive == "ask" => question.to_string(),
+            Some(Value::Text(question)) if command.primitive == "ask" => printable(question),
             _ => return self.sim.start(now, goal, command),
         };
         let problem =

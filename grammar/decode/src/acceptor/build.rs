@@ -5,11 +5,12 @@ use motet_compiler::draft::HOLE;
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
-    Arg, Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
+    Block, Call, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Name, Reaction, Step, StepKind, When,
 };
 use smol_str::SmolStr;
 
 use super::arena::{Arenas, Event};
+use super::parts::{argument, closed, end, expr, fail, named};
 use crate::program::{Kind, Meaning, Op, Plain, Program};
 use crate::surface::{Decimal, Modifiers, Relation};
 
@@ -374,31 +375,4 @@ impl Builder<'_> {
     fn end(&mut self, kind: EndKind) -> End {
         End { kind, why: self.value().or(end(kind).why), span: Span::default() }
     }
-}
-
-fn argument(name: &SmolStr, value: Expr) -> Arg {
-    Arg { name: Some(named(name.clone())), value, span: Span::default() }
-}
-
-fn named(text: SmolStr) -> Name {
-    Name { text, span: Span::default() }
-}
-
-fn expr(kind: ExprKind) -> Expr {
-    Expr { kind, span: Span::default() }
-}
-
-fn end(kind: EndKind) -> End {
-    let why = (kind != EndKind::Done).then(|| expr(ExprKind::Text(SmolStr::new_static("?"))));
-    End { kind, why, span: Span::default() }
-}
-
-fn fail() -> Step {
-    Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
-}
-
-/// A block that no way leads out of.
-fn closed(mut steps: Vec<Step>) -> Block {
-    steps.push(fail());
-    Block { steps, span: Span::default() }
 }

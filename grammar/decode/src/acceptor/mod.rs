@@ -10,6 +10,7 @@ mod mask;
 mod memo;
 mod number;
 mod open;
+mod parts;
 mod settle;
 mod walk;
 mod word;

@@ -6,14 +6,12 @@
 use nalgebra::Vector3;
 
 use super::answer::Witness;
-use super::machine::Machine;
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::Tally;
 use super::world::World;
 use crate::collision::Solid;
-use motet_robots::scene::Scene;
 
 /// How far a thing is lifted off what it stands on before the robot moves on, in m.
 const LIFT: f64 = 0.05;
@@ -48,8 +46,7 @@ impl Room<'_> {
         let end = &State { base: end.base, joints: hand.around(&end.joints, rest, grasp.width) };
         let (index, _) = self.entity(&grasp.object)?;
         let support = self.support(index);
-        let (machine, scene): (&Machine, &Scene) = (self.machine, self.scene);
-        let room = Room::new(machine, scene, &world);
+        let room = self.in_world(&world);
         let held = Allowed { hand: None, held: support };
         let up = Vector3::new(0.0, 0.0, LIFT);
         let back = |far: f64| grasp.map_from_tip.rotation * -Vector3::from(hand.card.points) * far;
@@ -78,7 +75,7 @@ impl Room<'_> {
         world.held = None;
         world.moved.insert(grasp.object.clone(), grasp.map_from_tip * grasp.tip_from_object);
         let (index, _) = self.entity(&grasp.object)?;
-        let room = Room::new(self.machine, self.scene, &world);
+        let room = self.in_world(&world);
         let allowed = Allowed { hand: Some(index), held: None };
         // The fingers open, then the hand draws back from the thing.
         let open = State { base: end.base, joints: hand.opened(&end.joints) };

@@ -28,9 +28,13 @@ pub enum Query {
     Offer(SmolStr, SmolStr),
     /// A thing in view.
     Look(SmolStr),
+    /// The handle of what is closed along its travel until it is open.
+    Pull(SmolStr),
+    /// The handle of what is open along its travel until it is closed; any other thing a little away from the robot.
+    Push(SmolStr),
     /// To a posture of the card.
     Posture(SmolStr),
-    /// Any other motion of the language, which is not computed: its name.
+    /// Any other motion, which is not computed: its name.
     Other(SmolStr),
 }
 
@@ -58,7 +62,8 @@ impl Query {
             "go_to" if second.is_none() => Some(Self::GoTo(first.into())),
             "posture" if second.is_none() => Some(Self::Posture(first.into())),
             "look" if second.is_none() => Some(Self::Look(first.into())),
-            "pull" | "push" if second.is_none() => Some(Self::Other(name.into())),
+            "pull" if second.is_none() => Some(Self::Pull(first.into())),
+            "push" if second.is_none() => Some(Self::Push(first.into())),
             _ => None,
         }
     }
@@ -80,6 +85,8 @@ impl std::fmt::Display for Query {
             Self::Put(object, on) => write!(f, "put({object}, {on})"),
             Self::Offer(object, to) => write!(f, "offer({object}, {to})"),
             Self::Look(at) => write!(f, "look({at})"),
+            Self::Pull(what) => write!(f, "pull({what})"),
+            Self::Push(what) => write!(f, "push({what})"),
             Self::Posture(name) => write!(f, "posture({name})"),
             Self::Other(name) => write!(f, "{name}(…)"),
         }

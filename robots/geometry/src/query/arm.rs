@@ -127,7 +127,7 @@ impl Room<'_> {
     }
 
     /// The pose of the base's link.
-    fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
+    pub(super) fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
         let height = self.machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
         planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
     }

@@ -89,7 +89,8 @@ impl Room<'_> {
         let by = met.most();
         let reason =
             if is_free_somewhere { Reason::BlockedPath { by: None } } else { Reason::NoFreePose { by } };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        let certified = self.is_shut_off([centre.x, centre.y], reach, far);
+        Answer::Infeasible(Infeasible { reason, change: None, certified })
     }
 
     /// The arm to a posture of the card, the base where it is.

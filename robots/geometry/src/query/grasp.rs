@@ -173,7 +173,7 @@ impl Found<'_> {
         // From above the finger tips may have to stay above what the thing stands on.
         let shallow = (side == Side::Top && most > depth + 0.005).then_some(most);
         for depth in [depth].into_iter().chain(shallow) {
-            let at = self.thing.centre + shift - approach * depth;
+            let at = self.thing.centre + shift - approach * depth - along * self.hand.middle(width);
             let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
             self.holds.push(Hold { map_from_tip, approach: *approach, side, width });
         }

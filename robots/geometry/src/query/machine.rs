@@ -42,6 +42,8 @@ pub struct Hand {
     pub palm: f64,
     /// How far the open fingers reach, likewise.
     pub fingers: f64,
+    /// Whether the tip is on a jaw that does not move: then what is held lies against it, else in the middle between the fingers.
+    pub has_fixed_jaw: bool,
     /// The variables of its own joints with their values when it is open.
     pub open: Vec<(usize, f64)>,
     /// For each link whether it belongs to the hand: rigid with the tip, or carried by it.
@@ -133,9 +135,14 @@ impl Machine {
             ))
         });
         let (mut palm, mut fingers) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let mut has_fixed_jaw = false;
         for (is_palm, solid) in placed {
+            let is_jaw = is_palm && is_jaw(&solid, &Vector3::from(card.closes));
+            has_fixed_jaw |= is_jaw;
             let end = solid.centre.dot(&points) + solid.extent(&points);
-            if is_palm {
+            if is_jaw {
+                fingers = fingers.max(end);
+            } else if is_palm {
                 palm = palm.max(front(&solid, &points));
             } else {
                 fingers = fingers.max(end);
@@ -150,6 +157,7 @@ impl Machine {
             solver,
             palm,
             fingers,
+            has_fixed_jaw,
             open,
             members,
             carried,
@@ -220,6 +228,12 @@ impl Machine {
 }
 
 impl Hand {
+    /// How far from the tip, in the direction in which the fingers close, the middle of a thing so wide is held, in m.
+    #[must_use]
+    pub fn middle(&self, width: f64) -> f64 {
+        if self.has_fixed_jaw { width / 2.0 } else { 0.0 }
+    }
+
     /// A configuration with the hand open.
     #[must_use]
     pub fn opened(&self, joints: &[f64]) -> Vec<f64> {
@@ -273,6 +287,18 @@ fn is_carried_by(tree: &Tree, levers: &[Vec<Lever>], tip: usize, link: usize) ->
 /// The link after the last moving joint before the tip: everything on it is rigid with the tip.
 fn tip_group(tree: &Tree, levers: &[Vec<Lever>], tip: usize) -> usize {
     levers.get(tip).and_then(|levers| levers.last()).map_or(tree.root(), |last| last.frame)
+}
+
+/// Whether a solid in the tip's frame is a jaw on whose inner face the tip is.
+fn is_jaw(solid: &Solid, closes: &Vector3<f64>) -> bool {
+    const NEAR: f64 = 0.003;
+    let point = Solid {
+        shape: Shape::Capsule { radius: 0.0, half: 0.0 },
+        centre: Vector3::zeros(),
+        axes: solid.axes,
+    };
+    let face = solid.centre.dot(closes) + solid.extent(closes);
+    (-NEAR..=0.0).contains(&face) && solid.distance(&point) <= NEAR
 }
 
 /// Where a ray against a direction through the origin meets a solid, along the direction; −∞ where it passes by.

@@ -20,6 +20,10 @@ const CELL: f64 = 0.05;
 const CELLS: usize = 400;
 /// How far beyond everything the map goes, in m.
 const MARGIN: f64 = 1.5;
+/// The greatest clearance that is told, in m.
+const CAP: f64 = 2.0;
+/// The side of a square of cells that are looked at one by one.
+const LEAF: usize = 4;
 
 /// The map of a room for one configuration of the arm.
 #[derive(Clone, Debug)]
@@ -28,8 +32,10 @@ pub(super) struct Map {
     origin: [f64; 2],
     cell: f64,
     size: [usize; 2],
+    /// Of each cell; where it is wide, no more than the clearance, where nothing is free, no less.
     clearance: Vec<f64>,
     component: Vec<u32>,
+    is_anywhere: bool,
 }
 
 /// An obstacle seen from above, and the radius of the robot between its heights.
@@ -45,6 +51,7 @@ struct Outline {
 }
 
 impl Map {
+    /// The map of a room with the arm at some joints. O(cells of places where it is narrow × obstacles near them).
     pub(super) fn new(room: &Room<'_>, joints: &[f64]) -> Self {
         let state = State { base: [0.0; 3], joints: joints.to_vec() };
         let placed = room.body.placed(&room.machine.map_from_links(&state));
@@ -53,26 +60,94 @@ impl Map {
         let outlines: Vec<Outline> =
             room.things.iter().filter_map(|thing| Outline::new(&thing.solid, &discs)).collect();
         let [x, y, _] = room.world.robot.base;
-        let (mut low, mut high) = ([x, y], [x, y]);
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for outline in &outlines {
             let reach = libm::hypot(outline.half[0], outline.half[1]) + outline.round;
             for ((low, high), at) in low.iter_mut().zip(&mut high).zip(outline.centre) {
                 (*low, *high) = (low.min(at - reach), high.max(at + reach));
             }
         }
+        let is_around =
+            [x, y].iter().zip(low.iter().zip(&high)).all(|(at, (low, high))| low <= at && at <= high);
+        if !is_around {
+            for ((low, high), at) in low.iter_mut().zip(&mut high).zip([x, y]) {
+                (*low, *high) = (low.min(at), high.max(at));
+            }
+        }
         let origin = low.map(|low| low - MARGIN);
         let span = [high[0] - low[0] + 2.0 * MARGIN, high[1] - low[1] + 2.0 * MARGIN];
         let cell = CELL.max(span[0].max(span[1]) / CELLS as f64);
         let size = span.map(|span| (libm::ceil(span / cell) as usize + 1).min(CELLS + 2));
-        let mut map = Self { outlines, origin, cell, size, clearance: vec![], component: vec![] };
-        map.clearance = (0..size[0] * size[1]).map(|at| map.at(map.centre(at))).collect();
+        let clearance = vec![CAP; size[0] * size[1]];
+        let mut map =
+            Self { outlines, origin, cell, size, clearance, component: vec![], is_anywhere: is_around };
+        let all: Vec<u32> = (0..).take(map.outlines.len()).collect();
+        map.fill([0, 0], [size[0], size[1]], &all);
         map.component = map.components();
         map
     }
 
+    /// Whether it would be the same with the robot's base elsewhere among the things.
+    pub(super) fn is_anywhere(&self) -> bool {
+        self.is_anywhere
+    }
+
+    /// The clearance of the cells of a rectangle, from a corner, by the outlines that matter there. A quarter is looked at
+    /// closer only where the clearance at its middle leaves it open whether a cell is free; elsewhere each cell gets the bound that
+    /// the middle gives, from below where it is free and from above where it is not.
+    fn fill(&mut self, corner: [usize; 2], size: [usize; 2], near: &[u32]) {
+        let [columns, rows] = size;
+        if columns == 0 || rows == 0 {
+            return;
+        }
+        let half = [(columns - 1) as f64 / 2.0, (rows - 1) as f64 / 2.0].map(|half| half * self.cell);
+        let place =
+            |at: usize, axis: usize| self.origin.get(axis).copied().unwrap_or(0.0) + at as f64 * self.cell;
+        let middle = [place(corner[0], 0) + half[0], place(corner[1], 1) + half[1]];
+        let radius = libm::hypot(half[0], half[1]);
+        let distances: Vec<f64> = near
+            .iter()
+            .map(|at| self.outlines.get(*at as usize).map_or(CAP, |outline| outline.distance(middle)))
+            .collect();
+        let least = distances.iter().copied().fold(CAP, f64::min);
+        let is_leaf = columns.max(rows) <= LEAF;
+        let is_settled = least - radius > 2.0 * self.cell || least + radius < 0.0;
+        let kept: Vec<u32> = near
+            .iter()
+            .zip(&distances)
+            .filter(|(_, distance)| **distance <= least + 2.0 * radius)
+            .map(|(at, _)| *at)
+            .collect();
+        if !is_leaf && !is_settled {
+            let (left, above) = (columns / 2, rows / 2);
+            let [column, row] = corner;
+            self.fill([column, row], [left, above], &kept);
+            self.fill([column + left, row], [columns - left, above], &kept);
+            self.fill([column, row + above], [left, rows - above], &kept);
+            self.fill([column + left, row + above], [columns - left, rows - above], &kept);
+            return;
+        }
+        for row in corner[1]..corner[1] + rows {
+            for column in corner[0]..corner[0] + columns {
+                let at =
+                    [self.origin[0] + column as f64 * self.cell, self.origin[1] + row as f64 * self.cell];
+                let value = if is_settled {
+                    let off = libm::hypot(at[0] - middle[0], at[1] - middle[1]);
+                    if least > 0.0 { least - off } else { least + off }
+                } else {
+                    let outlines = kept.iter().filter_map(|at| self.outlines.get(*at as usize));
+                    outlines.map(|outline| outline.distance(at)).fold(CAP, f64::min)
+                };
+                if let Some(slot) = self.clearance.get_mut(row * self.size[0] + column) {
+                    *slot = value;
+                }
+            }
+        }
+    }
+
     /// Clearance of a place in m; negative where the robot would touch something.
     pub(super) fn at(&self, place: [f64; 2]) -> f64 {
-        self.outlines.iter().map(|outline| outline.distance(place)).fold(2.0, f64::min)
+        self.outlines.iter().map(|outline| outline.distance(place)).fold(CAP, f64::min)
     }
 
     /// Whether a straight way is free.
@@ -171,28 +246,34 @@ impl Map {
         })
     }
 
+    /// For each cell the first of those that it hangs together with, counted from 1; 0 where it is not free.
     fn components(&self) -> Vec<u32> {
-        let mut component = vec![0; self.clearance.len()];
-        let mut count = 0;
-        for start in 0..component.len() {
-            if component.get(start) != Some(&0) || self.free(start) <= 0.0 {
-                continue;
-            }
-            count += 1;
-            let mut open = vec![start];
-            while let Some(at) = open.pop() {
-                for (cell, _) in self.next(at) {
-                    if let Some(slot) = component.get_mut(cell).filter(|slot| **slot == 0) {
-                        *slot = count;
-                        open.push(cell);
+        let mut first: Vec<u32> = (0..).take(self.clearance.len()).collect();
+        let columns = self.size[0];
+        let diagonal = self.cell * std::f64::consts::SQRT_2;
+        for (at, here) in self.clearance.iter().enumerate().filter(|(_, here)| **here > 0.0) {
+            let column = at % columns;
+            // The other four neighbours look at this one.
+            let around = [
+                (column + 1 < columns, at + 1, self.cell),
+                (true, at + columns, self.cell),
+                (column + 1 < columns, at + columns + 1, diagonal),
+                (column > 0, at + columns - 1, diagonal),
+            ];
+            for (_, other, far) in around.into_iter().filter(|(is_within, ..)| *is_within) {
+                let beyond = self.free(other);
+                if beyond > 0.0 && here + beyond > far {
+                    let (one, other) = (root(&mut first, at), root(&mut first, other));
+                    let (low, high) = (one.min(other), one.max(other));
+                    if let Some(slot) = first.get_mut(high) {
+                        *slot = low as u32;
                     }
                 }
             }
-            if let Some(slot) = component.get_mut(start) {
-                *slot = count;
-            }
         }
-        component
+        (0..first.len())
+            .map(|at| if self.free(at) > 0.0 { root(&mut first, at) as u32 + 1 } else { 0 })
+            .collect()
     }
 
     /// The shortest way from cell to cell (A*, with the straight distance as the bound).
@@ -267,6 +348,21 @@ impl Outline {
         let a = ((x * c + y * s).abs() - self.half[0]).max(0.0);
         let b = ((y * c - x * s).abs() - self.half[1]).max(0.0);
         (a * a + b * b).sqrt() - self.round - self.keep_off
+    }
+}
+
+/// The first of the cells that a cell hangs together with; ways to it become shorter.
+fn root(first: &mut [u32], mut at: usize) -> usize {
+    loop {
+        let next = first.get(at).map_or(at, |next| *next as usize);
+        if next == at {
+            return at;
+        }
+        let after = first.get(next).copied().unwrap_or_default();
+        if let Some(slot) = first.get_mut(at) {
+            *slot = after;
+        }
+        at = next;
     }
 }
 

@@ -7,6 +7,7 @@
 mod after;
 mod answer;
 mod arm;
+mod follow;
 mod go;
 mod grasp;
 mod look;
@@ -14,9 +15,14 @@ mod machine;
 mod map;
 mod obstacle;
 mod offer;
+mod opened;
+mod opening;
+mod pull;
+mod push;
 mod put;
 mod reach;
 mod room;
+mod shut;
 mod state;
 mod touch;
 mod travel;
@@ -24,7 +30,8 @@ mod world;
 
 pub use answer::{Answer, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
 pub use machine::{Hand, Machine, Solver};
-pub use room::{GAP, Room};
+pub use opening::Opening;
+pub use room::{GAP, Maps, Room};
 pub use state::State;
 pub use touch::{Allowed, Touch};
 pub use world::{World, components};
@@ -47,6 +54,8 @@ impl Room<'_> {
             Query::Put(object, on) => self.put(object, on, budget),
             Query::Offer(object, to) => self.offer(object, to, budget),
             Query::Look(at) => self.look(at, budget),
+            Query::Pull(what) => self.pull(what, [0.0, 1.0], budget),
+            Query::Push(what) => self.push(what, budget),
             Query::Posture(name) => self.to_posture(name),
             Query::Other(name) => Answer::Unknown(Unknown::Because(format!("`{name}` is not computed yet"))),
         }

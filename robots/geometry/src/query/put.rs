@@ -5,7 +5,6 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::arm::{PLANE, part};
-use super::machine::Hand;
 use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
 use super::state::State;
@@ -16,7 +15,7 @@ use crate::collision::{Shape, Solid};
 use crate::kinematics::planar;
 
 /// How far above its support a thing is let go, in m.
-const ABOVE: f64 = 0.004;
+pub(super) const ABOVE: f64 = 0.004;
 /// How far it is lowered straight down before, in m; the shorter where the longer does not do.
 const LOWER: [f64; 2] = [0.1, 0.05];
 /// Places that are tried, nearest to the robot first.
@@ -25,10 +24,12 @@ const PLACES: usize = 12;
 const TURNS: u32 = 8;
 
 /// A flat rectangle or disc on which things can stand.
-struct Support {
+pub(super) struct Support {
     /// The middle of its upper face, with its directions.
-    map_from_face: Isometry3<f64>,
-    half: [f64; 2],
+    pub(super) map_from_face: Isometry3<f64>,
+    pub(super) half: [f64; 2],
+    /// How high the walls around it are, in m: what is put there comes from above them.
+    walls: f64,
     is_disc: bool,
 }
 
@@ -49,7 +50,8 @@ impl Room<'_> {
         let places = self.places(&held, &support, index, &mut met);
         if places.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
-            return Answer::Infeasible(Infeasible { reason, change: None, certified: false });
+            let certified = self.is_full(&held, &support, index);
+            return Answer::Infeasible(Infeasible { reason, change: None, certified });
         }
         let (mut poses, mut ways, mut tried, mut is_cut_off) = (Tally::default(), Tally::default(), 0, false);
         // As many tries for all places together as one grasp has.
@@ -67,7 +69,7 @@ impl Room<'_> {
                         continue;
                     }
                     tried += 1;
-                    if let Some(path) = self.way_down(held.hand, &state, &map_from_tip, allowed, &mut ways) {
+                    if let Some(path) = self.way_down(&held, &state, &support, allowed, &mut ways) {
                         return Answer::Feasible(Box::new(self.put_down(&held, path, map_from_tip, allowed)));
                     }
                     if tried >= budget.paths {
@@ -118,14 +120,19 @@ impl Room<'_> {
         let (face, inset) = match &entity.travel {
             // Inside, on its bottom.
             Some(Travel::Slide { axis, distance }) => {
-                (pose * Translation3::from(Vector3::from(*axis) * *distance), super::obstacle::WALL)
+                (pose * Translation3::from(Vector3::from(*axis) * *distance), super::opening::WALL)
             }
-            Some(Travel::Hinge { .. }) => (pose, super::obstacle::WALL),
+            Some(Travel::Hinge { .. }) => (pose, super::opening::WALL),
             None => (pose, 0.0),
         };
-        let height = if entity.travel.is_some() { super::obstacle::WALL - height } else { height };
+        let deep = height;
+        let height = if entity.travel.is_some() { super::opening::WALL - height } else { height };
         let map_from_face = face * Translation3::new(0.0, 0.0, height);
-        Ok(Support { map_from_face, half: half.map(|half| half - inset), is_disc })
+        let walls = match &entity.travel {
+            Some(Travel::Slide { .. }) => 2.0 * deep,
+            Some(Travel::Hinge { .. }) | None => 0.0,
+        };
+        Ok(Support { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
     }
 
     /// Free places of what is held, upright, nearest to the robot first.
@@ -171,13 +178,16 @@ impl Room<'_> {
     /// A way from where the robot is to a state, the last part straight down.
     fn way_down(
         &self,
-        hand: &Hand,
+        held: &Held<'_>,
         state: &State,
-        map_from_tip: &Isometry3<f64>,
+        on: &Support,
         allowed: Allowed,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
-        LOWER.into_iter().find_map(|lower| {
+        let hand = held.hand;
+        let map_from_tip = &self.machine.map_from_links(state).get(hand.tip).copied()?;
+        let over = (on.walls > 0.0).then(|| on.walls + LOWER[1]);
+        over.into_iter().chain(LOWER).find_map(|lower| {
             let line = self.line(hand, state, map_from_tip, &Vector3::new(0.0, 0.0, lower))?;
             for pair in line.windows(2) {
                 if let [one, other] = pair

@@ -162,7 +162,12 @@ impl Room<'_> {
     }
 
     /// What the hand alone touches at a pose of its tip.
-    fn hand_touch(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, allowed: Allowed) -> Option<Touch> {
+    pub(super) fn hand_touch(
+        &self,
+        hand: &Hand,
+        map_from_tip: &Isometry3<f64>,
+        allowed: Allowed,
+    ) -> Option<Touch> {
         let poses = self.machine.tree().root_from_links(&hand.opened(&self.world.robot.joints));
         let map_from_root = map_from_tip * poses.get(hand.tip)?.inverse();
         let floor = Solid::floor();

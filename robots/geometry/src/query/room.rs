@@ -1,5 +1,8 @@
 //! A room made ready: a robot in a world, with what stands around as solids, and the map of where its base can drive.
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock};
+
 use motet_robots::scene::{Entity, Scene, Shape};
 use smol_str::SmolStr;
 
@@ -13,7 +16,8 @@ use crate::collision::{Body, Part, Solid};
 /// How far everything stays from everything else, in m.
 pub const GAP: f64 = 0.002;
 
-/// A robot in a world. Made once for all queries of one world; O(obstacles × cells of the map).
+/// A robot in a world. Made once for all queries of one world; O(entities), and O(obstacles × cells of the map) when it is first
+/// asked how the base drives.
 #[derive(Clone, Debug)]
 pub struct Room<'w> {
     pub(super) machine: &'w Machine,
@@ -24,9 +28,37 @@ pub struct Room<'w> {
     /// Index of the part that is in the hand.
     pub(super) held: Option<usize>,
     pub(super) things: Vec<Thing>,
-    pub(super) map: Option<Map>,
+    /// Made when it is first asked for, or taken from [`Maps`].
+    map: OnceLock<Option<Arc<Map>>>,
+    maps: Option<&'w Maps>,
+    /// Index of the container that is about to open or close, whose moving parts are not among the things.
+    pub(super) opening: Option<usize>,
     /// Entities with a mesh for a shape.
     unseen: Vec<SmolStr>,
+}
+
+/// Maps of where a robot's base can drive in a scene, by what else the world is like: made once, whatever the base does.
+#[derive(Debug, Default)]
+pub struct Maps(Mutex<BTreeMap<Vec<u8>, Arc<Map>>>);
+
+impl Maps {
+    /// The most that are kept; beyond, all are forgotten.
+    const MOST: usize = 64;
+
+    fn get(&self, key: &[u8], make: impl Fn() -> Arc<Map>) -> Arc<Map> {
+        // A lock that a panic elsewhere poisoned only loses what was kept.
+        if let Some(known) = self.0.lock().ok().and_then(|maps| maps.get(key).cloned()) {
+            return known;
+        }
+        let map = make();
+        if let (true, Ok(mut maps)) = (map.is_anywhere(), self.0.lock()) {
+            if maps.len() >= Self::MOST {
+                maps.clear();
+            }
+            maps.insert(key.to_vec(), Arc::clone(&map));
+        }
+        map
+    }
 }
 
 /// A solid of an entity.
@@ -57,9 +89,35 @@ impl<'w> Room<'w> {
         }
         let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(Shape::Mesh { .. }));
         let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
-        let mut room = Self { machine, scene, world, body, held, things, map: None, unseen };
-        room.map = machine.drives().then(|| Map::new(&room, &world.robot.joints));
-        room
+        let map = OnceLock::new();
+        Self { machine, scene, world, body, held, things, map, maps: None, opening: None, unseen }
+    }
+
+    /// The room with maps that were made for others of the same machine and scene, and that keep what is made for this one.
+    #[must_use]
+    pub fn sharing(self, maps: &'w Maps) -> Self {
+        Self { maps: Some(maps), ..self }
+    }
+
+    /// The same machine, scene and maps in another world.
+    pub(super) fn in_world<'o>(&self, world: &'o World) -> Room<'o>
+    where
+        'w: 'o,
+    {
+        let room = Room::new(self.machine, self.scene, world);
+        Room { maps: self.maps, ..room }
+    }
+
+    /// Where the base can drive with the arm as it is; `None` where it does not drive.
+    pub(super) fn map(&self) -> Option<&Map> {
+        let make = || Arc::new(Map::new(self, &self.world.robot.joints));
+        let map = self.map.get_or_init(|| {
+            self.machine.drives().then(|| match self.maps {
+                Some(maps) => maps.get(&self.world.key_without_base(), make),
+                None => make(),
+            })
+        });
+        map.as_deref()
     }
 
     /// The robot that is asked.

@@ -109,7 +109,7 @@ impl Room<'_> {
 
     /// For each part how far any of its points goes at most from the middle of a way to `half` of the way on either side:
     /// as seen from the base, and in the map.
-    fn goes(
+    pub(super) fn goes(
         &self,
         poses: &[Isometry3<f64>],
         placed: &[Solid],

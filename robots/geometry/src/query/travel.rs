@@ -75,7 +75,7 @@ impl Room<'_> {
 
     /// Whether the base, with the arm as it is at the start, can drive to any place within a step of a state's.
     pub(super) fn is_near_drivable(&self, to: &State) -> bool {
-        let Some(map) = &self.map else { return true };
+        let Some(map) = self.map() else { return true };
         let (start, [x, y]) = (plane(&self.world.robot), plane(to));
         let starts: Vec<[f64; 2]> = [start].into_iter().chain(self.escapes().map(|(_, from)| from)).collect();
         let widest = BACK.into_iter().fold(0.0, f64::max) + 0.1;
@@ -91,7 +91,7 @@ impl Room<'_> {
     /// Whether the base can drive to a state with the arm as it is.
     pub(super) fn is_drivable(&self, to: &State) -> bool {
         let (start, goal) = (plane(&self.world.robot), plane(to));
-        match &self.map {
+        match self.map() {
             Some(map) => {
                 map.is_connected(start, goal) || self.escapes().any(|(_, from)| map.is_connected(from, goal))
             }
@@ -102,7 +102,7 @@ impl Room<'_> {
     /// The way of the base to a state with the arm as it is.
     pub(super) fn drive(&self, to: &State) -> Option<Vec<State>> {
         let start = &self.world.robot;
-        let Some(map) = &self.map else { return Some(vec![start.clone()]) };
+        let Some(map) = self.map() else { return Some(vec![start.clone()]) };
         let mut path = vec![start.clone()];
         let corners = match map.way(plane(start), plane(to)) {
             Some(corners) => corners,
@@ -150,7 +150,7 @@ impl Room<'_> {
     /// Straight ways out of a place where there is no room to turn, nearest first.
     fn escapes(&self) -> impl Iterator<Item = (State, [f64; 2])> + '_ {
         let start = &self.world.robot;
-        let map = self.map.as_ref().filter(|map| map.at(plane(start)) <= 0.0);
+        let map = self.map().filter(|map| map.at(plane(start)) <= 0.0);
         let ways =
             [0.1, 0.2, 0.3, 0.45, 0.6, 0.8].into_iter().flat_map(|far| (0..16).map(move |step| (far, step)));
         map.into_iter().flat_map(move |map| {

@@ -60,7 +60,8 @@ impl World {
             let axes = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
             let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
             let depth = (hand.palm + half).max(0.0);
-            Some((id, Isometry3::from_parts(Translation3::from(points * depth), rotation)))
+            let middle = points * depth + closes * hand.middle(2.0 * half);
+            Some((id, Isometry3::from_parts(Translation3::from(middle), rotation)))
         });
         Self {
             robot: State { base: scene.robot.base, joints },
@@ -90,6 +91,13 @@ impl World {
     /// All that tells this world from another of the same robot and scene, bit for bit.
     #[must_use]
     pub fn fingerprint(&self) -> Vec<u8> {
+        let mut key = self.key_without_base();
+        self.robot.base.iter().for_each(|value| key.extend_from_slice(&value.to_bits().to_le_bytes()));
+        key
+    }
+
+    /// The same but for where the base is.
+    pub(super) fn key_without_base(&self) -> Vec<u8> {
         let mut key = Vec::with_capacity(256);
         let numbers = |key: &mut Vec<u8>, values: &[f64]| {
             values.iter().for_each(|value| key.extend_from_slice(&value.to_bits().to_le_bytes()));
@@ -101,7 +109,6 @@ impl World {
             numbers(key, &xyz);
             numbers(key, &quaternion);
         };
-        numbers(&mut key, &self.robot.base);
         numbers(&mut key, &self.robot.joints);
         self.moved.iter().for_each(|(id, at)| pose(&mut key, id, at));
         key.push(1);

@@ -11,6 +11,7 @@
     reason = "a test fails by panicking"
 )]
 
+mod opening;
 mod verify;
 
 use std::collections::BTreeMap;
@@ -112,6 +113,9 @@ fn the_anymal_in_the_living_room() {
     let answers = all("anymal_z1", "living_room");
     let mut drives = answers.iter().filter(|(query, _)| query.starts_with("go_to"));
     assert!(drives.all(|(_, answer)| matches!(answer, Answer::Feasible(_))));
+    for query in ["reach(book)", "reach(bottle_1)", "reach(cup)"] {
+        assert!(matches!(answers[query], Answer::Feasible(_)), "{query}: {:?}", answers[query]);
+    }
 }
 
 fn changed(change: impl FnOnce(&mut Scene)) -> Scene {
@@ -164,7 +168,7 @@ fn what_is_infeasible_says_why() {
 #[test]
 fn what_is_not_computed_is_unknown() {
     // Nothing is in the hand yet.
-    for query in ["pull(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "posture(nowhere)"] {
+    for query in ["push(drawer_1)", "put(mug_1, sink)", "offer(mug_1, user)", "posture(nowhere)"] {
         let answer = ask(&embedded("kitchen"), query);
         assert!(matches!(answer, Answer::Unknown(Unknown::Because(_))), "{query}: {answer:?}");
     }

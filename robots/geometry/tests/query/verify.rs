@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use glamx::{DPose3, DVec3};
-use motet_geometry::query::{Machine, State, Witness, World};
+use motet_geometry::query::{Machine, Opening, State, Witness, World};
 use motet_robots::scene::{self, Scene};
 use motet_robots::urdf::{JointKind, Pose, Shape, Urdf};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
@@ -112,21 +112,113 @@ pub(crate) fn faults(
     witness: &Witness,
     support: Option<&str>,
 ) -> Vec<String> {
+    let hand = machine.hand().unwrap();
+    let around = |_: usize, _: f64| closed(scene, world, None);
+    let grasped = witness.grasp.as_ref().map(|grasp| grasp.object.as_str());
+    let mut faults = legs(machine, urdf, scene, world, witness, [grasped, support], around);
+    if let Some(grasp) = &witness.grasp {
+        let last = links(machine, urdf, witness.path.last().unwrap())[hand.tip];
+        let off = last.inverse() * grasp.map_from_tip;
+        if off.translation.vector.norm() > 1e-6 || off.rotation.angle() > 1e-6 {
+            faults.push("the hand does not end at the grasp".into());
+        }
+        if grasp.width > hand.card.opening_m {
+            faults.push("too wide".into());
+        }
+    }
+    faults
+}
+
+/// What is wrong with a witness of `pull` or `push`. From the way-point at which the hand is around the handle, the container
+/// opens evenly, leg by leg; how it looks at each part of its way is shared with the query.
+pub(crate) fn faults_of_pull(
+    machine: &Machine,
+    urdf: &Urdf,
+    scene: &Scene,
+    world: &World,
+    witness: &Witness,
+) -> Vec<String> {
+    let hand = machine.hand().unwrap();
+    let grasp = witness.grasp.as_ref().unwrap();
+    let entity = &scene.entities[&grasp.object];
+    let opening = Opening::new(entity, world).unwrap();
+    let was = if world.is_open(entity) { 1.0 } else { 0.0 };
+    let tip = |state: &State| links(machine, urdf, state)[hand.tip];
+    let is_at = |state: &State| {
+        let off = tip(state).inverse() * grasp.map_from_tip;
+        off.translation.vector.norm() < 1e-6 && off.rotation.angle() < 1e-6
+    };
+    let Some(begin) = witness.path.iter().rposition(is_at) else { return vec!["not at the handle".into()] };
+    let count = (witness.path.len() - 1 - begin) as f64;
+    let part = |leg: usize, share: f64| {
+        let done = if leg < begin { 0.0 } else { ((leg - begin) as f64 + share) / count };
+        (was - done).abs()
+    };
+    let around = |leg: usize, share: f64| {
+        let mut all = closed(scene, world, Some(&grasp.object));
+        // Closed and not begun it is as solid as it looks.
+        let solids = if leg < begin && was == 0.0 {
+            vec![of_scene(entity.shape.as_ref().unwrap(), world.pose(entity).unwrap())]
+        } else {
+            opening.solids(part(leg, share)).iter().map(of_box).collect()
+        };
+        // What lies in a drawer goes with it.
+        let moved = opening.map_moved(part(leg, share)) * opening.map_moved(was).inverse();
+        let inside = |id: &str| scene.entities[id].inside.as_ref() == Some(&grasp.object);
+        all.iter_mut().filter(|(id, _)| inside(id)).for_each(|(_, (pose, _))| *pose = moved * *pose);
+        all.extend(solids.into_iter().map(|solid| (grasp.object.as_str(), solid)));
+        all
+    };
+    let mut faults = legs(machine, urdf, scene, world, witness, [None, None], around);
+    let handle = grasp.map_from_tip * grasp.tip_from_object;
+    let far = grasp.tip_from_object.translation.vector.norm();
+    for leg in begin..witness.path.len() - 1 {
+        for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let state = witness.path[leg].towards(&witness.path[leg + 1], share);
+            let moved = opening.map_moved(part(leg, share)) * opening.map_moved(was).inverse();
+            let now = (tip(&state).translation.vector - (moved * handle).translation.vector).norm();
+            if (now - far).abs() > 0.003 {
+                faults.push(format!("leg {leg}: the hand is {:.4} m off the handle", (now - far).abs()));
+            }
+        }
+    }
+    faults
+}
+
+/// What stands around, closed, but for one.
+fn closed<'s>(scene: &'s Scene, world: &World, but: Option<&str>) -> Vec<(&'s str, Solid)> {
+    let others = scene.entities.values().filter(|entity| !world.holds(&entity.id) && but != Some(&entity.id));
+    let placed = others.filter_map(|entity| {
+        Some((entity.id.as_str(), of_scene(entity.shape.as_ref()?, world.pose(entity)?)))
+    });
+    placed.collect()
+}
+
+fn of_box(solid: &motet_geometry::collision::Solid) -> Solid {
+    let motet_geometry::collision::Shape::Box(half) = solid.shape else { panic!("walls are boxes") };
+    let axes = nalgebra::Matrix3::from_columns(&solid.axes);
+    let rotation = UnitQuaternion::from_matrix(&axes);
+    let pose = Isometry3::from_parts(Translation3::from(solid.centre), rotation);
+    (pose, Box::new(shape::Cuboid::new(DVec3::new(half.x, half.y, half.z))))
+}
+
+/// What touches along the legs of a witness, with what stands around at a share of each. Of `free` the hand may touch the
+/// first from where it is in front of it, and what is held the second.
+fn legs<'s>(
+    machine: &Machine,
+    urdf: &Urdf,
+    scene: &'s Scene,
+    world: &World,
+    witness: &Witness,
+    [grasped, support]: [Option<&str>; 2],
+    around: impl Fn(usize, f64) -> Vec<(&'s str, Solid)>,
+) -> Vec<String> {
     let mut faults = Vec::new();
     let hand = machine.hand().unwrap();
-    let obstacles: Vec<(&str, Solid)> = scene
-        .entities
-        .values()
-        .filter(|entity| !world.holds(&entity.id))
-        .filter_map(|entity| {
-            Some((entity.id.as_str(), of_scene(entity.shape.as_ref()?, world.pose(entity)?)))
-        })
-        .collect();
     let floor: Solid = (Isometry3::identity(), Box::new(shape::HalfSpace::new(DVec3::Z)));
     let parts = machine.body().parts();
     let pairs: BTreeSet<[usize; 2]> =
         machine.body().pairs().iter().map(|[one, other]| [parts[*one].link, parts[*other].link]).collect();
-    let grasped = witness.grasp.as_ref().map(|grasp| grasp.object.as_str());
     if witness.path.first() != Some(&world.robot) {
         faults.push("does not begin where the robot is".into());
     }
@@ -147,6 +239,7 @@ pub(crate) fn faults(
             if !machine.tree().allows(&state.joints) {
                 faults.push(format!("leg {leg}: beyond the limits"));
             }
+            let obstacles = around(leg, step as f64 / steps as f64);
             let poses = links(machine, urdf, &state);
             let solids: Vec<(usize, Solid)> = (urdf.links.iter().enumerate())
                 .flat_map(|(at, link)| link.collisions.iter().map(move |solid| (at, solid)))
@@ -197,16 +290,6 @@ pub(crate) fn faults(
                     }
                 }
             }
-        }
-    }
-    if let Some(grasp) = &witness.grasp {
-        let last = links(machine, urdf, witness.path.last().unwrap())[hand.tip];
-        let off = last.inverse() * grasp.map_from_tip;
-        if off.translation.vector.norm() > 1e-6 || off.rotation.angle() > 1e-6 {
-            faults.push("the hand does not end at the grasp".into());
-        }
-        if grasp.width > hand.card.opening_m {
-            faults.push("too wide".into());
         }
     }
     faults

@@ -9,7 +9,8 @@ use motet_runtime::{
 };
 use smol_str::SmolStr;
 
-use super::{Conversation, First, Planner, Problem, Rest, Wait, Watcher};
+use super::first::First;
+use super::{Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::model::{Judged, judge};
 use crate::request::{Situation, Understood};
@@ -139,12 +140,6 @@ impl Live<'_, '_> {
         let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)
-    }
-}
-
-impl First {
-    fn new(rest: Option<Rest>, answered: &Answered) -> Self {
-        Self { rest, bound: Vec::new(), understood: answered.understood.clone() }
     }
 }
 

@@ -5,6 +5,7 @@
 //! [`Driver`](motet_runtime::Driver).
 
 mod answer;
+mod first;
 mod known;
 mod live;
 mod problem;
@@ -12,7 +13,7 @@ mod problem;
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options, Session};
-use motet_graph::{Graph, Value};
+use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Limits, Memory};
@@ -26,8 +27,8 @@ pub use known::Known;
 pub use problem::{Kind, Problem};
 
 use crate::builtin::{self, Answered, Unplanned};
-use crate::model::{Judged, judge, without_first_step};
-use crate::request::{Situation, Understood};
+use crate::request::Situation;
+use first::After;
 use live::Live;
 
 /// The most policies for one request.
@@ -205,23 +206,6 @@ struct Task {
     tries: usize,
 }
 
-/// The first step of a policy that is still being written.
-struct First {
-    /// What became of the rest, where that is known: the whole policy, which could not take over at once, or none.
-    rest: Option<Rest>,
-    /// What the names of the first step were bound to.
-    bound: Vec<(SmolStr, Value)>,
-    understood: Understood,
-}
-
-/// What follows such a first step.
-enum After {
-    Done,
-    Stopped,
-    Runs(Box<Answered>),
-    PlansAnew,
-}
-
 impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
@@ -343,24 +327,6 @@ impl<'a> Conversation<'a> {
     ) -> Result<Answered, Unplanned> {
         let session = self.session(scene, &self.known, base);
         self.plan_for(&task.request, &task.meant, planner, (&session, scene, &self.known))
-    }
-
-    /// What follows the first step of a policy, which is done.
-    fn after_first(&self, first: First, planner: &mut dyn Planner, base: Option<[f64; 3]>) -> After {
-        let policy = match first.rest.unwrap_or_else(|| planner.rest(Wait::ToTheEnd)) {
-            Rest::Whole(policy) => policy,
-            Rest::Stopped => return After::Stopped,
-            Rest::Nothing | Rest::Coming | Rest::Broken => return After::PlansAnew,
-        };
-        let Ok(rest) = without_first_step(&policy, &first.bound) else { return After::PlansAnew };
-        let Some(rest) = rest else { return After::Done };
-        let scene = self.known.scene(&self.setting.scene);
-        match judge(&self.session(&scene, &self.known, base), &rest) {
-            Judged::Good { planned, .. } => {
-                After::Runs(Box::new(Answered { understood: first.understood, planned: *planned }))
-            }
-            Judged::Bad { .. } => After::PlansAnew,
-        }
     }
 
     /// A session in what is known; with motions where it is known where everything is.

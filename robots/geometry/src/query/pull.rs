@@ -1,0 +1,277 @@
+//! `pull` and `push` of what opens: the hand takes the handle and follows it along the container's own travel, the whole
+//! robot with it.
+//!
+//! The robot follows in one of two ways. Its base goes along with the arm still: beside the handle, or turning with the
+//! door, or half of each, the hand turning about the bar that it holds. Or the base stands still and the arm follows. Each leg is certified
+//! with the door or drawer moving: a solid and a part of the robot are far enough from each other in the middle of a leg
+//! that what both go until its ends cannot bring them together; else the leg is halved.
+
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
+use super::follow::{Following, Turning};
+use super::grasp::Hold;
+use super::machine::Hand;
+use super::opening::{Opening, THICK};
+use super::reach::certain;
+use super::room::Room;
+use super::state::State;
+use super::touch::Allowed;
+use super::travel::Tally;
+use crate::trigonometry::turn;
+
+/// How far before a handle the hand turns straight towards it, in m; the shorter where the longer does not do.
+const BACK: [f64; 2] = [0.1, 0.05];
+/// How far the finger tips reach beyond the middle of a handle, in m.
+const BEYOND: f64 = 0.01;
+/// Directions from which a handle is taken, as angles about it in rad from square to its face.
+const TILTS: [f64; 5] = [0.0, 0.52, -0.52, 1.05, -1.05];
+/// Places along a handle, as shares of half of its length.
+const PLACES: [f64; 3] = [0.0, 0.6, -0.6];
+
+/// A handle to be taken and where it goes.
+pub(super) struct Pull<'a> {
+    pub(super) id: &'a str,
+    pub(super) hand: &'a Hand,
+    pub(super) opening: Opening,
+    /// From how far open to how far open.
+    pub(super) parts: [f64; 2],
+    /// How far before the tip the middle of the bar is, in m.
+    depth: f64,
+}
+
+impl Room<'_> {
+    /// A container opened, `parts` `[0, 1]`, or closed, `[1, 0]`, by its handle.
+    pub(super) fn pull(&self, id: &str, parts: [f64; 2], budget: Budget) -> Answer {
+        let unknown = |why: String| Answer::Unknown(Unknown::Because(why));
+        let Some((index, entity)) = self.entity(id) else { return unknown(format!("there is no `{id}`")) };
+        let Some(hand) = self.machine.hand() else {
+            return unknown("the card names no hand with a tip".into());
+        };
+        if let Some((held, _)) = &self.world.held {
+            return unknown(format!("the hand holds `{held}`"));
+        }
+        if entity.travel.is_none() {
+            return unknown(format!("`{id}` has nothing that opens"));
+        }
+        let [from, to] = parts;
+        if self.world.is_open(entity) != (from > to) {
+            let is = if from > to { "closed" } else { "open" };
+            return unknown(format!("`{id}` is {is} already"));
+        }
+        let Some(opening) = Opening::new(entity, self.world) else {
+            return unknown(format!("how `{id}` opens does not follow from its shape"));
+        };
+        let (clear, contents) = self.without(index, &opening, from);
+        let opening = opening.with(contents);
+        if let Some(by) = clear.stops(&opening, parts) {
+            let change = Some(format!("take `{by}` out of its way"));
+            return certain(Reason::BlockedPath { by: Some(by) }, change);
+        }
+        let depth = (self.front_around(hand, THICK) - BEYOND).max(hand.palm + THICK / 2.0);
+        let pull = Pull { id, hand, opening, parts, depth };
+        let all = pull.holds();
+        let mut met = Tally::default();
+        let free: Vec<&Hold> = all
+            .iter()
+            .filter(|hold| match self.hand_touch(hand, &hold.map_from_tip, Allowed::default()) {
+                Some(touch) => {
+                    met.add(&touch);
+                    false
+                }
+                None => true,
+            })
+            .collect();
+        if free.is_empty() {
+            let reason = Reason::NoFreePose { by: met.most() };
+            return Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() });
+        }
+        self.search_pull(&pull, &clear, &free, budget)
+    }
+
+    fn search_pull(&self, pull: &Pull<'_>, clear: &Room<'_>, holds: &[&Hold], budget: Budget) -> Answer {
+        let end = clear.beside(&pull.opening, pull.parts[1]);
+        let (mut poses, mut ways) = (Tally::default(), Tally::default());
+        let (mut tried, mut is_cut_off) = (0, false);
+        for at in 0..budget.candidates {
+            for hold in holds {
+                for state in self.candidates(pull.hand, &hold.map_from_tip, at) {
+                    if let Some(touch) = self.touch(&state, Allowed::default()) {
+                        poses.add(&touch);
+                        continue;
+                    }
+                    if !self.is_near_drivable(&state) {
+                        is_cut_off = true;
+                        continue;
+                    }
+                    let mut path = None;
+                    for following in pull.followings(self.machine) {
+                        let Some(last) = clear.follows_to(pull, hold, &state, following) else { continue };
+                        if let Some(touch) = end.touch(&last, Allowed::default()) {
+                            ways.add(&touch);
+                            continue;
+                        }
+                        tried += 1;
+                        path = clear.follow(pull, hold, &state, following, &mut ways);
+                        if path.is_some() {
+                            break;
+                        }
+                    }
+                    let found =
+                        path.and_then(|way| Some((self.way_to_handle(pull, hold, &state, &mut ways)?, way)));
+                    if let Some((way_in, way)) = found {
+                        return Answer::Feasible(Box::new(self.pulled_along(pull, clear, hold, way_in, way)));
+                    }
+                    if tried >= budget.paths {
+                        return Answer::Unknown(Unknown::Budget);
+                    }
+                }
+            }
+        }
+        let reason = if tried > 0 || is_cut_off || ways.most().is_some() {
+            Reason::BlockedPath { by: ways.most() }
+        } else {
+            Reason::NoFreePose { by: poses.most() }
+        };
+        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+    }
+
+    /// A way from where the robot is to a state at the handle, which the hand then closes around.
+    fn way_to_handle(
+        &self,
+        pull: &Pull<'_>,
+        hold: &Hold,
+        state: &State,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        let none = Allowed::default();
+        BACK.into_iter().find_map(|back| {
+            let mut line = self.approach(pull.hand, state, &hold.map_from_tip, back)?;
+            line.push(self.gripping(pull.hand, state));
+            for pair in line.windows(2) {
+                if let [one, other] = pair
+                    && let Err(touch) = self.edge(one, other, none)
+                {
+                    met.add(&touch);
+                    return None;
+                }
+            }
+            let first = line.first()?;
+            let [x, y, _] = first.base;
+            let (dx, dy) = (hold.map_from_tip.translation.x - x, hold.map_from_tip.translation.y - y);
+            let far = libm::hypot(dx, dy).max(1e-9);
+            let mut path = self.route(first, [dx / far, dy / far], met)?;
+            let turns = path.last()?.base[2] - first.base[2];
+            path.extend(line.iter().skip(1).map(|state| turned(state, turns)));
+            Some(path)
+        })
+    }
+
+    /// A state with the fingers around a handle.
+    pub(super) fn gripping(&self, hand: &Hand, state: &State) -> State {
+        State { base: state.base, joints: hand.around(&state.joints, self.machine.rest(), THICK) }
+    }
+
+    fn pulled_along(
+        &self,
+        pull: &Pull<'_>,
+        clear: &Room<'_>,
+        hold: &Hold,
+        way_in: Vec<State>,
+        way: Vec<State>,
+    ) -> Witness {
+        let none = Allowed::default();
+        let first = self.margins(&way_in, none);
+        let second = clear.margins(&way, none);
+        let count = way.len().saturating_sub(1).max(1) as f64;
+        let [from, to] = pull.parts;
+        // The door itself, at the way-points.
+        let nearest = way.iter().zip(0..).map(|(state, at)| {
+            let part = from + (to - from) * (f64::from(at) / count);
+            clear.beside(&pull.opening, part).clearance(state, none)
+        });
+        let clearance = nearest.fold(first.clearance.min(second.clearance), f64::min);
+        let turns = way_in.last().zip(way.first()).map_or(0.0, |(end, begin)| end.base[2] - begin.base[2]);
+        let mut path = way_in;
+        path.extend(way.iter().skip(1).map(|state| turned(state, turns)));
+        let limit = [first.limit, second.limit].into_iter().flatten().reduce(f64::min);
+        let grasp = Some(Grasp {
+            object: pull.id.into(),
+            side: hold.side,
+            map_from_tip: hold.map_from_tip,
+            tip_from_object: hold.map_from_tip.inverse() * pull.map_from_handle(pull.parts[0]),
+            width: hold.width,
+        });
+        Witness { path, grasp, margins: Margins { clearance, limit, payload: None } }
+    }
+}
+
+impl Pull<'_> {
+    /// The ways in which the robot may follow.
+    pub(super) fn followings(&self, machine: &super::machine::Machine) -> Vec<Following> {
+        use motet_robots::card::Drive;
+        let mut all = Vec::new();
+        let turns_level = self.opening.hinge().is_none_or(|(axis, _)| axis.z.abs() > 1.0 - 1e-9);
+        if turns_level && matches!(machine.card().base.drive, Drive::Omnidirectional | Drive::Legged) {
+            let turnings: &[f64] = if self.opening.hinge().is_some() { &[1.0, 0.5, 0.0] } else { &[0.0] };
+            all.extend(turnings.iter().map(|share| Following::Base(Turning(*share))));
+        }
+        if !matches!(self.hand.solver, super::machine::Solver::Lift(_)) {
+            let turnings: &[f64] = if self.opening.hinge().is_some() { &[0.5, 0.0, 1.0] } else { &[0.0] };
+            all.extend(turnings.iter().map(|share| Following::Arm(Turning(*share))));
+        }
+        all
+    }
+
+    /// The middle of the handle with the directions of its bar.
+    fn map_from_handle(&self, part: f64) -> Isometry3<f64> {
+        let handle = self.opening.handle();
+        let rotation = UnitQuaternion::face_towards(&handle.along, &handle.out);
+        self.opening.map_moved(part)
+            * Isometry3::from_parts(Translation3::from(handle.centre.coords), rotation)
+    }
+
+    /// Poses of the hand around the handle, in a fixed order.
+    fn holds(&self) -> Vec<Hold> {
+        let handle = self.opening.handle();
+        let moved = self.opening.map_moved(self.parts[0]);
+        let axis = Unit::new_normalize(handle.along);
+        let mut all = Vec::new();
+        for tilt in TILTS {
+            let approach = turn(&axis, tilt) * -handle.out;
+            let closes = handle.along.cross(&approach);
+            for place in PLACES {
+                for closes in [closes, -closes] {
+                    let bar = handle.centre + handle.along * (place * handle.half);
+                    let rotation = self.hand.turned(&approach, &closes);
+                    let at = bar.coords - approach * self.depth - closes * self.hand.middle(THICK);
+                    let pose = Isometry3::from_parts(Translation3::from(at), rotation);
+                    let approach = moved.rotation * approach;
+                    let side = if approach.z < -0.819 { Side::Top } else { Side::Side };
+                    // From below there is no way for a hand.
+                    if approach.z <= 0.5 {
+                        all.push(Hold { map_from_tip: moved * pose, approach, side, width: THICK });
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// The point of the bar that a hold is about, where the bar is at the beginning.
+    pub(super) fn bar(&self, hold: &Hold) -> Point3<f64> {
+        let closes = hold.map_from_tip.rotation * Vector3::from(self.hand.card.closes);
+        let from_tip = hold.approach * self.depth + closes * self.hand.middle(THICK);
+        Point3::from(hold.map_from_tip.translation.vector + from_tip)
+    }
+}
+
+pub(super) fn turned(state: &State, turns: f64) -> State {
+    let [x, y, yaw] = state.base;
+    state.at([x, y, yaw + turns])
+}
+
+/// Away from what a hand points at.
+pub(super) fn away(map_from_tip: &Isometry3<f64>, hand: &Hand, far: f64) -> Vector3<f64> {
+    map_from_tip.rotation * -Vector3::from(hand.card.points) * far
+}

@@ -1,0 +1,130 @@
+//! Doors and drawers: how those of the built-in rooms open, and what robots make of them.
+
+use std::collections::BTreeMap;
+
+use motet_geometry::collision::{Shape, Solid};
+use motet_geometry::query::{Answer, Budget, Opening, Query, Reason, Room, World};
+use motet_robots::scene;
+
+use super::{embedded, machine, verify};
+
+/// A solid with less room to each side, in m.
+fn smaller(solid: &Solid, less: f64) -> Solid {
+    let Shape::Box(half) = solid.shape else { return *solid };
+    Solid { shape: Shape::Box(half.map(|half| (half - less).max(half * 0.1))), ..*solid }
+}
+
+#[test]
+fn doors_and_drawers_of_the_rooms_open_into_the_open() {
+    let (machine, _) = machine("hsr");
+    let mut count = 0;
+    for (room, _) in scene::embedded() {
+        let scene = embedded(room);
+        let world = World::new(&machine, &scene);
+        for (id, entity) in scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()) {
+            let opening = Opening::new(entity, &world).unwrap();
+            let mut closed = world.clone();
+            closed.open.insert(id.clone(), false);
+            let around = Room::new(&machine, &scene, &closed);
+            count += 1;
+            for step in 0..=32 {
+                for moving in opening.moving(f64::from(step) / 32.0).iter().map(|it| smaller(it, 0.004)) {
+                    for (other, solid) in around.obstacles() {
+                        let inside = scene.entities[&other].inside.as_ref() == Some(id);
+                        // Of its own furniture the inner side of the walls counts: there a door and a wall overlap in the corner.
+                        let is_hinged = matches!(entity.travel, Some(scene::Travel::Hinge { .. }));
+                        let solid = if other == *id { smaller(solid, 0.012) } else { *solid };
+                        if inside || (other == *id && !is_hinged) {
+                            continue;
+                        }
+                        assert!(
+                            moving.is_farther(&solid, 0.0),
+                            "{room}: `{id}` runs into `{other}` at {step}/32"
+                        );
+                    }
+                }
+            }
+        }
+    }
+    assert!(count >= 5, "{count}");
+}
+
+/// Opens, or closes, what a room has from in front of it; what is feasible has to hold. The answers.
+fn at_each(robot: &str, room: &str) -> BTreeMap<String, Answer> {
+    let ((machine, urdf), scene) = (machine(robot), embedded(room));
+    let mut answers = BTreeMap::new();
+    for (id, entity) in scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()) {
+        let start = World::new(&machine, &scene);
+        let before = Room::new(&machine, &scene, &start);
+        let Answer::Feasible(way) = before.answer(&Query::GoTo(id.clone()), Budget::default()) else {
+            panic!("{robot} does not come to `{id}`")
+        };
+        let mut world = before.gone_along(&way);
+        let is_open = world.is_open(entity);
+        let [first, second] = if is_open { [Query::Push, Query::Pull] } else { [Query::Pull, Query::Push] };
+        for query in [first(id.clone()), second(id.clone())] {
+            let around = Room::new(&machine, &scene, &world);
+            let answer = around.answer(&query, Budget::default());
+            let mut after = None;
+            if let Answer::Feasible(witness) = &answer {
+                let faults = verify::faults_of_pull(&machine, &urdf, &scene, &world, witness);
+                assert!(faults.is_empty(), "{robot}, {query}: {:?}", &faults[..faults.len().min(5)]);
+                after = around.travelled(witness);
+            }
+            answers.insert(query.to_string(), answer);
+            let Some(next) = after else { break };
+            world = next;
+        }
+    }
+    answers
+}
+
+fn is_feasible(answers: &BTreeMap<String, Answer>, query: &str) {
+    assert!(matches!(answers.get(query), Some(Answer::Feasible(_))), "{query}: {:?}", answers.get(query));
+}
+
+#[test]
+fn the_hsr_opens_and_closes_what_there_is() {
+    for room in ["kitchen", "lab", "living_room"] {
+        let answers = at_each("hsr", room);
+        for query in answers.keys() {
+            is_feasible(&answers, query);
+        }
+        assert!(answers.len() >= 2);
+    }
+}
+
+#[test]
+fn the_anymal_opens_what_there_is_room_for() {
+    let answers = at_each("anymal_z1", "kitchen");
+    for query in ["pull(fridge_1)", "pull(drawer_1)", "push(drawer_1)"] {
+        is_feasible(&answers, query);
+    }
+    is_feasible(&at_each("anymal_z1", "living_room"), "pull(drawer_1)");
+}
+
+#[test]
+fn what_stands_before_a_drawer_stops_it() {
+    let ((machine, _), mut scene) = (machine("hsr"), embedded("kitchen"));
+    let mut chair = scene.entities["trash"].clone();
+    chair.id = "chair".into();
+    chair.pose.as_mut().unwrap().xyz = [2.8, -1.7, 0.4];
+    chair.shape = Some(scene::Shape::Cylinder { radius: 0.2, height: 0.8 });
+    scene.entities.insert(chair.id.clone(), chair);
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let answer = room.answer(&Query::Pull("drawer_1".into()), Budget::default());
+    let Answer::Infeasible(why) = answer else { panic!("{answer:?}") };
+    assert_eq!((why.reason, why.certified), (Reason::BlockedPath { by: Some("chair".into()) }, true));
+}
+
+#[test]
+fn a_thing_is_pushed_away() {
+    let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let answer = room.answer(&Query::Push("mug_1".into()), Budget::default());
+    let Answer::Feasible(witness) = &answer else { panic!("{answer:?}") };
+    let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
+    assert!(faults.is_empty(), "{:?}", &faults[..faults.len().min(5)]);
+}
