@@ -3,11 +3,14 @@
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
 mod command;
+mod errand;
 mod knowledge;
 mod meaning;
 mod noun;
 mod pick;
 mod puzzle;
+mod reference;
+mod statement;
 mod token;
 mod verb;
 mod vocabulary;
