@@ -6,7 +6,7 @@ use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
 use super::Puzzle;
-use super::command::Command;
+use super::command::{Command, ONLY_IF};
 use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
 use super::noun::{Noun, Which};
 use super::verb::Act;
@@ -19,6 +19,7 @@ impl Reader<'_> {
             Act::Go | Act::Come | Act::Move => self.go(command, later.is_empty()),
             Act::Open | Act::Close => self.doors(command, act, later),
             Act::Release => self.release(command),
+            Act::Find => self.find(command, later),
             Act::Fetch | Act::Pick | Act::Lift | Act::Put | Act::Take | Act::Stow | Act::Discard => {
                 self.carry(command, act, later)
             }
@@ -31,6 +32,10 @@ impl Reader<'_> {
             targets.push(SmolStr::new_static("user"));
         }
         for place in command.items.iter().chain(&command.to).chain(&command.to_whom) {
+            // `meet me at the door`
+            if matches!(place, Noun::Speaker) && !targets.is_empty() {
+                continue;
+            }
             targets.extend(self.destination(place)?);
         }
         if targets.is_empty() {
@@ -40,6 +45,7 @@ impl Reader<'_> {
         for (index, target) in targets.into_iter().enumerate() {
             let lasts = if is_last && index == last { Lasts::ToTheEnd } else { Lasts::Once };
             self.aim(format!("go_to_{target}"), fact("at", &["robot", &target]), lasts);
+            self.said.spoken_of.push(target);
         }
         Ok(())
     }
@@ -77,9 +83,33 @@ impl Reader<'_> {
                     Act::Open => (format!("open_{what}"), is_open, Lasts::ToTheEnd),
                     _ => (format!("close_{what}"), not(is_open), Lasts::ToTheEnd),
                 };
+                if command.has(ONLY_IF) {
+                    // How it is has to be seen when it is its turn: somebody may have been there before.
+                    self.aim(format!("look_at_{what}"), fact("at", &["robot", &what]), Lasts::Once);
+                    self.aim(format!("look_at_{what}"), fact("visible", &[&what]), Lasts::Once);
+                }
+                let is_open = fact("open", &[&what]);
+                let only_if = if act == Act::Open { not(is_open) } else { is_open };
+                self.places.push(what.clone());
                 self.said.spoken_of.push(what);
                 self.aim(name, goal, lasts);
+                if let Some(aim) = self.said.aims.last_mut().filter(|_| command.has(ONLY_IF)) {
+                    aim.only_if = Some(only_if);
+                }
             }
+        }
+        Ok(())
+    }
+
+    /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
+    fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), Puzzle> {
+        let Some(item) = command.items.first() else { return Err(self.ask(question(Act::Find), OBJECTS)) };
+        let found = self.things(item, OBJECTS, None)?;
+        for thing in found {
+            if later.is_empty() {
+                self.aim(format!("find_{thing}"), fact("visible", &[&thing]), Lasts::Once);
+            }
+            self.said.spoken_of.push(thing);
         }
         Ok(())
     }
@@ -176,6 +206,9 @@ impl Reader<'_> {
             }
             _ => ("pick", any(&|id| fact("holding", &[id])), hold_on(later)),
         };
+        if let Target::To(place) = target {
+            self.said.spoken_of.push(place.clone());
+        }
         self.said.spoken_of.extend(choice.iter().rev().cloned());
         self.aim(format!("{verb}_{name}"), goal, lasts);
         Ok(())
@@ -242,6 +275,7 @@ fn question(act: Act) -> &'static str {
         Act::Discard => "What shall I throw away?",
         Act::Put | Act::Stow => "What shall I put there?",
         Act::Fetch => "What shall I bring?",
+        Act::Find => "What shall I look for?",
         Act::Go
         | Act::Come
         | Act::Pick

@@ -5,7 +5,8 @@ use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
 use super::command::{Command, Spoken};
-use super::noun::Phrase;
+use super::noun::{Noun, Phrase};
+use super::token::Token;
 use super::verb::Act;
 use super::vocabulary::{Role, Vocabulary};
 use super::{Located, Puzzle, Situation};
@@ -38,15 +39,7 @@ pub(super) fn understood(
     request: &str,
     situation: &Situation<'_>,
 ) -> Result<Understood, Puzzle> {
-    let vocabulary = Vocabulary::new(situation.scene, &situation.supports);
-    let mut reader = Reader {
-        vocabulary,
-        situation,
-        said: Understood { spoken_of: situation.spoken_of.clone(), ..Understood::default() },
-        left: None,
-        liked: Vec::new(),
-        places: Vec::new(),
-    };
+    let mut reader = Reader::new(situation);
     for statement in &spoken.statements {
         reader.state(statement);
     }
@@ -69,6 +62,12 @@ pub(super) fn understood(
     for command in &mut commands {
         reader.dative(command);
     }
+    for index in 1..commands.len() {
+        let takes_it = commands.get(index).is_some_and(Command::takes_it);
+        if let Some(first) = commands.get_mut(index - 1).filter(|_| takes_it) {
+            first.only_takes();
+        }
+    }
     for (index, command) in commands.iter().enumerate() {
         let later = commands.get(index + 1..).unwrap_or_default();
         reader.command(command, later)?;
@@ -76,7 +75,42 @@ pub(super) fn understood(
     Ok(reader.said)
 }
 
+/// Where somebody says that things are, in words that would otherwise ask for something.
+pub(super) fn told(tokens: &[Token], situation: &Situation<'_>) -> Vec<Located> {
+    let mut reader = Reader::new(situation);
+    for sentence in tokens.split(|token| matches!(token, Token::Stop | Token::Comma)) {
+        let denies = sentence.iter().any(|token| matches!(token.word(), "not" | "no" | "never"));
+        if !denies && !reader.tell(sentence) {
+            reader.tell_place(sentence);
+        }
+    }
+    reader.said.located
+}
+
 impl Command {
+    /// Whether it says what becomes of a thing that was spoken of just before.
+    fn takes_it(&self) -> bool {
+        let carries = matches!(
+            self.act(),
+            Act::Fetch
+                | Act::Put
+                | Act::Take
+                | Act::Stow
+                | Act::Discard
+                | Act::Release
+                | Act::Pick
+                | Act::Lift
+        );
+        carries && self.items.as_slice() == [Noun::Before]
+    }
+
+    /// `get the mug and leave it on the table`: getting it is taking it, where nobody is named who gets it.
+    fn only_takes(&mut self) {
+        if matches!(self.act(), Act::Fetch | Act::Take) && self.to.is_none() && self.to_whom.is_none() {
+            self.act = Act::Pick;
+        }
+    }
+
     /// Whether it says nothing of what it is about, though its verb asks for it.
     fn needs_items(&self) -> bool {
         self.items.is_empty() && matches!(self.act, Act::Pick | Act::Lift | Act::Take | Act::Fetch)
@@ -96,6 +130,19 @@ pub(super) struct Reader<'a> {
     pub(super) places: Vec<SmolStr>,
 }
 
+impl<'a> Reader<'a> {
+    fn new(situation: &'a Situation<'a>) -> Self {
+        Self {
+            vocabulary: Vocabulary::new(situation.scene, &situation.supports),
+            situation,
+            said: Understood { spoken_of: situation.spoken_of.clone(), ..Understood::default() },
+            left: None,
+            liked: Vec::new(),
+            places: Vec::new(),
+        }
+    }
+}
+
 impl Reader<'_> {
     /// `hand the guest the magazine`: the first of two nouns is who gets it.
     fn dative(&self, command: &mut Command) {
@@ -107,11 +154,15 @@ impl Reader<'_> {
             command.to_whom = Some(command.items.remove(0));
         }
     }
-
     pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Lasts) {
         let name =
             name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-        self.said.aims.push(Aim { goal: Goal { condition, lasts }, name });
+        let is_known =
+            self.said.aims.iter().any(|aim| aim.goal.lasts == lasts && same(&aim.goal.condition, &condition));
+        if is_known {
+            return;
+        }
+        self.said.aims.push(Aim { goal: Goal { condition, lasts }, name, only_if: None });
     }
 
     pub(super) fn ask(&self, question: &str, roles: &[Role]) -> Puzzle {
@@ -119,4 +170,9 @@ impl Reader<'_> {
         let options = options.map(|thing| thing.id.clone()).collect();
         Puzzle::AmbiguousTask { question: question.to_owned(), options }
     }
+}
+
+/// Whether two conditions read the same: `the coke belongs in the fridge, please put it there` asks once.
+fn same(one: &Expr, other: &Expr) -> bool {
+    motet_syntax::print::expression(one) == motet_syntax::print::expression(other)
 }

@@ -196,6 +196,6 @@ impl Reader<'_> {
     }
 }
 
-fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> Puzzle {
+pub(super) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> Puzzle {
     Puzzle::AmbiguousReference { what: phrase.said.clone(), options }
 }
