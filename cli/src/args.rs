@@ -1,7 +1,6 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod act;
-mod dialog;
 mod drive;
 mod duration;
 mod feasible;
@@ -15,7 +14,6 @@ mod prompt;
 mod run;
 
 pub(crate) use act::DoArgs;
-pub(crate) use dialog::{DialogArgs, DialogForm};
 pub(crate) use drive::DriveArgs;
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, Server};
@@ -79,8 +77,6 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// Print what a model would see of a request
     Prompt(PromptArgs),
-    /// Read plans in InteLiPlan's dialect as policies, or write the exchange of a request in it
-    Dialog(DialogArgs),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Check a policy and run it on a driver in another process

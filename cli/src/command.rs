@@ -4,7 +4,6 @@ pub(crate) mod act;
 pub(crate) mod check;
 pub(crate) mod compile;
 pub(crate) mod completions;
-pub(crate) mod dialog;
 pub(crate) mod explain;
 pub(crate) mod feasible;
 pub(crate) mod fmt;

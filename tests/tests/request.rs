@@ -95,6 +95,7 @@ fn what_is_asked_without_an_imperative() {
 fn pronouns_and_particles() {
     means("kitchen", "go to the fridge and open it up", &["at(robot, fridge_1)", "open(fridge_1)"]);
     means("kitchen", "I don't need the apple any more, bin it", &["in(apple, trash)"]);
+    means("living_room", "the water bottle is rubbish, throw it away", &["in(bottle_1, trash_bin)"]);
     means("kitchen", "get the coke and leave it on the sink", &["holding(coke)", "on(coke, sink)"]);
     means(
         "kitchen",

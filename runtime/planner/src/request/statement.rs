@@ -40,7 +40,11 @@ impl Reader<'_> {
                 at = after.max(at + 1);
                 continue;
             }
-            self.mention(&phrase);
+            // `the can is rubbish` says what it is, and speaks of nothing else.
+            let before = at.checked_sub(1).and_then(|before| tokens.get(before)).map_or("", Token::word);
+            if !(matches!(before, "is" | "are" | "was" | "were") && phrase.which != Which::The) {
+                self.mention(&phrase);
+            }
             at = after.max(at + 1);
         }
     }
