@@ -17,6 +17,7 @@ fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, Unplanned> 
         .map(|(index, goal)| Aim {
             goal: Goal::read(goal, Lasts::ToTheEnd).unwrap(),
             name: format!("goal_{index}"),
+            only_if: None,
         })
         .collect();
     builtin::plan(&session, Some(&robot), "plan", &aims)

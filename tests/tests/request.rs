@@ -78,6 +78,40 @@ fn what_a_thing_is_and_is_for() {
 }
 
 #[test]
+fn what_is_asked_without_an_imperative() {
+    means("kitchen", "I need the fridge open", &["open(fridge_1)"]);
+    means("kitchen", "make sure that the top drawer is shut", &["not open(drawer_1)"]);
+    means("kitchen", "I don't want the cupboard open", &["not open(cupboard_1)"]);
+    means("kitchen", "the coke belongs in the fridge", &["in(coke, fridge_1)"]);
+    means("kitchen", "can the sponge go in the drawer?", &["in(sponge, drawer_1)"]);
+    means("kitchen", "could the coke be brought to me?", &["at(coke, user)"]);
+    means("kitchen", "would you mind putting the plate on the counter?", &["on(plate, counter)"]);
+    means("kitchen", "the water bottle, please", &["at(bottle, user)"]);
+    means("kitchen", "on the sink is where I want the sponge", &["on(sponge, sink)"]);
+    means("kitchen", "I want you at the door", &["at(robot, door)"]);
+}
+
+#[test]
+fn pronouns_and_particles() {
+    means("kitchen", "go to the fridge and open it up", &["at(robot, fridge_1)", "open(fridge_1)"]);
+    means("kitchen", "I don't need the apple any more, bin it", &["in(apple, trash)"]);
+    means("living_room", "the water bottle is rubbish, throw it away", &["in(bottle_1, trash_bin)"]);
+    means("kitchen", "get the coke and leave it on the sink", &["holding(coke)", "on(coke, sink)"]);
+    means(
+        "kitchen",
+        "open the drawer and put the sponge inside",
+        &["open(drawer_1)", "in(sponge, drawer_1)"],
+    );
+    means(
+        "kitchen",
+        "put the coke in the fridge and close it",
+        &["in(coke, fridge_1)", "not open(fridge_1)"],
+    );
+    means("kitchen", "the fridge is open, please close it", &["not open(fridge_1)"]);
+    assert!(matches!(puzzles("kitchen", "I forgot the mug, bring it"), Puzzle::AmbiguousReference { .. }));
+}
+
+#[test]
 fn what_is_not_clear_is_asked() {
     let ambiguous = |request| matches!(puzzles("kitchen", request), Puzzle::AmbiguousReference { .. });
     assert!(ambiguous("bring me the mug"));
@@ -85,6 +119,8 @@ fn what_is_not_clear_is_asked() {
     assert!(matches!(puzzles("kitchen", "put the plate away"), Puzzle::AmbiguousTask { .. }));
     assert!(matches!(puzzles("kitchen", "bring me the teddy"), Puzzle::NotFound { .. }));
     assert!(matches!(puzzles("kitchen", "I am thirsty"), Puzzle::AmbiguousTask { .. }));
+    // There is nothing to drink in it.
+    assert!(matches!(puzzles("lab", "I am thirsty"), Puzzle::NotUnderstood { .. }));
 }
 
 #[test]
@@ -100,6 +136,9 @@ fn what_is_not_understood_is_said() {
         "and and and",
         "brng",
         "peel the apple and bring it to me",
+        "if the fridge is open, bring me the coke",
+        "the tea set needs polishing",
+        "should the coke go in the fridge?",
     ] {
         assert!(matches!(puzzles("kitchen", request), Puzzle::NotUnderstood { .. }), "{request}");
     }

@@ -70,7 +70,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
 fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
     let aim = |(index, text): (usize, &String)| {
         let goal = Goal::read(text, Lasts::ToTheEnd)?;
-        Ok(Aim { goal, name: format!("goal_{}", index + 1) })
+        Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None })
     };
     texts.iter().enumerate().map(aim).collect()
 }

@@ -10,9 +10,12 @@ pub mod canonical;
 pub mod export;
 mod program;
 pub mod surface;
-mod vocabulary;
+pub mod vocabulary;
+pub mod world;
 
 pub use acceptor::{Acceptor, Decoder, Prepared};
 pub use canonical::{Outside, canonical, complete};
+pub use motet_compiler::Session;
 pub use surface::{Modifiers, Surface};
-pub use vocabulary::Vocabulary;
+pub use vocabulary::{End, Vocabulary, VocabularyError};
+pub use world::{World, WorldError};

@@ -1,9 +1,21 @@
 //! The tokens of a language model, as bytes, in a trie; and what of them can be said once for all texts and names.
 
+#[cfg(feature = "tiktoken")]
+mod encoding;
+mod error;
+mod huggingface;
+mod list;
+mod token;
+
 use std::sync::Arc;
 
+use rustc_hash::FxHashMap;
 use toktrie::{SimpleVob, TokRxInfo, TokTrie};
 
+#[cfg(feature = "tiktoken")]
+pub use self::encoding::Encoding;
+pub use self::error::VocabularyError;
+pub use self::token::{End, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS};
 use crate::surface::{MAX_NAME_CHARS, is_text_char};
 
 /// The tokens of a language model.
@@ -30,6 +42,8 @@ pub(crate) struct Tokens {
     pub(crate) name_ends: TokTrie,
     pub(crate) longest: usize,
     pub(crate) end: u32,
+    /// Tokens of the same bytes as one before them, which stands for them in the tries; in the order of their numbers.
+    pub(crate) twins: Vec<(u32, u32)>,
 }
 
 impl std::fmt::Debug for Vocabulary {
@@ -39,11 +53,23 @@ impl std::fmt::Debug for Vocabulary {
 }
 
 impl Vocabulary {
+    /// The same as [`new`](Self::new), of tokens that come from outside. A token of more than [`LONGEST_TOKEN`] bytes is never
+    /// allowed.
+    ///
+    /// # Errors
+    ///
+    /// There are more than [`MAX_TOKENS`] tokens or [`MAX_TOKEN_BYTES`] bytes, none, or none of the number `end`.
+    pub fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> Result<Self, VocabularyError> {
+        token::held(tokens, end).map(|tokens| Self::new(&tokens, end))
+    }
+
     /// A vocabulary from the bytes of each token in the order of their numbers. A special token has none: it is never
     /// allowed, but for `end`, which ends a sequence. O(bytes of all tokens).
     #[must_use]
     pub fn new(tokens: &[Vec<u8>], end: u32) -> Self {
         let size = u32::try_from(tokens.len()).unwrap_or(u32::MAX);
+        let (tokens, twins) = apart(tokens);
+        let tokens = tokens.as_slice();
         let trie = TokTrie::from(&TokRxInfo::new(size, end), tokens);
         let is_name_byte = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
         let is_text_byte = |byte: &u8| is_text_char(char::from(*byte));
@@ -100,7 +126,14 @@ impl Vocabulary {
             name_ends,
             longest,
             end,
+            twins,
         }))
+    }
+
+    /// The token that ends a sequence.
+    #[must_use]
+    pub fn end(&self) -> u32 {
+        self.0.end
     }
 
     /// How many tokens there are.
@@ -118,6 +151,8 @@ impl Vocabulary {
     /// The bytes of a token; empty for a special one.
     #[must_use]
     pub fn bytes(&self, token: u32) -> &[u8] {
+        let twin = self.0.twins.binary_search_by_key(&token, |(twin, _)| *twin).ok();
+        let token = twin.and_then(|twin| self.0.twins.get(twin)).map_or(token, |(_, first)| *first);
         if (token as usize) < self.len() { self.0.trie.token(token) } else { &[] }
     }
 
@@ -130,6 +165,20 @@ impl Vocabulary {
     pub(crate) fn tokens(&self) -> &Tokens {
         &self.0
     }
+}
+
+/// Tokens without those that have the bytes of one before them, and these with that one. Vocabularies with a token for each
+/// byte to fall back to have many.
+fn apart(tokens: &[Vec<u8>]) -> (Vec<Vec<u8>>, Vec<(u32, u32)>) {
+    let mut firsts: FxHashMap<&[u8], u32> = FxHashMap::default();
+    let (mut kept, mut twins) = (Vec::with_capacity(tokens.len()), Vec::new());
+    for (id, bytes) in (0..).zip(tokens) {
+        let first = *firsts.entry(bytes).or_insert(id);
+        let is_twin = first != id && !bytes.is_empty();
+        twins.extend(is_twin.then_some((id, first)));
+        kept.push(if is_twin { Vec::new() } else { bytes.clone() });
+    }
+    (kept, twins)
 }
 
 /// Tokens that end a text, by what of them follows it: where any text may stand they may follow or not by that alone.

@@ -4,10 +4,13 @@
 //! contracts of the robot's primitives gives the calls that reach them. What it does not understand it says.
 //!
 //! [`conversation`] is the loop around a planner: it runs what is planned, asks where something goes wrong, and plans anew.
-//! [`model`] is the planner that asks a model, [`prompt`] what a model sees.
+//! [`model`] is the planner that asks a model, [`prompt`] what a model sees. [`dialect`] is another way to write both down, as
+//! one model was trained on it; [`vision`] is what is seen.
 
 pub mod builtin;
 pub mod conversation;
+pub mod dialect;
 pub mod model;
 pub mod prompt;
 pub mod request;
+pub mod vision;

@@ -12,6 +12,7 @@ mod body;
 mod build;
 mod deed;
 mod driver;
+mod eyes;
 mod fate;
 mod faults;
 mod hand;

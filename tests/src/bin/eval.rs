@@ -1,7 +1,7 @@
 //! Compares the compiler's verdicts with other people's: `eval SUITE FILE [--json] [--planned]`.
 //!
 //! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
-//! `dialogue` takes a file of wordings.
+//! `dialogue` takes a file of wordings, `dynamic` the number of trials a task and robot.
 //! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
 //! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
 //! of them are mended.
@@ -9,7 +9,9 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use motet_tests::eval::{Judged, dialogue, planbench, planned, repairs, saycan, scenarios, summary};
+use motet_tests::eval::{
+    Judged, dialogue, dynamic, planbench, planned, repairs, saycan, scenarios, spread, summary,
+};
 
 /// What a suite has to say of the lines of a file.
 type Suite = fn(&[(usize, &str)]) -> Result<Report, String>;
@@ -47,8 +49,12 @@ fn run() -> Result<bool, String> {
     let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
-        format!("usage: eval {} FILE [--json]", names.join("|"))
+        format!("usage: eval {} FILE [--json], or eval dynamic TRIALS", names.join("|"))
     };
+    if let ["dynamic", count] = words.as_slice() {
+        let count = count.parse().map_err(|_| usage())?;
+        return shown(&changed(count)?, only_json);
+    }
     let [name, file] = words.as_slice() else { return Err(usage()) };
     let known = SUITES.iter().find(|(known, _)| known == name);
     let suite = match (known, is_planned) {
@@ -60,6 +66,11 @@ fn run() -> Result<bool, String> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<_> = lines.map(|(index, line)| (index + 1, line)).collect();
     let report = suite(&lines).map_err(|problem| format!("{file}:{problem}"))?;
+    shown(&report, only_json)
+}
+
+/// Prints a report.
+fn shown(report: &Report, only_json: bool) -> Result<bool, String> {
     let mut out = std::io::stdout().lock();
     let summary = report.summary.to_string();
     let shown = report.lines.iter().filter(|_| !only_json).chain([&summary]);
@@ -86,7 +97,7 @@ fn judged(lines: &[(usize, &str)], judge: fn(&str) -> Result<Judged, String>) ->
 
 fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
     let wordings: Vec<&str> = lines.iter().map(|(_, line)| *line).collect();
-    let trials: Vec<_> = dialogue::cases(&wordings.join("\n")).into_iter().map(dialogue::run).collect();
+    let trials = spread(dialogue::cases(&wordings.join("\n")), dialogue::run);
     let notes = trials.iter().filter_map(|trial| {
         let case = &trial.case;
         let kinds: Vec<_> = case.failures.iter().map(|kind| kind.name()).collect();
@@ -100,6 +111,24 @@ fn spoken(lines: &[(usize, &str)]) -> Result<Report, String> {
         lines: notes.chain(dialogue::table(&trials)).collect(),
         is_good: smooth.success * 100 >= smooth.total * 95 && troubled.success * 100 >= troubled.total * 90,
         summary: serde_json::json!({"without_failure": smooth, "with_failure": troubled}),
+    })
+}
+
+/// The seed of the trials whose world changes.
+const SEED: u64 = 7;
+
+fn changed(count: usize) -> Result<Report, String> {
+    let trials = dynamic::trials(SEED, count);
+    let good = trials.iter().filter(|trial| trial.is_good()).count();
+    let is_clean = trials
+        .iter()
+        .all(|trial| trial.dropped.is_empty() && trial.doubled.is_empty() && trial.orphaned.is_empty());
+    let notes = trials.iter().filter(|trial| !trial.is_good()).map(serde_json::to_string);
+    let notes = notes.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    Ok(Report {
+        lines: notes.into_iter().chain(dynamic::table(&trials)).collect(),
+        is_good: is_clean && good * 100 >= trials.len() * 95,
+        summary: serde_json::json!({"total": trials.len(), "good": good}),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Verdicts of the compiler beside verdicts that are not ours, row by row.
 
 pub mod dialogue;
+pub mod dynamic;
 pub mod planbench;
 pub mod planned;
 pub mod repairs;
@@ -112,6 +113,33 @@ fn sums(rows: &[&Judged]) -> Summary {
         median_us: median.as_secs_f64() * 1e6,
         apart: IndexMap::new(),
     }
+}
+
+/// Runs something on each item, on several threads; the results come in the order of the items.
+#[must_use]
+pub fn spread<T: Send, R: Send>(items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
+    const THREADS: usize = 4;
+    let mut shares: Vec<Vec<(usize, T)>> = (0..THREADS).map(|_| Vec::new()).collect();
+    for (index, item) in items.into_iter().enumerate() {
+        if let Some(share) = shares.get_mut(index % THREADS) {
+            share.push((index, item));
+        }
+    }
+    let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let run = &run;
+        let work = |share: Vec<(usize, T)>| {
+            scope.spawn(move || share.into_iter().map(|(index, item)| (index, run(item))).collect::<Vec<_>>())
+        };
+        let threads: Vec<_> = shares.into_iter().map(work).collect();
+        let joined = threads.into_iter().map(|thread| match thread.join() {
+            Ok(done) => done,
+            // What goes wrong in a trial is not lost with its thread.
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.flatten().collect()
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// Checks a policy document under a domain of declarations, without robot and scene.

@@ -62,6 +62,11 @@ impl Decoder {
             None => walk.mask_literal(&tokens.trie, set),
         }
         walk.keep(lengths);
+        for (twin, first) in &tokens.twins {
+            if set.is_allowed(*first) {
+                set.allow_token(*twin);
+            }
+        }
         if acceptor.is_accepting() {
             set.allow_token(tokens.end);
         }

@@ -16,6 +16,8 @@ pub struct Aim {
     pub goal: Goal,
     /// `fetch_coke`
     pub name: String,
+    /// Under which condition it is to be reached at all; it is looked at when it is the aim's turn.
+    pub only_if: Option<Expr>,
 }
 
 /// The policy as text, not yet in its canonical layout.
@@ -30,25 +32,33 @@ pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Pla
         text.push_str(&format!(" achieves {}", kept.join(" and ")));
     }
     text.push_str(" {\n");
-    let is_grouped = aims.len() > 1;
+    let is_grouped = aims.len() > 1 || aims.iter().any(|aim| aim.only_if.is_some());
     let mut open = None;
     for step in &plan.steps {
         if is_grouped && open != Some(step.goal) {
-            if open.is_some() {
-                text.push_str("}\n");
-            }
+            text.push_str(close(open, aims));
             let name = aims.get(step.goal).map_or("put_right", |aim| aim.name.as_str());
             text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
+            if let Some(condition) = aims.get(step.goal).and_then(|aim| aim.only_if.as_ref()) {
+                text.push_str(&format!("if {} {{\n", print::expression(condition)));
+            }
             open = Some(step.goal);
         }
         text.push_str(&watched(step, robot));
         text.push('\n');
     }
-    if open.is_some() {
-        text.push_str("}\n");
-    }
+    text.push_str(close(open, aims));
     text.push_str("}\n");
     text
+}
+
+/// What ends the steps of an aim.
+fn close(open: Option<usize>, aims: &[Aim]) -> &'static str {
+    match open.map(|index| aims.get(index).is_some_and(|aim| aim.only_if.is_some())) {
+        Some(true) => "}\n}\n",
+        Some(false) => "}\n",
+        None => "",
+    }
 }
 
 /// A part of a conjunction, in parentheses where it needs them.

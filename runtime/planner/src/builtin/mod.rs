@@ -62,6 +62,9 @@ pub enum Unplanned {
     Stopped,
 }
 
+/// How many times as many states are looked at where the first search came to the end of its budget.
+const LAST_RESORT: usize = 6;
+
 /// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same policy.
 ///
 /// # Errors
@@ -74,7 +77,10 @@ pub fn plan(
     aims: &[Aim],
 ) -> Result<Planned, Unplanned> {
     let goals: Vec<Goal> = aims.iter().map(|aim| aim.goal.clone()).collect();
-    let plan = session.plan(&goals, PLAN_BUDGET)?;
+    let plan = match session.plan(&goals, PLAN_BUDGET) {
+        Err(NoPlan::Budget { .. }) => session.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
+        found => found?,
+    };
     let text = draft::policy(name, robot, aims, &plan);
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
     let text = motet_syntax::print::text(&parsed.file);

@@ -91,7 +91,19 @@ pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &S
     {
         return Answer::Means { said: said.clone(), id };
     }
+    if problem.kind == Kind::AmbiguousTask
+        && request::is_bare(answer)
+        && let Some(request) = completed(request, answer, situation)
+    {
+        return Answer::Request(request);
+    }
     let about = Situation { spoken_of: spoken(problem, situation), ..situation.clone() };
+    if problem.kind == Kind::NotFound {
+        let told = request::told(answer, &about);
+        if !told.is_empty() {
+            return Answer::Located(told);
+        }
+    }
     match request::understand(answer, &about) {
         Ok(understood) if understood.aims.is_empty() => Answer::Located(understood.located),
         Ok(_) => Answer::Request(answer.to_owned()),

@@ -42,6 +42,77 @@ impl Known {
         self.some.extend(snapshot.some);
     }
 
+    /// Where the objects are, as far as that is known.
+    #[must_use]
+    pub fn places(&self, scene: &Scene) -> Vec<Located> {
+        let told = self.situation(scene).supports;
+        let objects = scene.entities.values().filter(|entity| entity.kind == "Object");
+        let places = objects.filter_map(|entity| {
+            let told = told.iter().find(|(id, _)| *id == entity.id).map(|(_, place)| place.clone());
+            let place = told.unwrap_or_else(|| entity.on.clone().or_else(|| entity.inside.clone()))?;
+            let is_container = scene.entities.get(&place).is_some_and(|place| place.kind == "Container");
+            Some(Located {
+                thing: entity.id.clone(),
+                relation: if is_container { "in" } else { "on" },
+                place,
+            })
+        });
+        places.collect()
+    }
+
+    /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
+    /// where it was: a hand that slipped left it there. The next plan looks before it takes.
+    pub fn presume(&mut self, before: &[Located]) {
+        for known in before {
+            let thing = Pattern::Is(Value::Entity(known.thing.clone()));
+            let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
+                Query::Fact { fluent, args } if fluent == "at" && args.first() == Some(&thing) => {
+                    Some(*truth)
+                }
+                _ => None,
+            });
+            if about.next() != Some(Truth::Unknown) {
+                continue;
+            }
+            let place = Pattern::Is(Value::Entity(known.place.clone()));
+            for fluent in ["on", "in", "at"] {
+                let args = vec![thing.clone(), Pattern::Any];
+                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::False));
+            }
+            for fluent in [known.relation, "at"] {
+                let args = vec![thing.clone(), place.clone()];
+                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
+            }
+        }
+    }
+
+    /// Takes in what the robot feels of itself: what it holds is nowhere else, and where it stands it stands.
+    pub fn notice(&mut self, felt: &[(Query, Truth)]) {
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let stands = |query: &Query| match query {
+            Query::Fact { fluent, args } => fluent == "at" && args.first() == Some(&robot),
+            Query::Measure { .. } | Query::Field { .. } => false,
+        };
+        if felt.iter().any(|(query, _)| stands(query)) {
+            let args = vec![robot.clone(), Pattern::Any];
+            self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::False));
+        }
+        for (query, truth) in felt {
+            let Query::Fact { fluent, args } = query else { continue };
+            // That it is nowhere else was said above.
+            if stands(query) && *truth != Truth::True {
+                continue;
+            }
+            if let ("holding", Truth::True, Some(thing)) = (fluent.as_str(), truth, args.first()) {
+                for place in ["on", "in", "at"] {
+                    let args = vec![thing.clone(), Pattern::Any];
+                    self.facts.push((Query::Fact { fluent: place.into(), args }, Truth::False));
+                }
+            }
+            self.facts.push((query.clone(), *truth));
+        }
+    }
+
     /// Takes in where somebody says that a thing is.
     pub fn hear(&mut self, said: &Located) {
         let thing = Pattern::Is(Value::Entity(said.thing.clone()));

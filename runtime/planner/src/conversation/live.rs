@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_graph::Graph;
+use motet_graph::{Graph, NodeId};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time,
@@ -10,6 +10,7 @@ use motet_runtime::{
 use smol_str::SmolStr;
 
 use super::first::First;
+use super::sense::sense;
 use super::{Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::model::{Judged, judge};
@@ -33,6 +34,8 @@ pub(super) struct Live<'r, 'a> {
     next: Option<(Answered, Option<String>)>,
     /// Where what runs is only the first step of a policy that is still being written.
     pub(super) first: Option<First>,
+    /// The steps of the running policy that were started.
+    started: Vec<NodeId>,
 }
 
 impl<'r, 'a> Live<'r, 'a> {
@@ -54,7 +57,13 @@ impl<'r, 'a> Live<'r, 'a> {
             awaited: None,
             next: None,
             first: None,
+            started: Vec::new(),
         }
+    }
+
+    /// Whether a run ended at a guard: the step was not even begun, since something was not as it was believed to be.
+    pub(super) fn was_refused(&self, end: &RunEnd) -> bool {
+        matches!(end, RunEnd::Failed { node, .. } if !self.started.contains(node))
     }
 
     /// Runs a policy to its end, and learns from it. Gives the graph that ran last too.
@@ -70,6 +79,7 @@ impl<'r, 'a> Live<'r, 'a> {
         let shared = Arc::new(graph.clone());
         self.talk.known.spoken_of.clone_from(&answered.understood.spoken_of);
         self.watcher.planned(&answered, &shared);
+        let before = self.talk.known.places(scene);
         let mut engine = self.talk.engine(graph, scene)?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
@@ -82,6 +92,15 @@ impl<'r, 'a> Live<'r, 'a> {
         self.pending = self.pending.take().or(self.awaited.take());
         self.watcher.ended(self.now, &end);
         self.talk.known.learn(&engine);
+        // What was not found is not where it was thought to be.
+        if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
+            self.talk.known.presume(&before);
+        }
+        if !matches!(end, RunEnd::Done { .. }) {
+            let (felt, now) = sense(driver, &self.talk.setting.robot, &self.talk.setting.scene, self.now);
+            self.talk.known.notice(&felt);
+            self.now = self.now.max(now);
+        }
         if let Some(first) = &mut self.first {
             first.bound = engine.snapshot().bindings;
         }
@@ -153,6 +172,9 @@ impl Onlooker for Live<'_, '_> {
     fn effect(&mut self, now: Time, effect: &Effect) {
         self.now = self.now.max(now);
         self.talk.memory.effect(now, effect);
+        if let Effect::Start { node, .. } = effect {
+            self.started.push(*node);
+        }
         self.watcher.effect(now, effect);
     }
 
@@ -169,7 +191,9 @@ impl Onlooker for Live<'_, '_> {
         let Some(request) = self.watcher.request(now) else { return self.written(engine) };
         self.talk.memory.instruct(now, &request);
         let mut known = self.talk.known.clone();
+        let before = known.places(&self.talk.setting.scene);
         known.learn(engine);
+        known.presume(&before);
         let scene = known.scene(&self.talk.setting.scene);
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
@@ -200,6 +224,7 @@ impl Onlooker for Live<'_, '_> {
         let next = self.next.take();
         match (result, next) {
             (Ok(retired), Some((answered, request))) => {
+                self.started.clear();
                 self.talk.memory.policy(now, retired.revision() + 1, graph.clone());
                 self.watcher.swapped(now, None);
                 self.watcher.planned(&answered, graph);

@@ -9,6 +9,7 @@ mod first;
 mod known;
 mod live;
 mod problem;
+mod sense;
 
 use std::sync::Arc;
 
@@ -234,12 +235,14 @@ impl<'a> Conversation<'a> {
                 Some(answered) => Ok(answered),
                 None => self.propose(&task, planner, &scene, driver.base()),
             };
+            let mut was_refused = false;
             let problem = match proposed {
                 Ok(answered) => {
                     let mut live = Live::new(self, &mut *planner, &mut *watcher, task.meant.clone(), now);
                     let end = live.run(answered, driver, &scene);
                     now = live.now;
                     let (pending, first) = (live.pending.take(), live.first.take());
+                    was_refused = end.as_ref().is_ok_and(|(end, _)| live.was_refused(end));
                     if let Some(request) = live.request.take() {
                         task = Task { request, meant: Vec::new(), questions: 0, tries: task.tries };
                     }
@@ -276,8 +279,8 @@ impl<'a> Conversation<'a> {
                 }
                 Err(why) => Problem::of_planning(&why, &scene),
             };
-            // What merely did not work is tried again before somebody is troubled.
-            if problem.kind == Kind::ActionFailed && task.tries < TRIES {
+            // What merely did not work, or was not as it was believed, is tried again before somebody is troubled.
+            if (problem.kind == Kind::ActionFailed || was_refused) && task.tries < TRIES {
                 task.tries += 1;
                 continue;
             }

@@ -20,6 +20,9 @@ pub(super) struct Command {
     pub(super) with: Vec<String>,
 }
 
+/// Among what a verb goes with: it is done only where it is not so yet.
+pub(super) const ONLY_IF: &str = "only if";
+
 /// What somebody says beside what they ask for.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Statement {
@@ -90,7 +93,9 @@ fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
         "as soon as possible",
         "for me",
         "when you can",
+        "if you would",
         "quickly",
+        "now",
         "too",
         "as well",
         "instead",
@@ -144,7 +149,9 @@ fn is_statement(tokens: &[Token], begin: usize) -> bool {
             | "at"
     );
     let is_short = tokens.get(begin + 1).is_none();
-    is_subject && !is_short
+    let asks_where =
+        matches!(word, "where") && matches!(tokens.get(begin + 1).map_or("", Token::word), "is" | "are");
+    (is_subject || asks_where) && !is_short
 }
 
 fn words(tokens: &[Token], begin: usize, end: usize) -> String {
@@ -210,6 +217,12 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
 
 /// One part of a command: where the next begins.
 fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {
+    // `grab the mug for me`: who takes something for somebody brings it.
+    let for_me = ["for me", "for us"].iter().find_map(|words| stands(tokens, at, words));
+    if let (Some(count), Act::Take) = (for_me, now.act) {
+        now.to_whom.get_or_insert(Noun::Speaker);
+        return Ok(at + count);
+    }
     if let Some(count) = thanks(tokens, at) {
         return Ok(at + count);
     }
@@ -260,6 +273,15 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(after);
     }
     if let Some((place, after)) = located(tokens, at) {
+        // `take it in your hand`
+        if is_hand(&place) {
+            now.with.push("hand".to_owned());
+            return Ok(after);
+        }
+        // `over there on the table`
+        if matches!(now.to, Some(Noun::There)) {
+            now.to = None;
+        }
         // `put the mug on the table in the drawer`: the last is where to, the others say which.
         if let Some(before) = now.to.replace(place)
             && now.from.is_none()
@@ -268,10 +290,42 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         }
         return Ok(after);
     }
+    // `close the drawer if it is open`
+    let conditions = [
+        super::frame::ONLY_IF_SO,
+        "if it is still open",
+        "if it is closed",
+        "if it is not open",
+        "if it is shut",
+    ];
+    if let Some(count) = conditions.iter().filter_map(|words| stands(tokens, at, words)).max()
+        && matches!(now.act, Act::Open | Act::Close)
+    {
+        now.with.push(ONLY_IF.to_owned());
+        return Ok(at + count);
+    }
+    // `come to me with the mug`
+    if word == "with"
+        && matches!(now.act, Act::Go | Act::Come)
+        && let Some((carried, after)) = noun(tokens, at + 1)
+    {
+        now.act = if now.act == Act::Come || matches!(now.to, Some(Noun::Speaker)) {
+            Act::Fetch
+        } else {
+            Act::Take
+        };
+        now.items.push(carried);
+        return Ok(after);
+    }
     if word == "for" {
         let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
         now.to_whom.get_or_insert(whom);
         return Ok(after);
+    }
+    // `open it and put the mug inside`
+    if word == "inside" {
+        now.to.get_or_insert(Noun::There);
+        return Ok(at + 1);
     }
     if matches!(
         word,
@@ -295,7 +349,9 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         // `bring me the mug`
         (Noun::Speaker, _) if now.to_whom.is_none() => now.to_whom = Some(found),
         (Noun::Here, _) => now.to = Some(Noun::Speaker),
-        (Noun::There, _) => now.to = Some(found),
+        (Noun::There, _) => {
+            now.to.get_or_insert(found);
+        }
         _ => now.items.push(found),
     }
     Ok(after)
@@ -308,6 +364,12 @@ fn is_determined(tokens: &[Token], at: usize) -> bool {
         word,
         "the" | "a" | "an" | "my" | "your" | "our" | "his" | "her" | "their" | "this" | "that" | "me" | "us"
     )
+}
+
+/// Whether it is the robot's own hand.
+fn is_hand(noun: &Noun) -> bool {
+    let Noun::Phrase(phrase) = noun else { return false };
+    matches!(phrase.words.as_slice(), [.., last] if matches!(last.as_str(), "hand" | "gripper" | "arm" | "claw"))
 }
 
 /// The end of the clause.

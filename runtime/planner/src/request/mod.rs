@@ -3,11 +3,15 @@
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
 mod command;
+mod errand;
+mod frame;
 mod knowledge;
 mod meaning;
 mod noun;
 mod pick;
 mod puzzle;
+mod reference;
+mod statement;
 mod token;
 mod verb;
 mod vocabulary;
@@ -54,13 +58,28 @@ impl<'a> Situation<'a> {
     }
 }
 
+/// Where an answer says that things are: "it should be in the cupboard" tells a place to whom asked for one, where in a
+/// request it says what shall be done. Empty where it says nothing of the kind.
+#[must_use]
+pub fn told(answer: &str, situation: &Situation<'_>) -> Vec<Located> {
+    meaning::told(&token::tokens(answer), situation)
+}
+
+/// Whether an answer is a bare noun, such as completes a request: "the cupboard", "the red one, please".
+#[must_use]
+pub fn is_bare(answer: &str) -> bool {
+    let mut tokens = token::tokens(answer);
+    tokens.retain(|token| !matches!(token.word(), "please" | ""));
+    noun::noun(&tokens, 0).is_some_and(|(_, end)| end == tokens.len())
+}
+
 /// Understands a request. The same request and situation give the same goals. O(words · things).
 ///
 /// # Errors
 ///
 /// What is not understood, not there, or not clear.
 pub fn understand(request: &str, situation: &Situation<'_>) -> Result<Understood, Puzzle> {
-    let tokens = token::tokens(request);
+    let tokens = frame::plain(&token::tokens(request));
     let spoken = command::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)
 }

@@ -31,9 +31,12 @@ pub(super) enum Act {
     Close,
     /// Move: something to a place, or oneself.
     Move,
+    /// Find out where something is.
+    Find,
 }
 
-/// Verbs with their small words. Of two that fit the longer one counts.
+/// Verbs with their small words. Of two that fit the longer one counts. They stand in their classes after Levin, English
+/// Verb Classes and Alternations (1993): motion (51), bringing (11), giving (13), holding (15), putting (9), removing (10).
 const VERBS: &[(&str, Act)] = &[
     ("go get", Act::Fetch),
     ("go and get", Act::Fetch),
@@ -50,6 +53,18 @@ const VERBS: &[(&str, Act)] = &[
     ("proceed", Act::Go),
     ("visit", Act::Go),
     ("approach", Act::Go),
+    ("run", Act::Go),
+    ("step", Act::Go),
+    ("wander", Act::Go),
+    ("hurry", Act::Go),
+    ("get over", Act::Go),
+    ("get yourself", Act::Go),
+    ("meet me", Act::Go),
+    ("meet us", Act::Go),
+    ("stay", Act::Go),
+    ("stop", Act::Go),
+    ("find your way", Act::Go),
+    ("make your way over", Act::Go),
     ("park", Act::Go),
     ("stand", Act::Go),
     ("wait", Act::Go),
@@ -81,6 +96,11 @@ const VERBS: &[(&str, Act)] = &[
     ("pick up", Act::Pick),
     ("pick", Act::Pick),
     ("grasp", Act::Pick),
+    ("grab hold of", Act::Pick),
+    ("keep hold of", Act::Pick),
+    ("hold on to", Act::Pick),
+    ("hang on to", Act::Pick),
+    ("clutch", Act::Pick),
     ("grip", Act::Pick),
     ("seize", Act::Pick),
     ("collect", Act::Take),
@@ -100,6 +120,24 @@ const VERBS: &[(&str, Act)] = &[
     ("deposit", Act::Put),
     ("drop off", Act::Put),
     ("insert", Act::Put),
+    ("keep", Act::Put),
+    ("rest", Act::Put),
+    ("stand up", Act::Put),
+    ("slide", Act::Put),
+    ("slip", Act::Put),
+    ("tuck", Act::Put),
+    ("pop", Act::Put),
+    ("stash", Act::Put),
+    ("stuff", Act::Put),
+    ("hide", Act::Put),
+    ("shove", Act::Put),
+    ("dump", Act::Put),
+    ("plonk", Act::Put),
+    ("locate", Act::Find),
+    ("find", Act::Find),
+    ("look for", Act::Find),
+    ("search for", Act::Find),
+    ("have a look for", Act::Find),
     ("stow", Act::Stow),
     ("store", Act::Stow),
     ("put away", Act::Stow),
@@ -122,7 +160,6 @@ const VERBS: &[(&str, Act)] = &[
     ("bin", Act::Discard),
     ("recycle", Act::Discard),
     ("compost", Act::Discard),
-    ("dump", Act::Discard),
     ("release", Act::Release),
     ("let go of", Act::Release),
     ("drop", Act::Release),
@@ -144,8 +181,19 @@ const LEADS: &[&str] = &[
     "how do you",
     "how could you",
     "how can you",
+    "could you please",
+    "could you maybe",
+    "could you also",
     "could you",
     "can you",
+    "would you be able to",
+    "are you able to",
+    "is it possible for you to",
+    "would it be possible for you to",
+    "would it be possible to",
+    "is it possible to",
+    "do you think you could",
+    "do you think you can",
     "would you be so kind as to",
     "would you be so kind to",
     "would you kindly",
@@ -159,6 +207,74 @@ const LEADS: &[&str] = &[
     "i would like you to",
     "i would love you to",
     "i ask you to",
+    "i was wondering if you could",
+    "i was wondering whether you could",
+    "i wonder if you could",
+    "i wonder whether you could",
+    "i would appreciate it if you could",
+    "i would appreciate it if you would",
+    "i would appreciate it if you",
+    "i would be grateful if you could",
+    "i would be grateful if you would",
+    "i would be glad if you could",
+    "i would be happy if you could",
+    "it would be great if you could",
+    "it would be great if you would",
+    "it would be great if you",
+    "it would be nice if you could",
+    "it would be nice if you would",
+    "it would be nice if you",
+    "it would be lovely if you could",
+    "it would be lovely if you",
+    "it would be good if you could",
+    "it would be good if you",
+    "it would be kind if you",
+    "it would help if you could",
+    "it would help if you",
+    "is there any chance that you could",
+    "is there any chance you could",
+    "any chance that you could",
+    "any chance you could",
+    "any chance you can",
+    "if you could",
+    "if you would",
+    "if you can",
+    "i think you should",
+    "you may",
+    "you could",
+    "you might",
+    "you must",
+    "you will have to",
+    "your task is to",
+    "your job is to",
+    "it is time to",
+    "feel free to",
+    "remember to",
+    "do not forget to",
+    "do me a favor and",
+    "do me a favour and",
+    "do me a favor",
+    "do me a favour",
+    "be a dear and",
+    "be a darling and",
+    "be a good robot and",
+    "be nice and",
+    "be kind and",
+    "you know what",
+    "no",
+    "no wait",
+    "hang on",
+    "on second thought",
+    "on second thoughts",
+    "listen",
+    "look here",
+    "good morning",
+    "good evening",
+    "oh",
+    "well",
+    "right",
+    "great",
+    "um",
     "you should",
     "you can",
     "you have to",
@@ -212,6 +328,31 @@ const WANTS: &[&str] = &[
     "i could use",
     "i will have",
     "i will take",
+    "i could do with",
+    "i will need",
+    "i am going to need",
+    "i feel like having",
+    "i feel like",
+    "i fancy having",
+    "i fancy",
+    "i would love to have",
+    "i would love to get",
+    "i would like to get hold of",
+    "i would not mind having",
+    "i would not mind",
+    "i want to get",
+    "i wish to have",
+    "i wish for",
+    "i am after",
+    "let me have",
+    "let us have",
+    "let me get",
+    "may we have",
+    "may i get",
+    "might i have",
+    "could i please have",
+    "can i please have",
+    "may i please have",
     "could i have",
     "could i get",
     "can i have",
@@ -232,6 +373,66 @@ pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> 
         count += 1;
     }
     Some(count)
+}
+
+/// How a verb is inflected.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Form {
+    /// `put`
+    Base,
+    /// `putting`
+    Gerund,
+    /// `brought`
+    Participle,
+}
+
+/// Participles that no rule makes.
+const PARTICIPLES: &[(&str, &str)] = &[
+    ("brought", "bring"),
+    ("taken", "take"),
+    ("thrown", "throw"),
+    ("given", "give"),
+    ("held", "hold"),
+    ("left", "leave"),
+    ("kept", "keep"),
+    ("laid", "lay"),
+    ("stuck", "stick"),
+    ("hidden", "hide"),
+    ("found", "find"),
+    ("slid", "slide"),
+];
+
+/// A verb of a request by one of its forms.
+pub(super) fn base(word: &str) -> Option<(String, Form)> {
+    if let Some((_, verb)) = PARTICIPLES.iter().find(|(known, _)| *known == word) {
+        return Some(((*verb).to_owned(), Form::Participle));
+    }
+    let mut verbs = VERBS.iter().filter_map(|(verb, _)| verb.split(' ').next());
+    verbs.find_map(|verb| {
+        let form = if verb == word {
+            Form::Base
+        } else if has_ending(word, verb, "ing") {
+            Form::Gerund
+        } else if has_ending(word, verb, "ed") {
+            Form::Participle
+        } else {
+            return None;
+        };
+        Some((verb.to_owned(), form))
+    })
+}
+
+/// Whether a word is a verb with an ending: `fetching`, `placing`, `putting`, `carried`.
+fn has_ending(word: &str, verb: &str, ending: &str) -> bool {
+    let Some(stem) = word.strip_suffix(ending) else { return false };
+    let doubled = || {
+        let last = verb.chars().last();
+        stem.strip_prefix(verb).is_some_and(|rest| rest.chars().count() == 1 && rest.chars().last() == last)
+    };
+    let without_e = || verb.strip_suffix('e') == Some(stem);
+    let with_i =
+        || ending == "ed" && verb.strip_suffix('y').is_some_and(|y| stem.strip_suffix('i') == Some(y));
+    stem == verb || doubled() || without_e() || with_i()
 }
 
 /// Where the request itself begins.

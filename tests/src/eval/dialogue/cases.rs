@@ -18,6 +18,8 @@ pub struct Case {
     pub request: String,
     /// What shall hold at the end.
     pub goal: Vec<(String, Vec<String>)>,
+    /// What shall not hold at the end, though it does at the start.
+    pub undo: Option<(String, Vec<String>)>,
     /// What goes wrong, in order; one for each round of recovery.
     pub failures: Vec<Kind>,
     /// The thing that is asked for.
@@ -58,7 +60,7 @@ pub fn cases(wordings: &str) -> Vec<Case> {
             for room in ROOMS {
                 let turn = index + number;
                 cases.extend(case(robot, room, task.trim(), wording.trim(), turn, &[]));
-                let carries = !matches!(task, "go" | "open" | "close");
+                let carries = !matches!(task.trim(), "go" | "open" | "close");
                 if carries {
                     let trouble = TROUBLES.get(1 + turn % (TROUBLES.len() - 1)).copied().unwrap_or_default();
                     cases.extend(case(robot, room, task.trim(), wording.trim(), turn, trouble));
@@ -83,7 +85,7 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
     }
     let place: Named = match task {
         "put" => pick(room.surfaces, turn)?,
-        "stow" | "open" => pick(room.containers, turn)?,
+        "stow" | "open" | "close" => pick(room.containers, turn)?,
         "go" => pick(room.places, turn)?,
         _ => ("user", "me"),
     };
@@ -97,6 +99,8 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
         "stow" => vec![atom("in", &[thing.0, place.0])],
         "throw" => vec![atom("in", &[thing.0, room.bin])],
         "go" => vec![atom("at", &["robot", place.0])],
+        "pick" => vec![atom("holding", &[thing.0])],
+        "close" => Vec::new(),
         _ => vec![atom("open", &[place.0])],
     };
     if failures.contains(&Kind::AmbiguousTask) {
@@ -132,6 +136,7 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
         task: task.to_owned(),
         request,
         goal,
+        undo: (task == "close").then(|| atom("open", &[place.0])),
         failures: failures.to_vec(),
         thing: thing.0.to_owned(),
         hidden,
@@ -140,6 +145,16 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
 }
 
 impl Case {
+    /// The room as the robot is told that it is.
+    pub(super) fn told(&self, mut scene: Scene) -> Scene {
+        if let Some((_, args)) = &self.undo
+            && let Some(entity) = args.first().and_then(|id| scene.entities.get_mut(id.as_str()))
+        {
+            entity.open = Some(true);
+        }
+        scene
+    }
+
     /// The room as it is, where that is not as the robot was told.
     pub(super) fn real(&self, told: &Scene) -> Scene {
         let mut real = told.clone();

@@ -93,7 +93,7 @@ impl Planner for Timed {
 #[must_use]
 pub fn run(case: Case) -> Trial {
     let robot = setup::robot(&case.robot);
-    let told = setup::scene(&case.scene);
+    let told = case.told(setup::scene(&case.scene));
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).unwrap_or_default();
     let mut sim = Sim::new(&robot, &real, Options { faults, ..Options::default() });
@@ -107,6 +107,9 @@ pub fn run(case: Case) -> Trial {
     let is_reached = case.goal.iter().all(|(fluent, args)| {
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
         sim.holds(fluent, &args) == Some(true)
+    }) && case.undo.iter().all(|(fluent, args)| {
+        let args: Vec<&str> = args.iter().map(String::as_str).collect();
+        sim.holds(fluent, &args) == Some(false)
     });
     let is_explained = case.failures.iter().all(|kind| person.asked.contains(kind));
     let note = (!is_reached || outcome != Outcome::Done).then(|| match &outcome {

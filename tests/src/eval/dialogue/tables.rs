@@ -84,7 +84,7 @@ pub fn table(trials: &[Trial]) -> Vec<String> {
     for robot in ["hsr", "anymal_z1"] {
         row(robot, &|trial| trial.case.robot == robot);
     }
-    for task in ["bring", "put", "stow", "throw", "go", "open"] {
+    for task in ["bring", "put", "stow", "throw", "pick", "go", "open", "close"] {
         row(task, &|trial| trial.case.task == task);
     }
     let [vision, feasibility, planner] = sums(trials.iter()).median_ms;

@@ -1,0 +1,154 @@
+//! The border: pointers that become references, errors that become words, panics that stay here.
+
+use std::cell::RefCell;
+use std::ffi::{CStr, CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+thread_local! {
+    static LAST: RefCell<Option<CString>> = const { RefCell::new(None) };
+}
+
+/// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid until the
+/// thread calls the next function of this library.
+#[unsafe(no_mangle)]
+pub extern "C" fn motet_last_error() -> *const c_char {
+    LAST.with_borrow(|last| last.as_ref().map_or(std::ptr::null(), |last| last.as_ptr()))
+}
+
+/// Frees a string that a function of this library returned; null is nothing.
+///
+/// # Safety
+///
+/// `string` is null, or came from this library and was not freed yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_string_free(string: *mut c_char) {
+    if !string.is_null() {
+        // SAFETY: it came from `CString::into_raw` in `string_out`, says the caller.
+        drop(unsafe { CString::from_raw(string) });
+    }
+}
+
+/// Runs what a function does: its result, or what stands for an error, of which the words are kept.
+pub(crate) fn guarded<T>(failed: T, run: impl FnOnce() -> Result<T, String>) -> T {
+    let ran = catch_unwind(AssertUnwindSafe(run));
+    let ran = ran.unwrap_or_else(|_| {
+        Err("a fault in the library itself: what it was called with is not to be used again".to_owned())
+    });
+    match ran {
+        Ok(value) => {
+            LAST.set(None);
+            value
+        }
+        Err(why) => {
+            LAST.set(Some(c_string(why)));
+            failed
+        }
+    }
+}
+
+/// A handle of a value.
+pub(crate) fn handle<T>(value: T) -> *mut T {
+    Box::into_raw(Box::new(value))
+}
+
+/// Frees a handle; null is nothing.
+///
+/// # Safety
+///
+/// It is null, or came from [`handle`] and was not freed yet.
+pub(crate) unsafe fn free<T>(handle: *mut T) {
+    if !handle.is_null() {
+        // SAFETY: it came from `Box::into_raw`, says the caller.
+        let value = unsafe { Box::from_raw(handle) };
+        guarded((), || {
+            drop(value);
+            Ok(())
+        });
+    }
+}
+
+/// What a handle stands for.
+///
+/// # Safety
+///
+/// It is null or a live handle that nobody changes meanwhile.
+pub(crate) unsafe fn shared<'h, T>(handle: *const T, what: &str) -> Result<&'h T, String> {
+    // SAFETY: it is null or live, says the caller.
+    unsafe { handle.as_ref() }.ok_or_else(|| format!("the {what} is null"))
+}
+
+/// The same, to change it.
+///
+/// # Safety
+///
+/// It is null or a live handle that nobody else uses meanwhile.
+pub(crate) unsafe fn exclusive<'h, T>(handle: *mut T, what: &str) -> Result<&'h mut T, String> {
+    // SAFETY: it is null or live, and nobody else's, says the caller.
+    unsafe { handle.as_mut() }.ok_or_else(|| format!("the {what} is null"))
+}
+
+/// A string that may be missing.
+///
+/// # Safety
+///
+/// It is null or ends with a null byte, and does not change meanwhile.
+pub(crate) unsafe fn string<'s>(string: *const c_char, what: &str) -> Result<Option<&'s str>, String> {
+    if string.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: it ends with a null byte, says the caller.
+    let text = unsafe { CStr::from_ptr(string) };
+    text.to_str().map(Some).map_err(|_| format!("the {what} is no UTF-8"))
+}
+
+/// So many values from an address; none may be at null.
+///
+/// # Safety
+///
+/// Where it is not null, `count` values stand there, and do not change meanwhile.
+pub(crate) unsafe fn slice<'s, T>(first: *const T, count: usize, what: &str) -> Result<&'s [T], String> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    room(first, count, what)?;
+    // SAFETY: it is aligned and no larger than memory can be; so many values stand there, says the caller.
+    Ok(unsafe { std::slice::from_raw_parts(first, count) })
+}
+
+/// The same, to be written.
+///
+/// # Safety
+///
+/// Where it is not null, there is room for `count` values, which nobody else uses meanwhile.
+pub(crate) unsafe fn slice_mut<'s, T>(
+    first: *mut T,
+    count: usize,
+    what: &str,
+) -> Result<&'s mut [T], String> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    room(first, count, what)?;
+    // SAFETY: as above, and nobody else's, says the caller.
+    Ok(unsafe { std::slice::from_raw_parts_mut(first, count) })
+}
+
+fn room<T>(first: *const T, count: usize, what: &str) -> Result<(), String> {
+    if first.is_null() || !first.is_aligned() {
+        return Err(format!("there is no address of the {what}"));
+    }
+    let bytes = count.checked_mul(size_of::<T>()).filter(|bytes| isize::try_from(*bytes).is_ok());
+    bytes.map(|_| ()).ok_or_else(|| format!("the {what} has more bytes than there can be"))
+}
+
+/// A string that the caller frees.
+pub(crate) fn string_out(text: impl Into<Vec<u8>>) -> *mut c_char {
+    c_string(text).into_raw()
+}
+
+/// A string without its null bytes.
+fn c_string(text: impl Into<Vec<u8>>) -> CString {
+    let mut bytes = text.into();
+    bytes.retain(|byte| *byte != 0);
+    CString::new(bytes).unwrap_or_default()
+}

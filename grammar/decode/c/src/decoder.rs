@@ -1,0 +1,231 @@
+//! Decoders: what may follow in one policy that is being written.
+
+use std::ffi::c_char;
+
+use motet_decode::Decoder;
+use motet_syntax::{Source, Sources, render};
+
+use crate::border::{exclusive, free, guarded, handle, shared, slice, slice_mut, string_out};
+use crate::vocabulary::MotetVocabulary;
+use crate::world::MotetWorld;
+
+/// What a function came to.
+#[repr(C)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum MotetStatus {
+    /// Done, or yes.
+    Ok = 0,
+    /// Not allowed, or no: nothing has changed.
+    Refused = 1,
+    /// Failed: see `motet_last_error`.
+    Error = 2,
+}
+
+/// What may follow in one policy. It is not there any more after a fault in the library itself.
+pub struct MotetDecoder {
+    decoder: Option<Decoder>,
+    /// How many words a mask has.
+    words: usize,
+}
+
+impl MotetDecoder {
+    /// Runs what may fail half-way: the decoder is put back only where it did not.
+    fn with<T>(&mut self, run: impl FnOnce(&mut Decoder) -> Result<T, String>) -> Result<T, String> {
+        let mut decoder = self.decoder.take().ok_or_else(|| "the decoder failed before".to_owned())?;
+        let ran = run(&mut decoder);
+        self.decoder = Some(decoder);
+        ran
+    }
+}
+
+/// A decoder of a policy of at most `budget` bytes. Null on an error, such as a budget that no policy fits.
+///
+/// # Safety
+///
+/// `world` and `vocabulary` are null or live.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_new(
+    world: *const MotetWorld,
+    vocabulary: *const MotetVocabulary,
+    budget: usize,
+) -> *mut MotetDecoder {
+    guarded(std::ptr::null_mut(), || {
+        // SAFETY: as the function's.
+        let world = unsafe { shared(world, "world")? };
+        // SAFETY: as the function's.
+        let vocabulary = unsafe { shared(vocabulary, "vocabulary")? };
+        let decoder = world.prepared.decoder(&vocabulary.0, budget);
+        let decoder = decoder.ok_or_else(|| format!("no policy has at most {budget} bytes"))?;
+        Ok(handle(MotetDecoder { decoder: Some(decoder), words: vocabulary.0.len().div_ceil(32) }))
+    })
+}
+
+/// Another decoder in the same state. Null on an error.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_clone(decoder: *mut MotetDecoder) -> *mut MotetDecoder {
+    guarded(std::ptr::null_mut(), || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        let clone = decoder.with(|decoder| Ok(decoder.clone()))?;
+        Ok(handle(MotetDecoder { decoder: Some(clone), words: decoder.words }))
+    })
+}
+
+/// Frees a decoder; null is nothing.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and is not used again.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_free(decoder: *mut MotetDecoder) {
+    // SAFETY: as the function's.
+    unsafe { free(decoder) };
+}
+
+/// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many words as
+/// `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count` words.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_mask(
+    decoder: *mut MotetDecoder,
+    words: *mut u32,
+    count: usize,
+) -> MotetStatus {
+    guarded(MotetStatus::Error, || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        // SAFETY: as the function's.
+        let words = unsafe { slice_mut(words, count, "mask")? };
+        let wanted = decoder.words;
+        decoder.with(|decoder| {
+            let mask = decoder.mask().get(..wanted).unwrap_or_default();
+            let Some((begin, rest)) = words.split_at_mut_checked(mask.len()) else {
+                return Err(format!("the mask has room for {count} words and needs {wanted}"));
+            };
+            begin.copy_from_slice(mask);
+            rest.fill(0);
+            Ok(MotetStatus::Ok)
+        })
+    })
+}
+
+/// Takes a token, if it may follow.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_accept(decoder: *mut MotetDecoder, token: u32) -> MotetStatus {
+    guarded(MotetStatus::Error, || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        decoder.with(|decoder| Ok(yes(decoder.accept(token))))
+    })
+}
+
+/// Takes back the last tokens; all of them where there are not so many.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_rollback(decoder: *mut MotetDecoder, tokens: usize) -> MotetStatus {
+    guarded(MotetStatus::Error, || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        decoder.with(|decoder| {
+            decoder.rollback(tokens);
+            Ok(MotetStatus::Ok)
+        })
+    })
+}
+
+/// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may follow.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_is_accepting(decoder: *mut MotetDecoder) -> MotetStatus {
+    guarded(MotetStatus::Error, || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        decoder.with(|decoder| Ok(yes(decoder.acceptor().is_accepting())))
+    })
+}
+
+/// The text that must come next, whatever is meant; empty where there is a choice. Freed with `motet_string_free`. Null
+/// on an error.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_forced(decoder: *mut MotetDecoder) -> *mut c_char {
+    guarded(std::ptr::null_mut(), || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        decoder.with(|decoder| Ok(string_out(decoder.acceptor().forced())))
+    })
+}
+
+/// The text so far. Freed with `motet_string_free`. Null on an error.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_text(decoder: *mut MotetDecoder) -> *mut c_char {
+    guarded(std::ptr::null_mut(), || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        decoder.with(|decoder| Ok(string_out(decoder.acceptor().bytes())))
+    })
+}
+
+/// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may follow, or where it
+/// is only their spelling that is refused. Freed with `motet_string_free`. Null on an error.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile; `bytes` is null or points to `len` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_why_not(
+    decoder: *mut MotetDecoder,
+    bytes: *const u8,
+    len: usize,
+) -> *mut c_char {
+    guarded(std::ptr::null_mut(), || {
+        // SAFETY: as the function's.
+        let decoder = unsafe { exclusive(decoder, "decoder")? };
+        // SAFETY: as the function's.
+        let bytes = unsafe { slice(bytes, len, "continuation")? };
+        decoder.with(|decoder| {
+            let mut text = decoder.acceptor().bytes().to_vec();
+            text.extend_from_slice(bytes);
+            let mut sources = Sources::default();
+            sources.add(Source::new("policy.json", String::from_utf8_lossy(&text)));
+            Ok(string_out(render::json(&decoder.acceptor().why_not(bytes), &sources)))
+        })
+    })
+}
+
+fn yes(holds: bool) -> MotetStatus {
+    if holds { MotetStatus::Ok } else { MotetStatus::Refused }
+}
+
+/// What the library says of threads.
+const _: fn() = || {
+    fn is_shared<T: Send + Sync>() {}
+    fn is_sent<T: Send>() {}
+    is_shared::<MotetWorld>();
+    is_shared::<MotetVocabulary>();
+    is_sent::<MotetDecoder>();
+};

@@ -1,0 +1,155 @@
+//! The tagged text: `<history> … <user> … <vision> … <feasibility> … <robot> …`.
+
+use std::fmt::Write as _;
+
+use thiserror::Error;
+
+/// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
+/// the tag is missing.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Exchange {
+    /// What was said and done before.
+    pub history: String,
+    /// What the person says.
+    pub user: String,
+    /// What is seen of the things that the person names.
+    pub vision: String,
+    /// Whether they can be reached for.
+    pub feasibility: String,
+    /// What the robot answers: a list of actions, or a sentence.
+    pub robot: String,
+}
+
+/// Why a text is no dialogue.
+#[derive(Error, Clone, PartialEq, Eq, Debug)]
+pub enum NoDialogue {
+    /// Something stands before the first tag.
+    #[error("line {line}: `{text}` stands before the first tag")]
+    BeforeTag {
+        /// From 1.
+        line: usize,
+        /// Its beginning.
+        text: String,
+    },
+    /// A part comes twice where nothing begins a new exchange.
+    #[error("line {line}: `<{tag}>` comes twice; an exchange begins with `<history>` or `<user>`")]
+    Twice {
+        /// From 1.
+        line: usize,
+        /// Its name.
+        tag: &'static str,
+    },
+    /// There is nothing in it.
+    #[error("there is no tag in it: a dialogue has `<user>` and `<robot>`")]
+    Empty,
+}
+
+/// The tags, in the order in which they are written.
+const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
+/// How much of a text a message quotes, in characters.
+const QUOTED: usize = 40;
+
+/// Reads all exchanges of a text. Tags stand in either case, closing tags may stand behind their parts, and the parts of an
+/// exchange may come in any order; a second `<history>`, or a `<user>` behind a `<robot>`, begins the next. O(bytes).
+///
+/// # Errors
+///
+/// Text before the first tag, a part that comes twice, or no part at all.
+pub fn read(text: &str) -> Result<Vec<Exchange>, NoDialogue> {
+    let mut exchanges: Vec<Exchange> = Vec::new();
+    let mut found = [false; TAGS.len()];
+    let mut open: Option<usize> = None;
+    let mut rest = text;
+    let line_of = |rest: &str| {
+        1 + text
+            .len()
+            .checked_sub(rest.len())
+            .map_or(0, |end| text.bytes().take(end).filter(|byte| *byte == b'\n').count())
+    };
+    while let Some((before, tag, closes, after)) = next_tag(rest) {
+        take(before, open, &mut exchanges)
+            .map_err(|text| NoDialogue::BeforeTag { line: line_of(rest), text })?;
+        rest = after;
+        if closes {
+            open = None;
+            continue;
+        }
+        let was = |tag: usize| found.get(tag).copied().unwrap_or_default();
+        let begins = exchanges.is_empty()
+            || (tag == 0 && found.contains(&true))
+            || (tag == 1 && was(1))
+            || (tag == 1 && was(4));
+        if begins {
+            exchanges.push(Exchange::default());
+            found = [false; TAGS.len()];
+        } else if was(tag) {
+            let tag = TAGS.get(tag).copied().unwrap_or_default();
+            return Err(NoDialogue::Twice { line: line_of(rest), tag });
+        }
+        if let Some(found) = found.get_mut(tag) {
+            *found = true;
+        }
+        open = Some(tag);
+    }
+    take(rest, open, &mut exchanges).map_err(|text| NoDialogue::BeforeTag { line: line_of(rest), text })?;
+    if exchanges.is_empty() { Err(NoDialogue::Empty) } else { Ok(exchanges) }
+}
+
+/// Adds a text to the part that is open. An error is the beginning of a text that belongs to none.
+fn take(text: &str, open: Option<usize>, exchanges: &mut [Exchange]) -> Result<(), String> {
+    let text = text.trim();
+    if text.is_empty() {
+        return Ok(());
+    }
+    let part = open.and_then(|tag| exchanges.last_mut()?.part(tag));
+    match part {
+        Some(part) => {
+            part.push_str(text);
+            Ok(())
+        }
+        None => Err(text.chars().take(QUOTED).collect()),
+    }
+}
+
+/// The text before the next tag, which tag it is, whether it closes, and what comes behind it.
+fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
+    let mut from = 0;
+    loop {
+        let (_, tail) = text.split_at_checked(from)?;
+        let start = from + tail.find('<')?;
+        let (before, at) = text.split_at_checked(start)?;
+        let inner = at.strip_prefix('<')?;
+        if let Some((name, after)) = inner.split_once('>') {
+            let bare = name.trim();
+            let (closes, bare) = bare.strip_prefix('/').map_or((false, bare), |bare| (true, bare.trim()));
+            if let Some(tag) = TAGS.iter().position(|tag| tag.eq_ignore_ascii_case(bare)) {
+                return Some((before, tag, closes, after));
+            }
+        }
+        // Any other `<` is text.
+        from = start + 1;
+    }
+}
+
+impl Exchange {
+    fn part(&mut self, tag: usize) -> Option<&mut String> {
+        [&mut self.history, &mut self.user, &mut self.vision, &mut self.feasibility, &mut self.robot]
+            .into_iter()
+            .nth(tag)
+    }
+
+    /// As a text, a line a part. An empty history, vision or feasibility is left out. Reading it gives the same exchange
+    /// where no part has a tag of its own in it.
+    #[must_use]
+    pub fn write(&self) -> String {
+        let parts = [&self.history, &self.user, &self.vision, &self.feasibility, &self.robot];
+        let mut text = String::new();
+        for (tag, part) in TAGS.iter().zip(parts) {
+            let part = part.split_whitespace().collect::<Vec<_>>().join(" ");
+            if !part.is_empty() || matches!(*tag, "user" | "robot") {
+                let _ = writeln!(text, "<{tag}> {part}");
+            }
+        }
+        text
+    }
+}

@@ -1,0 +1,220 @@
+//! Where to act on a thing, by a model that sees: its answer `{"point": [u, v]}` in pixels, lifted by the depth image and the
+//! camera's pose to a pose in the room.
+
+use motet_graph::Pose;
+use motet_robots::scene::Placement;
+use motet_runtime::Image;
+use thiserror::Error;
+
+/// The longest answer that is read, in bytes: a point takes twenty.
+const MAX_REPLY: usize = 4_096;
+/// How far from the point depth is looked for where it has none, in pixels: along edges a depth camera has holes.
+const NEIGHBOURHOOD: i64 = 3;
+/// The depth that a camera of a robot can tell, in m.
+const RANGE_M: std::ops::RangeInclusive<f64> = 0.05..=20.0;
+
+/// Answers questions for a point of an image: a model, or somebody with a mouse.
+pub trait Pointer {
+    /// The answer as it is written, however wrong.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    fn ask(&mut self, image: &Image, question: &str) -> Result<String, String>;
+}
+
+/// A pinhole camera with its pose: x to the right, y down, z ahead, as images are.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Camera {
+    /// Its pose in the frame `map`.
+    pub pose: Placement,
+    /// fx, fy, cx, cy in pixels.
+    pub intrinsics: [f64; 4],
+}
+
+/// A depth image, row by row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Depth {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Along the camera's z axis, in mm; 0 where there is none.
+    pub millimetres: Vec<u16>,
+}
+
+/// What a point is looked for in.
+#[derive(Clone, Copy, Debug)]
+pub struct Grounding<'a> {
+    /// The image.
+    pub image: &'a Image,
+    /// Depth of the same view.
+    pub depth: &'a Depth,
+    /// The camera.
+    pub camera: &'a Camera,
+}
+
+/// Why there is no point.
+#[derive(Error, Clone, PartialEq, Debug)]
+pub enum NoPoint {
+    /// Nobody answered.
+    #[error("no answer: {0}")]
+    Silent(String),
+    /// The answer is no point.
+    #[error("the answer is no point: {0}")]
+    Unreadable(&'static str),
+    /// The point is not in the image.
+    #[error("the point ({u:.1}, {v:.1}) is outside of the image of {width} x {height} pixels")]
+    Outside {
+        /// Column.
+        u: f64,
+        /// Row.
+        v: f64,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// The depth image has nothing there.
+    #[error("there is no depth within {NEIGHBOURHOOD} pixels of ({u:.1}, {v:.1})")]
+    NoDepth {
+        /// Column.
+        u: f64,
+        /// Row.
+        v: f64,
+    },
+    /// The camera cannot be used.
+    #[error("the camera cannot be used: {0}")]
+    Camera(&'static str),
+}
+
+/// Asks where on an object to act for a use, and gives the pose: at the point, turned as the camera is.
+///
+/// # Errors
+///
+/// What is wrong with the answer, the depth or the camera.
+pub fn ground(
+    pointer: &mut dyn Pointer,
+    view: Grounding<'_>,
+    object: &str,
+    used_for: &str,
+) -> Result<Pose, NoPoint> {
+    let question = format!(
+        "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels from the top \
+         left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
+        view.depth.width, view.depth.height
+    );
+    let reply = pointer.ask(view.image, &question).map_err(NoPoint::Silent)?;
+    lift(point(&reply)?, view.depth, view.camera)
+}
+
+/// Reads `{"point": [u, v]}`, also with a sentence or a fence around it, as models write it.
+///
+/// # Errors
+///
+/// Where it is no such object, has more or fewer than two numbers, one that is not finite, or two different points.
+pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
+    if reply.len() > MAX_REPLY {
+        return Err(NoPoint::Unreadable("it is too long"));
+    }
+    let mut found: Option<[f64; 2]> = None;
+    for (start, _) in reply.match_indices('{') {
+        let Some((_, object)) = reply.split_at_checked(start) else { continue };
+        let mut values = serde_json::Deserializer::from_str(object).into_iter::<serde_json::Value>();
+        let Some(Ok(value)) = values.next() else { continue };
+        let Some(point) = value.get("point") else { continue };
+        let numbers = point.as_array().ok_or(NoPoint::Unreadable("`point` is no list"))?;
+        let [u, v] = numbers.as_slice() else {
+            return Err(NoPoint::Unreadable("`point` has not two numbers"));
+        };
+        let (Some(u), Some(v)) = (u.as_f64(), v.as_f64()) else {
+            return Err(NoPoint::Unreadable("`point` has something other than numbers"));
+        };
+        if !(u.is_finite() && v.is_finite()) {
+            return Err(NoPoint::Unreadable("`point` is not finite"));
+        }
+        if found.is_some_and(|known| known != [u, v]) {
+            return Err(NoPoint::Unreadable("it has several points"));
+        }
+        found = Some([u, v]);
+    }
+    found.ok_or(NoPoint::Unreadable("there is no object with `point` in it"))
+}
+
+/// Lifts a point of an image to a pose in the frame `map`: `map_from_point = map_from_camera * camera_from_point`, where the
+/// point lies at `((u - cx) / fx, (v - cy) / fy, 1) * depth` before the camera. Where the pixel has no depth, the median of
+/// its neighbourhood counts.
+///
+/// # Errors
+///
+/// A point outside of the image, no depth about it, or a camera with numbers that no camera has.
+pub fn lift([u, v]: [f64; 2], depth: &Depth, camera: &Camera) -> Result<Pose, NoPoint> {
+    let (width, height) = (depth.width, depth.height);
+    if depth.millimetres.len() != width.saturating_mul(height) {
+        return Err(NoPoint::Camera("the depth image has not width x height values"));
+    }
+    let [fx, fy, cx, cy] = camera.intrinsics;
+    if !([fx, fy, cx, cy].iter().all(|number| number.is_finite()) && fx > 0.0 && fy > 0.0) {
+        return Err(NoPoint::Camera("its intrinsics are no positive numbers"));
+    }
+    if !camera.pose.xyz.iter().chain(&camera.pose.rpy).all(|number| number.is_finite()) {
+        return Err(NoPoint::Camera("its pose is not finite"));
+    }
+    let is_inside = u >= 0.0 && v >= 0.0 && u < width as f64 && v < height as f64;
+    if !is_inside {
+        return Err(NoPoint::Outside { u, v, width, height });
+    }
+    let far = depth_at(depth, u as i64, v as i64).ok_or(NoPoint::NoDepth { u, v })?;
+    // A pixel's centre is half a pixel from its corner on both sides of the division: intrinsics count from centres.
+    let (u, v) = (u.floor(), v.floor());
+    let in_camera = [(u - cx) / fx * far, (v - cy) / fy * far, far];
+    let rotation = rotation(camera.pose.rpy);
+    let mut xyz = camera.pose.xyz;
+    for (out, row) in xyz.iter_mut().zip(rotation) {
+        *out += row.iter().zip(in_camera).map(|(turn, part)| turn * part).sum::<f64>();
+    }
+    Ok(Pose { xyz, quaternion: quaternion(camera.pose.rpy) })
+}
+
+/// The depth at a pixel in m, else the median about it.
+fn depth_at(depth: &Depth, u: i64, v: i64) -> Option<f64> {
+    let at = |u: i64, v: i64| {
+        let (column, row) = (usize::try_from(u).ok()?, usize::try_from(v).ok()?);
+        if column >= depth.width {
+            return None;
+        }
+        let millimetres = depth.millimetres.get(row.checked_mul(depth.width)?.checked_add(column)?)?;
+        let metres = f64::from(*millimetres) / 1_000.0;
+        RANGE_M.contains(&metres).then_some(metres)
+    };
+    if let Some(exact) = at(u, v) {
+        return Some(exact);
+    }
+    let around = -NEIGHBOURHOOD..=NEIGHBOURHOOD;
+    let mut near: Vec<f64> =
+        around.clone().flat_map(|dv| around.clone().filter_map(move |du| at(u + du, v + dv))).collect();
+    near.sort_by(f64::total_cmp);
+    near.get(near.len() / 2).copied()
+}
+
+/// The rotation of roll, pitch, yaw about fixed axes, by rows.
+fn rotation([roll, pitch, yaw]: [f64; 3]) -> [[f64; 3]; 3] {
+    let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
+    [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+}
+
+/// The same as a unit quaternion, order x, y, z, w.
+fn quaternion([roll, pitch, yaw]: [f64; 3]) -> [f64; 4] {
+    let ((sr, cr), (sp, cp), (sy, cy)) =
+        ((roll / 2.0).sin_cos(), (pitch / 2.0).sin_cos(), (yaw / 2.0).sin_cos());
+    [
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    ]
+}

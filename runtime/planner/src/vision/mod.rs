@@ -1,0 +1,7 @@
+//! What is seen, for who plans: detections taken into the scene, and points of an image that a model gives lifted into it.
+
+mod ground;
+mod seen;
+
+pub use ground::{Camera, Depth, Grounding, NoPoint, Pointer, ground, lift, point};
+pub use seen::with_detections;
