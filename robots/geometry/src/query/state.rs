@@ -14,9 +14,7 @@ impl State {
     #[must_use]
     pub fn towards(&self, other: &Self, part: f64) -> Self {
         // Rounding does not take it beyond either.
-        let mix = |one: f64, other: f64| {
-            (one + (other - one) * part).max(one.min(other)).min(one.max(other))
-        };
+        let mix = |one: f64, other: f64| (one + (other - one) * part).max(one.min(other)).min(one.max(other));
         let [x, y, yaw] = self.base;
         let [far_x, far_y, far_yaw] = other.base;
         Self {
