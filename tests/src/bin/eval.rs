@@ -2,6 +2,7 @@
 //!
 //! `saycan --planned` plans the instructions from their text instead, and exits 0 where at least 60 % are carried out.
 //! `dialogue` takes a file of wordings, `dynamic` the number of trials a task and robot.
+//! `reach [SCENE|--rooms N --seed S]` asks motion queries instead.
 //! Prints a line a disagreement and a summary object at the end; exits 0 where every verdict agrees, else 1. The suite
 //! `repairs` mends the faulty plans of the scenarios instead: it prints a line a plan, and exits 0 where at least half
 //! of them are mended.
@@ -44,6 +45,11 @@ fn main() -> ExitCode {
 
 fn run() -> Result<bool, String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
+    if let Some((_, rest)) = args.split_first().filter(|(suite, _)| *suite == "reach") {
+        let (text, is_good) = motet_reach::command(rest)?;
+        writeln!(std::io::stdout(), "{text}").map_err(|error| error.to_string())?;
+        return Ok(is_good);
+    }
     let only_json = args.iter().any(|arg| arg == "--json");
     let is_planned = args.iter().any(|arg| arg == "--planned");
     let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();

@@ -13,7 +13,8 @@ impl State {
     /// The state on the straight way to another, at `part` of it in 0..=1.
     #[must_use]
     pub fn towards(&self, other: &Self, part: f64) -> Self {
-        let mix = |one: f64, other: f64| one + (other - one) * part;
+        // Rounding does not take it beyond either.
+        let mix = |one: f64, other: f64| (one + (other - one) * part).max(one.min(other)).min(one.max(other));
         let [x, y, yaw] = self.base;
         let [far_x, far_y, far_yaw] = other.base;
         Self {

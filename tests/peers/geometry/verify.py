@@ -1,0 +1,168 @@
+"""Checks exported witnesses with pinocchio and coal: `verify.py WITNESSES [--most N]`.
+
+Kinematics, shapes and distances are those of the two libraries, read from the robot's URDF; from the file come the obstacles, which
+links may touch, and the path. A witness holds where every joint stays within its limits, nothing that may not touch comes nearer than
+1 mm at samples no farther than 1 cm and 0.02 rad apart, and the hand ends at the grasp.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import sys
+import xml.etree.ElementTree as xml
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+GAP = 0.001
+
+
+def pose(values):
+    x, y, z, i, j, k, w = values
+    return pin.SE3(pin.Quaternion(w, i, j, k).normalized().matrix(), np.array([x, y, z]))
+
+
+class Robot:
+    def __init__(self, name, case):
+        path = str(ROOT / "robots" / "models" / name / "robot.urdf")
+        self.model = pin.buildModelFromUrdf(path)
+        self.data = self.model.createData()
+        self.geometry = pin.buildGeomFromUrdf(self.model, path, pin.GeometryType.COLLISION)
+        self.placed = self.geometry.createData()
+        self.variables = case["variables"]
+        # pinocchio takes a joint that follows one of a later branch for a mistake: followers are worked out here.
+        rules = [(it.get("name"), it.find("mimic")) for it in xml.parse(path).getroot().findall("joint")]
+        self.follows = {
+            name: (rule.get("joint"), float(rule.get("multiplier", 1)), float(rule.get("offset", 0)))
+            for name, rule in rules if rule is not None
+        }
+        self.base = self.model.getFrameId(case["base_link"])
+        self.tip = self.model.getFrameId(case["tip"])
+        self.links = [self.model.frames[it.parentFrame].name for it in self.geometry.geometryObjects]
+        apart = {frozenset(pair) for pair in case["apart"]}
+        count = len(self.links)
+        self.pairs = [
+            (a, b) for a in range(count) for b in range(a + 1, count)
+            if frozenset((self.links[a], self.links[b])) in apart
+        ]
+        self.carried, self.members = set(case["carried"]), set(case["members"])
+        self.drives, self.height = case["drives"], case["height"]
+        self.radii = [ball(it.geometry) for it in self.geometry.geometryObjects]
+
+    def place(self, base, joints):
+        """Poses of the shapes and of the tip in the map, and whether every joint is within its limits."""
+        q = pin.neutral(self.model)
+        values = dict(zip(self.variables, joints))
+        values |= {name: f * values[of] + more for name, (of, f, more) in self.follows.items()}
+        for name, value in values.items():
+            joint = self.model.joints[self.model.getJointId(name)]
+            if joint.nq == 1:
+                q[joint.idx_q] = value
+            else:
+                q[joint.idx_q], q[joint.idx_q + 1] = math.cos(value), math.sin(value)
+        ok = all(
+            self.model.lowerPositionLimit[j.idx_q] - 1e-9 <= q[j.idx_q] <= self.model.upperPositionLimit[j.idx_q] + 1e-9
+            for name, j in zip(self.model.names, self.model.joints) if j.nq == 1 and name not in self.follows
+        )
+        pin.framesForwardKinematics(self.model, self.data, q)
+        pin.updateGeometryPlacements(self.model, self.data, self.geometry, self.placed)
+        x, y, yaw = base
+        turn = pin.utils.rotate("z", yaw)
+        root = pin.SE3(turn, np.array([x, y, self.height])) * self.data.oMf[self.base].inverse()
+        return [root * it for it in self.placed.oMg], root * self.data.oMf[self.tip], ok
+
+
+def ball(shape):
+    """The radius of the ball about a shape's own origin that holds it."""
+    shape.computeLocalAABB()
+    return float(np.linalg.norm(shape.aabb_center)) + shape.aabb_radius
+
+
+def obstacle(it):
+    shape, at = it["shape"], pose(it["pose"])
+    if "box" in shape:
+        solid = coal.Box(*shape["box"])
+    elif "ball" in shape:
+        solid = coal.Sphere(shape["ball"])
+    else:
+        radius, length = shape["cylinder_along_y"]
+        solid = coal.Cylinder(radius, length)
+        # coal's cylinder lies along z.
+        at = at * pin.SE3(pin.utils.rotate("x", -math.pi / 2), np.zeros(3))
+    return it["entity"], solid, at, ball(solid)
+
+
+def near(one, one_at, one_radius, two, two_at, two_radius):
+    if np.linalg.norm(one_at.translation - two_at.translation) > one_radius + two_radius + GAP:
+        return False
+    place = lambda at: coal.Transform3s(at.rotation, at.translation)
+    result = coal.DistanceResult()
+    return coal.distance(one, place(one_at), two, place(two_at), coal.DistanceRequest(), result) <= GAP
+
+
+def fault(robot, case):
+    things = [obstacle(it) for it in case["obstacles"]]
+    goal = pose(case["map_from_tip"])
+    floor = coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
+    shapes = [it.geometry for it in robot.geometry.geometryObjects]
+    path = case["path"]
+    tips = [robot.place(it["base"], it["joints"])[1] for it in path]
+    may = next(i for i, tip in enumerate(tips) if np.linalg.norm(tip.translation - goal.translation) < 0.11)
+    for leg, (one, two) in enumerate(zip(path, path[1:])):
+        a, b = np.array(one["base"] + one["joints"]), np.array(two["base"] + two["joints"])
+        way = np.abs(b - a)
+        steps = max(1, math.ceil(max(np.hypot(way[0], way[1]) / 0.01, way[2:].max() / 0.02)))
+        for step in range(steps + 1):
+            at = a + (b - a) * (step / steps)
+            placed, _, ok = robot.place(at[:3], at[3:])
+            if not ok:
+                return f"leg {leg}: beyond the limits"
+            for i, shape in enumerate(shapes):
+                link = robot.links[i]
+                if not robot.drives and link not in robot.carried:
+                    continue
+                for entity, solid, where, radius in things:
+                    if entity == case["object"] and link in robot.members and leg >= may:
+                        continue
+                    if near(shape, placed[i], robot.radii[i], solid, where, radius):
+                        return f"leg {leg}, {step} of {steps}: {link} and {entity}"
+                if link in robot.carried and placed[i].translation[2] < robot.radii[i] + GAP:
+                    place = coal.Transform3s(placed[i].rotation, placed[i].translation)
+                    result = coal.DistanceResult()
+                    if coal.distance(shape, place, floor, coal.Transform3s(), coal.DistanceRequest(), result) <= GAP:
+                        return f"leg {leg}: {link} and the floor"
+            for i, j in robot.pairs:
+                if near(shapes[i], placed[i], robot.radii[i], shapes[j], placed[j], robot.radii[j]):
+                    return f"leg {leg}, {step} of {steps}: {robot.links[i]} and {robot.links[j]}"
+    off = tips[-1].inverse() * goal
+    if np.linalg.norm(off.translation) > 1e-6 or np.linalg.norm(pin.log3(off.rotation)) > 1e-6:
+        return "the hand does not end at the grasp"
+    return None
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("witnesses")
+    arguments.add_argument("--most", type=int, default=1000, help="witnesses of each robot")
+    settings = arguments.parse_args()
+    robots, counts, wrong = {}, {}, 0
+    for line in open(settings.witnesses, encoding="utf-8"):
+        case = json.loads(line)
+        name = case["robot"]
+        if counts.get(name, 0) >= settings.most:
+            continue
+        counts[name] = counts.get(name, 0) + 1
+        if name not in robots:
+            robots[name] = Robot(name, case)
+        found = fault(robots[name], case)
+        if found:
+            wrong += 1
+            print(f"{case['name']}: {found}")
+    print(f"{json.dumps(counts)}: {wrong} do not hold")
+    sys.exit(1 if wrong else 0)
+
+
+main()

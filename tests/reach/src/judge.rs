@@ -1,0 +1,313 @@
+//! Asks the query for every target of many rooms and holds its answers against the truth, which is kept in a file.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use motet_geometry::query::{Answer, Budget, Query, Room, World};
+use motet_robots::scene::{self, Scene};
+use motet_syntax::{FileId, Source};
+use serde_json::json;
+
+use crate::check::faults;
+use crate::model::{Model, robot};
+use crate::report::Table;
+use crate::room::{furnished, targets};
+use crate::scenery::Scenery;
+use crate::truth::{Effort, Truth, searched};
+
+/// What to run over.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Names of robots.
+    pub robots: Vec<String>,
+    /// Rooms for each robot.
+    pub rooms: u64,
+    /// The first room's seed; each next has the next.
+    pub seed: u64,
+    /// The text of a scene instead of rooms.
+    pub scene: Option<String>,
+    /// Search for the truth only shortly.
+    pub is_quick: bool,
+    /// A folder for what the truth was found to be.
+    pub cache: Option<PathBuf>,
+    /// A file for the witnesses, a JSON object a line.
+    pub witnesses: Option<PathBuf>,
+}
+
+/// One target with its answer.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Which robot, room and thing.
+    pub name: String,
+    /// What is true of it.
+    pub truth: Truth,
+    /// What was answered.
+    pub said: Said,
+    /// How long the answer took, the room made ready.
+    pub took: Duration,
+    /// How long making the room ready took.
+    pub set_up: Duration,
+    /// What the independent check has against the witness.
+    pub faults: Vec<String>,
+    /// The reason of a negative.
+    pub reason: Option<String>,
+}
+
+/// The kinds of answers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Said {
+    /// With a witness.
+    Feasible,
+    /// Proven that there is none.
+    Certified,
+    /// None was found.
+    Exhausted,
+    /// Not known.
+    Unknown,
+}
+
+/// The tables, robot by robot, and a line for every case that is not as it should be.
+///
+/// # Errors
+///
+/// A robot that there is not, a scene that cannot be read, a file that cannot be written.
+pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
+    let (mut lines, mut tables) = (Vec::new(), Vec::new());
+    let mut out = match &settings.witnesses {
+        Some(path) => {
+            Some(std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()))?)
+        }
+        None => None,
+    };
+    for name in &settings.robots {
+        let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
+        let mut cache = Cache::read(settings, &model, name);
+        let mut cases = Vec::new();
+        for seed in settings.seed..settings.seed + settings.rooms {
+            let scene = match &settings.scene {
+                Some(text) => scene::read(&Source::new("scene.json", text.as_str()), FileId(0))
+                    .0
+                    .ok_or("the scene cannot be read")?,
+                None => room_of(&model, seed),
+            };
+            let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
+            cases.extend(room.cases(settings, out.as_mut())?);
+            cache.write();
+            if settings.scene.is_some() {
+                break;
+            }
+        }
+        lines.extend(cases.iter().filter_map(Case::line));
+        tables.push(Table::new(name, &cases));
+    }
+    Ok((lines, tables))
+}
+
+/// A room in which the robot stands free.
+fn room_of(model: &Model, seed: u64) -> Scene {
+    let rooms = (0..50).map(|next| furnished(&model.machine, seed + 1_000_000 * next));
+    let is_free = |scene: &Scene| {
+        let world = World::new(&model.machine, scene);
+        Scenery::new(scene, &world)
+            .is_some_and(|scenery| scenery.touch(model, &world.robot, None, 0.003).is_none())
+    };
+    rooms.into_iter().find(is_free).unwrap_or_default()
+}
+
+struct Judged<'a> {
+    model: &'a Model,
+    scene: &'a Scene,
+    name: &'a str,
+    seed: u64,
+    cache: &'a mut Cache,
+}
+
+impl Judged<'_> {
+    fn cases(
+        &mut self,
+        settings: &Settings,
+        mut out: Option<&mut std::fs::File>,
+    ) -> Result<Vec<Case>, String> {
+        let world = World::new(&self.model.machine, self.scene);
+        let make = || Room::new(&self.model.machine, self.scene, &world);
+        let (room, set_up) = timed(make);
+        let mut cases = Vec::new();
+        for target in targets(self.scene) {
+            let query = Query::Reach(target.clone(), None);
+            let (answer, took) = timed(|| room.answer(&query, Budget::default()));
+            let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
+            let name = format!("{} {} {target}", self.name, self.seed);
+            let truth = self
+                .cache
+                .truth(&name, self.scene, || searched(self.model, self.scene, &target, self.seed, effort));
+            let (mut found, mut reason) = (Vec::new(), None);
+            let said = match &answer {
+                Answer::Feasible(witness) => {
+                    found = faults(self.model, self.scene, &world, witness);
+                    Said::Feasible
+                }
+                Answer::Infeasible(why) => {
+                    reason = Some(why.reason.to_string());
+                    if why.certified { Said::Certified } else { Said::Exhausted }
+                }
+                Answer::Unknown(why) => {
+                    reason = Some(format!("{why:?}"));
+                    Said::Unknown
+                }
+            };
+            if let (Some(out), Answer::Feasible(witness)) = (out.as_deref_mut(), &answer) {
+                let line = exported(self.model, self.scene, &world, &name, witness);
+                writeln!(out, "{line}").map_err(|error| error.to_string())?;
+            }
+            cases.push(Case { name, truth, said, took, set_up, faults: found, reason });
+        }
+        Ok(cases)
+    }
+}
+
+/// The median of some runs, or the one where it takes long: the time of the processor that this thread took, so that what else
+/// the machine does counts little.
+fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
+    let clock = || {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
+    };
+    let begin = clock();
+    let value = run();
+    let mut times = vec![clock().saturating_sub(begin)];
+    if times[0] < Duration::from_millis(20) {
+        for _ in 0..8 {
+            let begin = clock();
+            std::hint::black_box(run());
+            times.push(clock().saturating_sub(begin));
+        }
+    }
+    times.sort_unstable();
+    (value, times[times.len() / 2])
+}
+
+/// All that another program needs to check a witness.
+fn exported(
+    model: &Model,
+    scene: &Scene,
+    world: &World,
+    name: &str,
+    witness: &motet_geometry::query::Witness,
+) -> serde_json::Value {
+    let machine = &model.machine;
+    let pose = |pose: &nalgebra::Isometry3<f64>| {
+        let (xyz, xyzw) = motet_geometry::query::components(pose);
+        json!([xyz[0], xyz[1], xyz[2], xyzw[0], xyzw[1], xyzw[2], xyzw[3]])
+    };
+    let obstacles: Vec<_> = Scenery::new(scene, world).map_or_else(Vec::new, |scenery| {
+        let shown = scenery.solids.iter().filter_map(|(entity, solid)| {
+            let (id, _) = scene.entities.get_index(*entity)?;
+            let shape = if let Some(it) = solid.shape.as_cuboid() {
+                json!({"box": [it.half_extents.x * 2.0, it.half_extents.y * 2.0, it.half_extents.z * 2.0]})
+            } else if let Some(it) = solid.shape.as_cylinder() {
+                json!({"cylinder_along_y": [it.radius, it.half_height * 2.0]})
+            } else {
+                json!({"ball": solid.shape.as_ball()?.radius})
+            };
+            Some(json!({"entity": id, "pose": pose(&solid.pose), "shape": shape}))
+        });
+        shown.collect()
+    });
+    let body = machine.body();
+    let links = |pair: &[usize; 2]| pair.map(|part| machine.tree().links()[body.parts()[part].link].clone());
+    let mut apart: Vec<_> = body.pairs().iter().map(links).collect();
+    apart.sort();
+    apart.dedup();
+    let chosen = |is: &dyn Fn(usize) -> bool| -> Vec<_> {
+        (0..model.urdf.links.len()).filter(|at| is(*at)).map(|at| model.urdf.links[at].name.clone()).collect()
+    };
+    let card = machine.card();
+    let tip = machine.hand().map(|hand| machine.tree().links()[hand.tip].clone());
+    let states: Vec<_> =
+        witness.path.iter().map(|state| json!({"base": state.base, "joints": state.joints})).collect();
+    let grasp = witness.grasp.as_ref();
+    json!({
+        "name": name,
+        "robot": card.name,
+        "base_link": card.model.as_ref().and_then(|model| model.base.clone()),
+        "height": card.model.as_ref().map_or(0.0, |model| model.height_m),
+        "tip": tip,
+        "drives": machine.drives(),
+        "variables": machine.tree().variables().iter().map(|known| known.name.clone()).collect::<Vec<_>>(),
+        "apart": apart,
+        "carried": chosen(&|at| model.is_carried(at)),
+        "members": chosen(&|at| model.in_hand(at)),
+        "obstacles": obstacles,
+        "path": states,
+        "object": grasp.map(|grasp| grasp.object.clone()),
+        "map_from_tip": grasp.map(|grasp| pose(&grasp.map_from_tip)),
+    })
+}
+
+impl Case {
+    /// What is not as it should be, in a line.
+    #[must_use]
+    pub fn line(&self) -> Option<String> {
+        let reason = self.reason.as_deref().unwrap_or_default();
+        if let Some(fault) = self.faults.first() {
+            return Some(format!("{}: the witness does not hold: {fault}", self.name));
+        }
+        match (self.truth, self.said) {
+            (Truth::Reachable, Said::Certified) => {
+                Some(format!("{}: reachable, and certified not to be: {reason}", self.name))
+            }
+            (Truth::Reachable, Said::Exhausted | Said::Unknown) => {
+                Some(format!("{}: reachable, and missed: {reason}", self.name))
+            }
+            (Truth::NoState, Said::Exhausted | Said::Unknown) => {
+                Some(format!("{}: no state, not certified: {reason}", self.name))
+            }
+            (Truth::Reachable, Said::Feasible)
+            | (Truth::NoWay, _)
+            | (Truth::NoState, Said::Feasible | Said::Certified) => None,
+        }
+    }
+}
+
+/// What the truth was found to be, in a file.
+struct Cache {
+    path: Option<PathBuf>,
+    known: BTreeMap<String, Truth>,
+    robot: u64,
+}
+
+impl Cache {
+    fn read(settings: &Settings, model: &Model, name: &str) -> Self {
+        let quick = if settings.is_quick { "-quick" } else { "" };
+        let path = settings.cache.as_ref().map(|folder| folder.join(format!("{name}{quick}.json")));
+        let text = path.as_ref().and_then(|path| std::fs::read_to_string(path).ok());
+        let known = text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+        Self { path, known, robot: hash(&format!("{:?}", model.urdf)) }
+    }
+
+    fn truth(&mut self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
+        // The scene and the robot are part of the key: other ones are other questions.
+        let key = format!("{name} {:016x}", hash(&format!("{scene:?}")) ^ self.robot);
+        *self.known.entry(key).or_insert_with(find)
+    }
+
+    /// A file that cannot be written costs only time.
+    fn write(&self) {
+        let Some(path) = &self.path else { return };
+        if let Some(folder) = path.parent() {
+            let _ = std::fs::create_dir_all(folder);
+        }
+        if let Ok(text) = serde_json::to_string_pretty(&self.known) {
+            let _ = std::fs::write(path, text);
+        }
+    }
+}
+
+/// FNV-1a.
+fn hash(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

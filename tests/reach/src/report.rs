@@ -1,0 +1,127 @@
+//! The table of one robot.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::judge::{Case, Said};
+use crate::truth::Truth;
+
+/// Shares are in percent, times in microseconds; a time of no case at all is missing.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Table {
+    /// The robot.
+    pub robot: String,
+    /// Targets asked for.
+    pub targets: usize,
+    /// Of which the exhaustive search, or a witness that holds, shows that they are reachable.
+    pub reachable: usize,
+    /// Of which the search found states and no way.
+    pub no_way: usize,
+    /// Of which it found no state.
+    pub no_state: usize,
+    /// Answers with a witness.
+    pub positives: usize,
+    /// Witnesses that do not hold.
+    pub uncertified_positives: usize,
+    /// Of the reachable, answered with a witness that holds.
+    pub recall: f64,
+    /// The same within 100 µs, 1 ms and 10 ms.
+    pub recall_at: [f64; 3],
+    /// Of the targets without a state, proven so.
+    pub certified: f64,
+    /// Proven to have none, and reachable by a grasp that is not considered.
+    pub contradicted: usize,
+    /// Unknown, of all.
+    pub unknown: f64,
+    /// Time of a positive: median, 99th percentile.
+    pub feasible_us: Option<[f64; 2]>,
+    /// Time of a negative, likewise.
+    pub infeasible_us: Option<[f64; 2]>,
+    /// Time to make a room ready, likewise.
+    pub set_up_us: Option<[f64; 2]>,
+    /// Time of a positive with that, likewise.
+    pub feasible_with_set_up_us: Option<[f64; 2]>,
+}
+
+impl Table {
+    pub(crate) fn new(robot: &str, cases: &[Case]) -> Self {
+        let holds = |case: &&Case| case.said == Said::Feasible && case.faults.is_empty();
+        let reachable: Vec<&Case> =
+            cases.iter().filter(|case| case.truth == Truth::Reachable || holds(case)).collect();
+        let within = |limit: Duration| {
+            let found = reachable.iter().filter(|case| holds(case) && case.took <= limit).count();
+            percent(found, reachable.len())
+        };
+        let count = |truth: Truth| cases.iter().filter(|case| case.truth == truth && !holds(case)).count();
+        let no_state = count(Truth::NoState);
+        let certified = |case: &&Case| case.said == Said::Certified && case.truth == Truth::NoState;
+        let times = |is: &dyn Fn(&&Case) -> bool, of: &dyn Fn(&Case) -> Duration| {
+            spread(cases.iter().filter(is).map(of).collect())
+        };
+        let negative = |case: &&Case| matches!(case.said, Said::Certified | Said::Exhausted);
+        Self {
+            robot: robot.into(),
+            targets: cases.len(),
+            reachable: reachable.len(),
+            no_way: count(Truth::NoWay),
+            no_state,
+            positives: cases.iter().filter(|case| case.said == Said::Feasible).count(),
+            uncertified_positives: cases.iter().filter(|case| !case.faults.is_empty()).count(),
+            recall: within(Duration::MAX),
+            recall_at: [100, 1_000, 10_000].map(|micros| within(Duration::from_micros(micros))),
+            certified: percent(cases.iter().filter(certified).count(), no_state),
+            contradicted: reachable.iter().filter(|case| case.said == Said::Certified).count(),
+            unknown: percent(cases.iter().filter(|case| case.said == Said::Unknown).count(), cases.len()),
+            feasible_us: times(&holds, &|case| case.took),
+            infeasible_us: times(&negative, &|case| case.took),
+            set_up_us: times(&|_| true, &|case| case.set_up),
+            feasible_with_set_up_us: times(&holds, &|case| case.took + case.set_up),
+        }
+    }
+}
+
+impl std::fmt::Display for Table {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let time = |spread: &Option<[f64; 2]>| match spread {
+            Some([median, most]) => format!("median {median:.0} µs, 99 % within {most:.0} µs"),
+            None => "none".into(),
+        };
+        let [first, second, third] = self.recall_at;
+        writeln!(f, "{}: {} targets, {} reachable", self.robot, self.targets, self.reachable)?;
+        writeln!(
+            f,
+            "  not reachable: {} with states and no way, {} without a state",
+            self.no_way, self.no_state
+        )?;
+        writeln!(
+            f,
+            "  recall {:.1} %; within 100 µs {first:.1} %, 1 ms {second:.1} %, 10 ms {third:.1} %",
+            self.recall
+        )?;
+        writeln!(f, "  positives {}, of which {} do not hold", self.positives, self.uncertified_positives)?;
+        writeln!(
+            f,
+            "  negatives without a state certified: {:.1} %; wrongly: {}",
+            self.certified, self.contradicted
+        )?;
+        writeln!(f, "  unknown {:.1} %", self.unknown)?;
+        writeln!(f, "  feasible: {}", time(&self.feasible_us))?;
+        writeln!(f, "  infeasible: {}", time(&self.infeasible_us))?;
+        writeln!(f, "  a room made ready: {}", time(&self.set_up_us))?;
+        write!(f, "  feasible, with that: {}", time(&self.feasible_with_set_up_us))
+    }
+}
+
+fn percent(part: usize, whole: usize) -> f64 {
+    if whole == 0 { 100.0 } else { 100.0 * part as f64 / whole as f64 }
+}
+
+fn spread(mut times: Vec<Duration>) -> Option<[f64; 2]> {
+    times.sort_unstable();
+    let at = |share: f64| {
+        let index = ((times.len() as f64 * share).ceil() as usize).max(1) - 1;
+        times.get(index).map(|time| time.as_secs_f64() * 1e6)
+    };
+    Some([at(0.5)?, at(0.99)?])
+}
