@@ -1,6 +1,7 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod act;
+mod decode;
 mod drive;
 mod duration;
 mod export;
@@ -15,6 +16,7 @@ mod prompt;
 mod run;
 
 pub(crate) use act::DoArgs;
+pub(crate) use decode::{DecodeArgs, DecodeForm};
 pub(crate) use drive::DriveArgs;
 pub(crate) use export::{ExportArgs, ExportCommand, McapArgs};
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
@@ -95,6 +97,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Print a grammar of what a language model may write, or a request that holds it to one
     Grammar(Box<GrammarArgs>),
+    /// Show what may follow in a policy that a model has begun
+    Decode(Box<DecodeArgs>),
     /// Print the JSON Schema of a file format
     Schema(SchemaArgs),
     /// Print completions for a shell

@@ -4,6 +4,7 @@ pub(crate) mod act;
 pub(crate) mod check;
 pub(crate) mod compile;
 pub(crate) mod completions;
+pub(crate) mod decode;
 pub(crate) mod explain;
 pub(crate) mod feasible;
 pub(crate) mod fmt;

@@ -13,6 +13,15 @@ use crate::exit::Trouble;
 
 pub(crate) use bytes::{Bytes, read_file, read_small};
 
+/// Reads standard input.
+///
+/// # Errors
+///
+/// It cannot be read.
+pub(crate) fn read_stdin() -> std::io::Result<Bytes> {
+    bytes::read(std::io::stdin().lock(), None)
+}
+
 /// Where documents come from.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Input {

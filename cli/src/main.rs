@@ -58,6 +58,7 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Robots(args) => command::robots::run(args, colors),
         Command::Explain(args) => command::explain::run(args),
         Command::Grammar(args) => command::grammar::run(args, colors),
+        Command::Decode(args) => command::decode::run(args, colors),
         Command::Schema(args) => command::schema::run(args),
         Command::Completions(args) => command::completions::run(args),
     }

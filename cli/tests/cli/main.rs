@@ -2,6 +2,7 @@
 
 mod check;
 mod commands;
+mod decode;
 mod drive;
 mod fmt;
 mod grammar;

@@ -93,6 +93,20 @@ impl Builder<'_> {
         Shape::Ref(self.shapes.defs.len() - 1)
     }
 
+    /// The same, where what stands in several places has one definition: a schema is compiled faster by far, the less it
+    /// repeats.
+    fn share(&mut self, name: &str, shape: Shape) -> Shape {
+        match self.shapes.defs.iter().position(|(_, known)| *known == shape) {
+            Some(known) => Shape::Ref(known),
+            None => self.define(name.to_owned(), shape),
+        }
+    }
+
+    /// Seconds, or `null` for the default.
+    fn seconds(&mut self) -> Shape {
+        self.share("seconds", or_null(vec![Shape::Number(SECONDS)]))
+    }
+
     fn document(&mut self) {
         let name = self.define("name".into(), Shape::Name);
         let binding = self.define("binding".into(), Shape::Binding);
@@ -106,8 +120,9 @@ impl Builder<'_> {
             };
             self.slots.push(shape);
         }
-        let goals = self.conditions("goal", &self.offer.goals);
-        let asked = self.conditions("condition", &self.offer.asked);
+        let offer = self.offer;
+        let goals = self.conditions("goal", &offer.goals);
+        let asked = self.conditions("condition", &offer.asked);
         let step = self.steps(&name, &binding, asked);
         let mut keys = vec![(SmolStr::new_static("motet"), Shape::Version), ("policy".into(), name)];
         keys.extend(self.offer.robot.as_ref().map(|robot| ("robot".into(), word(robot))));
@@ -154,6 +169,7 @@ impl Builder<'_> {
         let mut level = self.define(format!("{name}_0"), Shape::Choice(shapes.clone()));
         for depth in 1..=MAX_CONDITION_DEPTH {
             let several = Shape::Array(Box::new(level.clone()), 2, MAX_MEMBERS);
+            let several = self.share(&format!("{name}s_{depth}"), several);
             let groups =
                 [object([("not", level)]), object([("all", several.clone())]), object([("any", several)])];
             let all = shapes.iter().cloned().chain(groups).collect();
@@ -196,22 +212,17 @@ impl Builder<'_> {
         }
         if let Some(asked) = &asked {
             let mut keys = vec![(SmolStr::new_static("wait"), asked.clone())];
-            keys.extend(written.then(|| ("within".into(), or_null(vec![Shape::Number(SECONDS)]))));
+            keys.extend(written.then(|| ("within".into(), self.seconds())));
             leaves.push(self.define("wait".into(), Shape::Object(keys)));
         }
         let ends = self.ends();
         leaves.extend(ends.clone());
         let kinds = self.kinds();
         let list = self.list(binding);
+        let count = self.share("count", Shape::Number(NumberRange::whole(1, MAX_COUNT)));
         let mut reacts = vec![
             self.pause(written),
-            self.define(
-                "restart".into(),
-                object([
-                    ("react", word("restart")),
-                    ("at_most", Shape::Number(NumberRange::whole(1, MAX_COUNT))),
-                ]),
-            ),
+            self.define("restart".into(), object([("react", word("restart")), ("at_most", count)])),
         ];
         reacts.extend(ends);
         let mut step = self.define("step_0".into(), Shape::Choice(leaves.clone()));
@@ -224,12 +235,13 @@ impl Builder<'_> {
         step
     }
 
-    fn call(&self, call: &CallOffer, name: &Shape) -> Shape {
+    fn call(&mut self, call: &CallOffer, name: &Shape) -> Shape {
         let mut keys = vec![(SmolStr::new_static("do"), word(&call.name))];
         keys.extend(self.args(&call.args));
         if call.modifiers {
-            keys.push(("within".into(), or_null(vec![Shape::Number(SECONDS)])));
-            keys.push(("retry".into(), or_null(vec![Shape::Number(NumberRange::whole(0, MAX_RETRIES))])));
+            keys.push(("within".into(), self.seconds()));
+            let retries = or_null(vec![Shape::Number(NumberRange::whole(0, MAX_RETRIES))]);
+            keys.push(("retry".into(), self.share("retries", retries)));
         }
         keys.extend(call.binds.then(|| ("as".into(), name.clone())));
         Shape::Object(keys)
@@ -269,45 +281,44 @@ impl Builder<'_> {
 
     fn pause(&mut self, written: bool) -> Shape {
         let mut keys = vec![(SmolStr::new_static("react"), word("pause"))];
-        keys.extend(written.then(|| ("within".into(), or_null(vec![Shape::Number(SECONDS)]))));
+        keys.extend(written.then(|| ("within".into(), self.seconds())));
         self.define("pause".into(), Shape::Object(keys))
     }
 
     fn composites(&mut self, depth: usize, parts: &Blocks<'_>, reacts: &[Shape]) -> Vec<Shape> {
+        let of_level = |name: &str| format!("{name}_{depth}");
         let steps = |least: usize| Shape::Array(Box::new(parts.step.clone()), least, MAX_STEPS);
-        let count = || Shape::Number(NumberRange::whole(1, MAX_COUNT));
         let several = |shape: Shape, least: usize| Shape::Array(Box::new(shape), least, MAX_MEMBERS);
-        let mut found = Vec::new();
-        let mut add = |shapes: &mut Shapes, name: &str, shape: Shape| {
-            shapes.defs.push((format!("{name}_{depth}"), shape));
-            found.push(Shape::Ref(shapes.defs.len() - 1));
-        };
-        let shapes = &mut self.shapes;
-        add(shapes, "sequence", object([("sequence", parts.name.clone()), ("steps", steps(1))]));
+        let block = self.share(&of_level("block"), steps(1));
+        let maybe = self.share(&of_level("maybe_block"), steps(0));
+        let count = self.share("count", Shape::Number(NumberRange::whole(1, MAX_COUNT)));
+        let handlers = object([("on", parts.kinds.clone()), ("steps", maybe.clone())]);
+        let handlers = several(handlers, 1);
+        let branches = several(block.clone(), 2);
+        let mut until = Shape::Null;
+        let mut found =
+            vec![("sequence", object([("sequence", parts.name.clone()), ("steps", block.clone())]))];
         if let Some(asked) = parts.asked {
-            let keys = [("if", asked.clone()), ("then", steps(1)), ("else", steps(0))];
-            add(shapes, "if", object(keys));
-            let resume = object([("react", word("resume")), ("at_most", count()), ("steps", steps(1))]);
-            let reaction = Shape::Choice(reacts.iter().cloned().chain([resume]).collect());
-            let hold = or_null(vec![Shape::Number(SECONDS)]);
-            let when = object([("when", asked.clone()), ("for", hold), ("then", reaction)]);
-            add(shapes, "monitor", object([("monitor", several(when, 1)), ("during", steps(1))]));
+            until = self.share("until", or_null(vec![asked.clone()]));
+            let keys = [("if", asked.clone()), ("then", block.clone()), ("else", maybe)];
+            found.push(("if", object(keys)));
+            let resume = [("react", word("resume")), ("at_most", count.clone()), ("steps", block.clone())];
+            let reaction = Shape::Choice(reacts.iter().cloned().chain([object(resume)]).collect());
+            let when = object([("when", asked.clone()), ("for", self.seconds()), ("then", reaction)]);
+            found.push(("monitor", object([("monitor", several(when, 1)), ("during", block.clone())])));
         }
-        let handler = object([("on", parts.kinds.clone()), ("steps", steps(0))]);
-        add(shapes, "try", object([("try", steps(1)), ("catch", several(handler, 1))]));
-        let until = parts.asked.map_or(Shape::Null, |asked| or_null(vec![asked.clone()]));
-        add(shapes, "repeat", object([("repeat", count()), ("steps", steps(1)), ("until", until)]));
+        found.push(("try", object([("try", block.clone()), ("catch", handlers)])));
+        found.push((
+            "repeat",
+            object([("repeat", count.clone()), ("steps", block.clone()), ("until", until)]),
+        ));
         if let Some(list) = parts.list {
-            let keys = [
-                ("each", parts.name.clone()),
-                ("in", list.clone()),
-                ("at_most", count()),
-                ("steps", steps(1)),
-            ];
-            add(shapes, "each", object(keys));
+            let keys =
+                [("each", parts.name.clone()), ("in", list.clone()), ("at_most", count), ("steps", block)];
+            found.push(("each", object(keys)));
         }
-        add(shapes, "parallel", object([("parallel", several(steps(1), 2))]));
-        found
+        found.push(("parallel", object([("parallel", branches)])));
+        found.into_iter().map(|(name, shape)| self.define(of_level(name), shape)).collect()
     }
 }
 

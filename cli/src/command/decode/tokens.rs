@@ -1,0 +1,67 @@
+//! The tokens of a vocabulary that may follow.
+
+use std::io::Read;
+use std::path::Path;
+
+use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
+use motet_decode::{End, Prepared, Vocabulary};
+
+use super::quoted;
+use crate::exit::Trouble;
+
+/// So many are shown, of many the first.
+const SHOWN: usize = 32;
+
+/// The vocabulary of an encoding or a file.
+///
+/// # Errors
+///
+/// The file cannot be read, or is no vocabulary.
+pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Trouble> {
+    let wrong = |error: motet_decode::VocabularyError| Trouble::Other(format!("`{name}`: {error}"));
+    if let Some(encoding) = Encoding::named(name) {
+        return Vocabulary::of_encoding(encoding).map_err(wrong);
+    }
+    let end = match end {
+        None => End::Known,
+        Some(end) => end.parse().map_or(End::Named(end), End::Number),
+    };
+    let path = Path::new(name);
+    let unread = |source| Trouble::Read { path: path.to_owned(), source };
+    let file = std::fs::File::open(path).map_err(unread)?;
+    let mut bytes = Vec::new();
+    // One byte more is enough for the vocabulary to say that it is too large.
+    file.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(unread)?;
+    Vocabulary::from_file(&bytes, end).map_err(wrong)
+}
+
+/// The tokens that may follow after a beginning, which may.
+///
+/// # Errors
+///
+/// No policy fits the budget.
+pub(super) fn told(
+    prepared: &Prepared,
+    vocabulary: &Vocabulary,
+    begun: &[u8],
+    budget: usize,
+) -> Result<String, Trouble> {
+    let decoder = prepared.decoder(vocabulary, budget);
+    let mut decoder =
+        decoder.ok_or_else(|| Trouble::Other(format!("no policy has at most {budget} bytes")))?;
+    decoder.acceptor().accept(begun);
+    let mask = decoder.mask();
+    let may = |token: &u32| mask.get(*token as usize / 32).is_some_and(|word| word >> (token % 32) & 1 == 1);
+    let count = u32::try_from(vocabulary.len()).unwrap_or(u32::MAX);
+    let tokens: Vec<u32> = (0..count).filter(may).collect();
+    let mut text = format!("tokens: {} of {count}\n", tokens.len());
+    for token in tokens.iter().take(SHOWN) {
+        let bytes = vocabulary.bytes(*token);
+        let shown = if bytes.is_empty() { "the end".to_owned() } else { quoted(bytes) };
+        text.push_str(&format!("  {token} {shown}\n"));
+    }
+    if tokens.len() > SHOWN {
+        text.push_str(&format!("  and {} more\n", tokens.len() - SHOWN));
+    }
+    Ok(text)
+}
