@@ -14,7 +14,8 @@ fn what_must_follow_and_what_may() {
     let ran = decode("decode_bytes", "", "{\"mo\n");
     ran.check(0, &["out:taken: 4 bytes\nmust follow: \"tet\\\":1,\\\"policy\\\":\\\"\"\nmay follow: \"ABC"]);
     let whole = format!("{HEAD}{{\"end\":\"done\"}}]}}");
-    decode("decode_whole", "", &whole).check(0, &["out:the policy is whole: nothing may follow but the end\n"]);
+    decode("decode_whole", "", &whole)
+        .check(0, &["out:the policy is whole: nothing may follow but the end\n"]);
     Place::new("decode_file")
         .file("begun.json", "{")
         .run("decode begun.json --robot hsr --scene kitchen")
@@ -23,7 +24,7 @@ fn what_must_follow_and_what_may() {
 
 #[test]
 fn words_are_explained() {
-    let held = format!("{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"p");
+    let held = format!("{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"");
     let ran = decode("decode_calls", "--explain", &held);
     ran.check(0, &["out:may follow:\n", "out:calls place(object: Object, ", "out:may not:\n", "out:M0501"]);
     let step = decode("decode_steps", "--explain", HEAD);
@@ -41,19 +42,29 @@ fn a_refusal_has_a_place_and_a_reason() {
         "{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\"object\":\"mug_2\",\"from\":\"auto\"}}"
     );
     let ran = decode("decode_refused", "", &twice);
-    ran.check(1, &["out:refused: \"i\" at byte 120 (line 1, column 121), after …", "out:why: ", "out:may follow:\n"]);
+    ran.check(
+        1,
+        &["out:refused: \"i\" at byte 116 (line 1, column 117), after …", "out:why: ", "out:may follow:\n"],
+    );
     assert!(ran.stdout.contains("`pick` needs"), "{}", ran.stdout);
-    decode("decode_spelling", "", "{ \"motet\": 1").check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
+    decode("decode_spelling", "", "{ \"motet\": 1")
+        .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
 }
 
 #[test]
 fn tokens_are_shown() {
     let place = Place::new("decode_tokens").file("tokens.json", r#"["{", "{\"", "x", null]"#);
     let line = "decode - --robot hsr --tokenizer tokens.json --end";
-    place.run_with(&format!("{line} 3"), b"", &[]).check(0, &["out:tokens: 2 of 4\n  0 \"{\"\n  1 \"{\\\"\"\n"]);
+    place
+        .run_with(&format!("{line} 3"), b"", &[])
+        .check(0, &["out:tokens: 2 of 4\n  0 \"{\"\n  1 \"{\\\"\"\n"]);
     let whole = r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"end":"done"}]}"#;
-    place.run_with(&format!("{line} 3"), whole.as_bytes(), &[]).check(0, &["out:tokens: 1 of 4\n  3 the end\n"]);
-    place.run_with(&format!("{line} 4"), b"", &[]).check(2, &["err:`tokens.json`: the vocabulary has no token 4 to end"]);
+    place
+        .run_with(&format!("{line} 3"), whole.as_bytes(), &[])
+        .check(0, &["out:tokens: 1 of 4\n  3 the end\n"]);
+    place
+        .run_with(&format!("{line} 4"), b"", &[])
+        .check(2, &["err:`tokens.json`: the vocabulary has no token 4 to end"]);
     place
         .run_with("decode - --robot hsr --tokenizer none.json", b"", &[])
         .check(2, &["err:cannot read `none.json`: there is no such file"]);
