@@ -47,8 +47,12 @@ fn a_refusal_has_a_place_and_a_reason() {
         &["out:refused: \"i\" at byte 116 (line 1, column 117), after …", "out:why: ", "out:may follow:\n"],
     );
     assert!(ran.stdout.contains("`pick` needs"), "{}", ran.stdout);
-    decode("decode_spelling", "", "{ \"motet\": 1")
-        .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
+    decode(
+        "decode_spelling",
+        "",
+        "{ \"motet\":1,\"policy\":\"p\",\"robot\":\"hsr\",\"achieves\":null,\"steps\":[{\"end\":\"done\"}]}",
+    )
+    .check(1, &["out:refused: \" \" at byte 1", "out:why: only the spelling"]);
 }
 
 #[test]
