@@ -22,7 +22,7 @@ pub(crate) use export::{ExportArgs, ExportCommand, McapArgs};
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
 pub(crate) use grammar::{GrammarArgs, GrammarCommand, GrammarFormat, ProbeArgs, Server};
 pub(crate) use import::{ImportArgs, ImportCommand, PddlArgs};
-pub(crate) use input::{DocumentArgs, Format, FormatArgs, WorldArgs};
+pub(crate) use input::{DocumentArgs, Format, FormatArgs, KnownArgs, WorldArgs};
 pub(crate) use journal::{Moment, ReplayArgs};
 pub(crate) use model::{Held, ModelArgs};
 pub(crate) use plan::{PlanArgs, PlanForm};

@@ -72,7 +72,7 @@ impl Workbench {
     pub(crate) fn open(args: &WorldArgs, report: &mut Report) -> Result<Self, Trouble> {
         let mut sources = Sources::default();
         sources.add(Source::new("", ""));
-        let robot = match &args.robot {
+        let robot = match &args.known.robot {
             Some(name) => {
                 let card = Card::find(name)?;
                 let robot = card.read(&mut sources, report)?;
@@ -81,13 +81,13 @@ impl Workbench {
             None => None,
         };
         let mut domains = Vec::new();
-        for path in &args.domain {
+        for path in &args.known.domain {
             let name = path.display().to_string();
             let parsed = read_text(&name, &read_small(path)?, &mut sources);
             report.usable("domain", &parsed.diagnostics, &sources)?;
             domains.push(parsed.file);
         }
-        let scene = match &args.scene {
+        let scene = match &args.known.scene {
             Some(name) => Some(scenes::read(name, &mut sources, report)?),
             None => None,
         };
@@ -95,7 +95,7 @@ impl Workbench {
         let scene_text =
             last.and_then(|last| sources.get(FileId(last))).map(|source| source.text.to_string());
         let scene_text = scene_text.filter(|_| scene.is_some());
-        let state = match &args.state {
+        let state = match &args.known.state {
             Some(path) => Some(state::read(path, &mut sources, report)?),
             None => None,
         };

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::input::WorldArgs;
 use super::model::ModelArgs;
-use super::run::{RunFormat, Speed};
+use super::run::{RunFormat, SimulatedArgs};
 
 /// `motet do`
 #[derive(Args, Debug)]
@@ -31,15 +31,9 @@ pub(crate) struct DoArgs {
     /// Folder in which the requests, policies, questions and endings are written down
     #[arg(long, value_name = "FOLDER")]
     pub(crate) record: Option<PathBuf>,
-    /// How much faster than real time: a factor, or `max` for as fast as it can be computed
-    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
-    pub(crate) speed: Speed,
-    /// Seed of everything random in the simulated world
-    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
-    pub(crate) seed: u64,
-    /// Faults to inject: a JSON file
-    #[arg(long, value_name = "FILE")]
-    pub(crate) faults: Option<PathBuf>,
+    /// How the world is simulated.
+    #[command(flatten)]
+    pub(crate) simulated: SimulatedArgs,
     /// Scene as it really is, where it is otherwise than the robot is told: a built-in name, or a JSON file
     #[arg(long = "real", value_name = "NAME|FILE")]
     pub(crate) real: Option<String>,

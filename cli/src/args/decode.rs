@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::input::KnownArgs;
+
 /// `motet decode`
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
@@ -16,18 +18,9 @@ pub(crate) struct DecodeArgs {
     /// File with the beginning, or `-` for standard input
     #[arg(value_name = "FILE", default_value = "-")]
     pub(crate) path: PathBuf,
-    /// Robot: a built-in name (`motet robots`), or a folder with a robot.toml
-    #[arg(long, value_name = "NAME|FOLDER")]
-    pub(crate) robot: Option<String>,
-    /// Scene: a built-in name, or a JSON file
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(crate) scene: Option<String>,
-    /// What is known at the start: a JSON file such as {"holding(mug_1)": true, "free(hand)": false}
-    #[arg(long, value_name = "FILE")]
-    pub(crate) state: Option<PathBuf>,
-    /// File of further declarations; may be repeated
-    #[arg(long, value_name = "FILE")]
-    pub(crate) domain: Vec<PathBuf>,
+    /// For which robot and room.
+    #[command(flatten)]
+    pub(crate) known: KnownArgs,
     /// Say in words what may follow, and why the rest may not
     #[arg(long)]
     pub(crate) explain: bool,

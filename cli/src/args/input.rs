@@ -15,8 +15,8 @@ pub(crate) struct DocumentArgs {
 }
 
 /// The robot, the room and what else is known.
-#[derive(Args, Debug, Default)]
-pub(crate) struct WorldArgs {
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct KnownArgs {
     /// Robot: a built-in name (`motet robots`), or a folder with a robot.toml. Where not given, the policy's own
     /// `for NAME` decides
     #[arg(long, value_name = "NAME|FOLDER")]
@@ -30,6 +30,14 @@ pub(crate) struct WorldArgs {
     /// File of further declarations; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) domain: Vec<PathBuf>,
+}
+
+/// What policies are checked against.
+#[derive(Args, Debug, Default)]
+pub(crate) struct WorldArgs {
+    /// In which world.
+    #[command(flatten)]
+    pub(crate) known: KnownArgs,
     /// The longest that a policy may take, such as 90s or 10min
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) max_duration: Option<f64>,

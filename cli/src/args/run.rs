@@ -24,15 +24,9 @@ pub(crate) struct RunArgs {
     /// In which world.
     #[command(flatten)]
     pub(crate) world: WorldArgs,
-    /// How much faster than real time: a factor, or `max` for as fast as it can be computed
-    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
-    pub(crate) speed: Speed,
-    /// Seed of everything random in the simulated world
-    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
-    pub(crate) seed: u64,
-    /// Faults to inject: a JSON file
-    #[arg(long, value_name = "FILE")]
-    pub(crate) faults: Option<PathBuf>,
+    /// How the world is simulated.
+    #[command(flatten)]
+    pub(crate) simulated: SimulatedArgs,
     /// What the simulated person answers: a JSON file
     #[arg(long, value_name = "FILE")]
     pub(crate) answers: Option<PathBuf>,
@@ -49,6 +43,20 @@ pub(crate) struct RunArgs {
     /// How to show the run
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(crate) format: RunFormat,
+}
+
+/// How the world of a run is simulated.
+#[derive(Args, Debug)]
+pub(crate) struct SimulatedArgs {
+    /// How much faster than real time: a factor, or `max` for as fast as it can be computed
+    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
+    pub(crate) speed: Speed,
+    /// Seed of everything random in the simulated world
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    pub(crate) seed: u64,
+    /// Faults to inject: a JSON file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) faults: Option<PathBuf>,
 }
 
 /// How a run is shown.

@@ -50,7 +50,8 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
         Some(name) => workbench::read_scene(name, &mut Sources::default(), report)?,
         None => scene.clone(),
     };
-    let mut simulator = run::simulator(&robot, &real, args.seed, args.faults.as_deref(), report)?;
+    let mut simulator =
+        run::simulator(&robot, &real, args.simulated.seed, args.simulated.faults.as_deref(), report)?;
     let asked = Rc::new(Asked::read(&args.ask)?);
     let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
     let setting = Setting {

@@ -34,10 +34,7 @@ pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, Trouble> {
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let world = WorldArgs {
-        robot: args.robot.clone(),
-        scene: args.scene.clone(),
-        state: args.state.clone(),
-        domain: args.domain.clone(),
+        known: args.known.clone(),
         // Nothing here asks for motions.
         no_geometry: true,
         effort: 1,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motet_syntax::{Form, Parsed, Severity, print};
 
-use crate::args::{FmtArgs, Form as To, WorldArgs};
+use crate::args::{FmtArgs, Form as To, KnownArgs, WorldArgs};
 use crate::document;
 use crate::exit::{Exit, Trouble};
 use crate::form;
@@ -30,7 +30,10 @@ pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
 
 fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let inputs = input::collect(&args.documents.paths)?;
-    let world = WorldArgs { robot: args.robot.clone(), domain: args.domain.clone(), ..WorldArgs::default() };
+    let world = WorldArgs {
+        known: KnownArgs { robot: args.robot.clone(), domain: args.domain.clone(), ..KnownArgs::default() },
+        ..WorldArgs::default()
+    };
     let mut bench = Workbench::open(&world, report)?;
     let mut tally = Tally { is_batch: is_batch(&inputs.inputs), ..Tally::default() };
     for input in &inputs.inputs {

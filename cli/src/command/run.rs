@@ -78,7 +78,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
         None => None,
     };
     let view = play::view(args.format, engine.graph(), colors);
-    let pace = Pace::new(view, args.speed);
+    let pace = Pace::new(view, args.simulated.speed);
     let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
 }

@@ -73,34 +73,12 @@ pub(crate) struct Fact {
 }
 
 impl Term {
-    /// Whether it, or a term within it, is one of these.
-    pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
-        is_one(self)
-            || match self {
-                Self::Field(of, _) => of.any(is_one),
-                Self::Arith(_, left, right) => left.any(is_one) || right.any(is_one),
-                Self::List(terms) | Self::Measure(_, terms) => terms.iter().any(|term| term.any(is_one)),
-                Self::Bool(_)
-                | Self::Int(_)
-                | Self::Number(_)
-                | Self::Text(_)
-                | Self::Case(..)
-                | Self::Entity(_)
-                | Self::Binding(_)
-                | Self::Param(_)
-                | Self::Result
-                | Self::Each
-                | Self::Unknown => false,
-            }
-    }
-
-    /// The last parameter of its contract that it speaks of.
-    pub(crate) fn last_param(&self) -> Option<u16> {
-        match self {
-            Self::Param(index) => Some(*index),
-            Self::Field(of, _) => of.last_param(),
-            Self::Arith(_, left, right) => left.last_param().max(right.last_param()),
-            Self::List(terms) | Self::Measure(_, terms) => terms.iter().filter_map(Self::last_param).max(),
+    /// The terms that it is made of, one level down.
+    fn parts(&self) -> impl Iterator<Item = &Self> {
+        let (one, other, rest): (_, _, &[Self]) = match self {
+            Self::Field(of, _) => (Some(&**of), None, &[]),
+            Self::Arith(_, left, right) => (Some(&**left), Some(&**right), &[]),
+            Self::List(terms) | Self::Measure(_, terms) => (None, None, terms),
             Self::Bool(_)
             | Self::Int(_)
             | Self::Number(_)
@@ -108,9 +86,24 @@ impl Term {
             | Self::Case(..)
             | Self::Entity(_)
             | Self::Binding(_)
+            | Self::Param(_)
             | Self::Result
             | Self::Each
-            | Self::Unknown => None,
+            | Self::Unknown => (None, None, &[]),
+        };
+        one.into_iter().chain(other).chain(rest)
+    }
+
+    /// Whether it, or a term within it, is one of these.
+    pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
+        is_one(self) || self.parts().any(|part| part.any(is_one))
+    }
+
+    /// The last parameter of its contract that it speaks of.
+    pub(crate) fn last_param(&self) -> Option<u16> {
+        match self {
+            Self::Param(index) => Some(*index),
+            whole => whole.parts().filter_map(Self::last_param).max(),
         }
     }
 }

@@ -69,7 +69,7 @@ impl Watcher for Eyes<'_> {
         if self.args.format == RunFormat::Human {
             note(&printable(answered.planned.text.trim_end()));
         }
-        self.pace = Some(run::stage(self.args.format, graph, self.colors, self.args.speed));
+        self.pace = Some(run::stage(self.args.format, graph, self.colors, self.args.simulated.speed));
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {

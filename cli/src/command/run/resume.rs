@@ -34,7 +34,7 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
         Saved::Process { .. } => None,
     };
     let view = play::view(args.format, replay.engine().graph(), colors);
-    let mut pace = Pace::new(view, args.speed);
+    let mut pace = Pace::new(view, args.simulated.speed);
     let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
     let mut begun = false;
     for (number, entry) in entries.iter().enumerate() {

@@ -31,7 +31,7 @@ impl Choices {
     ///
     /// One of them cannot be read or has a mistake.
     pub(super) fn read(args: &RunArgs, report: &mut Report) -> Result<Self, Trouble> {
-        let faults = match &args.faults {
+        let faults = match &args.simulated.faults {
             Some(path) => faults(path, report)?,
             None => Faults::default(),
         };
@@ -39,7 +39,7 @@ impl Choices {
             Some(path) => read(path, "file of answers", report)?.0,
             None => Vec::new(),
         };
-        Ok(Self { faults, answers, seed: args.seed })
+        Ok(Self { faults, answers, seed: args.simulated.seed })
     }
 
     /// The choices about the simulated world. `files` are the document and the domains, whose entities have a place in it

@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use super::answer::Witness;
+use super::pull::away;
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::Allowed;
@@ -49,14 +50,11 @@ impl Room<'_> {
         let room = self.in_world(&world);
         let held = Allowed { hand: None, held: support };
         let up = Vector3::new(0.0, 0.0, LIFT);
-        let back = |far: f64| grasp.map_from_tip.rotation * -Vector3::from(hand.card.points) * far;
+        let back = |far: f64| away(&grasp.map_from_tip, hand, far);
         let ways = [up, back(BACK[0]), back(BACK[1]), up + back(BACK[0])];
         let is_back = ways.into_iter().any(|shift| {
             let Some(line) = room.line(hand, end, &grasp.map_from_tip, &shift) else { return false };
-            let is_free = line.windows(2).all(|pair| match pair {
-                [one, other] => room.edge(one, other, held).is_ok(),
-                _ => true,
-            });
+            let is_free = room.is_free(&line, held, &mut Tally::default());
             is_free
                 && line
                     .first()
@@ -81,12 +79,9 @@ impl Room<'_> {
         let open = State { base: end.base, joints: hand.opened(&end.joints) };
         room.edge(end, &open, allowed).ok()?;
         let is_back = BACK.into_iter().any(|far| {
-            let away = grasp.map_from_tip.rotation * -Vector3::from(hand.card.points) * far;
-            let Some(line) = room.line(hand, &open, &grasp.map_from_tip, &away) else { return false };
-            let is_free = line.windows(2).all(|pair| match pair {
-                [one, other] => room.edge(one, other, allowed).is_ok(),
-                _ => true,
-            });
+            let shift = away(&grasp.map_from_tip, hand, far);
+            let Some(line) = room.line(hand, &open, &grasp.map_from_tip, &shift) else { return false };
+            let is_free = room.is_free(&line, allowed, &mut Tally::default());
             let place = grasp.map_from_tip.translation.vector;
             is_free && line.first().is_some_and(|first| room.leads_back(first, &place))
         });
@@ -106,10 +101,7 @@ impl Room<'_> {
 
     /// Whether a way leads between where the robot is in this room and a state in front of a place.
     pub(super) fn leads_back(&self, state: &State, place: &Vector3<f64>) -> bool {
-        let [x, y, _] = state.base;
-        let (dx, dy) = (place.x - x, place.y - y);
-        let far = libm::hypot(dx, dy).max(1e-9);
-        self.route(state, [dx / far, dy / far], &mut Tally::default()).is_some()
+        self.route(state, state.inwards(place), &mut Tally::default()).is_some()
     }
 
     /// What an entity stands on: the first other that is no farther from it than everything stays from everything.

@@ -8,7 +8,7 @@ use super::machine::Solver;
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::Tally;
+use super::travel::{Tally, exhausted};
 use super::world::Held;
 use crate::kinematics::{planar, spread};
 
@@ -73,12 +73,7 @@ impl Room<'_> {
                 }
             }
         }
-        let reason = if tried > 0 {
-            Reason::BlockedPath { by: ways.most() }
-        } else {
-            Reason::NoFreePose { by: poses.most() }
-        };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        exhausted(tried > 0, &poses, &ways)
     }
 
     /// States with the base where it is and the thing upright, or nearly so, and where the hand's tip then is.

@@ -54,10 +54,7 @@ impl Room<'_> {
             let Some(line) = room.line(hand, &open, &map_from_tip, &shift) else { continue };
             let line: Vec<State> =
                 line.iter().map(|state| State { base: state.base, joints: fingers(state) }).collect();
-            let is_free = line.windows(2).all(|pair| match pair {
-                [one, other] => room.edge(one, other, none).is_ok(),
-                _ => true,
-            });
+            let is_free = room.is_free(&line, none, &mut Tally::default());
             let Some(first) = line.first().filter(|_| is_free) else { continue };
             if room.leads_back(first, &map_from_tip.translation.vector) {
                 return Some(world);

@@ -8,7 +8,7 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
+use super::answer::{Answer, Budget, Grasp, Margins, Reason, Side, Unknown, Witness};
 use super::follow::{Following, Turning};
 use super::grasp::Hold;
 use super::machine::Hand;
@@ -17,7 +17,7 @@ use super::reach::certain;
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::Tally;
+use super::travel::{Tally, exhausted};
 use crate::trigonometry::turn;
 
 /// How far before a handle the hand turns straight towards it, in m; the shorter where the longer does not do.
@@ -71,22 +71,10 @@ impl Room<'_> {
         let depth = (self.front_around(hand, THICK) - BEYOND).max(hand.palm + THICK / 2.0);
         let pull = Pull { id, hand, opening, parts, depth };
         let all = pull.holds();
-        let mut met = Tally::default();
-        let free: Vec<&Hold> = all
-            .iter()
-            .filter(|hold| match self.hand_touch(hand, &hold.map_from_tip, Allowed::default()) {
-                Some(touch) => {
-                    met.add(&touch);
-                    false
-                }
-                None => true,
-            })
-            .collect();
-        if free.is_empty() {
-            let reason = Reason::NoFreePose { by: met.most() };
-            return Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() });
+        match self.free_holds(hand, &all, Allowed::default()) {
+            Ok(free) => self.search_pull(&pull, &clear, &free, budget),
+            Err(none) => none,
         }
-        self.search_pull(&pull, &clear, &free, budget)
     }
 
     fn search_pull(&self, pull: &Pull<'_>, clear: &Room<'_>, holds: &[&Hold], budget: Budget) -> Answer {
@@ -128,12 +116,7 @@ impl Room<'_> {
                 }
             }
         }
-        let reason = if tried > 0 || is_cut_off || ways.most().is_some() {
-            Reason::BlockedPath { by: ways.most() }
-        } else {
-            Reason::NoFreePose { by: poses.most() }
-        };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        exhausted(tried > 0 || is_cut_off || ways.most().is_some(), &poses, &ways)
     }
 
     /// A way from where the robot is to a state at the handle, which the hand then closes around.
@@ -144,26 +127,11 @@ impl Room<'_> {
         state: &State,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
-        let none = Allowed::default();
         BACK.into_iter().find_map(|back| {
             let mut line = self.approach(pull.hand, state, &hold.map_from_tip, back)?;
             line.push(self.gripping(pull.hand, state));
-            for pair in line.windows(2) {
-                if let [one, other] = pair
-                    && let Err(touch) = self.edge(one, other, none)
-                {
-                    met.add(&touch);
-                    return None;
-                }
-            }
-            let first = line.first()?;
-            let [x, y, _] = first.base;
-            let (dx, dy) = (hold.map_from_tip.translation.x - x, hold.map_from_tip.translation.y - y);
-            let far = libm::hypot(dx, dy).max(1e-9);
-            let mut path = self.route(first, [dx / far, dy / far], met)?;
-            let turns = path.last()?.base[2] - first.base[2];
-            path.extend(line.iter().skip(1).map(|state| turned(state, turns)));
-            Some(path)
+            let inwards = line.first()?.inwards(&hold.map_from_tip.translation.vector);
+            self.route_along(&line, inwards, Allowed::default(), met)
         })
     }
 
@@ -193,7 +161,7 @@ impl Room<'_> {
         let clearance = nearest.fold(first.clearance.min(second.clearance), f64::min);
         let turns = way_in.last().zip(way.first()).map_or(0.0, |(end, begin)| end.base[2] - begin.base[2]);
         let mut path = way_in;
-        path.extend(way.iter().skip(1).map(|state| turned(state, turns)));
+        path.extend(way.iter().skip(1).map(|state| state.turned(turns)));
         let limit = [first.limit, second.limit].into_iter().flatten().reduce(f64::min);
         let grasp = Some(Grasp {
             object: pull.id.into(),
@@ -264,11 +232,6 @@ impl Pull<'_> {
         let from_tip = hold.approach * self.depth + closes * self.hand.middle(THICK);
         Point3::from(hold.map_from_tip.translation.vector + from_tip)
     }
-}
-
-pub(super) fn turned(state: &State, turns: f64) -> State {
-    let [x, y, yaw] = state.base;
-    state.at([x, y, yaw + turns])
 }
 
 /// Away from what a hand points at.

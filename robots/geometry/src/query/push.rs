@@ -5,11 +5,10 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::machine::Hand;
 use super::obstacle::solid_shape;
-use super::pull::turned;
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::Tally;
+use super::travel::{Tally, exhausted};
 use crate::collision::Solid;
 use crate::trigonometry::turn;
 
@@ -106,12 +105,7 @@ impl Room<'_> {
                 }
             }
         }
-        let reason = if tried > 0 {
-            Reason::BlockedPath { by: ways.most() }
-        } else {
-            Reason::NoFreePose { by: poses.most() }
-        };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        exhausted(tried > 0, &poses, &ways)
     }
 
     /// A way to a state, the last part straight along the push.
@@ -129,19 +123,7 @@ impl Room<'_> {
         let closed =
             |it: &State| State { base: it.base, joints: hand.around(&it.joints, self.machine.rest(), 0.0) };
         let line: Vec<State> = line.iter().map(closed).collect();
-        for pair in line.windows(2) {
-            if let [one, other] = pair
-                && let Err(touch) = self.edge(one, other, allowed)
-            {
-                met.add(&touch);
-                return None;
-            }
-        }
-        let first = line.first()?;
-        let mut path = self.route(first, [along.x, along.y], met)?;
-        let turns = path.last()?.base[2] - first.base[2];
-        path.extend(line.iter().skip(1).map(|state| turned(state, turns)));
-        Some(path)
+        self.route_along(&line, [along.x, along.y], allowed, met)
     }
 
     /// How far the hand reaches in front of its tip with its fingers closed around something so wide, in m.

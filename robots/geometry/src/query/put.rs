@@ -9,7 +9,7 @@ use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::Tally;
+use super::travel::{Tally, exhausted};
 use super::world::Held;
 use crate::collision::{Shape, Solid};
 use crate::kinematics::planar;
@@ -78,12 +78,7 @@ impl Room<'_> {
                 }
             }
         }
-        let reason = if tried > 0 || is_cut_off {
-            Reason::BlockedPath { by: ways.most() }
-        } else {
-            Reason::NoFreePose { by: poses.most() }
-        };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        exhausted(tried > 0 || is_cut_off, &poses, &ways)
     }
 
     /// What is in the hand, where it is the thing that is asked for.
@@ -189,25 +184,8 @@ impl Room<'_> {
         let over = (on.walls > 0.0).then(|| on.walls + LOWER[1]);
         over.into_iter().chain(LOWER).find_map(|lower| {
             let line = self.line(hand, state, map_from_tip, &Vector3::new(0.0, 0.0, lower))?;
-            for pair in line.windows(2) {
-                if let [one, other] = pair
-                    && let Err(touch) = self.edge(one, other, allowed)
-                {
-                    met.add(&touch);
-                    return None;
-                }
-            }
-            let first = line.first()?;
-            let [x, y, _] = first.base;
-            let (dx, dy) = (map_from_tip.translation.x - x, map_from_tip.translation.y - y);
-            let far = libm::hypot(dx, dy).max(1e-9);
-            let mut path = self.route(first, [dx / far, dy / far], met)?;
-            let turns = path.last()?.base[2] - first.base[2];
-            path.extend(line.iter().skip(1).map(|state| {
-                let [x, y, yaw] = state.base;
-                state.at([x, y, yaw + turns])
-            }));
-            Some(path)
+            let inwards = line.first()?.inwards(&map_from_tip.translation.vector);
+            self.route_along(&line, inwards, allowed, met)
         })
     }
 

@@ -10,7 +10,7 @@ use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Touch};
-use super::travel::Tally;
+use super::travel::{Tally, exhausted};
 use crate::collision::Solid;
 
 /// How far before a thing the hand turns straight towards it, in m; the shorter where the longer does not do.
@@ -48,11 +48,27 @@ impl Room<'_> {
         if let Some(answer) = self.beyond(&goal, &all) {
             return answer;
         }
-        // The hand alone first: it names what is in the way of every arm.
+        match self.free_holds(hand, &all, goal.allowed) {
+            Ok(free) => self.search(&goal, &free, budget),
+            Err(none) => none,
+        }
+    }
+
+    /// The holds in which the hand alone touches nothing. It names what is in the way of every arm.
+    ///
+    /// # Errors
+    ///
+    /// The answer where there is none.
+    pub(super) fn free_holds<'h>(
+        &self,
+        hand: &Hand,
+        all: &'h [Hold],
+        allowed: Allowed,
+    ) -> Result<Vec<&'h Hold>, Answer> {
         let mut met = Tally::default();
         let free: Vec<&Hold> = all
             .iter()
-            .filter(|hold| match self.hand_touch(hand, &hold.map_from_tip, goal.allowed) {
+            .filter(|hold| match self.hand_touch(hand, &hold.map_from_tip, allowed) {
                 Some(touch) => {
                     met.add(&touch);
                     false
@@ -62,9 +78,9 @@ impl Room<'_> {
             .collect();
         if free.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
-            return Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() });
+            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() }));
         }
-        self.search(&goal, &free, budget)
+        Ok(free)
     }
 
     fn search(&self, goal: &Goal<'_>, holds: &[&Hold], budget: Budget) -> Answer {
@@ -91,38 +107,15 @@ impl Room<'_> {
                 }
             }
         }
-        let reason = if tried > 0 || is_cut_off {
-            Reason::BlockedPath { by: ways.most() }
-        } else {
-            Reason::NoFreePose { by: poses.most() }
-        };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        exhausted(tried > 0 || is_cut_off, &poses, &ways)
     }
 
     /// A way from where the robot is to a state that holds the thing.
     fn way_to(&self, goal: &Goal<'_>, hold: &Hold, state: &State, met: &mut Tally) -> Option<Vec<State>> {
         BACK.into_iter().find_map(|back| {
             let line = self.approach(goal.hand, state, &hold.map_from_tip, back)?;
-            for pair in line.windows(2) {
-                if let [one, other] = pair
-                    && let Err(touch) = self.edge(one, other, goal.allowed)
-                {
-                    met.add(&touch);
-                    return None;
-                }
-            }
-            let first = line.first()?;
-            let [x, y, _] = first.base;
-            let centre = goal.pose.translation.vector;
-            let (dx, dy) = (centre.x - x, centre.y - y);
-            let far = libm::hypot(dx, dy).max(1e-9);
-            let mut path = self.route(first, [dx / far, dy / far], met)?;
-            let turns = path.last()?.base[2] - first.base[2];
-            path.extend(line.iter().skip(1).map(|state| {
-                let [x, y, yaw] = state.base;
-                state.at([x, y, yaw + turns])
-            }));
-            Some(path)
+            let inwards = line.first()?.inwards(&goal.pose.translation.vector);
+            self.route_along(&line, inwards, goal.allowed, met)
         })
     }
 

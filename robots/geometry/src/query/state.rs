@@ -1,5 +1,7 @@
 //! Where a robot is: the pose of its base, and the positions of its joints.
 
+use nalgebra::Vector3;
+
 /// A state of the whole robot.
 #[derive(Clone, PartialEq, Debug)]
 pub struct State {
@@ -27,6 +29,22 @@ impl State {
     #[must_use]
     pub fn at(&self, base: [f64; 3]) -> Self {
         Self { base, joints: self.joints.clone() }
+    }
+
+    /// The same state with the base turned further, in rad.
+    #[must_use]
+    pub(super) fn turned(&self, further: f64) -> Self {
+        let [x, y, yaw] = self.base;
+        self.at([x, y, yaw + further])
+    }
+
+    /// The direction from the base to a place, in the plane and of length 1.
+    #[must_use]
+    pub(super) fn inwards(&self, place: &Vector3<f64>) -> [f64; 2] {
+        let [x, y, _] = self.base;
+        let (dx, dy) = (place.x - x, place.y - y);
+        let far = libm::hypot(dx, dy).max(1e-9);
+        [dx / far, dy / far]
     }
 
     /// The same state with a yaw that differs by full turns and is nearest to that of `before`.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use motet_robots::card::Drive;
 use smol_str::SmolStr;
 
+use super::answer::{Answer, Infeasible, Reason};
 use super::room::Room;
 use super::state::State;
 use super::touch::{Allowed, Touch};
@@ -38,7 +39,40 @@ impl Tally {
     }
 }
 
+/// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.
+pub(super) fn exhausted(found: bool, poses: &Tally, ways: &Tally) -> Answer {
+    let reason =
+        if found { Reason::BlockedPath { by: ways.most() } } else { Reason::NoFreePose { by: poses.most() } };
+    Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+}
+
 impl Room<'_> {
+    /// Whether every edge of a way is free. What touches first is noted.
+    pub(super) fn is_free(&self, way: &[State], allowed: Allowed, met: &mut Tally) -> bool {
+        way.windows(2).all(|pair| match pair {
+            [one, other] => self.edge(one, other, allowed).map_err(|touch| met.add(&touch)).is_ok(),
+            _ => true,
+        })
+    }
+
+    /// A way from where the robot is to the beginning of a line, as [`Room::route`] finds one, and then along the line.
+    pub(super) fn route_along(
+        &self,
+        line: &[State],
+        inwards: [f64; 2],
+        allowed: Allowed,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        if !self.is_free(line, allowed, met) {
+            return None;
+        }
+        let (first, rest) = line.split_first()?;
+        let mut path = self.route(first, inwards, met)?;
+        let turns = path.last()?.base[2] - first.base[2];
+        path.extend(rest.iter().map(|state| state.turned(turns)));
+        Some(path)
+    }
+
     /// A way from where the robot is to a state, both included. `inwards` is the direction in the plane in which the robot comes
     /// to it; of length 1.
     pub(super) fn route(&self, to: &State, inwards: [f64; 2], met: &mut Tally) -> Option<Vec<State>> {
@@ -64,10 +98,7 @@ impl Room<'_> {
             let shifted = unfolded.into_iter().skip(1).chain((*back > 0.0).then(|| to.clone()));
             // The way may end some full turns from where it was asked to.
             let turns = last[2] - folded.base[2];
-            path.extend(shifted.map(|state| {
-                let [x, y, yaw] = state.base;
-                state.at([x, y, yaw + turns])
-            }));
+            path.extend(shifted.map(|state| state.turned(turns)));
             return Some(path);
         }
         None
@@ -184,14 +215,7 @@ impl Room<'_> {
                 ways.push(vec![from.clone(), State { base: from.base, joints }, to.clone()]);
             }
         }
-        ways.into_iter().find(|way| {
-            way.windows(2).all(|pair| match pair {
-                [one, other] => {
-                    self.edge(one, other, Allowed::default()).map_err(|touch| met.add(&touch)).is_ok()
-                }
-                _ => true,
-            })
-        })
+        ways.into_iter().find(|way| self.is_free(way, Allowed::default(), met))
     }
 
     /// The variable that lifts the arm and its highest value, where the arm has one.

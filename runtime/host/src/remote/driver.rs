@@ -8,7 +8,7 @@ use super::connect::Address;
 use super::link::{Breakage, Link};
 use super::protocol::{Asked, Call, Goal, Goals, Heard, Hello, Nothing, Told, VERSION, Welcome, hear, say};
 use super::settings::Patience;
-use motet_runtime::{Capabilities, DriverEvent, Query, Time, wire};
+use motet_runtime::{Capabilities, DriverEvent, Query, Time};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Instant;
@@ -207,12 +207,6 @@ impl Drop for RemoteDriver {
         if let Some(link) = &self.link {
             let _ = link.say(say(self.next_id, &Call::Bye(Nothing {})));
         }
-    }
-}
-
-impl From<&Query> for Asked {
-    fn from(query: &Query) -> Self {
-        Self { query: wire::Query::from(query) }
     }
 }
 

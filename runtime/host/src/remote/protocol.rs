@@ -128,6 +128,12 @@ pub struct Asked {
     pub query: Query,
 }
 
+impl From<&motet_runtime::Query> for Asked {
+    fn from(query: &motet_runtime::Query) -> Self {
+        Self { query: query.into() }
+    }
+}
+
 /// The answer to a question.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Answered {
