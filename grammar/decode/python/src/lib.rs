@@ -1,0 +1,197 @@
+//! The native part of the Python module `motet`: worlds, vocabularies and decoders as they are. What is convenient in
+//! Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
+
+use motet_decode::vocabulary::Encoding;
+use motet_decode::{End, Modifiers, Prepared, Session, Surface, World as Texts};
+use motet_syntax::{FileId, Source, Sources, render};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+/// The tokens of a language model.
+#[pyclass(frozen, module = "motet._motet")]
+struct Vocabulary(motet_decode::Vocabulary);
+
+#[pymethods]
+impl Vocabulary {
+    /// Reads tokenizer.json, a list in JSON or lines in base64. `end` is the name or the number of the token that ends a
+    /// sequence; without it the one that is known to.
+    #[staticmethod]
+    #[pyo3(signature = (file, end = None))]
+    fn from_file(file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {
+        motet_decode::Vocabulary::from_file(file, EndOfSequence::as_end(end.as_ref()))
+            .map(Self)
+            .map_err(wrong)
+    }
+
+    /// The vocabulary `cl100k` or `o200k`.
+    #[staticmethod]
+    fn of_encoding(name: &str) -> PyResult<Self> {
+        let encoding = Encoding::named(name)
+            .ok_or_else(|| wrong(format!("there is no encoding `{name}`: cl100k or o200k")))?;
+        motet_decode::Vocabulary::of_encoding(encoding).map(Self).map_err(wrong)
+    }
+
+    /// Tokens as bytes in the order of their numbers; one without bytes is special.
+    #[staticmethod]
+    fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> PyResult<Self> {
+        motet_decode::Vocabulary::from_tokens(tokens, end).map(Self).map_err(wrong)
+    }
+
+    /// The token that ends a sequence.
+    #[getter]
+    fn end(&self) -> u32 {
+        self.0.end()
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The bytes of a token.
+    fn token<'py>(&self, py: Python<'py>, token: u32) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, self.0.bytes(token))
+    }
+
+    /// The tokens of bytes, each time the longest that fits.
+    fn tokenize(&self, text: &[u8]) -> Vec<u32> {
+        self.0.tokenize(text)
+    }
+}
+
+/// The token that ends a sequence, by its name or its number.
+#[derive(FromPyObject)]
+enum EndOfSequence {
+    Number(u32),
+    Name(String),
+}
+
+impl EndOfSequence {
+    fn as_end(end: Option<&Self>) -> End<'_> {
+        match end {
+            None => End::Known,
+            Some(Self::Number(number)) => End::Number(*number),
+            Some(Self::Name(name)) => End::Named(name),
+        }
+    }
+}
+
+/// A robot, a scene and what else is known, prepared.
+#[pyclass(frozen, module = "motet._motet")]
+struct World {
+    session: Session,
+    prepared: Prepared,
+}
+
+#[pymethods]
+impl World {
+    /// Names of what is built in, or texts.
+    #[new]
+    #[pyo3(signature = (*, robot = None, declarations = None, scene = None, state = None, domain = None, modifiers = false))]
+    fn new(
+        robot: Option<&str>,
+        declarations: Option<&str>,
+        scene: Option<&str>,
+        state: Option<&str>,
+        domain: Option<&str>,
+        modifiers: bool,
+    ) -> PyResult<Self> {
+        let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
+        let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
+        let prepared = Prepared::new(&session, Surface { modifiers, ..Surface::default() });
+        Ok(Self { session, prepared })
+    }
+
+    /// What the checker says of a policy in either form: JSON objects, one a line.
+    fn check(&self, policy: &str) -> String {
+        let (source, sources) = sources(policy);
+        let parsed = motet_syntax::read(&source, FileId(0));
+        render::json(&self.session.check(&parsed), &sources)
+    }
+
+    /// A decoder of a policy of at most so many bytes.
+    fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> PyResult<Decoder> {
+        let decoder = self.prepared.decoder(&vocabulary.0, budget);
+        let decoder = decoder.ok_or_else(|| wrong(format!("no policy has at most {budget} bytes")))?;
+        Ok(Decoder { decoder, words: vocabulary.0.len().div_ceil(32) })
+    }
+}
+
+/// What may follow in one policy.
+#[pyclass(module = "motet._motet")]
+struct Decoder {
+    decoder: motet_decode::Decoder,
+    /// How many words a mask has.
+    words: usize,
+}
+
+#[pymethods]
+impl Decoder {
+    /// A bit a token, the lowest first, in 32-bit words of the machine's order.
+    fn mask<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        let words = self.words;
+        let mask = py.detach(|| self.decoder.mask().get(..words).unwrap_or_default().to_vec());
+        let bytes: Vec<u8> = mask.iter().flat_map(|word| word.to_ne_bytes()).collect();
+        PyBytes::new(py, &bytes)
+    }
+
+    /// Takes a token if it may follow.
+    fn accept(&mut self, token: u32) -> bool {
+        self.decoder.accept(token)
+    }
+
+    /// The text that must come next; empty where there is a choice.
+    fn forced(&mut self) -> String {
+        String::from_utf8_lossy(&self.decoder.acceptor().forced()).into_owned()
+    }
+
+    /// Takes back the last tokens.
+    #[pyo3(signature = (tokens = 1))]
+    fn rollback(&mut self, tokens: usize) {
+        self.decoder.rollback(tokens);
+    }
+
+    /// What the checker says of a text that may not follow: JSON objects, one a line.
+    fn why_not(&mut self, text: &str) -> String {
+        let acceptor = self.decoder.acceptor();
+        let (_, sources) = sources(&(String::from_utf8_lossy(acceptor.bytes()) + text));
+        render::json(&acceptor.why_not(text.as_bytes()), &sources)
+    }
+
+    /// The text so far.
+    #[getter]
+    fn text(&mut self) -> String {
+        String::from_utf8_lossy(self.decoder.acceptor().bytes()).into_owned()
+    }
+
+    /// Whether the text so far is a whole policy.
+    #[getter]
+    fn is_accepting(&mut self) -> bool {
+        self.decoder.acceptor().is_accepting()
+    }
+
+    /// Another decoder in the same state.
+    fn clone(&self) -> Self {
+        Self { decoder: self.decoder.clone(), words: self.words }
+    }
+}
+
+fn sources(text: &str) -> (Source, Sources) {
+    let mut sources = Sources::default();
+    let source = Source::new("policy", text);
+    sources.add(source.clone());
+    (source, sources)
+}
+
+fn wrong(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// The native part of `motet`.
+#[pymodule]
+fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<Vocabulary>()?;
+    module.add_class::<World>()?;
+    module.add_class::<Decoder>()
+}

@@ -1,0 +1,20 @@
+"""What the tests share: a tokenizer in a file, and a world."""
+
+import json
+
+import pytest
+from small_tokenizer import tokenizer_json
+
+
+@pytest.fixture(scope="session")
+def tokenizer(tmp_path_factory):
+    path = tmp_path_factory.mktemp("tokenizer") / "tokenizer.json"
+    path.write_text(json.dumps(tokenizer_json()))
+    return path
+
+
+@pytest.fixture(scope="session")
+def world():
+    import motet
+
+    return motet.World(robot="hsr", scene="kitchen")
