@@ -1,11 +1,13 @@
-//! How long motion queries take for the HSR in the kitchen: the room made ready, each reach, and all of them.
+//! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the same reach among 100
+//! and among 10,000 objects.
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motet_geometry::query::{Budget, Machine, Query, Room, World};
+use motet_geometry::query::{Answer, Budget, Machine, Query, Room, World};
+use motet_robots::scene::{Entity, Placement, Scene, Shape};
 use motet_robots::{card, scene, urdf};
 use motet_syntax::{FileId, Source};
 
@@ -35,5 +37,56 @@ fn query(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, query);
+/// Tables in rows, 3 m from one to the next, with nine cups on each; the robot stands between the first four.
+fn depot(tables: i32) -> Scene {
+    let mut scene = Scene::default();
+    let mut add = |id: String, kind: &str, xyz: [f64; 3], shape: Shape| {
+        let mut entity = Entity::place(id.as_str().into(), Placement { xyz, rpy: [0.0; 3] });
+        entity.kind = kind.into();
+        entity.shape = Some(shape);
+        scene.entities.insert(entity.id.clone(), entity);
+    };
+    let side = (1..).find(|side| side * side >= tables).unwrap();
+    for table in 0..tables {
+        // The first four are around the robot however many there are.
+        let (row, column) = (table / side - side / 2, table % side - side / 2);
+        let (x, y) = (3.0 * f64::from(column) + 1.5, 3.0 * f64::from(row) + 1.5);
+        add(format!("table_{row}_{column}"), "Place", [x, y, 0.35], Shape::Box([1.2, 0.8, 0.7]));
+        for cup in 0..9 {
+            let (dx, dy) = (0.4 * f64::from(cup % 3 - 1), 0.25 * f64::from(cup / 3 - 1));
+            let shape = Shape::Cylinder { radius: 0.035, height: 0.1 };
+            add(format!("cup_{row}_{column}_{cup}"), "Object", [x + dx, y + dy, 0.751], shape);
+        }
+    }
+    scene
+}
+
+fn among(criterion: &mut Criterion) {
+    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").unwrap();
+    let robot = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
+    let text = card::embedded_urdf("hsr").unwrap();
+    let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.unwrap();
+    let machine = Machine::new(&robot, &urdf, None);
+    let mut group = criterion.benchmark_group("hsr, objects");
+    group.sample_size(20);
+    for tables in [12, 1112] {
+        let scene = depot(tables);
+        let world = World::new(&machine, &scene);
+        let room = Room::new(&machine, &scene, &world);
+        let objects = tables * 9;
+        group.bench_function(format!("room, {objects}"), |bencher| {
+            bencher.iter(|| Room::new(black_box(&machine), &scene, &world));
+        });
+        for query in ["reach(cup_0_0_4)", "reach(cup_0_0_0)", "go_to(table_0_-1)"] {
+            let asked = Query::parse(query).unwrap();
+            assert!(matches!(room.answer(&asked, Budget::default()), Answer::Feasible(_)), "{query}");
+            group.bench_function(format!("{query}, {objects}"), |bencher| {
+                bencher.iter(|| room.answer(black_box(&asked), Budget::default()));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, query, among);
 criterion_main!(benches);

@@ -131,7 +131,7 @@ impl Judged<'_> {
         mut out: Option<&mut std::fs::File>,
     ) -> Result<Vec<Case>, String> {
         let world = World::new(&self.model.machine, self.scene);
-        let make = || Room::new(&self.model.machine, self.scene, &world);
+        let make = || Room::new(&self.model.machine, self.scene, &world).ready();
         let (room, set_up) = timed(make);
         let mut cases = Vec::new();
         for target in targets(self.scene) {

@@ -22,8 +22,100 @@ impl Solid {
     /// Whether the distance is more than `metres`. Cheaper than the distance.
     #[must_use]
     pub fn is_farther(&self, other: &Self, metres: f64) -> bool {
-        let between = (self.centre - other.centre).norm() - self.reach() - other.reach();
-        between > metres || self.bounded(other, metres) > metres
+        self.distance_to(self.reach(), other, other.reach(), metres) > metres
+    }
+
+    /// The distance, or a bound from below where one is above `enough`: at once where that suffices, from the balls around
+    /// both, whose radii the caller knows, or from the directions of a box or a cylinder.
+    pub(crate) fn distance_to(&self, reach: f64, other: &Self, other_reach: f64, enough: f64) -> f64 {
+        let wide = reach + other_reach + enough;
+        let between = (self.centre - other.centre).norm_squared();
+        if between > wide * wide {
+            return between.sqrt() - reach - other_reach;
+        }
+        let below = match (&self.shape, &other.shape) {
+            (Shape::HalfSpace, _) | (_, Shape::HalfSpace) => f64::NEG_INFINITY,
+            (_, Shape::Box(half)) => other.beside_box(half, self),
+            (Shape::Box(half), _) => self.beside_box(half, other),
+            (_, Shape::Cylinder { radius, half }) => other.beside_cylinder(*radius, *half, self),
+            (Shape::Cylinder { radius, half }, _) => self.beside_cylinder(*radius, *half, other),
+            (Shape::Capsule { .. }, Shape::Capsule { .. }) => f64::NEG_INFINITY,
+        };
+        if below > enough { below } else { self.bounded(other, enough) }
+    }
+
+    /// The same for all places of this solid while it moves by `shift` without turning.
+    pub(crate) fn swept_distance_to(
+        &self,
+        shift: &Vector3<f64>,
+        reach: f64,
+        other: &Self,
+        other_reach: f64,
+        enough: f64,
+    ) -> f64 {
+        let half_way = shift * 0.5;
+        let wide = reach + half_way.norm() + other_reach + enough;
+        let between = (self.centre + half_way - other.centre).norm_squared();
+        if between > wide * wide {
+            return between.sqrt() - (wide - enough);
+        }
+        if matches!(other.shape, Shape::HalfSpace) {
+            let [_, _, up] = &other.axes;
+            return above(other, self) + shift.dot(up).min(0.0);
+        }
+        if let Shape::Box(half) = &other.shape {
+            let below = other.beside_swept(half, self, shift);
+            if below > enough {
+                return below;
+            }
+        }
+        let rims = self.rim() + other.rim();
+        cores(&Swept { solid: self, shift: *shift }, other, enough + rims) - rims
+    }
+
+    /// The distance from this box to the smallest box along its directions that holds the other, less its rim.
+    fn beside_box(&self, half: &Vector3<f64>, other: &Self) -> f64 {
+        self.beside_swept(half, other, &Vector3::zeros())
+    }
+
+    /// The same for all places of the other while it moves.
+    fn beside_swept(&self, half: &Vector3<f64>, other: &Self, shift: &Vector3<f64>) -> f64 {
+        let between = other.centre + shift * 0.5 - self.centre;
+        let square: f64 = self
+            .axes
+            .iter()
+            .zip(half.iter())
+            .map(|(axis, half)| {
+                let wide = half + other.core_extent(axis) + 0.5 * shift.dot(axis).abs();
+                let gap = (between.dot(axis).abs() - wide).max(0.0);
+                gap * gap
+            })
+            .sum();
+        square.sqrt() - other.rim()
+    }
+
+    /// The distance from this cylinder to the smallest one about its axis that holds the other, less its rim.
+    fn beside_cylinder(&self, radius: f64, half: f64, other: &Self) -> f64 {
+        let [_, _, z] = &self.axes;
+        let between = other.centre - self.centre;
+        let up = between.dot(z);
+        let out = (between.norm_squared() - up * up).max(0.0).sqrt();
+        let [a, b, c] = &other.axes;
+        let aside = |axis: &Vector3<f64>| {
+            let part = axis.dot(z);
+            (1.0 - part * part).max(0.0)
+        };
+        let wide = match &other.shape {
+            Shape::Box(half) => {
+                let [x, y, z] = half.data.0[0];
+                (x * x * aside(a) + y * y * aside(b) + z * z * aside(c)).sqrt()
+            }
+            Shape::Cylinder { radius, half } => radius + half * aside(c).sqrt(),
+            Shape::Capsule { half, .. } => half * aside(c).sqrt(),
+            Shape::HalfSpace => f64::INFINITY,
+        };
+        let (up, out) = ((up.abs() - half - other.core_extent(z)).max(0.0), (out - radius - wide).max(0.0));
+        (up * up + out * out).sqrt() - other.rim()
     }
 
     /// The distance, or a bound from below as soon as one is above `enough`.
@@ -53,10 +145,45 @@ fn ends(solid: &Solid, half: f64) -> [Vector3<f64>; 2] {
     [solid.centre - z * half, solid.centre + z * half]
 }
 
+/// What has a farthest point in each direction.
+trait Convex {
+    /// A point within.
+    fn middle(&self) -> Vector3<f64>;
+    /// The point that lies farthest in a direction.
+    fn farthest(&self, direction: &Vector3<f64>) -> Vector3<f64>;
+}
+
+impl Convex for Solid {
+    fn middle(&self) -> Vector3<f64> {
+        self.centre
+    }
+
+    fn farthest(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.support(direction)
+    }
+}
+
+/// All places of a solid that moves without turning.
+struct Swept<'a> {
+    solid: &'a Solid,
+    shift: Vector3<f64>,
+}
+
+impl Convex for Swept<'_> {
+    fn middle(&self) -> Vector3<f64> {
+        self.solid.centre + self.shift * 0.5
+    }
+
+    fn farthest(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        let point = self.solid.support(direction);
+        if direction.dot(&self.shift) > 0.0 { point + self.shift } else { point }
+    }
+}
+
 /// The distance between the cores of two solids, from below. With the nearest point `v` of a simplex within the difference of
 /// both, no point of the difference is nearer to the origin than the plane square to `v` through the support `w`.
-fn cores(one: &Solid, other: &Solid, enough: f64) -> f64 {
-    let mut nearest = one.centre - other.centre;
+fn cores(one: &impl Convex, other: &Solid, enough: f64) -> f64 {
+    let mut nearest = one.middle() - other.centre;
     let mut simplex = Simplex::empty();
     let mut below = 0.0_f64;
     for _ in 0..STEPS {
@@ -64,7 +191,7 @@ fn cores(one: &Solid, other: &Solid, enough: f64) -> f64 {
         if length < 1e-12 {
             return 0.0;
         }
-        let support = one.support(&-nearest) - other.support(&nearest);
+        let support = one.farthest(&-nearest) - other.support(&nearest);
         below = below.max(nearest.dot(&support) / length);
         if below > enough || length - below <= CLOSE || simplex.contains(&support) {
             return below;

@@ -1,9 +1,9 @@
 //! The solids of one link: what its URDF lists, without what is listed twice.
 
-use motet_robots::urdf::{Link, Pose, Shape as Listed};
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use motet_robots::urdf::{Link, Shape as Listed};
 
 use super::solid::{Shape, Solid};
+use crate::kinematics::isometry;
 
 /// A solid that a link carries.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -73,13 +73,4 @@ fn is_ball_within(solid: &Solid, larger: &Solid) -> bool {
     let between = solid.centre - larger.centre;
     let along = between.dot(z).clamp(-half, half);
     (between - z * along).norm() + radius <= wide
-}
-
-fn isometry(pose: &Pose) -> Isometry3<f64> {
-    let [x, y, z] = pose.xyz;
-    let [i, j, k, w] = pose.quaternion_xyzw;
-    Isometry3::from_parts(
-        Translation3::new(x, y, z),
-        UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
-    )
 }

@@ -88,6 +88,17 @@ impl Solid {
         }
     }
 
+    /// How far its core, which is what is left without the round rim of a capsule, extends in a direction of length 1.
+    pub(super) fn core_extent(&self, direction: &Vector3<f64>) -> f64 {
+        match self.shape {
+            Shape::Capsule { half, .. } => {
+                let [_, _, z] = &self.axes;
+                half * z.dot(direction).abs()
+            }
+            Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => self.extent(direction),
+        }
+    }
+
     /// The point of its core, which is what is left without the round rim of a capsule, that lies farthest in a direction.
     pub(super) fn support(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         let [x, y, z] = &self.axes;

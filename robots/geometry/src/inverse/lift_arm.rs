@@ -174,6 +174,13 @@ impl LiftArm {
         [low + one.min(other), high + one.max(other)]
     }
 
+    /// How far the tip can be from the vertical axis of the base, in m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let Shoulder { point, to_wrist, .. } = self.shoulder;
+        libm::hypot(point.x, point.y) + to_wrist.norm() + self.centre_in_tip.norm()
+    }
+
     /// The same family of solutions seen from a base that is raised: its frame is `height` above the floor.
     #[must_use]
     pub fn raised(mut self, height: f64) -> Self {

@@ -230,7 +230,8 @@ fn plane(normal: Unit<Vector3<f64>>) -> [Unit<Vector3<f64>>; 3] {
     [x, Unit::new_normalize(normal.cross(&x)), normal]
 }
 
-fn isometry(pose: &Pose) -> Isometry3<f64> {
+/// A pose as a URDF writes it.
+pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let [x, y, z] = pose.xyz;
     let [i, j, k, w] = pose.quaternion_xyzw;
     Isometry3::from_parts(

@@ -9,6 +9,7 @@ use super::answer::Witness;
 use super::pull::away;
 use super::room::{GAP, Room};
 use super::state::State;
+use super::things::Thing;
 use super::touch::Allowed;
 use super::travel::Tally;
 use super::world::World;
@@ -54,11 +55,10 @@ impl Room<'_> {
         let ways = [up, back(BACK[0]), back(BACK[1]), up + back(BACK[0])];
         let is_back = ways.into_iter().any(|shift| {
             let Some(line) = room.line(hand, end, &grasp.map_from_tip, &shift) else { return false };
-            let is_free = room.is_free(&line, held, &mut Tally::default());
-            is_free
-                && line
-                    .first()
-                    .is_some_and(|first| room.leads_back(first, &grasp.map_from_tip.translation.vector))
+            let inwards = line.first().map(|first| first.inwards(&grasp.map_from_tip.translation.vector));
+            inwards.is_some_and(|inwards| {
+                room.route_along(&line, inwards, held, &mut Tally::default()).is_some()
+            })
         });
         is_back.then_some(world)
     }
@@ -81,9 +81,10 @@ impl Room<'_> {
         let is_back = BACK.into_iter().any(|far| {
             let shift = away(&grasp.map_from_tip, hand, far);
             let Some(line) = room.line(hand, &open, &grasp.map_from_tip, &shift) else { return false };
-            let is_free = room.is_free(&line, allowed, &mut Tally::default());
-            let place = grasp.map_from_tip.translation.vector;
-            is_free && line.first().is_some_and(|first| room.leads_back(first, &place))
+            let inwards = line.first().map(|first| first.inwards(&grasp.map_from_tip.translation.vector));
+            inwards.is_some_and(|inwards| {
+                room.route_along(&line, inwards, allowed, &mut Tally::default()).is_some()
+            })
         });
         is_back.then_some(world)
     }
@@ -101,14 +102,18 @@ impl Room<'_> {
 
     /// Whether a way leads between where the robot is in this room and a state in front of a place.
     pub(super) fn leads_back(&self, state: &State, place: &Vector3<f64>) -> bool {
-        self.route(state, state.inwards(place), &mut Tally::default()).is_some()
+        let (inwards, none) = (state.inwards(place), Allowed::default());
+        self.route_along(std::slice::from_ref(state), inwards, none, &mut Tally::default()).is_some()
     }
 
     /// What an entity stands on: the first other that is no farther from it than everything stays from everything.
     pub(super) fn support(&self, entity: usize) -> Option<usize> {
         let own: Vec<&Solid> = self.solids_of(entity).collect();
-        let touches = |solid: &Solid| own.iter().any(|own| !own.is_farther(solid, GAP + 0.001));
-        let others = self.things.iter().filter(|thing| thing.entity != entity);
-        others.filter(|thing| touches(&thing.solid)).map(|thing| thing.entity).next()
+        let gap = GAP + 0.001;
+        let is_near = |thing: &Thing| own.iter().any(|own| !own.is_farther(&thing.solid, gap));
+        let all =
+            own.iter().flat_map(|own| self.things.near([own.centre.x, own.centre.y], own.reach() + gap));
+        let others = all.filter(|(_, thing)| thing.entity != entity && is_near(thing));
+        others.min_by_key(|(index, _)| *index).map(|(_, thing)| thing.entity)
     }
 }

@@ -28,32 +28,56 @@ impl Room<'_> {
     /// Candidate `at` for a pose of the tip: no state, or some.
     pub(super) fn candidates(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, at: usize) -> Vec<State> {
         if let Solver::Lift(arm) = &hand.solver {
-            let yaw = (part(at, 1, PLANE) - 0.5) * TAU;
+            let yaw = self.heading(hand, map_from_tip) + (part(at, 1, PLANE) - 0.5) * TAU;
             let limits = hand.solver.chain().variables.get(1).and_then(|variable| variable.limits);
             let (lower, upper) = limits.unwrap_or((-PI, PI));
             let shoulder = lower + part(at, 2, PLANE) * (upper - lower);
             let placed = arm.solve(map_from_tip, yaw, shoulder).into_iter();
             return placed.map(|placed| self.with(hand, placed.base, &placed.values)).collect();
         }
-        let base = if self.machine.drives() {
-            let reach = hand.card.reach_m + self.machine.card().base.radius_m;
-            let (sin, cos) = libm::sincos(part(at, 1, SPACE) * TAU);
-            let far = 0.2 + (reach - 0.2).max(0.1) * part(at, 2, SPACE);
-            let (x, y) = (map_from_tip.translation.x + cos * far, map_from_tip.translation.y + sin * far);
-            [x, y, (part(at, 3, SPACE) - 0.5) * TAU]
-        } else {
-            self.world.robot.base
-        };
+        let base = self.base_at(hand, map_from_tip, at);
         let base_from_tip = self.map_from_base(base).inverse() * map_from_tip;
         let values: Vec<Vec<f64>> = match &hand.solver {
             Solver::Parallel(arm) => arm.solve(&base_from_tip).into_iter().map(Into::into).collect(),
             Solver::Lift(_) => vec![],
             Solver::Steps(chain) => {
-                let start = spread(&chain.variables, at);
-                numeric::refined(chain, &base_from_tip, &start, 60, Tolerance::EXACT).into_iter().collect()
+                // From where the arm is first.
+                let now = || chain.in_tree.iter().map(|at| self.world.robot.joints.get(*at).copied());
+                let start = match at {
+                    0 => now().map(Option::unwrap_or_default).collect(),
+                    _ => spread(&chain.variables, at - 1),
+                };
+                numeric::refined(chain, &base_from_tip, &start, 30, Tolerance::EXACT).into_iter().collect()
             }
         };
         values.into_iter().map(|values| self.with(hand, base, &values)).collect()
+    }
+
+    /// Where the base of candidate `at` is for an arm that does not place it itself: most often behind the hand and facing
+    /// what it reaches for, but anywhere around in the end.
+    pub(super) fn base_at(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, at: usize) -> [f64; 3] {
+        if !self.machine.drives() {
+            return self.world.robot.base;
+        }
+        // Half of all within a quarter of the range on either side.
+        let aside = |part: f64| (2.0 * part - 1.0) * (2.0 * part - 1.0).abs() * PI;
+        let reach = hand.card.reach_m + self.machine.card().base.radius_m;
+        let towards = self.heading(hand, map_from_tip) + aside(part(at, 1, SPACE));
+        let (sin, cos) = libm::sincos(towards);
+        let far = 0.2 + (reach - 0.2).max(0.1) * part(at, 2, SPACE);
+        let (x, y) = (map_from_tip.translation.x - cos * far, map_from_tip.translation.y - sin * far);
+        [x, y, towards + aside(part(at, 3, SPACE))]
+    }
+
+    /// The direction in which the base is likely to face with the tip at a pose: that of the fingers, or from where the robot
+    /// is where they point down.
+    fn heading(&self, hand: &Hand, map_from_tip: &Isometry3<f64>) -> f64 {
+        let points = map_from_tip.rotation * Vector3::from(hand.card.points);
+        if points.x * points.x + points.y * points.y > 0.1 {
+            return libm::atan2(points.y, points.x);
+        }
+        let ([x, y, _], at) = (self.world.robot.base, map_from_tip.translation);
+        libm::atan2(at.y - y, at.x - x)
     }
 
     /// States on the straight line of the hand that ends at `state`, the first `back` m before it; `None` where the arm cannot

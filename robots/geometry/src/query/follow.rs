@@ -7,10 +7,11 @@ use smol_str::SmolStr;
 use super::grasp::Hold;
 use super::opening::Opening;
 use super::pull::Pull;
-use super::room::{GAP, Room, Thing};
+use super::room::{GAP, Room};
 use super::state::State;
+use super::things::{Thing, Things};
 use super::touch::{Allowed, Touch};
-use super::travel::Tally;
+use super::travel::{Tally, plane};
 use crate::collision::{Shape, Solid};
 use crate::inverse::{Tolerance, numeric};
 use crate::trigonometry::turn;
@@ -71,6 +72,9 @@ impl Room<'_> {
         let states = self.states(pull, hold, &self.gripping(pull.hand, state), following)?;
         let (Following::Base(turning) | Following::Arm(turning)) = following;
         let count = states.len().saturating_sub(1).max(1) as f64;
+        let [x, y] = plane(state);
+        let far = states.iter().map(|state| libm::hypot(state.base[0] - x, state.base[1] - y));
+        let around = self.around([x, y], far.fold(0.0, f64::max) + 0.01);
         for (pair, at) in states.windows(2).zip(0..) {
             let [one, other] = pair else { continue };
             let done = [f64::from(at) / count, f64::from(at + 1) / count];
@@ -81,7 +85,7 @@ impl Room<'_> {
             if off > OFF[0] || tip.rotation.angle_to(&wanted.rotation) > OFF[1] {
                 return None;
             }
-            let free = self
+            let free = around
                 .edge(one, other, Allowed::default())
                 .and_then(|()| self.edge_beside(one, other, pull, done));
             if let Err(touch) = free {
@@ -177,6 +181,47 @@ impl Room<'_> {
         Ok(())
     }
 
+    /// For each part how far any of its points goes at most from the middle of a way to `half` of the way on either side:
+    /// as seen from the base, and in the map.
+    fn goes(
+        &self,
+        poses: &[Isometry3<f64>],
+        placed: &[Solid],
+        state: &State,
+        from: &State,
+        to: &State,
+        half: f64,
+    ) -> Vec<(f64, f64)> {
+        let change = |at: usize| {
+            let value = |joints: &[f64]| joints.get(at).copied().unwrap_or(0.0);
+            (value(&to.joints) - value(&from.joints)).abs() * half
+        };
+        let ([x, y, yaw], [to_x, to_y, to_yaw]) = (from.base, to.base);
+        let (shift, turn) = (libm::hypot(to_x - x, to_y - y) * half, (to_yaw - yaw).abs() * half);
+        let [base_x, base_y, _] = state.base;
+        let parts = self.body.parts().iter().zip(placed).map(|(part, solid)| {
+            let reach = solid.reach();
+            let mut goes = 0.0;
+            for lever in self.machine.levers(part.link).iter().rev() {
+                let amount = change(lever.driver.variable) * lever.driver.multiplier.abs();
+                if amount == 0.0 {
+                    continue;
+                }
+                goes += if lever.slides {
+                    amount
+                } else {
+                    let pose = poses.get(lever.frame).copied().unwrap_or_default();
+                    let axis = pose.rotation * lever.axis.into_inner();
+                    let arm = (solid.centre - pose.translation.vector).cross(&axis).norm() + reach;
+                    amount * (arm + goes)
+                };
+            }
+            let arm = libm::hypot(solid.centre.x - base_x, solid.centre.y - base_y) + reach;
+            (goes, goes + turn * (arm + goes) + shift)
+        });
+        parts.collect()
+    }
+
     /// The room without a container and what goes with it, but with what of it stays; and what goes with it, as it lies when it
     /// is closed.
     pub(super) fn without(&self, index: usize, opening: &Opening, part: f64) -> (Self, Vec<Solid>) {
@@ -189,8 +234,8 @@ impl Room<'_> {
         let mut room = self.clone();
         let (inside, around): (Vec<Thing>, Vec<Thing>) =
             self.things.iter().filter(|thing| thing.entity != index).partition(|thing| carried(thing.entity));
-        room.things = around;
-        room.things.extend(opening.still().iter().map(|solid| Thing { entity: index, solid: *solid }));
+        let still = opening.still().iter().map(|solid| Thing::new(index, *solid));
+        room.things = Things::new(around.into_iter().chain(still).collect());
         room.opening = Some(index);
         (room, inside.iter().map(|thing| thing.solid.moved(&back)).collect())
     }
@@ -199,7 +244,8 @@ impl Room<'_> {
     pub(super) fn beside(&self, opening: &Opening, part: f64) -> Self {
         let mut room = self.clone();
         let entity = self.opening.unwrap_or(usize::MAX);
-        room.things.extend(opening.moving(part).into_iter().map(|solid| Thing { entity, solid }));
+        room.things =
+            self.things.with(opening.moving(part).into_iter().map(|solid| Thing::new(entity, solid)));
         room
     }
 

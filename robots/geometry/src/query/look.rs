@@ -124,8 +124,9 @@ impl Room<'_> {
                 continue;
             }
             let line = segment(&eye, point);
-            let others = self.things.iter().filter(|thing| thing.entity != index);
-            match others.into_iter().find(|thing| !line.is_farther(&thing.solid, 0.0)) {
+            let near = self.things.near([line.centre.x, line.centre.y], far / 2.0).map(|(_, thing)| thing);
+            let mut others = near.filter(|thing| thing.entity != index);
+            match others.find(|thing| !line.is_farther(&thing.solid, 0.0)) {
                 None => return Sight::Free,
                 Some(thing) => found = Sight::Hidden(self.name(thing.entity)),
             }

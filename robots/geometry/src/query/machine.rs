@@ -25,6 +25,10 @@ pub struct Machine {
     levers: Vec<Vec<Lever>>,
     hand: Option<Hand>,
     rest: Vec<f64>,
+    /// How far any point of it can be from the vertical axis of its base, in m.
+    extent: f64,
+    /// For each variable whether it turns something.
+    turning: Vec<bool>,
 }
 
 /// A hand and the arm that carries it.
@@ -103,7 +107,23 @@ impl Machine {
             allowed.extend(fingers.iter().flat_map(|one| fingers.iter().map(|other| [*one, *other])));
         }
         let body = Body::new(urdf, &tree, &allowed);
-        let mut machine = Self { card: card.clone(), tree, body, floor_from_root, levers, hand: None, rest };
+        let mut machine = Self {
+            card: card.clone(),
+            tree,
+            body,
+            floor_from_root,
+            levers,
+            hand: None,
+            rest,
+            extent: 0.0,
+            turning: vec![],
+        };
+        let turns = |at: usize| {
+            let mut levers = machine.levers.iter().flatten();
+            levers.any(|lever| lever.driver.variable == at && !lever.slides)
+        };
+        machine.turning = (0..machine.tree.variables().len()).map(turns).collect();
+        machine.extent = machine.extent_about(base);
         machine.hand = card.hands.iter().find_map(|(name, hand)| machine.hand_of(name, hand, base, height));
         machine
     }
@@ -213,13 +233,62 @@ impl Machine {
     /// The pose of every link in the map.
     #[must_use]
     pub fn map_from_links(&self, state: &State) -> Vec<Isometry3<f64>> {
-        let [x, y, yaw] = state.base;
-        let map_from_root = planar(x, y, yaw) * self.floor_from_root;
+        let map_from_root = self.map_from_root(state.base);
         let mut poses = self.tree.root_from_links(&state.joints);
         for pose in &mut poses {
             *pose = map_from_root * *pose;
         }
         poses
+    }
+
+    /// The pose of the root's link with the base at a place.
+    pub(super) fn map_from_root(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
+        planar(x, y, yaw) * self.floor_from_root
+    }
+
+    /// For each variable of the tree whether it turns something.
+    pub(super) fn turning(&self) -> &[bool] {
+        &self.turning
+    }
+
+    /// How far any point of the robot can be from the vertical axis of its base, in m, whatever its joints.
+    pub(super) fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// Added up joint by joint. While nothing has turned about another axis than the vertical, heights do not count.
+    fn extent_about(&self, base: usize) -> f64 {
+        let parts = self.body.parts().iter().map(|part| {
+            let Some(chain) = Chain::new(&self.tree, base, part.link) else { return f64::INFINITY };
+            let (mut turned, mut is_upright, mut far) = (UnitQuaternion::identity(), true, 0.0);
+            let mut add = |turned: &UnitQuaternion<f64>, shift: Vector3<f64>, is_upright: bool| {
+                let shift = turned * shift;
+                far += if is_upright { libm::hypot(shift.x, shift.y) } else { shift.norm() };
+            };
+            for joint in &chain.joints {
+                add(&turned, joint.before.translation.vector, is_upright);
+                turned *= joint.before.rotation;
+                let axis = turned * joint.axis.into_inner();
+                if joint.slides {
+                    let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
+                    let ends = limits.map(|(lower, upper)| {
+                        let place =
+                            |value: f64| (joint.driver.multiplier * value + joint.driver.offset).abs();
+                        place(lower).max(place(upper))
+                    });
+                    add(&turned, joint.axis.into_inner() * ends.unwrap_or(f64::INFINITY), is_upright);
+                } else {
+                    is_upright = is_upright && axis.z.abs() > 1.0 - 1e-9;
+                }
+            }
+            add(&turned, chain.last_from_tip.translation.vector, is_upright);
+            let solid = part.solid;
+            add(&(turned * chain.last_from_tip.rotation), solid.centre, is_upright);
+            let far = far + solid.reach();
+            // Nothing times no limit.
+            if far.is_nan() { f64::INFINITY } else { far }
+        });
+        parts.fold(0.0, f64::max)
     }
 
     pub(super) fn levers(&self, link: usize) -> &[Lever] {

@@ -7,12 +7,10 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use nalgebra::Vector3;
-
-use super::room::{GAP, Room};
+use super::outlines::{Outline, Outlines};
+use super::room::Room;
 use super::state::State;
 use super::touch::about_vertical;
-use crate::collision::{Shape, Solid};
 
 /// A cell's side in m, where the room is not too large for it.
 const CELL: f64 = 0.05;
@@ -28,26 +26,17 @@ const LEAF: usize = 4;
 /// The map of a room for one configuration of the arm.
 #[derive(Clone, Debug)]
 pub(super) struct Map {
-    outlines: Vec<Outline>,
+    outlines: Outlines,
     origin: [f64; 2],
     cell: f64,
     size: [usize; 2],
     /// Of each cell; where it is wide, no more than the clearance, where nothing is free, no less.
     clearance: Vec<f64>,
-    component: Vec<u32>,
+    /// For each cell one more than another that it hangs together with, on the way to the first of all these; 0 for that.
+    first: Vec<u32>,
+    /// Free cells but for those within a square of which all are free.
+    rim: Vec<usize>,
     is_anywhere: bool,
-}
-
-/// An obstacle seen from above, and the radius of the robot between its heights.
-#[derive(Clone, Copy, Debug)]
-struct Outline {
-    centre: [f64; 2],
-    /// Direction of its first side.
-    side: [f64; 2],
-    half: [f64; 2],
-    /// How much is added around.
-    round: f64,
-    keep_off: f64,
 }
 
 impl Map {
@@ -62,8 +51,8 @@ impl Map {
         let [x, y, _] = room.world.robot.base;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for outline in &outlines {
-            let reach = libm::hypot(outline.half[0], outline.half[1]) + outline.round;
-            for ((low, high), at) in low.iter_mut().zip(&mut high).zip(outline.centre) {
+            let reach = outline.reach();
+            for ((low, high), at) in low.iter_mut().zip(&mut high).zip(outline.centre()) {
                 (*low, *high) = (low.min(at - reach), high.max(at + reach));
             }
         }
@@ -78,12 +67,19 @@ impl Map {
         let span = [high[0] - low[0] + 2.0 * MARGIN, high[1] - low[1] + 2.0 * MARGIN];
         let cell = CELL.max(span[0].max(span[1]) / CELLS as f64);
         let size = span.map(|span| (libm::ceil(span / cell) as usize + 1).min(CELLS + 2));
-        let clearance = vec![CAP; size[0] * size[1]];
-        let mut map =
-            Self { outlines, origin, cell, size, clearance, component: vec![], is_anywhere: is_around };
-        let all: Vec<u32> = (0..).take(map.outlines.len()).collect();
+        let mut map = Self {
+            outlines: Outlines::new(outlines, origin, span),
+            origin,
+            cell,
+            size,
+            clearance: vec![CAP; size[0] * size[1]],
+            first: vec![0; size[0] * size[1]],
+            rim: vec![],
+            is_anywhere: is_around,
+        };
+        let all: Vec<u32> = (0..).take(map.outlines.all().len()).collect();
         map.fill([0, 0], [size[0], size[1]], &all);
-        map.component = map.components();
+        map.connect();
         map
     }
 
@@ -107,7 +103,7 @@ impl Map {
         let radius = libm::hypot(half[0], half[1]);
         let distances: Vec<f64> = near
             .iter()
-            .map(|at| self.outlines.get(*at as usize).map_or(CAP, |outline| outline.distance(middle)))
+            .map(|at| self.outlines.all().get(*at as usize).map_or(CAP, |outline| outline.distance(middle)))
             .collect();
         let least = distances.iter().copied().fold(CAP, f64::min);
         let is_leaf = columns.max(rows) <= LEAF;
@@ -127,27 +123,58 @@ impl Map {
             self.fill([column + left, row + above], [columns - left, rows - above], &kept);
             return;
         }
-        for row in corner[1]..corner[1] + rows {
-            for column in corner[0]..corner[0] + columns {
-                let at =
-                    [self.origin[0] + column as f64 * self.cell, self.origin[1] + row as f64 * self.cell];
-                let value = if is_settled {
-                    let off = libm::hypot(at[0] - middle[0], at[1] - middle[1]);
-                    if least > 0.0 { least - off } else { least + off }
-                } else {
-                    let outlines = kept.iter().filter_map(|at| self.outlines.get(*at as usize));
-                    outlines.map(|outline| outline.distance(at)).fold(CAP, f64::min)
-                };
-                if let Some(slot) = self.clearance.get_mut(row * self.size[0] + column) {
+        let first = corner[1] * self.size[0] + corner[0];
+        for row in 0..rows {
+            let from = first + row * self.size[0];
+            if is_settled {
+                let value = if least > 0.0 { least - radius } else { least + radius };
+                self.clearance.get_mut(from..from + columns).unwrap_or_default().fill(value);
+                if least > 0.0 {
+                    self.first.get_mut(from..from + columns).unwrap_or_default().fill(first as u32 + 1);
+                    let is_end = row == 0 || row + 1 == rows;
+                    let inner = if is_end { 1 } else { columns.saturating_sub(1).max(1) };
+                    self.rim.extend((from..from + columns).step_by(inner));
+                }
+                continue;
+            }
+            for column in 0..columns {
+                let at = self.centre(from + column);
+                let outlines = kept.iter().filter_map(|at| self.outlines.all().get(*at as usize));
+                let value = outlines.map(|outline| outline.distance(at)).fold(CAP, f64::min);
+                if let Some(slot) = self.clearance.get_mut(from + column) {
                     *slot = value;
+                }
+                if value > 0.0 {
+                    self.rim.push(from + column);
                 }
             }
         }
     }
 
-    /// Clearance of a place in m; negative where the robot would touch something.
+    /// Clearance of a place in m, or what is much where it is more; negative where the robot would touch something.
     pub(super) fn at(&self, place: [f64; 2]) -> f64 {
-        self.outlines.iter().map(|outline| outline.distance(place)).fold(CAP, f64::min)
+        self.outlines.at(place)
+    }
+
+    /// The component of the cell that is reached straight from a free place: ways lead from it to all of the same component.
+    pub(super) fn component(&self, place: [f64; 2]) -> Option<u32> {
+        self.entry(place).map(|at| self.root(at))
+    }
+
+    /// Whether the nearest cell is in one of these components: quick, and not exact.
+    pub(super) fn is_among(&self, place: [f64; 2], components: &[u32]) -> bool {
+        let [column, row] = [0, 1].map(|axis: usize| {
+            let off = place.get(axis).zip(self.origin.get(axis)).map_or(0.0, |(at, origin)| at - origin);
+            libm::round(off / self.cell)
+        });
+        let [columns, rows] = self.size.map(|count| count as f64);
+        // All around is outside, and leads to everywhere outside.
+        let at = if column >= 0.0 && row >= 0.0 && column < columns && row < rows {
+            row as usize * self.size[0] + column as usize
+        } else {
+            0
+        };
+        self.free(at) > 0.0 && components.contains(&self.root(at))
     }
 
     /// Whether a straight way is free.
@@ -171,8 +198,7 @@ impl Map {
 
     /// Whether a way leads from a place to another, straight or along the cells.
     pub(super) fn is_connected(&self, from: [f64; 2], to: [f64; 2]) -> bool {
-        let component = |place| self.entry(place).and_then(|at| self.component.get(at).copied());
-        match (component(from), component(to)) {
+        match (self.component(from), self.component(to)) {
             (Some(one), Some(other)) if one == other => true,
             _ => self.is_clear(from, to),
         }
@@ -191,10 +217,12 @@ impl Map {
         let mut at = 0;
         while at < all.len() {
             let here = corners.last().copied().unwrap_or(from);
-            let seen = (at..all.len())
-                .rev()
-                .find(|next| all.get(*next).is_some_and(|next| self.is_clear(here, *next)));
-            let next = seen.unwrap_or(at);
+            let is_seen = |next: &usize| all.get(*next).is_some_and(|next| self.is_clear(here, *next));
+            let last = all.len() - 1;
+            // In ever larger strides as long as the way is clear.
+            let strides = (0..16).map(|power| (at + (1 << power)).min(last));
+            let seen = is_seen(&last).then_some(last);
+            let next = seen.unwrap_or_else(|| strides.take_while(is_seen).last().unwrap_or(at));
             corners.extend(all.get(next));
             at = next + 1;
         }
@@ -217,19 +245,20 @@ impl Map {
             (at >= 1.0 && at + 2.0 <= *self.size.get(axis)? as f64).then_some(at as usize)
         };
         let (column, row) = (index(0)?, index(1)?);
-        let mut near: Vec<(f64, usize)> = Vec::new();
+        let here = self.at(place);
+        let mut best: Option<(f64, usize)> = None;
         for other in [row - 1, row, row + 1] {
             for at in [column - 1, column, column + 1] {
                 let cell = other * self.size[0] + at;
                 let [x, y] = self.centre(cell);
-                near.push((libm::hypot(x - place[0], y - place[1]), cell));
+                let far = ((x - place[0]) * (x - place[0]) + (y - place[1]) * (y - place[1])).sqrt();
+                let is_reached = here > 0.0 && self.free(cell) > 0.0 && here + self.free(cell) > far;
+                if is_reached && best.is_none_or(|(known, _)| far < known) {
+                    best = Some((far, cell));
+                }
             }
         }
-        near.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
-        let here = self.at(place);
-        near.into_iter()
-            .find(|(far, cell)| here > 0.0 && self.free(*cell) > 0.0 && here + self.free(*cell) > *far)
-            .map(|(_, cell)| cell)
+        best.map(|(_, cell)| cell)
     }
 
     /// The neighbours of a cell to which the straight way is free, with its length.
@@ -246,14 +275,14 @@ impl Map {
         })
     }
 
-    /// For each cell the first of those that it hangs together with, counted from 1; 0 where it is not free.
-    fn components(&self) -> Vec<u32> {
-        let mut first: Vec<u32> = (0..).take(self.clearance.len()).collect();
+    /// Finds out which cells hang together. O(rim).
+    fn connect(&mut self) {
         let columns = self.size[0];
         let diagonal = self.cell * std::f64::consts::SQRT_2;
-        for (at, here) in self.clearance.iter().enumerate().filter(|(_, here)| **here > 0.0) {
-            let column = at % columns;
-            // The other four neighbours look at this one.
+        let rim = std::mem::take(&mut self.rim);
+        for at in &rim {
+            let (at, column, here) = (*at, at % columns, self.free(*at));
+            // The other four neighbours look at this one, and what is within a square hangs together with it.
             let around = [
                 (column + 1 < columns, at + 1, self.cell),
                 (true, at + columns, self.cell),
@@ -263,54 +292,67 @@ impl Map {
             for (_, other, far) in around.into_iter().filter(|(is_within, ..)| *is_within) {
                 let beyond = self.free(other);
                 if beyond > 0.0 && here + beyond > far {
-                    let (one, other) = (root(&mut first, at), root(&mut first, other));
-                    let (low, high) = (one.min(other), one.max(other));
-                    if let Some(slot) = first.get_mut(high) {
-                        *slot = low as u32;
+                    let (one, other) = (shortened(&mut self.first, at), shortened(&mut self.first, other));
+                    if let Some(slot) = self.first.get_mut(one.max(other)).filter(|_| one != other) {
+                        *slot = one.min(other) as u32 + 1;
                     }
                 }
             }
         }
-        (0..first.len())
-            .map(|at| if self.free(at) > 0.0 { root(&mut first, at) as u32 + 1 } else { 0 })
-            .collect()
+        for at in &rim {
+            let root = shortened(&mut self.first, *at) as u32;
+            if let Some(slot) = self.first.get_mut(*at) {
+                *slot = root + 1;
+            }
+        }
+    }
+
+    /// The first of the cells that a free cell hangs together with.
+    fn root(&self, mut at: usize) -> u32 {
+        loop {
+            match self.first.get(at).copied() {
+                Some(next) if next > 0 && next as usize != at + 1 => at = next as usize - 1,
+                _ => return at as u32,
+            }
+        }
     }
 
     /// The shortest way from cell to cell (A*, with the straight distance as the bound).
     fn search(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
-        if self.component.get(start) != self.component.get(goal) {
+        if self.root(start) != self.root(goal) {
             return None;
         }
         let [goal_x, goal_y] = self.centre(goal);
         let left = |at: usize| {
             let [x, y] = self.centre(at);
-            libm::hypot(goal_x - x, goal_y - y)
+            ((goal_x - x) * (goal_x - x) + (goal_y - y) * (goal_y - y)).sqrt()
         };
-        let mut cost = vec![f64::INFINITY; self.clearance.len()];
-        let mut from = vec![usize::MAX; self.clearance.len()];
+        // One more than the length of the way to a cell and than the cell before it; 0 where none is known.
+        let mut cost = vec![0.0_f64; self.clearance.len()];
+        let mut from = vec![0_u32; self.clearance.len()];
         let mut open = BinaryHeap::from([Open { bound: left(start), cell: start }]);
-        *cost.get_mut(start)? = 0.0;
+        *cost.get_mut(start)? = 1.0;
         while let Some(Open { cell, bound }) = open.pop() {
             if cell == goal {
                 let mut way = vec![goal];
                 let mut at = goal;
                 while at != start {
-                    at = *from.get(at)?;
+                    at = (*from.get(at)? as usize).checked_sub(1)?;
                     way.push(at);
                 }
                 way.reverse();
                 return Some(way);
             }
             let here = *cost.get(cell)?;
-            if bound > here + left(cell) + 1e-9 {
+            if bound > here - 1.0 + left(cell) + 1e-9 {
                 continue;
             }
             for (next, far) in self.next(cell) {
                 let whole = here + far;
-                if let Some(known) = cost.get_mut(next).filter(|known| whole < **known) {
+                if let Some(known) = cost.get_mut(next).filter(|known| **known == 0.0 || whole < **known) {
                     *known = whole;
-                    *from.get_mut(next)? = cell;
-                    open.push(Open { bound: whole + left(next), cell: next });
+                    *from.get_mut(next)? = cell as u32 + 1;
+                    open.push(Open { bound: whole - 1.0 + left(next), cell: next });
                 }
             }
         }
@@ -318,47 +360,14 @@ impl Map {
     }
 }
 
-impl Outline {
-    /// `None` where no part of the robot is between the solid's heights.
-    fn new(solid: &Solid, discs: &[(f64, [f64; 2])]) -> Option<Self> {
-        let up = solid.extent(&Vector3::z());
-        let (low, high) = (solid.centre.z - up - GAP, solid.centre.z + up + GAP);
-        let meets = discs.iter().filter(|(_, [least, greatest])| *greatest >= low && *least <= high);
-        let widest = meets.map(|(radius, _)| *radius).fold(f64::NEG_INFINITY, f64::max);
-        if widest < 0.0 {
-            return None;
-        }
-        let [x, _, z] = &solid.axes;
-        let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;
-        let (side, half, round) = match solid.shape {
-            Shape::Box(half) if is_upright => ([x.x, x.y], [half.x, half.y], 0.0),
-            Shape::Cylinder { radius, .. } | Shape::Capsule { radius, .. } if is_upright => {
-                ([1.0, 0.0], [0.0, 0.0], radius)
-            }
-            Shape::Capsule { .. } | Shape::Cylinder { .. } | Shape::Box(_) | Shape::HalfSpace => {
-                ([1.0, 0.0], [solid.extent(&Vector3::x()), solid.extent(&Vector3::y())], 0.0)
-            }
-        };
-        Some(Self { centre: [solid.centre.x, solid.centre.y], side, half, round, keep_off: widest + GAP })
-    }
-
-    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
-        let (x, y) = (x - self.centre[0], y - self.centre[1]);
-        let [c, s] = self.side;
-        let a = ((x * c + y * s).abs() - self.half[0]).max(0.0);
-        let b = ((y * c - x * s).abs() - self.half[1]).max(0.0);
-        (a * a + b * b).sqrt() - self.round - self.keep_off
-    }
-}
-
 /// The first of the cells that a cell hangs together with; ways to it become shorter.
-fn root(first: &mut [u32], mut at: usize) -> usize {
+fn shortened(first: &mut [u32], mut at: usize) -> usize {
     loop {
-        let next = first.get(at).map_or(at, |next| *next as usize);
-        if next == at {
-            return at;
-        }
-        let after = first.get(next).copied().unwrap_or_default();
+        let next = match first.get(at).copied() {
+            Some(next) if next > 0 && next as usize != at + 1 => next as usize - 1,
+            _ => return at,
+        };
+        let after = first.get(next).copied().filter(|after| *after > 0).unwrap_or(next as u32 + 1);
         if let Some(slot) = first.get_mut(at) {
             *slot = after;
         }

@@ -7,25 +7,34 @@
 mod after;
 mod answer;
 mod arm;
+mod around;
+mod connect;
 mod follow;
 mod go;
 mod grasp;
 mod look;
 mod machine;
 mod map;
+mod margin;
 mod obstacle;
 mod offer;
 mod opened;
 mod opening;
+mod outlines;
+mod palm;
 mod pull;
 mod push;
 mod put;
 mod reach;
 mod room;
+mod seek;
 mod shut;
+mod span;
 mod state;
+mod things;
 mod touch;
 mod travel;
+mod way;
 mod world;
 
 pub use answer::{Answer, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
@@ -43,9 +52,7 @@ impl Room<'_> {
         if let Some(why) = self.blind_spot() {
             return Answer::Unknown(Unknown::Because(why));
         }
-        let start = &self.world.robot;
-        if let Some(touch) = self.touch(start, Allowed::default()) {
-            let Touch { link, other, .. } = touch;
+        if let Some(Touch { link, other, .. }) = self.at_start() {
             return Answer::Unknown(Unknown::Because(format!("at the start `{link}` touches `{other}`")));
         }
         match query {

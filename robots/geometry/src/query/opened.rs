@@ -4,9 +4,10 @@ use super::answer::Witness;
 use super::opening::Opening;
 use super::pull::away;
 use super::room::Room;
+use super::seek::LAST;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::Tally;
+use super::travel::{Tally, plane};
 use super::world::World;
 
 /// How far the hand draws back from a handle, in m.
@@ -54,7 +55,7 @@ impl Room<'_> {
             let Some(line) = room.line(hand, &open, &map_from_tip, &shift) else { continue };
             let line: Vec<State> =
                 line.iter().map(|state| State { base: state.base, joints: fingers(state) }).collect();
-            let is_free = room.is_free(&line, none, &mut Tally::default());
+            let is_free = room.around(plane(&open), LAST).is_free(&line, none, &mut Tally::default());
             let Some(first) = line.first().filter(|_| is_free) else { continue };
             if room.leads_back(first, &map_from_tip.translation.vector) {
                 return Some(world);

@@ -8,13 +8,14 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::answer::{Answer, Budget, Grasp, Margins, Reason, Side, Unknown, Witness};
+use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::follow::{Following, Turning};
 use super::grasp::Hold;
 use super::machine::Hand;
 use super::opening::{Opening, THICK};
 use super::reach::certain;
 use super::room::Room;
+use super::seek::LAST;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, exhausted};
@@ -77,19 +78,45 @@ impl Room<'_> {
         }
     }
 
+    /// The holds in which the hand alone touches nothing. It names what is in the way of every arm.
+    ///
+    /// # Errors
+    ///
+    /// The answer where there is none.
+    fn free_holds<'h>(
+        &self,
+        hand: &Hand,
+        all: &'h [Hold],
+        allowed: Allowed,
+    ) -> Result<Vec<&'h Hold>, Answer> {
+        let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
+        let palm = self.palm(hand, &tips, allowed);
+        let mut met = Tally::default();
+        let is_free = |hold: &&Hold| palm.touch(&hold.map_from_tip).map(|touch| met.add(&touch)).is_none();
+        let free: Vec<&Hold> = all.iter().filter(is_free).collect();
+        if free.is_empty() {
+            let reason = Reason::NoFreePose { by: met.most() };
+            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() }));
+        }
+        Ok(free)
+    }
+
     fn search_pull(&self, pull: &Pull<'_>, clear: &Room<'_>, holds: &[&Hold], budget: Budget) -> Answer {
         let end = clear.beside(&pull.opening, pull.parts[1]);
+        let bar = pull.opening.map_moved(pull.parts[0]) * pull.opening.handle().centre;
+        let wide = self.farthest(pull.hand) + pull.opening.handle().half + pull.depth + LAST;
+        let around = self.around([bar.x, bar.y], wide);
         let (mut poses, mut ways) = (Tally::default(), Tally::default());
         let (mut tried, mut is_cut_off) = (0, false);
         for at in 0..budget.candidates {
             for hold in holds {
                 for state in self.candidates(pull.hand, &hold.map_from_tip, at) {
-                    if let Some(touch) = self.touch(&state, Allowed::default()) {
-                        poses.add(&touch);
+                    if !self.is_near_drivable(state.base) {
+                        is_cut_off = true;
                         continue;
                     }
-                    if !self.is_near_drivable(&state) {
-                        is_cut_off = true;
+                    if let Some(touch) = around.touch(&state, Allowed::default()) {
+                        poses.add(&touch);
                         continue;
                     }
                     let mut path = None;

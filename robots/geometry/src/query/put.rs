@@ -7,9 +7,10 @@ use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Un
 use super::arm::{PLANE, part};
 use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
+use super::seek::{LAST, Sought};
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::{Tally, exhausted};
+use super::travel::Tally;
 use super::world::Held;
 use crate::collision::{Shape, Solid};
 use crate::kinematics::planar;
@@ -53,32 +54,29 @@ impl Room<'_> {
             let certified = self.is_full(&held, &support, index);
             return Answer::Infeasible(Infeasible { reason, change: None, certified });
         }
-        let (mut poses, mut ways, mut tried, mut is_cut_off) = (Tally::default(), Tally::default(), 0, false);
-        // As many tries for all places together as one grasp has.
-        let rounds = (budget.candidates * 4 / places.len()).max(1);
-        for at in 0..rounds {
-            for place in &places {
-                let map_from_tip = place * held.tip_from_object.inverse();
-                for state in self.candidates(held.hand, &map_from_tip, at) {
-                    if let Some(touch) = self.touch(&state, allowed) {
-                        poses.add(&touch);
-                        continue;
-                    }
-                    if !self.is_near_drivable(&state) {
-                        is_cut_off = true;
-                        continue;
-                    }
-                    tried += 1;
-                    if let Some(path) = self.way_down(&held, &state, &support, allowed, &mut ways) {
-                        return Answer::Feasible(Box::new(self.put_down(&held, path, map_from_tip, allowed)));
-                    }
-                    if tried >= budget.paths {
-                        return Answer::Unknown(Unknown::Budget);
-                    }
-                }
-            }
+        let tip_from_place = held.tip_from_object.inverse();
+        let face = support.map_from_face.translation;
+        let wide = libm::hypot(support.half[0], support.half[1]);
+        let around = self.around([face.x, face.y], self.farthest(held.hand) + wide + LAST);
+        // What comes into a drawer comes from above its walls.
+        let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
+        let tips: Vec<_> = places.iter().map(|place| place * tip_from_place).collect();
+        let sought = Sought {
+            hand: held.hand,
+            palm: self.palm(held.hand, &tips, allowed),
+            tips,
+            is_all: false,
+            allowed,
+            around: &around,
+            backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),
+        };
+        match self.seek(&sought, budget) {
+            Ok((at, path)) => match sought.tips.get(at) {
+                Some(tip) => Answer::Feasible(Box::new(self.put_down(&held, path, *tip, allowed))),
+                None => Answer::Unknown(Unknown::Budget),
+            },
+            Err(none) => none,
         }
-        exhausted(tried > 0 || is_cut_off, &poses, &ways)
     }
 
     /// What is in the hand, where it is the thing that is asked for.
@@ -157,8 +155,9 @@ impl Room<'_> {
                 Isometry3::from_parts(Translation3::from(spot), rotation)
             };
             let stands = Solid::new(&upright(0), held.shape);
-            let others = self.things.iter().filter(|thing| thing.entity != index);
-            if let Some(other) = others.into_iter().find(|thing| !stands.is_farther(&thing.solid, GAP)) {
+            let others = self.things.near([spot.x, spot.y], stands.reach() + GAP).map(|(_, thing)| thing);
+            let mut others = others.filter(|thing| thing.entity != index);
+            if let Some(other) = others.find(|thing| !stands.is_farther(&thing.solid, GAP)) {
                 met.add_entity(self.name(other.entity));
                 continue;
             }
@@ -168,25 +167,6 @@ impl Room<'_> {
             }
         }
         places
-    }
-
-    /// A way from where the robot is to a state, the last part straight down.
-    fn way_down(
-        &self,
-        held: &Held<'_>,
-        state: &State,
-        on: &Support,
-        allowed: Allowed,
-        met: &mut Tally,
-    ) -> Option<Vec<State>> {
-        let hand = held.hand;
-        let map_from_tip = &self.machine.map_from_links(state).get(hand.tip).copied()?;
-        let over = (on.walls > 0.0).then(|| on.walls + LOWER[1]);
-        over.into_iter().chain(LOWER).find_map(|lower| {
-            let line = self.line(hand, state, map_from_tip, &Vector3::new(0.0, 0.0, lower))?;
-            let inwards = line.first()?.inwards(&map_from_tip.translation.vector);
-            self.route_along(&line, inwards, allowed, met)
-        })
     }
 
     /// The witness of a motion with what is held.

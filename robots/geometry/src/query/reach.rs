@@ -4,13 +4,15 @@ use motet_robots::scene::Entity;
 use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
+use super::around::Around;
 use super::grasp::{Hold, holds};
-use super::machine::{Hand, Solver};
+use super::machine::Hand;
 use super::obstacle::solid_shape;
-use super::room::{GAP, Room};
+use super::pull::away;
+use super::room::Room;
+use super::seek::{LAST, Sought};
 use super::state::State;
-use super::touch::{Allowed, Touch};
-use super::travel::{Tally, exhausted};
+use super::touch::Allowed;
 use crate::collision::Solid;
 
 /// How far before a thing the hand turns straight towards it, in m; the shorter where the longer does not do.
@@ -44,82 +46,52 @@ impl Room<'_> {
                 hand.name
             ));
         }
-        let goal = Goal { id, entity, pose, hand, allowed: Allowed { hand: Some(index), held: None } };
-        if let Some(answer) = self.beyond(&goal, &all) {
+        let goal = Goal { id, entity, pose, thing, hand, allowed: Allowed { hand: Some(index), held: None } };
+        let (mut all, span) = (all, self.span(hand));
+        if let Some(answer) = span.beyond(&goal.pose.translation.vector, id, &all) {
             return answer;
         }
-        match self.free_holds(hand, &all, goal.allowed) {
-            Ok(free) => self.search(&goal, &free, budget),
+        // What the arm reaches in no way needs no search.
+        all.retain(|hold| span.holds(&hold.map_from_tip));
+        self.sort(&mut all, &goal);
+        let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
+        let centre = goal.pose.translation;
+        let grasp = hand.palm.abs().max(hand.fingers.abs()) + goal.thing.reach();
+        let around = self.around([centre.x, centre.y], self.farthest(hand) + grasp + LAST);
+        let sought = Sought {
+            hand,
+            palm: self.palm(hand, &tips, goal.allowed),
+            tips,
+            is_all: true,
+            allowed: goal.allowed,
+            around: &around,
+            backs: &|tip| BACK.map(|back| away(tip, hand, back)).to_vec(),
+        };
+        match self.seek(&sought, budget) {
+            Ok((at, path)) => match all.get(at) {
+                Some(hold) => Answer::Feasible(Box::new(around.grasped(&goal, hold, path))),
+                None => Answer::Unknown(Unknown::Budget),
+            },
             Err(none) => none,
         }
     }
 
-    /// The holds in which the hand alone touches nothing. It names what is in the way of every arm.
-    ///
-    /// # Errors
-    ///
-    /// The answer where there is none.
-    pub(super) fn free_holds<'h>(
-        &self,
-        hand: &Hand,
-        all: &'h [Hold],
-        allowed: Allowed,
-    ) -> Result<Vec<&'h Hold>, Answer> {
-        let mut met = Tally::default();
-        let free: Vec<&Hold> = all
-            .iter()
-            .filter(|hold| match self.hand_touch(hand, &hold.map_from_tip, allowed) {
-                Some(touch) => {
-                    met.add(&touch);
-                    false
-                }
-                None => true,
-            })
-            .collect();
-        if free.is_empty() {
-            let reason = Reason::NoFreePose { by: met.most() };
-            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() }));
-        }
-        Ok(free)
+    /// Holds from the robot's side come first; from above there is room, most often.
+    fn sort(&self, holds: &mut [Hold], goal: &Goal<'_>) {
+        let [x, y, _] = self.world.robot.base;
+        let ahead = Vector3::new(goal.pose.translation.x - x, goal.pose.translation.y - y, 0.0);
+        let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
+        let worth = |hold: &Hold| match hold.side {
+            Side::Top => 0.5,
+            // In steps, so that what differs by rounding alone keeps its order.
+            Side::Side | Side::Front => libm::round(hold.approach.dot(&ahead) / far * 20.0) / 20.0,
+        };
+        holds.sort_by(|one, other| worth(other).total_cmp(&worth(one)));
     }
+}
 
-    fn search(&self, goal: &Goal<'_>, holds: &[&Hold], budget: Budget) -> Answer {
-        let (mut poses, mut ways) = (Tally::default(), Tally::default());
-        let (mut tried, mut is_cut_off) = (0, false);
-        for at in 0..budget.candidates {
-            for hold in holds {
-                for state in self.candidates(goal.hand, &hold.map_from_tip, at) {
-                    if let Some(touch) = self.touch(&state, goal.allowed) {
-                        poses.add(&touch);
-                        continue;
-                    }
-                    if !self.is_near_drivable(&state) {
-                        is_cut_off = true;
-                        continue;
-                    }
-                    tried += 1;
-                    if let Some(path) = self.way_to(goal, hold, &state, &mut ways) {
-                        return Answer::Feasible(Box::new(self.witness(goal, hold, path)));
-                    }
-                    if tried >= budget.paths {
-                        return Answer::Unknown(Unknown::Budget);
-                    }
-                }
-            }
-        }
-        exhausted(tried > 0 || is_cut_off, &poses, &ways)
-    }
-
-    /// A way from where the robot is to a state that holds the thing.
-    fn way_to(&self, goal: &Goal<'_>, hold: &Hold, state: &State, met: &mut Tally) -> Option<Vec<State>> {
-        BACK.into_iter().find_map(|back| {
-            let line = self.approach(goal.hand, state, &hold.map_from_tip, back)?;
-            let inwards = line.first()?.inwards(&goal.pose.translation.vector);
-            self.route_along(&line, inwards, goal.allowed, met)
-        })
-    }
-
-    fn witness(&self, goal: &Goal<'_>, hold: &Hold, path: Vec<State>) -> Witness {
+impl Around<'_, '_> {
+    fn grasped(&self, goal: &Goal<'_>, hold: &Hold, path: Vec<State>) -> Witness {
         let grasp = Grasp {
             object: goal.id.into(),
             side: hold.side,
@@ -131,98 +103,6 @@ impl Room<'_> {
         let margins = Margins { payload, ..self.margins(&path, goal.allowed) };
         Witness { path, grasp: Some(grasp), margins }
     }
-
-    /// Room to spare along a path.
-    pub(super) fn margins(&self, path: &[State], allowed: Allowed) -> Margins {
-        let between = path.windows(2).filter_map(|pair| match pair {
-            [one, other] => Some(one.towards(other, 0.5)),
-            _ => None,
-        });
-        let all = path.iter().cloned().chain(between);
-        let clearance = all.map(|state| self.clearance(&state, allowed)).fold(1.0, f64::min);
-        let variables = self.machine.tree().variables().iter();
-        // An open hand is at its limit by intent.
-        let is_finger =
-            |at: &usize| self.machine.hand().is_some_and(|hand| hand.open.iter().any(|(own, _)| own == at));
-        let ends = path.first().zip(path.last());
-        let rooms = ends.into_iter().flat_map(|(first, last)| {
-            let values = first.joints.iter().zip(&last.joints).zip(variables.clone());
-            let moved =
-                values.zip(0..).filter(|(((before, after), _), at)| before != after && !is_finger(at));
-            moved.map(|(it, _)| it).map(|((_, after), known)| known.room(*after))
-        });
-        Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
-    }
-
-    /// What the hand alone touches at a pose of its tip.
-    pub(super) fn hand_touch(
-        &self,
-        hand: &Hand,
-        map_from_tip: &Isometry3<f64>,
-        allowed: Allowed,
-    ) -> Option<Touch> {
-        let poses = self.machine.tree().root_from_links(&hand.opened(&self.world.robot.joints));
-        let map_from_root = map_from_tip * poses.get(hand.tip)?.inverse();
-        let floor = Solid::floor();
-        let parts = self.body.parts().iter().filter(|part| hand.members.get(part.link) == Some(&true));
-        for part in parts {
-            let solid = part.solid.moved(&(map_from_root * poses.get(part.link)?));
-            let link = || self.machine.tree().links().get(part.link).cloned().unwrap_or_default();
-            for thing in self.things.iter().filter(|thing| allowed.hand != Some(thing.entity)) {
-                if !solid.is_farther(&thing.solid, GAP) {
-                    return Some(Touch { link: link(), other: self.name(thing.entity), is_own: false });
-                }
-            }
-            if !solid.is_farther(&floor, GAP) {
-                return Some(Touch { link: link(), other: "floor".into(), is_own: false });
-            }
-        }
-        None
-    }
-
-    /// That no arm configuration brings the hand there, whatever stands around, where that is certain.
-    fn beyond(&self, goal: &Goal<'_>, holds: &[Hold]) -> Option<Answer> {
-        if let Solver::Lift(arm) = &goal.hand.solver {
-            let [least, greatest] = arm.heights();
-            let centres = holds.iter().map(|hold| arm.centre(&hold.map_from_tip).z);
-            let (low, high) =
-                centres.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
-            if holds.is_empty() || (low <= greatest && high >= least) {
-                return None;
-            }
-            // In terms of the thing's height: the wrist is so much above or below it.
-            let (height, off) =
-                (goal.pose.translation.z, if low > greatest { low - greatest } else { high - least });
-            let change = if off > 0.0 { "lower" } else { "higher" };
-            let change = format!("{:.2} m {change}, `{}` would be within reach", off.abs(), goal.id);
-            return Some(certain(
-                Reason::OutOfReach { what: "height", needs: height, reach: height - off },
-                Some(change),
-            ));
-        }
-        if self.machine.drives() {
-            return None;
-        }
-        let chain = goal.hand.solver.chain();
-        let [x, y, yaw] = self.world.robot.base;
-        let height = self.machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
-        let first = chain.joints.first()?;
-        let shoulder = crate::kinematics::planar(x, y, yaw)
-            * nalgebra::Point3::from(first.before.translation.vector + Vector3::new(0.0, 0.0, height));
-        let shoulder = shoulder.coords;
-        let links = chain.joints.iter().skip(1).map(|joint| joint.before.translation.vector.norm());
-        let slides = chain.joints.iter().filter(|joint| joint.slides).map(|joint| {
-            let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
-            limits.map_or(f64::INFINITY, |(lower, upper)| {
-                lower.abs().max(upper.abs()) * joint.driver.multiplier.abs()
-            })
-        });
-        let reach = links.chain(slides).sum::<f64>() + chain.last_from_tip.translation.vector.norm();
-        let needs = holds.iter().map(|hold| (hold.map_from_tip.translation.vector - shoulder).norm());
-        let needs = needs.fold(f64::INFINITY, f64::min);
-        (needs.is_finite() && needs > reach)
-            .then(|| certain(Reason::OutOfReach { what: "distance", needs, reach }, None))
-    }
 }
 
 /// What is to be grasped, and with what.
@@ -230,6 +110,7 @@ struct Goal<'a> {
     id: &'a str,
     entity: &'a Entity,
     pose: Isometry3<f64>,
+    thing: Solid,
     hand: &'a Hand,
     allowed: Allowed,
 }

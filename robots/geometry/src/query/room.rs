@@ -10,6 +10,8 @@ use super::machine::Machine;
 use super::map::Map;
 use super::obstacle::{solid_shape, solids};
 use super::state::State;
+use super::things::{Thing, Things};
+use super::touch::{Allowed, Touch};
 use super::world::World;
 use crate::collision::{Body, Part, Solid};
 
@@ -27,10 +29,16 @@ pub struct Room<'w> {
     pub(super) body: Body,
     /// Index of the part that is in the hand.
     pub(super) held: Option<usize>,
-    pub(super) things: Vec<Thing>,
+    pub(super) things: Things,
     /// Made when it is first asked for, or taken from [`Maps`].
     map: OnceLock<Option<Arc<Map>>>,
     maps: Option<&'w Maps>,
+    /// Straight ways out of where the robot is, if it has no room to turn there; made when they are first asked for.
+    pub(super) escapes: OnceLock<Vec<(State, [f64; 2])>>,
+    /// Components of the map to which ways lead from where the robot is.
+    pub(super) homes: OnceLock<Vec<u32>>,
+    /// What the robot touches where it is.
+    at_start: OnceLock<Option<Touch>>,
     /// Index of the container that is about to open or close, whose moving parts are not among the things.
     pub(super) opening: Option<usize>,
     /// Entities with a mesh for a shape.
@@ -61,14 +69,6 @@ impl Maps {
     }
 }
 
-/// A solid of an entity.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Thing {
-    /// Index of the entity in the scene.
-    pub(super) entity: usize,
-    pub(super) solid: Solid,
-}
-
 impl<'w> Room<'w> {
     /// Makes a room ready.
     #[must_use]
@@ -76,7 +76,7 @@ impl<'w> Room<'w> {
         let mut things = Vec::new();
         for (entity, at) in scene.entities.values().zip(0..) {
             let parts = solids(entity, world).into_iter();
-            things.extend(parts.map(|solid| Thing { entity: at, solid }));
+            things.extend(parts.map(|solid| Thing::new(at, solid)));
         }
         let mut body = machine.body().clone();
         let mut held = None;
@@ -89,8 +89,33 @@ impl<'w> Room<'w> {
         }
         let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(Shape::Mesh { .. }));
         let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
-        let map = OnceLock::new();
-        Self { machine, scene, world, body, held, things, map, maps: None, opening: None, unseen }
+        Self {
+            machine,
+            scene,
+            world,
+            body,
+            held,
+            things: Things::new(things),
+            map: OnceLock::new(),
+            maps: None,
+            escapes: OnceLock::new(),
+            homes: OnceLock::new(),
+            at_start: OnceLock::new(),
+            opening: None,
+            unseen,
+        }
+    }
+
+    /// What the robot touches where it is.
+    pub(super) fn at_start(&self) -> Option<&Touch> {
+        self.at_start.get_or_init(|| self.touch(&self.world.robot, Allowed::default())).as_ref()
+    }
+
+    /// The room with all that is otherwise made when it is first asked for.
+    #[must_use]
+    pub fn ready(self) -> Self {
+        self.prepare();
+        self
     }
 
     /// The room with maps that were made for others of the same machine and scene, and that keep what is made for this one.

@@ -15,14 +15,22 @@ impl State {
     /// The state on the straight way to another, at `part` of it in 0..=1.
     #[must_use]
     pub fn towards(&self, other: &Self, part: f64) -> Self {
-        // Rounding does not take it beyond either.
-        let mix = |one: f64, other: f64| (one + (other - one) * part).max(one.min(other)).min(one.max(other));
+        let mix = |one, other| between(one, other, part);
         let [x, y, yaw] = self.base;
         let [far_x, far_y, far_yaw] = other.base;
         Self {
             base: [mix(x, far_x), mix(y, far_y), mix(yaw, far_yaw)],
             joints: self.joints.iter().zip(&other.joints).map(|(one, other)| mix(*one, *other)).collect(),
         }
+    }
+
+    /// Becomes the state on the straight way between two others, at `part` of it in 0..=1.
+    pub(super) fn set_towards(&mut self, from: &Self, to: &Self, part: f64) {
+        let mix = |one, other| between(one, other, part);
+        let values = self.joints.iter_mut().zip(from.joints.iter().zip(&to.joints));
+        values.for_each(|(slot, (one, other))| *slot = mix(*one, *other));
+        let values = self.base.iter_mut().zip(from.base.iter().zip(&to.base));
+        values.for_each(|(slot, (one, other))| *slot = mix(*one, *other));
     }
 
     /// The same state with the base elsewhere.
@@ -55,4 +63,9 @@ impl State {
         *yaw = from + crate::trigonometry::wrapped(*yaw - from);
         self
     }
+}
+
+/// The number at `part` of the way between two; rounding does not take it beyond them.
+fn between(one: f64, other: f64, part: f64) -> f64 {
+    (one + (other - one) * part).max(one.min(other)).min(one.max(other))
 }

@@ -6,12 +6,24 @@ use motet_robots::card::Drive;
 use smol_str::SmolStr;
 
 use super::answer::{Answer, Infeasible, Reason};
+use super::around::Around;
+use super::map::Map;
 use super::room::Room;
+use super::seek::LAST;
 use super::state::State;
 use super::touch::{Allowed, Touch};
 
-/// How far before the goal the arm unfolds, in m.
-const BACK: [f64; 4] = [0.0, 0.15, 0.3, 0.5];
+/// How far before the goal the arm unfolds, in m: where there is room, most often, first.
+const BACK: [f64; 4] = [0.2, 0.45, 0.0, 0.1];
+
+/// How the arm gets from where it is folded to where it is wanted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Unfolding {
+    /// In one of a few simple ways.
+    Simple,
+    /// By a search, which takes long.
+    Searched,
+}
 
 /// What is met, and how often.
 #[derive(Clone, Debug, Default)]
@@ -47,15 +59,7 @@ pub(super) fn exhausted(found: bool, poses: &Tally, ways: &Tally) -> Answer {
 }
 
 impl Room<'_> {
-    /// Whether every edge of a way is free. What touches first is noted.
-    pub(super) fn is_free(&self, way: &[State], allowed: Allowed, met: &mut Tally) -> bool {
-        way.windows(2).all(|pair| match pair {
-            [one, other] => self.edge(one, other, allowed).map_err(|touch| met.add(&touch)).is_ok(),
-            _ => true,
-        })
-    }
-
-    /// A way from where the robot is to the beginning of a line, as [`Room::route`] finds one, and then along the line.
+    /// A way from where the robot is to the beginning of a line, as [`Around::route`] finds one, and then along the line.
     pub(super) fn route_along(
         &self,
         line: &[State],
@@ -63,60 +67,36 @@ impl Room<'_> {
         allowed: Allowed,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
-        if !self.is_free(line, allowed, met) {
-            return None;
-        }
-        let (first, rest) = line.split_first()?;
-        let mut path = self.route(first, inwards, met)?;
-        let turns = path.last()?.base[2] - first.base[2];
-        path.extend(rest.iter().map(|state| state.turned(turns)));
-        Some(path)
+        let around = self.around(plane(line.last()?), LAST);
+        around.route_along(line, inwards, allowed, Unfolding::Simple, met)
     }
 
-    /// A way from where the robot is to a state, both included. `inwards` is the direction in the plane in which the robot comes
-    /// to it; of length 1.
-    pub(super) fn route(&self, to: &State, inwards: [f64; 2], met: &mut Tally) -> Option<Vec<State>> {
-        let start = &self.world.robot;
-        let none = Allowed::default();
-        let backs = if self.machine.drives() { &BACK[..] } else { &[0.0] };
-        for back in backs {
-            let [x, y, yaw] = to.base;
-            let outside = to.at([x - inwards[0] * back, y - inwards[1] * back, yaw]);
-            let drive_in = if *back > 0.0 { self.edge(&outside, to, none) } else { Ok(()) };
-            if let Err(touch) = drive_in {
-                met.add(&touch);
-                // What stands there stands there for a longer way too.
-                break;
-            }
-            let folded = State { base: outside.base, joints: start.joints.clone() };
-            if !self.is_drivable(&folded) {
-                continue;
-            }
-            let Some(unfolded) = self.unfold(&folded, &outside, met) else { continue };
-            let Some(mut path) = self.drive(&folded) else { continue };
-            let last = path.last().map_or([0.0; 3], |state| state.base);
-            let shifted = unfolded.into_iter().skip(1).chain((*back > 0.0).then(|| to.clone()));
-            // The way may end some full turns from where it was asked to.
-            let turns = last[2] - folded.base[2];
-            path.extend(shifted.map(|state| state.turned(turns)));
-            return Some(path);
-        }
-        None
+    /// The arm from one configuration to another with the base still; both are free.
+    pub(super) fn unfold(&self, from: &State, to: &State, met: &mut Tally) -> Option<Vec<State>> {
+        let [x, y, _] = from.base;
+        self.around([x, y], 0.01).unfold(from, to, met)
     }
 
-    /// Whether the base, with the arm as it is at the start, can drive to any place within a step of a state's.
-    pub(super) fn is_near_drivable(&self, to: &State) -> bool {
+    /// Whether the base, with the arm as it is at the start, can drive to any place within a step of one. Not exact.
+    pub(super) fn is_near_drivable(&self, [x, y, _]: [f64; 3]) -> bool {
         let Some(map) = self.map() else { return true };
-        let (start, [x, y]) = (plane(&self.world.robot), plane(to));
-        let starts: Vec<[f64; 2]> = [start].into_iter().chain(self.escapes().map(|(_, from)| from)).collect();
+        let homes = self.homes(map);
         let widest = BACK.into_iter().fold(0.0, f64::max) + 0.1;
-        let rings =
-            [0.0, 0.5, 1.0].into_iter().flat_map(|share| (0..8).map(move |step| (share * widest, step)));
-        rings.into_iter().any(|(far, step)| {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(step) / 8.0);
-            let place = [x + cos * far, y + sin * far];
-            starts.iter().any(|from| map.is_connected(*from, place))
-        })
+        let off = std::f64::consts::FRAC_1_SQRT_2;
+        let around = [
+            (1.0, 0.0),
+            (0.0, 1.0),
+            (-1.0, 0.0),
+            (0.0, -1.0),
+            (off, off),
+            (-off, off),
+            (off, -off),
+            (-off, -off),
+        ];
+        map.is_among([x, y], homes)
+            || [0.5 * widest, widest].into_iter().any(|far| {
+                around.into_iter().any(|(cos, sin)| map.is_among([x + cos * far, y + sin * far], homes))
+            })
     }
 
     /// Whether the base can drive to a state with the arm as it is.
@@ -124,7 +104,8 @@ impl Room<'_> {
         let (start, goal) = (plane(&self.world.robot), plane(to));
         match self.map() {
             Some(map) => {
-                map.is_connected(start, goal) || self.escapes().any(|(_, from)| map.is_connected(from, goal))
+                map.is_connected(start, goal)
+                    || self.escapes(map).iter().any(|(_, from)| map.is_connected(*from, goal))
             }
             None => start == goal,
         }
@@ -138,9 +119,10 @@ impl Room<'_> {
         let corners = match map.way(plane(start), plane(to)) {
             Some(corners) => corners,
             None => {
-                let (out, from) = self.escapes().find(|(_, from)| map.is_connected(*from, plane(to)))?;
-                path.push(out);
-                map.way(from, plane(to))?
+                let (out, from) =
+                    self.escapes(map).iter().find(|(_, from)| map.is_connected(*from, plane(to)))?;
+                path.push(out.clone());
+                map.way(*from, plane(to))?
             }
         };
         let mut yaw = start.base[2];
@@ -178,44 +160,49 @@ impl Room<'_> {
         Some(path)
     }
 
-    /// Straight ways out of a place where there is no room to turn, nearest first.
-    fn escapes(&self) -> impl Iterator<Item = (State, [f64; 2])> + '_ {
-        let start = &self.world.robot;
-        let map = self.map().filter(|map| map.at(plane(start)) <= 0.0);
-        let ways =
-            [0.1, 0.2, 0.3, 0.45, 0.6, 0.8].into_iter().flat_map(|far| (0..16).map(move |step| (far, step)));
-        map.into_iter().flat_map(move |map| {
-            ways.clone().filter_map(move |(far, step)| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(step) / 16.0);
-                let [x, y, yaw] = start.base;
-                let out = start.at([x + cos * far, y + sin * far, yaw]);
-                let place = plane(&out);
-                (map.at(place) > 0.0 && self.edge(start, &out, Allowed::default()).is_ok())
-                    .then_some((out, place))
-            })
+    /// Makes what is otherwise made when it is first asked for.
+    pub(super) fn prepare(&self) {
+        self.at_start();
+        if let Some(map) = self.map() {
+            self.homes(map);
+        }
+    }
+
+    /// Straight ways out of where the robot is, where it has no room to turn: some, nearest first.
+    fn escapes(&self, map: &Map) -> &[(State, [f64; 2])] {
+        self.escapes.get_or_init(|| self.ways_out(map))
+    }
+
+    /// Components of the map to which ways lead from where the robot is.
+    fn homes(&self, map: &Map) -> &[u32] {
+        self.homes.get_or_init(|| {
+            let places = [plane(&self.world.robot)].into_iter();
+            let places = places.chain(self.escapes(map).iter().map(|(_, place)| *place));
+            let mut homes: Vec<u32> = places.filter_map(|place| map.component(place)).collect();
+            homes.sort_unstable();
+            homes.dedup();
+            homes
         })
     }
 
-    /// The arm from one configuration to another with the base still: straight, by way of a raised lift, or by way of a posture.
-    pub(super) fn unfold(&self, from: &State, to: &State, met: &mut Tally) -> Option<Vec<State>> {
-        let mut ways: Vec<Vec<State>> = vec![vec![from.clone(), to.clone()]];
-        if let Some((at, top)) = self.lift() {
-            let raised = |state: &State| {
-                let mut state = state.clone();
-                if let Some(slot) = state.joints.get_mut(at) {
-                    *slot = top;
-                }
-                state
-            };
-            ways.push(vec![from.clone(), raised(from), to.clone()]);
-            ways.push(vec![from.clone(), raised(from), raised(to), to.clone()]);
+    fn ways_out(&self, map: &Map) -> Vec<(State, [f64; 2])> {
+        let start = &self.world.robot;
+        if self.at_start().is_some() || map.at(plane(start)) > 0.0 {
+            return vec![];
         }
-        for name in self.machine.card().postures.keys() {
-            if let Some(joints) = self.machine.posture(name, &from.joints) {
-                ways.push(vec![from.clone(), State { base: from.base, joints }, to.clone()]);
-            }
-        }
-        ways.into_iter().find(|way| self.is_free(way, Allowed::default(), met))
+        let around = self.around(plane(start), 1.0);
+        let ways =
+            [0.1, 0.2, 0.3, 0.45, 0.6, 0.8].into_iter().flat_map(|far| (0..16).map(move |step| (far, step)));
+        let [x, y, yaw] = start.base;
+        let out = ways.filter_map(|(far, step)| {
+            // In the robot's frame, so that a room that is turned with it has the same.
+            let (sin, cos) = libm::sincos(yaw + std::f64::consts::TAU * f64::from(step) / 16.0);
+            let out = start.at([x + cos * far, y + sin * far, yaw]);
+            let place = plane(&out);
+            (map.at(place) > 0.0 && around.edge(start, &out, Allowed::default()).is_ok())
+                .then_some((out, place))
+        });
+        out.take(4).collect()
     }
 
     /// The variable that lifts the arm and its highest value, where the arm has one.
@@ -224,6 +211,116 @@ impl Room<'_> {
         let chain = arm.chain();
         let (lower, upper) = chain.variables.first()?.limits?;
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
+    }
+}
+
+impl Around<'_, '_> {
+    /// A way from where the robot is to the beginning of a line, as [`Around::route`] finds one, and then along the line.
+    pub(super) fn route_along(
+        &self,
+        line: &[State],
+        inwards: [f64; 2],
+        allowed: Allowed,
+        unfolding: Unfolding,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        let (first, rest) = line.split_first()?;
+        // Before the line nothing may touch.
+        if !self.is_free(std::slice::from_ref(first), Allowed::default(), met)
+            || !self.is_free(line, allowed, met)
+        {
+            return None;
+        }
+        let mut path = self.route(first, inwards, unfolding, met)?;
+        let turns = path.last()?.base[2] - first.base[2];
+        path.extend(rest.iter().map(|state| state.turned(turns)));
+        Some(path)
+    }
+
+    /// A way from where the robot is to a state, both included; the state is free. `inwards` is the direction in the plane in
+    /// which the robot comes to it; of length 1.
+    pub(super) fn route(
+        &self,
+        to: &State,
+        inwards: [f64; 2],
+        unfolding: Unfolding,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        let room = self.room;
+        let start = &room.world.robot;
+        let none = Allowed::default();
+        let backs = if room.machine.drives() { &BACK[..] } else { &[0.0] };
+        for back in backs {
+            let [x, y, yaw] = to.base;
+            let outside = to.at([x - inwards[0] * back, y - inwards[1] * back, yaw]);
+            let folded = State { base: outside.base, joints: start.joints.clone() };
+            let is_drivable = room.is_drivable(&folded);
+            if *back > 0.0
+                && let Err(touch) = self
+                    .touch(&outside, none)
+                    .map_or(Ok(()), Err)
+                    .and_then(|()| self.between(&outside, to, none))
+            {
+                met.add(&touch);
+                continue;
+            }
+            if !is_drivable {
+                continue;
+            }
+            let unfolded = match unfolding {
+                Unfolding::Simple => self.unfold(&folded, &outside, met),
+                Unfolding::Searched => self.connect(&folded, &outside),
+            };
+            let Some(unfolded) = unfolded else { continue };
+            let Some(mut path) = room.drive(&folded) else { continue };
+            let last = path.last().map_or([0.0; 3], |state| state.base);
+            let shifted = unfolded.into_iter().skip(1).chain((*back > 0.0).then(|| to.clone()));
+            // The way may end some full turns from where it was asked to.
+            let turns = last[2] - folded.base[2];
+            path.extend(shifted.map(|state| state.turned(turns)));
+            return Some(path);
+        }
+        None
+    }
+
+    /// The arm from one configuration to another with the base still: straight, by way of a raised lift, or by way of a
+    /// posture. Both are free.
+    pub(super) fn unfold(&self, from: &State, to: &State, met: &mut Tally) -> Option<Vec<State>> {
+        let none = Allowed::default();
+        let mut is_free = |way: &[&State]| {
+            let inner = way.get(1..way.len().saturating_sub(1)).unwrap_or_default();
+            let touch = inner.iter().find_map(|state| self.touch(state, none)).or_else(|| {
+                way.windows(2).find_map(|pair| match pair {
+                    [one, other] => self.between(one, other, none).err(),
+                    _ => None,
+                })
+            });
+            touch.map(|touch| met.add(&touch)).is_none()
+        };
+        if is_free(&[from, to]) {
+            return Some(vec![from.clone(), to.clone()]);
+        }
+        if let Some((at, top)) = self.room.lift() {
+            let raised = |state: &State| {
+                let mut state = state.clone();
+                if let Some(slot) = state.joints.get_mut(at) {
+                    *slot = top;
+                }
+                state
+            };
+            let (first, last) = (raised(from), raised(to));
+            if is_free(&[from, &first, to]) {
+                return Some(vec![from.clone(), first, to.clone()]);
+            }
+            if is_free(&[from, &first, &last, to]) {
+                return Some(vec![from.clone(), first, last, to.clone()]);
+            }
+        }
+        let card = self.room.machine.card();
+        let postures = card.postures.keys().filter_map(|name| self.room.machine.posture(name, &from.joints));
+        postures
+            .map(|joints| State { base: from.base, joints })
+            .find_map(|by| is_free(&[from, &by, to]).then(|| vec![from.clone(), by, to.clone()]))
     }
 }
 

@@ -1,0 +1,88 @@
+//! What an arm reaches whatever stands around, from the numbers of its chain alone.
+
+use nalgebra::{Isometry3, Vector3};
+
+use super::answer::{Answer, Reason};
+use super::grasp::Hold;
+use super::machine::{Hand, Solver};
+use super::reach::certain;
+use super::room::Room;
+use crate::inverse::LiftArm;
+
+/// Poses of the tip that are not out of reach for certain.
+pub(super) enum Span<'a> {
+    /// With the wrist between two heights, in m.
+    Heights(&'a LiftArm, [f64; 2]),
+    /// Within a distance of the shoulder, in m.
+    Around(Vector3<f64>, f64),
+    /// The base drives to it, and the arm is not known well enough.
+    Anywhere,
+}
+
+impl Room<'_> {
+    /// What a hand reaches.
+    pub(super) fn span<'h>(&self, hand: &'h Hand) -> Span<'h> {
+        if let Solver::Lift(arm) = &hand.solver {
+            return Span::Heights(arm, arm.heights());
+        }
+        let chain = hand.solver.chain();
+        let Some(first) = chain.joints.first().filter(|_| !self.machine.drives()) else {
+            return Span::Anywhere;
+        };
+        let first = nalgebra::Point3::from(first.before.translation.vector);
+        let shoulder = self.map_from_base(self.world.robot.base) * first;
+        let links = chain.joints.iter().skip(1).map(|joint| joint.before.translation.vector.norm());
+        let slides = chain.joints.iter().filter(|joint| joint.slides).map(|joint| {
+            let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
+            limits.map_or(f64::INFINITY, |(lower, upper)| {
+                lower.abs().max(upper.abs()) * joint.driver.multiplier.abs()
+            })
+        });
+        let reach = links.chain(slides).sum::<f64>() + chain.last_from_tip.translation.vector.norm();
+        Span::Around(shoulder.coords, reach)
+    }
+}
+
+impl Span<'_> {
+    /// Whether a pose is not out of reach for certain.
+    pub(super) fn holds(&self, map_from_tip: &Isometry3<f64>) -> bool {
+        match self {
+            Self::Heights(arm, [least, greatest]) => {
+                let height = arm.centre(map_from_tip).z;
+                // Rounding takes nothing away.
+                (least - 1e-6..=greatest + 1e-6).contains(&height)
+            }
+            Self::Around(shoulder, reach) => {
+                (map_from_tip.translation.vector - shoulder).norm() <= reach + 1e-6
+            }
+            Self::Anywhere => true,
+        }
+    }
+
+    /// That no arm configuration brings the hand to a thing at a place, where that is certain.
+    pub(super) fn beyond(&self, place: &Vector3<f64>, id: &str, holds: &[Hold]) -> Option<Answer> {
+        if holds.is_empty() || holds.iter().any(|hold| self.holds(&hold.map_from_tip)) {
+            return None;
+        }
+        match self {
+            Self::Heights(arm, [least, greatest]) => {
+                let off = holds.iter().map(|hold| {
+                    let height = arm.centre(&hold.map_from_tip).z;
+                    if height > *greatest { height - greatest } else { height - least }
+                });
+                let off = off.reduce(|one, other| if other.abs() < one.abs() { other } else { one })?;
+                // In terms of the thing's height: the wrist is so much above or below it.
+                let change = if off > 0.0 { "lower" } else { "higher" };
+                let change = format!("{:.2} m {change}, `{id}` would be within reach", off.abs());
+                let reason = Reason::OutOfReach { what: "height", needs: place.z, reach: place.z - off };
+                Some(certain(reason, Some(change)))
+            }
+            Self::Around(shoulder, reach) => {
+                let needs = holds.iter().map(|hold| (hold.map_from_tip.translation.vector - shoulder).norm());
+                let needs = needs.fold(f64::INFINITY, f64::min);
+                Some(certain(Reason::OutOfReach { what: "distance", needs, reach: *reach }, None))
+            }
+            Self::Anywhere => None,
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Straight ways between two states, certified and not sampled: where every pair of solids is farther apart at the middle than
+//! both can come nearer until the ends, the whole of it is free; else it is halved, and only the pairs that were too near are
+//! looked at again. How far a point can go is bounded joint by joint, from the link outwards: a joint that turns by `a` moves a
+//! point at a distance `r` from its axis by at most `a r`.
+
+use std::collections::VecDeque;
+
+use super::around::{Around, above_floor};
+use super::room::GAP;
+use super::state::State;
+use super::touch::{Allowed, Other, Touch};
+use crate::collision::Solid;
+use crate::kinematics::Lever;
+
+/// How often a way is halved before it counts as not free.
+const DEPTH: u32 = 10;
+
+impl Around<'_, '_> {
+    /// Whether the straight way between two free states is free throughout.
+    ///
+    /// # Errors
+    ///
+    /// What touches on the way, or comes so near that nothing certain can be said.
+    pub(super) fn between(&self, from: &State, to: &State, allowed: Allowed) -> Result<(), Touch> {
+        if self.holds(from) && self.holds(to) {
+            self.between_here(from, to, allowed)
+        } else {
+            self.room.along(from, to).between_here(from, to, allowed)
+        }
+    }
+
+    fn between_here(&self, from: &State, to: &State, allowed: Allowed) -> Result<(), Touch> {
+        if self.room.is_straight(from, to) {
+            return self.swept(from, to, allowed);
+        }
+        let mut way = Way::new(self, from, to);
+        // What is left to look at; the widest first finds a touch soonest.
+        let mut open = VecDeque::from([Leg { middle: 0.5, half: 0.5, depth: 0, pairs: None }]);
+        let mut pairs: Vec<Pair> = Vec::new();
+        while let Some(leg) = open.pop_front() {
+            way.go_to(leg.middle, leg.half);
+            let first = pairs.len();
+            match leg.pairs {
+                None => way.all(allowed, |way, pair| way.look(pair, leg.depth, &mut pairs))?,
+                Some([from, to]) => {
+                    for at in from..to {
+                        let Some(pair) = pairs.get(at).copied() else { continue };
+                        way.look(pair, leg.depth, &mut pairs)?;
+                    }
+                }
+            }
+            if pairs.len() > first {
+                let (half, depth, left) = (leg.half / 2.0, leg.depth + 1, Some([first, pairs.len()]));
+                open.push_back(Leg { middle: leg.middle - half, half, depth, pairs: left });
+                open.push_back(Leg { middle: leg.middle + half, half, depth, pairs: left });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A part where it is in the middle of a leg, and how far it goes from there.
+#[derive(Clone, Copy)]
+struct Moved {
+    /// Of which leg.
+    leg: usize,
+    solid: Solid,
+    /// In the map.
+    whole: f64,
+}
+
+/// Two solids that are not known to stay apart: a part, and a near thing, another part or the floor.
+#[derive(Clone, Copy)]
+struct Pair {
+    part: usize,
+    other: Other,
+}
+
+/// A leg of a way: from `middle - half` to `middle + half`.
+struct Leg {
+    middle: f64,
+    half: f64,
+    depth: u32,
+    /// Which pairs it has to look at; all for the first.
+    pairs: Option<[usize; 2]>,
+}
+
+/// A straight way, with the robot where it is in the middle of a leg.
+struct Way<'a, 'r, 'w> {
+    around: &'a Around<'r, 'w>,
+    from: &'a State,
+    to: &'a State,
+    /// The state in the middle.
+    state: State,
+    half: f64,
+    along: crate::kinematics::Along,
+    moved: Vec<Moved>,
+    leg: usize,
+}
+
+impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
+    fn new(around: &'a Around<'r, 'w>, from: &'a State, to: &'a State) -> Self {
+        let nowhere = Moved { leg: 0, solid: Solid::floor(), whole: 0.0 };
+        Self {
+            around,
+            from,
+            to,
+            state: from.clone(),
+            half: 0.0,
+            along: around.room.machine.tree().along(&from.joints, &to.joints),
+            moved: vec![nowhere; around.limbs.len()],
+            leg: 0,
+        }
+    }
+
+    fn go_to(&mut self, middle: f64, half: f64) {
+        let machine = self.around.room.machine;
+        self.state.set_towards(self.from, self.to, middle);
+        (self.half, self.leg) = (half, self.leg + 1);
+        let root = machine.map_from_root(self.state.base);
+        machine.tree().place(&mut self.along, &root, &self.state.joints);
+    }
+
+    /// Hands over every pair that may not touch.
+    fn all(
+        &mut self,
+        allowed: Allowed,
+        mut look: impl FnMut(&mut Self, Pair) -> Result<(), Touch>,
+    ) -> Result<(), Touch> {
+        let around = self.around;
+        for (limb, part) in around.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts) {
+            for (near, at) in around.things.iter().zip(0..) {
+                if !limb.may_touch(near.entity, allowed) {
+                    look(self, Pair { part, other: Other::Thing(at) })?;
+                }
+            }
+            // The base stands on the floor.
+            if limb.is_carried {
+                look(self, Pair { part, other: Other::Floor })?;
+            }
+        }
+        for [part, other] in around.room.body.pairs() {
+            look(self, Pair { part: *part, other: Other::Part(*other) })?;
+        }
+        Ok(())
+    }
+
+    /// Looks at a pair: it touches, or stays apart on the whole leg, or has to be looked at again.
+    fn look(&mut self, pair: Pair, depth: u32, again: &mut Vec<Pair>) -> Result<(), Touch> {
+        let around = self.around;
+        let Some((one, limb)) = self.moved(pair.part).zip(around.limbs.get(pair.part)) else { return Ok(()) };
+        let (metres, room) = match pair.other {
+            Other::Thing(at) => {
+                let Some(near) = around.things.get(at) else { return Ok(()) };
+                let room = GAP + one.whole;
+                (one.solid.distance_to(limb.reach, &near.solid, near.reach, room), room)
+            }
+            Other::Part(at) => {
+                let Some((other, beyond)) = self.moved(at).zip(around.limbs.get(at)) else { return Ok(()) };
+                let room = GAP + self.approach(pair.part, &one.solid, at, &other.solid);
+                (one.solid.distance_to(limb.reach, &other.solid, beyond.reach, room), room)
+            }
+            Other::Floor => (above_floor(&one.solid), GAP + one.whole),
+        };
+        if metres > room {
+            return Ok(());
+        }
+        if depth >= DEPTH || metres <= GAP {
+            let other = match pair.other {
+                Other::Thing(at) => Other::Thing(around.things.get(at).map_or(at, |near| near.index)),
+                Other::Part(_) | Other::Floor => pair.other,
+            };
+            return Err(around.room.told(pair.part, other));
+        }
+        again.push(pair);
+        Ok(())
+    }
+
+    /// How much two parts of the robot come nearer at most. What moves both moves them alike and does not count.
+    fn approach(&self, part: usize, solid: &Solid, other: usize, beyond: &Solid) -> f64 {
+        let (room, limbs) = (self.around.room, &self.around.limbs);
+        let Some((one, two)) = limbs.get(part).zip(limbs.get(other)) else { return 0.0 };
+        let (levers, others) = (room.machine.levers(one.link), room.machine.levers(two.link));
+        let common = levers.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
+        let goes = |levers: &[Lever], solid: &Solid, reach: f64| {
+            self.goes(levers.get(common..).unwrap_or_default(), solid, reach)
+        };
+        goes(levers, solid, one.reach) + goes(others, beyond, two.reach)
+    }
+
+    /// How far any point of a solid goes at most while levers move it, until the ends of the leg.
+    fn goes(&self, levers: &[Lever], solid: &Solid, reach: f64) -> f64 {
+        let change = |at: usize| {
+            let value = |joints: &[f64]| joints.get(at).copied().unwrap_or(0.0);
+            (value(&self.to.joints) - value(&self.from.joints)).abs() * self.half
+        };
+        let mut goes = 0.0;
+        for lever in levers.iter().rev() {
+            let amount = change(lever.driver.variable) * lever.driver.multiplier.abs();
+            if amount == 0.0 {
+                continue;
+            }
+            goes += if lever.slides {
+                amount
+            } else {
+                let pose = self.along.poses().get(lever.frame).copied().unwrap_or_default();
+                let axis = pose.rotation * lever.axis.into_inner();
+                let arm = (solid.centre - pose.translation.vector).cross(&axis).norm() + reach;
+                amount * (arm + goes)
+            };
+        }
+        goes
+    }
+
+    /// How far any point of a solid goes at most in the map, until the ends of the leg.
+    fn whole(&self, link: usize, solid: &Solid, reach: f64) -> f64 {
+        let goes = self.goes(self.around.room.machine.levers(link), solid, reach);
+        let ([x, y, yaw], [to_x, to_y, to_yaw]) = (self.from.base, self.to.base);
+        let (dx, dy, turn) = (to_x - x, to_y - y, (to_yaw - yaw).abs() * self.half);
+        let shift = (dx * dx + dy * dy).sqrt() * self.half;
+        if turn == 0.0 {
+            return goes + shift;
+        }
+        let [base_x, base_y, _] = self.state.base;
+        let (dx, dy) = (solid.centre.x - base_x, solid.centre.y - base_y);
+        let arm = (dx * dx + dy * dy).sqrt() + reach;
+        goes + turn * (arm + goes) + shift
+    }
+
+    /// A part where it is, and how far it goes.
+    fn moved(&mut self, part: usize) -> Option<Moved> {
+        let known = self.moved.get(part)?;
+        if known.leg == self.leg {
+            return Some(*known);
+        }
+        let room = self.around.room;
+        let (limb, own) = (self.around.limbs.get(part)?, room.body.parts().get(part)?);
+        let solid = own.solid.moved(self.along.poses().get(limb.link)?);
+        let whole = self.whole(limb.link, &solid, limb.reach);
+        let moved = Moved { leg: self.leg, solid, whole };
+        *self.moved.get_mut(part)? = moved;
+        Some(moved)
+    }
+}

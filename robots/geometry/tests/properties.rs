@@ -1,0 +1,118 @@
+//! What has to hold of the answers to `reach` whatever the room: they go with a room that is moved, with an obstacle less and with a
+//! larger budget.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, missing_docs, reason = "a test fails by panicking")]
+
+use motet_geometry::query::{Answer, Budget, Machine, Query, Room, World};
+use motet_robots::card;
+use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::urdf;
+use motet_syntax::{FileId, Source};
+use proptest::prelude::*;
+
+const BUDGET: Budget = Budget { candidates: 48, paths: 12 };
+
+fn hsr() -> Machine {
+    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();
+    let card = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
+    Machine::new(&card, &urdf, None)
+}
+
+fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> Entity {
+    let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0, 0.0, yaw] });
+    entity.kind = kind.into();
+    entity.shape = Some(shape);
+    entity
+}
+
+/// A table with a can on it, a board above the can, and boxes around.
+fn rooms() -> impl Strategy<Value = Scene> {
+    let table = (0.6..2.0_f64, -1.5..1.5_f64, -3.0..3.0_f64, 0.3..1.0_f64, 0.3..1.3_f64);
+    let can = (-0.4..0.4_f64, -0.4..0.4_f64, 0.02..0.05_f64, 0.06..0.2_f64, 0.05..0.5_f64);
+    let boxes = prop::collection::vec((-2.5..2.5_f64, -2.5..2.5_f64, 0.1..0.5_f64, 0.2..1.5_f64), 0..6);
+    (table, can, boxes).prop_map(|((x, y, yaw, height, wide), (off_x, off_y, radius, tall, above), boxes)| {
+        let mut scene = Scene::default();
+        let mut add = |it: Entity| scene.entities.insert(it.id.clone(), it);
+        let far = 0.7 + wide / 2.0;
+        let (x, y) = if x.hypot(y) < far { (far + x, y) } else { (x, y) };
+        add(entity("table", "Place", [x, y, height / 2.0], yaw, Shape::Box([0.6, wide, height])));
+        let (sin, cos) = yaw.sin_cos();
+        let (a, b) = (off_x * 0.6, off_y * wide);
+        let at = [x + cos * a - sin * b, y + sin * a + cos * b, height + tall / 2.0 + 0.001];
+        add(entity("can", "Object", at, yaw, Shape::Cylinder { radius, height: tall }));
+        let board = [x, y, height + tall + above];
+        add(entity("board", "Place", board, yaw, Shape::Box([0.6, wide, 0.02])));
+        for ((x, y, side, height), at) in boxes.into_iter().zip(0..) {
+            if x.hypot(y) > 0.45 + side {
+                let id = format!("box_{at}");
+                add(entity(&id, "Place", [x, y, height / 2.0], 0.0, Shape::Box([side, side, height])));
+            }
+        }
+        scene
+    })
+}
+
+fn ask(machine: &Machine, scene: &Scene, budget: Budget) -> Answer {
+    let world = World::new(machine, scene);
+    Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget)
+}
+
+/// `Some` of whether it is feasible where that is certain.
+fn certain(answer: &Answer) -> Option<bool> {
+    match answer {
+        Answer::Feasible(_) => Some(true),
+        Answer::Infeasible(why) => why.certified.then_some(false),
+        Answer::Unknown(_) => None,
+    }
+}
+
+fn contradict(one: &Answer, other: &Answer) -> bool {
+    certain(one).zip(certain(other)).is_some_and(|(one, other)| one != other)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_room_that_is_moved_with_the_robot_has_the_same_answers(
+        scene in rooms(), x in -5.0..5.0_f64, y in -5.0..5.0_f64, yaw in -3.0..3.0_f64,
+    ) {
+        let machine = hsr();
+        let mut moved = scene.clone();
+        let (sin, cos) = yaw.sin_cos();
+        let turned = |a: f64, b: f64| [x + cos * a - sin * b, y + sin * a + cos * b];
+        for entity in moved.entities.values_mut() {
+            let pose = entity.pose.as_mut().unwrap();
+            let [a, b] = turned(pose.xyz[0], pose.xyz[1]);
+            *pose = Placement { xyz: [a, b, pose.xyz[2]], rpy: [0.0, 0.0, pose.rpy[2] + yaw] };
+        }
+        let [a, b, turn] = scene.robot.base;
+        let [a, b] = turned(a, b);
+        moved.robot.base = [a, b, turn + yaw];
+        prop_assert!(!contradict(&ask(&machine, &scene, BUDGET), &ask(&machine, &moved, BUDGET)));
+    }
+
+    #[test]
+    fn what_is_feasible_stays_so_with_an_obstacle_less(scene in rooms(), which in 0..8_usize) {
+        let machine = hsr();
+        let less: Vec<_> = scene.entities.keys().filter(|id| !matches!(id.as_str(), "can" | "table")).collect();
+        let mut open = scene.clone();
+        if let Some(id) = less.get(which % less.len().max(1)) {
+            open.entities.shift_remove(*id);
+        }
+        if let Answer::Feasible(_) = ask(&machine, &scene, BUDGET) {
+            prop_assert!(!matches!(ask(&machine, &open, BUDGET), Answer::Infeasible(_)));
+        }
+    }
+
+    #[test]
+    fn a_larger_budget_contradicts_nothing(scene in rooms()) {
+        let machine = hsr();
+        let answers = [1, 4].map(|factor| ask(&machine, &scene, BUDGET.times(factor)));
+        prop_assert!(!contradict(&answers[0], &answers[1]));
+        if let Answer::Feasible(_) = answers[0] {
+            prop_assert!(matches!(answers[1], Answer::Feasible(_)));
+        }
+    }
+}
