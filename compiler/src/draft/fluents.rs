@@ -38,15 +38,7 @@ impl super::Draft {
 fn of_condition(condition: &Condition) -> u64 {
     match condition {
         Condition::Fact(fact) => bit(fact.fluent),
-        Condition::Not(inner) => of_condition(inner),
-        Condition::All(parts) | Condition::AnyOf(parts) => {
-            parts.iter().fold(0, |all, part| all | of_condition(part))
-        }
-        Condition::Literal(_)
-        | Condition::Compare(..)
-        | Condition::MonitoredMeasure(_)
-        | Condition::MonitoredFluent(_)
-        | Condition::Unknown => 0,
+        whole => whole.parts().iter().fold(0, |all, part| all | of_condition(part)),
     }
 }
 
@@ -87,17 +79,7 @@ pub(super) fn of_step(kind: &StepKind, library: &Library) -> u64 {
         StepKind::Call(call) => {
             library.primitive(call.primitive).map_or(u64::MAX, |def| of_primitive(def, library))
         }
-        StepKind::If { condition, .. } | StepKind::Wait { condition, .. } => of_condition(condition),
-        StepKind::Repeat { until, .. } => until.as_ref().map_or(0, |(until, _)| of_condition(until)),
-        StepKind::Monitor { whens, .. } => {
-            whens.iter().fold(0, |all, when| all | of_condition(&when.condition))
-        }
-        StepKind::Sequence { .. }
-        | StepKind::Inline { .. }
-        | StepKind::Try { .. }
-        | StepKind::Each { .. }
-        | StepKind::Parallel { .. }
-        | StepKind::End { .. } => 0,
         StepKind::Unknown => u64::MAX,
+        other => other.conditions().fold(0, |all, condition| all | of_condition(condition)),
     }
 }

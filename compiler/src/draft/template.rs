@@ -54,24 +54,8 @@ impl Template {
     /// Whether a condition in it compares anything: texts, say.
     #[must_use]
     pub fn compares(&self) -> bool {
-        fn has(condition: &Condition) -> bool {
-            match condition {
-                Condition::Compare(..) => true,
-                Condition::Not(inner) => has(inner),
-                Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(has),
-                Condition::Fact(_)
-                | Condition::Literal(_)
-                | Condition::MonitoredMeasure(_)
-                | Condition::MonitoredFluent(_)
-                | Condition::Unknown => false,
-            }
-        }
-        self.program.steps.iter().any(|step| match &step.kind {
-            StepKind::If { condition, .. } | StepKind::Wait { condition, .. } => has(condition),
-            StepKind::Repeat { until, .. } => until.as_ref().is_some_and(|(until, _)| has(until)),
-            StepKind::Monitor { whens, .. } => whens.iter().any(|when| has(&when.condition)),
-            _ => false,
-        })
+        let mut conditions = self.program.steps.iter().flat_map(|step| step.kind.conditions());
+        conditions.any(|condition| condition.any(&|part| matches!(part, Condition::Compare(..))))
     }
 
     /// Appends the policy to a program with these arguments; its first step.

@@ -197,6 +197,26 @@ pub(crate) enum StepKind {
     Unknown,
 }
 
+impl StepKind {
+    /// The conditions that stand in the step itself, in document order.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = &Condition> {
+        let (one, whens): (_, &[When]) = match self {
+            Self::If { condition, .. } | Self::Wait { condition, .. } => (Some(condition), &[]),
+            Self::Repeat { until, .. } => (until.as_ref().map(|(until, _)| until), &[]),
+            Self::Monitor { whens, .. } => (None, whens),
+            Self::Call(_)
+            | Self::Sequence { .. }
+            | Self::Inline { .. }
+            | Self::Try { .. }
+            | Self::Each { .. }
+            | Self::Parallel { .. }
+            | Self::End { .. }
+            | Self::Unknown => (None, &[]),
+        };
+        one.into_iter().chain(whens.iter().map(|when| &when.condition))
+    }
+}
+
 /// A call of a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Call {

@@ -109,25 +109,43 @@ impl Term {
 }
 
 impl Condition {
-    /// The last parameter of its contract that it speaks of.
-    pub(crate) fn last_param(&self) -> Option<u16> {
+    /// The conditions that it is made of, one level down.
+    pub(crate) fn parts(&self) -> &[Self] {
         match self {
-            Self::Fact(fact) => fact.args.iter().flatten().filter_map(Term::last_param).max(),
-            Self::Compare(_, left, right) => left.last_param().max(right.last_param()),
-            Self::Not(inner) => inner.last_param(),
-            Self::All(parts) | Self::AnyOf(parts) => parts.iter().filter_map(Self::last_param).max(),
-            Self::Literal(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => None,
+            Self::Not(inner) => std::slice::from_ref(inner),
+            Self::All(parts) | Self::AnyOf(parts) => parts,
+            Self::Literal(_)
+            | Self::Fact(_)
+            | Self::Compare(..)
+            | Self::MonitoredMeasure(_)
+            | Self::MonitoredFluent(_)
+            | Self::Unknown => &[],
         }
+    }
+
+    /// The terms that stand in it itself.
+    fn terms(&self) -> impl Iterator<Item = &Term> {
+        let (args, sides): (&[Option<Term>], _) = match self {
+            Self::Fact(fact) => (&fact.args, [None, None]),
+            Self::Compare(_, left, right) => (&[], [Some(left), Some(right)]),
+            _ => (&[], [None, None]),
+        };
+        args.iter().flatten().chain(sides.into_iter().flatten())
+    }
+
+    /// Whether it, or a condition within it, is one of these.
+    pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
+        is_one(self) || self.parts().iter().any(|part| part.any(is_one))
     }
 
     /// Whether any term in it is one of these; terms within others are looked at, too.
     pub(crate) fn any_term(&self, is_one: &impl Fn(&Term) -> bool) -> bool {
-        match self {
-            Self::Fact(fact) => fact.args.iter().flatten().any(|term| term.any(is_one)),
-            Self::Compare(_, left, right) => left.any(is_one) || right.any(is_one),
-            Self::Not(inner) => inner.any_term(is_one),
-            Self::All(parts) | Self::AnyOf(parts) => parts.iter().any(|part| part.any_term(is_one)),
-            Self::Literal(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => false,
-        }
+        self.any(&|part| part.terms().any(|term| term.any(is_one)))
+    }
+
+    /// The last parameter of its contract that it speaks of.
+    pub(crate) fn last_param(&self) -> Option<u16> {
+        let within = self.parts().iter().filter_map(Self::last_param);
+        self.terms().filter_map(Term::last_param).chain(within).max()
     }
 }
