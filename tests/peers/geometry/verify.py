@@ -8,37 +8,26 @@ links may touch, and the path. A witness holds where every joint stays within it
 import argparse
 import json
 import math
-import pathlib
 import sys
-import xml.etree.ElementTree as xml
 
 import coal
 import numpy as np
 import pinocchio as pin
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from room import followers, obstacle, pose, urdf
+
 GAP = 0.001
-
-
-def pose(values):
-    x, y, z, i, j, k, w = values
-    return pin.SE3(pin.Quaternion(w, i, j, k).normalized().matrix(), np.array([x, y, z]))
 
 
 class Robot:
     def __init__(self, name, case):
-        path = str(ROOT / "robots" / "models" / name / "robot.urdf")
+        path = urdf(name)
         self.model = pin.buildModelFromUrdf(path)
         self.data = self.model.createData()
         self.geometry = pin.buildGeomFromUrdf(self.model, path, pin.GeometryType.COLLISION)
         self.placed = self.geometry.createData()
         self.variables = case["variables"]
-        # pinocchio takes a joint that follows one of a later branch for a mistake: followers are worked out here.
-        rules = [(it.get("name"), it.find("mimic")) for it in xml.parse(path).getroot().findall("joint")]
-        self.follows = {
-            name: (rule.get("joint"), float(rule.get("multiplier", 1)), float(rule.get("offset", 0)))
-            for name, rule in rules if rule is not None
-        }
+        self.follows = followers(name)
         self.base = self.model.getFrameId(case["base_link"])
         self.tip = self.model.getFrameId(case["tip"])
         self.links = [self.model.frames[it.parentFrame].name for it in self.geometry.geometryObjects]
@@ -81,20 +70,6 @@ def ball(shape):
     return float(np.linalg.norm(shape.aabb_center)) + shape.aabb_radius
 
 
-def obstacle(it):
-    shape, at = it["shape"], pose(it["pose"])
-    if "box" in shape:
-        solid = coal.Box(*shape["box"])
-    elif "ball" in shape:
-        solid = coal.Sphere(shape["ball"])
-    else:
-        radius, length = shape["cylinder_along_y"]
-        solid = coal.Cylinder(radius, length)
-        # coal's cylinder lies along z.
-        at = at * pin.SE3(pin.utils.rotate("x", -math.pi / 2), np.zeros(3))
-    return it["entity"], solid, at, ball(solid)
-
-
 def near(one, one_at, one_radius, two, two_at, two_radius):
     if np.linalg.norm(one_at.translation - two_at.translation) > one_radius + two_radius + GAP:
         return False
@@ -104,7 +79,7 @@ def near(one, one_at, one_radius, two, two_at, two_radius):
 
 
 def fault(robot, case):
-    things = [obstacle(it) for it in case["obstacles"]]
+    things = [(entity, solid, at, ball(solid)) for entity, solid, at in map(obstacle, case["obstacles"])]
     goal = pose(case["map_from_tip"])
     floor = coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
     shapes = [it.geometry for it in robot.geometry.geometryObjects]

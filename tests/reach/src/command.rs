@@ -18,6 +18,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
         is_quick: false,
         cache: Some(PathBuf::from("target/reach")),
         witnesses: None,
+        targets: None,
     };
     let mut is_json = false;
     let mut args = args.iter();
@@ -30,6 +31,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             "--seed" => settings.seed = number(value()?)?,
             "--quick" => settings.is_quick = true,
             "--witnesses" => settings.witnesses = Some(value()?.into()),
+            "--targets" => settings.targets = Some(value()?.into()),
             "--json" => is_json = true,
             file if !file.starts_with('-') => {
                 settings.scene =

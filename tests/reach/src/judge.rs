@@ -8,9 +8,10 @@ use std::time::Duration;
 use motet_geometry::query::{Answer, Budget, Query, Room, World};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
-use serde_json::json;
+use serde::Serialize;
 
 use crate::check::faults;
+use crate::export;
 use crate::model::{Model, robot};
 use crate::report::Table;
 use crate::room::{furnished, targets};
@@ -34,6 +35,8 @@ pub struct Settings {
     pub cache: Option<PathBuf>,
     /// A file for the witnesses, a JSON object a line.
     pub witnesses: Option<PathBuf>,
+    /// A file for all targets with grasps and answers, likewise.
+    pub targets: Option<PathBuf>,
 }
 
 /// One target with its answer.
@@ -56,7 +59,8 @@ pub struct Case {
 }
 
 /// The kinds of answers.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Said {
     /// With a witness.
     Feasible,
@@ -75,12 +79,7 @@ pub enum Said {
 /// A robot that there is not, a scene that cannot be read, a file that cannot be written.
 pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
     let (mut lines, mut tables) = (Vec::new(), Vec::new());
-    let mut out = match &settings.witnesses {
-        Some(path) => {
-            Some(std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()))?)
-        }
-        None => None,
-    };
+    let mut out = Out { witnesses: file(&settings.witnesses)?, targets: file(&settings.targets)? };
     for name in &settings.robots {
         let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
         let mut cache = Cache::read(settings, &model, name);
@@ -93,7 +92,7 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
                 None => room_of(&model, seed),
             };
             let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
-            cases.extend(room.cases(settings, out.as_mut())?);
+            cases.extend(room.cases(settings, &mut out)?);
             cache.write();
             if settings.scene.is_some() {
                 break;
@@ -116,6 +115,18 @@ fn room_of(model: &Model, seed: u64) -> Scene {
     rooms.into_iter().find(is_free).unwrap_or_default()
 }
 
+/// The files that another program reads.
+struct Out {
+    witnesses: Option<std::fs::File>,
+    targets: Option<std::fs::File>,
+}
+
+fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
+    let create =
+        |path: &PathBuf| std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()));
+    path.as_ref().map(create).transpose()
+}
+
 struct Judged<'a> {
     model: &'a Model,
     scene: &'a Scene,
@@ -125,11 +136,7 @@ struct Judged<'a> {
 }
 
 impl Judged<'_> {
-    fn cases(
-        &mut self,
-        settings: &Settings,
-        mut out: Option<&mut std::fs::File>,
-    ) -> Result<Vec<Case>, String> {
+    fn cases(&mut self, settings: &Settings, out: &mut Out) -> Result<Vec<Case>, String> {
         let world = World::new(&self.model.machine, self.scene);
         let make = || Room::new(&self.model.machine, self.scene, &world).ready();
         let (room, set_up) = timed(make);
@@ -157,11 +164,17 @@ impl Judged<'_> {
                     Said::Unknown
                 }
             };
-            if let (Some(out), Answer::Feasible(witness)) = (out.as_deref_mut(), &answer) {
-                let line = exported(self.model, self.scene, &world, &name, witness);
-                writeln!(out, "{line}").map_err(|error| error.to_string())?;
+            let case = Case { name, truth, said, took, set_up, faults: found, reason };
+            let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
+            let write = |out: &mut Option<std::fs::File>, line: &dyn Fn() -> serde_json::Value| match out {
+                Some(out) => writeln!(out, "{}", line()).map_err(|error| error.to_string()),
+                None => Ok(()),
+            };
+            if let Answer::Feasible(witness) = &answer {
+                write(&mut out.witnesses, &|| subject.witness(&case.name, witness))?;
             }
-            cases.push(Case { name, truth, said, took, set_up, faults: found, reason });
+            write(&mut out.targets, &|| subject.target(&case, &target, self.seed))?;
+            cases.push(case);
         }
         Ok(cases)
     }
@@ -186,64 +199,6 @@ fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
     }
     times.sort_unstable();
     (value, times[times.len() / 2])
-}
-
-/// All that another program needs to check a witness.
-fn exported(
-    model: &Model,
-    scene: &Scene,
-    world: &World,
-    name: &str,
-    witness: &motet_geometry::query::Witness,
-) -> serde_json::Value {
-    let machine = &model.machine;
-    let pose = |pose: &nalgebra::Isometry3<f64>| {
-        let (xyz, xyzw) = motet_geometry::query::components(pose);
-        json!([xyz[0], xyz[1], xyz[2], xyzw[0], xyzw[1], xyzw[2], xyzw[3]])
-    };
-    let obstacles: Vec<_> = Scenery::new(scene, world).map_or_else(Vec::new, |scenery| {
-        let shown = scenery.solids.iter().filter_map(|(entity, solid)| {
-            let (id, _) = scene.entities.get_index(*entity)?;
-            let shape = if let Some(it) = solid.shape.as_cuboid() {
-                json!({"box": [it.half_extents.x * 2.0, it.half_extents.y * 2.0, it.half_extents.z * 2.0]})
-            } else if let Some(it) = solid.shape.as_cylinder() {
-                json!({"cylinder_along_y": [it.radius, it.half_height * 2.0]})
-            } else {
-                json!({"ball": solid.shape.as_ball()?.radius})
-            };
-            Some(json!({"entity": id, "pose": pose(&solid.pose), "shape": shape}))
-        });
-        shown.collect()
-    });
-    let body = machine.body();
-    let links = |pair: &[usize; 2]| pair.map(|part| machine.tree().links()[body.parts()[part].link].clone());
-    let mut apart: Vec<_> = body.pairs().iter().map(links).collect();
-    apart.sort();
-    apart.dedup();
-    let chosen = |is: &dyn Fn(usize) -> bool| -> Vec<_> {
-        (0..model.urdf.links.len()).filter(|at| is(*at)).map(|at| model.urdf.links[at].name.clone()).collect()
-    };
-    let card = machine.card();
-    let tip = machine.hand().map(|hand| machine.tree().links()[hand.tip].clone());
-    let states: Vec<_> =
-        witness.path.iter().map(|state| json!({"base": state.base, "joints": state.joints})).collect();
-    let grasp = witness.grasp.as_ref();
-    json!({
-        "name": name,
-        "robot": card.name,
-        "base_link": card.model.as_ref().and_then(|model| model.base.clone()),
-        "height": card.model.as_ref().map_or(0.0, |model| model.height_m),
-        "tip": tip,
-        "drives": machine.drives(),
-        "variables": machine.tree().variables().iter().map(|known| known.name.clone()).collect::<Vec<_>>(),
-        "apart": apart,
-        "carried": chosen(&|at| model.is_carried(at)),
-        "members": chosen(&|at| model.in_hand(at)),
-        "obstacles": obstacles,
-        "path": states,
-        "object": grasp.map(|grasp| grasp.object.clone()),
-        "map_from_tip": grasp.map(|grasp| pose(&grasp.map_from_tip)),
-    })
 }
 
 impl Case {

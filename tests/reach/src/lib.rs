@@ -11,6 +11,7 @@
 mod chance;
 mod check;
 mod command;
+mod export;
 mod grasp;
 mod judge;
 mod model;

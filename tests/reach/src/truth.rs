@@ -53,6 +53,21 @@ pub(crate) fn searched(model: &Model, scene: &Scene, target: &str, seed: u64, ef
     found.map_or(Truth::NoState, |target| target.search(seed, effort))
 }
 
+/// Grasps at random in which the hand is free, at most so many.
+pub(crate) fn grasps(
+    model: &Model,
+    scene: &Scene,
+    target: &str,
+    seed: u64,
+    most: usize,
+) -> Vec<grasp::Grasp> {
+    let world = World::new(&model.machine, scene);
+    let target = Target::new(model, scene, &world, target);
+    let mut free = target.map_or_else(Vec::new, |it| it.grasps(Effort::QUICK.grasps, &mut Chance::new(seed)));
+    free.truncate(most);
+    free
+}
+
 struct Target<'a> {
     model: &'a Model,
     scene: &'a Scene,
@@ -82,19 +97,20 @@ impl<'a> Target<'a> {
         Some(Self { model, scene, scenery, index, pose, start, open, members, reach })
     }
 
+    /// Of so many grasps at random those in which the hand is free.
+    fn grasps(&self, draws: usize, chance: &mut Chance) -> Vec<grasp::Grasp> {
+        let Some((_, entity)) = self.scene.entities.get_index(self.index) else { return vec![] };
+        let machine = &self.model.machine;
+        let mut drawn: Vec<_> =
+            (0..draws).filter_map(|_| grasp::draw(machine, entity, &self.pose, chance)).collect();
+        drawn.retain(|grasp| !self.scenery.hand_touches(&self.members, &grasp.map_from_tip, self.index, GAP));
+        drawn
+    }
+
     fn search(&self, seed: u64, effort: Effort) -> Truth {
         let mut chance = Chance::new(seed);
         let machine = &self.model.machine;
-        let (_, entity) = match self.scene.entities.get_index(self.index) {
-            Some(found) => found,
-            None => return Truth::NoState,
-        };
-        let draws = (0..effort.grasps).filter_map(|_| grasp::draw(machine, entity, &self.pose, &mut chance));
-        let draws: Vec<_> = draws.collect();
-        let is_free_hand = |grasp: &&grasp::Grasp| {
-            !self.scenery.hand_touches(&self.members, &grasp.map_from_tip, self.index, GAP)
-        };
-        let free: Vec<_> = draws.iter().filter(is_free_hand).collect();
+        let free = self.grasps(effort.grasps, &mut chance);
         if free.is_empty() {
             return Truth::NoState;
         }
@@ -104,7 +120,7 @@ impl<'a> Target<'a> {
         let (mut states, mut ways) = (0, 0);
         while states < effort.states {
             states += 1;
-            let grasp = free[chance.below(free.len())];
+            let grasp = &free[chance.below(free.len())];
             let tip = grasp.map_from_tip.translation;
             let from = scatter(self.model, &self.open, [tip.x, tip.y], self.reach, &mut chance);
             let Some(state) = solve(self.model, &grasp.map_from_tip, &from, machine.drives()) else {

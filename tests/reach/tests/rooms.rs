@@ -8,8 +8,16 @@ use motet_reach::{Settings, furnished, robot, run, targets};
 #[ignore = "searches for a minute or more: run it with --ignored"]
 fn witnesses_hold() {
     let robots = vec!["hsr".into()];
-    let settings =
-        Settings { robots, rooms: 1, seed: 3, scene: None, is_quick: true, cache: None, witnesses: None };
+    let settings = Settings {
+        robots,
+        rooms: 1,
+        seed: 3,
+        scene: None,
+        is_quick: true,
+        cache: None,
+        witnesses: None,
+        targets: None,
+    };
     let (lines, tables) = run(&settings).unwrap();
     for table in tables {
         assert_eq!(table.uncertified_positives, 0, "{lines:?}");
