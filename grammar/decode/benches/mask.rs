@@ -1,5 +1,5 @@
 //! What a mask costs with the vocabulary o200k: at each token of the examples and of policies that were written at random,
-//! 200 to 600 tokens long. Beside it what preparing a scene costs, what 5,000 entities cost, and which share of the bytes of
+//! 200 to 600 tokens long; beside it what it costs llguidance on the exported grammar, and what preparing a scene costs, what 5,000 entities cost, and which share of the bytes of
 //! the examples must come next whatever the model means. A time is of the mask alone; taking the token is told apart.
 
 #![allow(
@@ -17,6 +17,7 @@ mod common;
 use std::time::{Duration, Instant};
 
 use common::dice::Dice;
+use common::peer::Peer;
 use common::walks::{Ended, walk};
 use motet_compiler::{Options, Session};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
@@ -35,6 +36,7 @@ fn main() {
         (0..TOKENS).map(|token| encoding.decode_bytes(&[token]).unwrap()).collect();
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
+    let environment = common::peer::environment(&tokens, END);
     let surface = Surface { modifiers: Modifiers::Written, ..Surface::default() };
     let (mut examples, mut written) = (Times::default(), Times::default());
     let (mut forced, mut all) = (0, 0);
@@ -44,8 +46,10 @@ fn main() {
         taken.sort_unstable();
         println!("{robot} in {scene}: prepared in {:?} at the median of 21", taken[10]);
         let prepared = Prepared::new(&session, surface);
+        let (peer, taken) = time(|| Peer::new(&environment, &session, surface));
+        println!("{robot} in {scene}: llguidance prepared in {taken:?}");
         for policy in canonical_examples(&session, surface) {
-            follow(&prepared, &vocabulary, &encoding.encode_ordinary(&policy), &mut examples);
+            follow((&prepared, &peer), &vocabulary, &encoding.encode_ordinary(&policy), &mut examples);
             forced += forced_bytes(&prepared, &policy);
             all += policy.len();
         }
@@ -59,7 +63,7 @@ fn main() {
             };
             let tokens = encoding.encode_ordinary(&policy);
             if (200..=600).contains(&tokens.len()) {
-                follow(&prepared, &vocabulary, &tokens, &mut written);
+                follow((&prepared, &peer), &vocabulary, &tokens, &mut written);
                 count += 1;
             }
         }
@@ -80,12 +84,21 @@ fn time<T>(run: impl FnOnce() -> T) -> (T, Duration) {
 struct Times {
     masks: Vec<Duration>,
     both: Vec<Duration>,
+    /// Those of llguidance.
+    peer: Vec<Duration>,
+    /// Masks that have a token which llguidance's has not.
+    wider: usize,
     slow: Vec<(Duration, String)>,
 }
 
 impl Times {
     fn print(&mut self, what: &str) {
-        for (name, times) in [("mask", &mut self.masks), ("mask and token", &mut self.both)] {
+        let all = [
+            ("mask", &mut self.masks),
+            ("mask and token", &mut self.both),
+            ("mask of llguidance", &mut self.peer),
+        ];
+        for (name, times) in all {
             times.sort_unstable();
             let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
             let mean = times.iter().sum::<Duration>() / u32::try_from(times.len()).unwrap();
@@ -96,6 +109,7 @@ impl Times {
                 at(0.99)
             );
         }
+        println!("{what}: {} masks have a token that llguidance refuses", self.wider);
         self.slow.sort_by_key(|(taken, _)| std::cmp::Reverse(*taken));
         for (taken, place) in self.slow.iter().take(25) {
             println!("    {taken:?} after …{place}");
@@ -103,8 +117,9 @@ impl Times {
     }
 }
 
-fn follow(prepared: &Prepared, vocabulary: &Vocabulary, tokens: &[u32], times: &mut Times) {
+fn follow((prepared, peer): (&Prepared, &Peer), vocabulary: &Vocabulary, tokens: &[u32], times: &mut Times) {
     let mut decoder = prepared.decoder(vocabulary, 20_000).unwrap();
+    let mut matcher = peer.start();
     for token in tokens {
         let (is_set, taken) = time(|| decoder.mask()[*token as usize / 32] >> (token % 32) & 1 == 1);
         assert!(is_set, "{}", String::from_utf8_lossy(decoder.acceptor().bytes()));
@@ -113,8 +128,23 @@ fn follow(prepared: &Prepared, vocabulary: &Vocabulary, tokens: &[u32], times: &
             let from = bytes.len().saturating_sub(70);
             times.slow.push((taken, String::from_utf8_lossy(&bytes[from..]).into_owned()));
         }
+        let (theirs, of_peer) = time(|| matcher.compute_mask().unwrap());
+        times.peer.push(of_peer);
+        let mut words = decoder.mask().iter().zip(theirs.as_slice());
+        times.wider += usize::from(words.any(|(ours, theirs)| ours & !theirs != 0));
+        if std::env::var("MOTET_TIMES").is_ok() {
+            let bytes = decoder.acceptor().bytes();
+            let from = bytes.len().saturating_sub(60);
+            println!(
+                "{} {} {}",
+                taken.as_nanos(),
+                of_peer.as_nanos(),
+                String::from_utf8_lossy(&bytes[from..])
+            );
+        }
         let (accepted, more) = time(|| decoder.accept(*token));
         assert!(accepted);
+        matcher.consume_token(*token).unwrap();
         times.masks.push(taken);
         times.both.push(taken + more);
     }

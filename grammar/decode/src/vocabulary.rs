@@ -6,6 +6,7 @@ mod error;
 mod huggingface;
 mod list;
 mod token;
+mod tree;
 
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use toktrie::{SimpleVob, TokRxInfo, TokTrie};
 pub use self::encoding::Encoding;
 pub use self::error::VocabularyError;
 pub use self::token::{End, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BYTES, MAX_TOKENS};
+pub(crate) use self::tree::{Node, Tree};
 use crate::surface::{MAX_NAME_CHARS, is_text_char};
 
 /// The tokens of a language model.
@@ -24,6 +26,8 @@ pub struct Vocabulary(Arc<Tokens>);
 
 pub(crate) struct Tokens {
     pub(crate) trie: TokTrie,
+    /// The same for a search of few among many.
+    pub(crate) tree: Tree,
     /// Tokens that can stand within a text wherever it is.
     pub(crate) text: SimpleVob,
     /// Those that end a text, or whose place in it matters.
@@ -114,8 +118,10 @@ impl Vocabulary {
         let (text_ends, name_ends) = (trie.filter(&text_ends), trie.filter(&name_ends));
         let longest = trie.max_token_len();
         let (first_names, names) = (names(true), names(false));
+        let tree = Tree::new(&trie);
         Self(Arc::new(Tokens {
             trie,
+            tree,
             text,
             text_ends,
             dollars,

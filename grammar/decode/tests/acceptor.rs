@@ -14,6 +14,7 @@
 mod common;
 
 use common::dice::Dice;
+use common::tokens::{END, tokens};
 use common::walks::{Ended, KINDS, steps, walk};
 use common::{errors, session};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
@@ -110,65 +111,12 @@ fn examples_are_accepted_byte_by_byte() {
     assert!(count >= 10, "{count}");
 }
 
-/// Every byte, and pieces that cross the borders of words, texts and steps.
-fn vocabulary() -> Vocabulary {
-    let mut tokens: Vec<Vec<u8>> = (0..=u8::MAX).map(|byte| vec![byte]).collect();
-    let pieces = [
-        "{\"",
-        "\":\"",
-        "\",\"",
-        "\":{\"",
-        "\":[{\"",
-        "\"}",
-        "\"},{\"",
-        "\"}]",
-        "\"}]}",
-        "\"}]},{\"",
-        "}]}",
-        "]}]",
-        "null",
-        "null}",
-        ",\"as\":\"",
-        "do\":\"",
-        "end\":\"done\"}",
-        "end\":\"fail\",\"why\":\"",
-        "go\"",
-        "pick",
-        "detect\",\"what\":\"",
-        "red mug",
-        "mug",
-        "mug_1\"",
-        "$m",
-        "\"$",
-        "\"$m\"",
-        "m\"}",
-        "1.5",
-        "0.",
-        "00",
-        "99",
-        "2}",
-        "is\":\"holding\",\"",
-        "an",
-        " and",
-        "x1",
-        "_",
-        "why",
-        "\"}}]",
-        "],\"else\":[]}",
-        "\"fail\"",
-    ];
-    tokens.extend(pieces.iter().map(|piece| piece.as_bytes().to_vec()));
-    // The end of a sequence has no bytes.
-    let end = u32::try_from(tokens.len()).unwrap();
-    tokens.push(Vec::new());
-    Vocabulary::new(&tokens, end)
-}
-
 #[test]
 fn a_mask_has_the_tokens_that_are_accepted() {
     let session = session("hsr", "kitchen");
     let prepared = Prepared::new(&session, surface(Modifiers::Default));
-    let vocabulary = vocabulary();
+    let tokens = tokens();
+    let vocabulary = Vocabulary::new(&tokens, END);
     let count = u32::try_from(vocabulary.len()).unwrap();
     for seed in 0..6 {
         let mut dice = Dice::new(seed);

@@ -292,7 +292,7 @@ fn of_call(callable: u16, given: &[Given]) -> impl Iterator<Item = Event> {
 }
 
 /// What a word means.
-fn meaning(program: &Program, event: Event) -> Option<Meaning> {
+pub(super) fn meaning(program: &Program, event: Event) -> Option<Meaning> {
     let Event::Word(op, index) = event else { return None };
     let Op::Word(words) = program.op(op) else { return None };
     words.table.get(index).map(|entry| entry.meaning)

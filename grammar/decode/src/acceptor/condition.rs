@@ -4,9 +4,15 @@
 use motet_compiler::draft::Test;
 
 use super::arena::{Event, Flags, Id, State};
+use super::ask::meaning;
 use super::memo::Question;
 use super::walk::Walk;
-use crate::program::Kind;
+use crate::program::{Kind, Meaning};
+
+/// Each value of an argument that is tried takes a proof of all that is open. Behind the one in question these are `any`, what is
+/// bound, what the step speaks of, and so many others: one that is open here is open when its turn comes, so what is begun
+/// can still be completed.
+const MOST_TRIED: usize = 3;
 
 impl Walk {
     /// Whether the step of the body, with `more` behind what was said, is no error with some fluent as the condition that
@@ -48,7 +54,16 @@ impl Walk {
             self.machine.program.fluents.get(usize::from(fluent)).and_then(|args| args.get(place)).copied();
         let Some(op) = op else { return self.refutes_nothing(state.event, events) };
         let mut options = self.words_of(op, state.scope, None);
-        // `any` first: it speaks of what the names in scope do not reach.
+        let said = self.values_said(state.event);
+        let mut tried = 0;
+        options.retain(|option| match meaning(&self.machine.program, *option) {
+            None | Some(Meaning::Any) => true,
+            Some(value) => {
+                tried += 1;
+                tried <= MOST_TRIED || said.contains(&value)
+            }
+        });
+        // What stands first is what the policy is less likely to be about.
         options.reverse();
         options.into_iter().any(|option| {
             events.push(option);
@@ -56,6 +71,13 @@ impl Walk {
             events.pop();
             holds
         })
+    }
+
+    /// The values that were said in the step of the body that is being written.
+    fn values_said(&self, event: Id) -> Vec<Meaning> {
+        let before = self.arenas.said(event).map_or(0, |said| said.before);
+        let events = self.arenas.between(before, event).into_iter();
+        events.filter_map(|event| meaning(&self.machine.program, event)).collect()
     }
 
     /// Whether a whole condition, of which what was said is the beginning and `more` the rest, refutes nothing.

@@ -1,12 +1,14 @@
 //! From bytes to tokens: which of a vocabulary may follow.
 
-use toktrie::{Recognizer, SimpleVob, TokTrie};
+use toktrie::{Recognizer, SimpleVob};
 
+use super::bytes::Bytes;
+use super::number::Digits;
 use super::walk::Walk;
 use super::{Acceptor, Prepared};
 use crate::program::Op;
-use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
-use crate::vocabulary::{Tokens, Vocabulary};
+use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
+use crate::vocabulary::{Node, Tokens, Tree, Vocabulary};
 
 /// What may follow in a policy that is being written, token by token.
 #[derive(Clone, Debug)]
@@ -59,7 +61,7 @@ impl Decoder {
                 }
                 tokens.name_ends.add_bias(&mut Stepper(walk), set, &[]);
             }
-            None => walk.mask_literal(&tokens.trie, set),
+            None => walk.mask_few(&tokens.tree, set),
         }
         walk.keep(lengths);
         for (twin, first) in &tokens.twins {
@@ -174,25 +176,59 @@ impl Walk {
         }
     }
 
-    /// The tokens that may follow; those of a literal are found without trying others.
-    fn mask_literal(&mut self, trie: &TokTrie, set: &mut SimpleVob) {
-        let before = self.bytes.len();
-        let mut node = trie.root();
-        while let Some(byte) = self.literal_byte() {
-            let Some(child) = trie.child_at_byte(node, byte).filter(|_| self.push(byte)) else {
-                self.pop(self.bytes.len().saturating_sub(before));
-                return;
-            };
-            node = child;
-            if let Some(token) = node.token_id() {
+    /// The tokens that may follow where most may not.
+    fn mask_few(&mut self, tree: &Tree, set: &mut SimpleVob) {
+        let Some(root) = tree.root() else { return };
+        match self.number() {
+            Some((range, digits)) => {
+                tree.numbers(&range, digits).iter().for_each(|token| set.allow_token(*token));
+                self.tokens_from(tree, root, |child| !child.is_number, set);
+            }
+            None => self.tokens_from(tree, root, |_| true, set),
+        }
+    }
+
+    /// The range and the digits so far, where a number is what comes or goes on, whatever else may.
+    fn number(&self) -> Option<(NumberRange, Digits)> {
+        let state = self.state();
+        let program = &self.machine.program;
+        match program.op(state.op) {
+            Op::Number(range) if state.pos == 0 => Some((*range, Digits::default())),
+            Op::Number(range) => Some((*range, Digits::unpack((state.pos, state.lo, state.hi)))),
+            Op::Fork { other, .. } => match program.op(*other) {
+                Op::Number(range) => Some((*range, Digits::default())),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The tokens below a node of the tree, by those of its children that are asked for.
+    fn tokens_from(&mut self, tree: &Tree, node: &Node, asked: impl Fn(&Node) -> bool, set: &mut SimpleVob) {
+        let children = tree.children(node);
+        let seen = if children.len() > MANY { self.seen_bytes() } else { Bytes::ALL };
+        for child in children {
+            if !seen.has(child.byte) || !asked(child) || !self.push(child.byte) {
+                continue;
+            }
+            if let Some(token) = child.token() {
                 set.allow_token(token);
             }
+            // A token has at most `LONGEST_TOKEN` bytes, and so many levels this goes down.
+            if child.has_children() {
+                self.below(tree, child, set);
+            }
+            self.pop(1);
         }
-        let start = self.bytes.get(before..).unwrap_or_default().to_vec();
-        trie.add_bias(&mut Stepper(self), set, &start);
-        self.pop(self.bytes.len().saturating_sub(before));
+    }
+
+    fn below(&mut self, tree: &Tree, node: &Node, set: &mut SimpleVob) {
+        self.tokens_from(tree, node, |_| true, set);
     }
 }
+
+/// More children than this are worth a look at what may come.
+const MANY: usize = 4;
 
 /// Steps through a trie of tokens.
 struct Stepper<'w>(&'w mut Walk);

@@ -4,6 +4,7 @@ mod apart;
 mod arena;
 mod ask;
 mod build;
+mod bytes;
 mod condition;
 mod follow;
 mod mask;
@@ -22,6 +23,7 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source};
 
 pub use self::mask::Decoder;
 use self::memo::Memo;
+pub(crate) use self::number::Digits;
 use self::walk::{Machine, Walk};
 use crate::program::Program;
 use crate::surface::Surface;
@@ -125,9 +127,9 @@ impl Acceptor {
     /// The bytes that may follow next.
     pub fn next_bytes(&mut self) -> Vec<u8> {
         let lengths = self.walk.lengths();
-        let mut found = Vec::new();
+        let (mut found, seen) = (Vec::new(), self.walk.seen_bytes());
         for byte in 0..=u8::MAX {
-            if self.walk.push(byte) {
+            if seen.has(byte) && self.walk.push(byte) {
                 self.walk.pop(1);
                 found.push(byte);
             }

@@ -4,7 +4,7 @@
 use crate::surface::NumberRange;
 
 /// The digits of a number so far.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(crate) struct Digits {
     /// All digits as one number.
     units: u64,

@@ -125,8 +125,12 @@ impl Walk {
 
     fn can_call_something(&mut self, state: &State) -> bool {
         let spot = self.spot(state, state.event);
-        let count = u16::try_from(self.machine.program.callables.len()).unwrap_or(0);
-        (0..count).any(|callable| self.can_be_called(callable, spot))
+        // Policies take a proof of all their steps: they come last.
+        let callables = self.machine.program.callables.iter();
+        let mut order: Vec<(bool, u16)> =
+            callables.zip(0..).map(|(callable, number)| (callable.primitive.is_none(), number)).collect();
+        order.sort_unstable();
+        order.into_iter().any(|(_, callable)| self.can_be_called(callable, spot))
     }
 
     /// Every word of an operation, in the order of the list.

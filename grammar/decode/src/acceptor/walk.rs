@@ -171,15 +171,6 @@ impl Walk {
         }
     }
 
-    /// The next byte of a literal in which the walk is.
-    pub(super) fn literal_byte(&self) -> Option<u8> {
-        let state = self.states.last()?;
-        match self.machine.program.op(state.op) {
-            Op::Literal(bytes) => bytes.get(state.pos as usize).copied(),
-            _ => None,
-        }
-    }
-
     fn advance(&mut self, byte: u8) -> Option<State> {
         if self.refuses(&self.state(), byte) {
             return None;

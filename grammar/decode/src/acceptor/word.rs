@@ -9,12 +9,7 @@ pub(crate) const BOUND: u32 = 1 << 31;
 
 impl Walk {
     pub(super) fn word(&mut self, mut state: State, words: &Words, byte: u8) -> Option<State> {
-        if state.hi == UNSEEN {
-            (state.lo, state.hi) = self.list(&state, words);
-            if let Some(top) = self.states.last_mut().filter(|top| top.op == state.op) {
-                (top.lo, top.hi) = (state.lo, state.hi);
-            }
-        }
+        (state.lo, state.hi) = self.range(&state, words);
         let pos = state.pos as usize;
         let at = |walk: &Self, index: u32| {
             walk.arenas.lists.get(index as usize).and_then(|entry| walk.letter(words, *entry, pos))
@@ -32,6 +27,18 @@ impl Walk {
             return Some(state);
         }
         Some(self.end_of_word(state, words, entry))
+    }
+
+    /// The range of the list that is left, which is made where it is not there yet and kept with the state.
+    pub(super) fn range(&mut self, state: &State, words: &Words) -> (u32, u32) {
+        if state.hi != UNSEEN {
+            return (state.lo, state.hi);
+        }
+        let (lo, hi) = self.list(state, words);
+        if let Some(top) = self.states.last_mut().filter(|top| top.op == state.op) {
+            (top.lo, top.hi) = (lo, hi);
+        }
+        (lo, hi)
     }
 
     fn end_of_word(&mut self, mut state: State, words: &Words, entry: u32) -> State {
@@ -111,7 +118,7 @@ impl Walk {
 }
 
 /// The first index in `lo..hi` at which `before` does not hold; it holds up to there.
-fn search(mut lo: u32, mut hi: u32, before: impl Fn(u32) -> bool) -> u32 {
+pub(super) fn search(mut lo: u32, mut hi: u32, before: impl Fn(u32) -> bool) -> u32 {
     while lo < hi {
         let middle = lo + (hi - lo) / 2;
         if before(middle) {

@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 pub mod dice;
+pub mod peer;
+pub mod tokens;
 pub mod walks;
 
 use motet_compiler::{Options, Session};

@@ -1,0 +1,67 @@
+//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the grammar allows as well.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::print_stdout,
+    reason = "a test fails by panicking"
+)]
+
+mod common;
+
+use common::dice::Dice;
+use common::peer::{Peer, environment};
+use common::session;
+use common::tokens::{END, tokens};
+use motet_decode::{Modifiers, Prepared, Surface, Vocabulary};
+
+/// How many walks each pair of robot and scene gets with each surface.
+const WALKS: u64 = 3;
+/// How many tokens a walk takes at most.
+const LENGTH: usize = 120;
+
+#[test]
+fn a_mask_is_within_that_of_the_grammar() {
+    let tokens = tokens();
+    let vocabulary = Vocabulary::new(&tokens, END);
+    let environment = environment(&tokens, END);
+    let mut masks = 0;
+    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+        let session = session(robot, scene);
+        for modifiers in [Modifiers::Default, Modifiers::Written] {
+            let surface = Surface { modifiers, ..Surface::default() };
+            let prepared = Prepared::new(&session, surface);
+            let peer = Peer::new(&environment, &session, surface);
+            for seed in 0..WALKS {
+                let mut dice = Dice::new(seed);
+                let mut decoder = prepared.decoder(&vocabulary, 2000).unwrap();
+                let mut matcher = peer.start();
+                for _ in 0..LENGTH {
+                    let ours = decoder.mask().to_vec();
+                    let theirs = matcher.compute_mask_or_eos().unwrap();
+                    let is_set =
+                        |mask: &[u32], token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
+                    let allowed: Vec<u32> = (0..=END).filter(|token| is_set(&ours, *token)).collect();
+                    for token in &allowed {
+                        let text = String::from_utf8_lossy(vocabulary.bytes(*token)).into_owned();
+                        let after = String::from_utf8_lossy(decoder.acceptor().bytes()).into_owned();
+                        let is_within = is_set(theirs.as_slice(), *token);
+                        assert!(is_within, "{robot} {scene} {seed}: `{text}` ({token}) after {after}");
+                    }
+                    masks += 1;
+                    // Long tokens lead further.
+                    let long: Vec<u32> =
+                        allowed.iter().copied().filter(|token| (256..END).contains(token)).collect();
+                    let from = if long.is_empty() || dice.chance(30) { &allowed } else { &long };
+                    let token = from[dice.below(from.len())];
+                    assert!(decoder.accept(token));
+                    if token == END {
+                        break;
+                    }
+                    matcher.consume_token(token).unwrap();
+                }
+            }
+        }
+    }
+    println!("{masks} masks are within those of llguidance");
+}
