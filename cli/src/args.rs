@@ -1,7 +1,9 @@
 //! The command line: every command, flag and help text. What they do is in `command`.
 
 mod act;
+mod dataset;
 mod decode;
+mod dialog;
 mod drive;
 mod duration;
 mod export;
@@ -16,7 +18,9 @@ mod prompt;
 mod run;
 
 pub(crate) use act::DoArgs;
+pub(crate) use dataset::{DatasetArgs, DatasetCommand, LintArgs, LintFormat, MakeArgs, MotionArgs, RowForm};
 pub(crate) use decode::{DecodeArgs, DecodeForm};
+pub(crate) use dialog::{DialogArgs, DialogForm};
 pub(crate) use drive::DriveArgs;
 pub(crate) use export::{ExportArgs, ExportCommand, McapArgs};
 pub(crate) use feasible::{FeasibleArgs, FeasibleFormat};
@@ -81,6 +85,10 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// Print what a model would see of a request
     Prompt(PromptArgs),
+    /// Read plans in InteLiPlan's dialect as policies, or write the exchange of a request in it
+    Dialog(DialogArgs),
+    /// Make pairs of instructions and policies for fine-tuning, or find what is wrong with a file of them
+    Dataset(Box<DatasetArgs>),
     /// Check a policy and run it in simulation
     Run(RunArgs),
     /// Check a policy and run it on a driver in another process

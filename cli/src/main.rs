@@ -47,6 +47,8 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, Trouble> {
         Command::Import(args) => command::import::run(args, colors),
         Command::Do(args) => command::act::run(args, colors),
         Command::Prompt(args) => command::prompt::run(args, colors),
+        Command::Dialog(args) => command::dialog::run(args, colors),
+        Command::Dataset(args) => command::dataset::run(args, colors),
         Command::Plan(args) => command::plan::run(args, colors),
         Command::Run(args) => command::run::run(args, colors),
         Command::Drive(args) => command::run::drive(args, colors),

@@ -2,7 +2,9 @@
 
 mod check;
 mod commands;
+mod dataset;
 mod decode;
+mod dialog;
 mod drive;
 mod fmt;
 mod grammar;

@@ -19,6 +19,7 @@ mod number;
 mod read;
 mod relations;
 mod wire;
+mod write;
 
 pub use embedded::embedded;
 pub use errors::CODES;
@@ -26,3 +27,4 @@ pub use matching::normal;
 pub use model::*;
 pub use read::{MAX_ENTITIES, read};
 pub use wire::schema;
+pub use write::write;

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use thiserror::Error;
 
+use crate::prompt::Seen;
+
 /// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
 /// the tag is missing.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -131,11 +133,35 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
     }
 }
 
+/// What stands behind `<vision>` and behind `<feasibility>` for what a request names.
+#[must_use]
+pub fn sight(seen: &[Seen]) -> (String, String) {
+    let vision = seen.iter().map(|one| {
+        let word = match one.seen {
+            Some(true) => "seen",
+            Some(false) => "not seen",
+            None => "unknown",
+        };
+        format!("{}: {word}", one.id)
+    });
+    let feasibility = seen.iter().map(|one| match &one.feasible {
+        Ok(()) => format!("{}: feasible", one.id),
+        Err(why) => format!("{}: infeasible ({why})", one.id),
+    });
+    (vision.collect::<Vec<_>>().join(", "), feasibility.collect::<Vec<_>>().join(", "))
+}
+
 impl Exchange {
     fn part(&mut self, tag: usize) -> Option<&mut String> {
         [&mut self.history, &mut self.user, &mut self.vision, &mut self.feasibility, &mut self.robot]
             .into_iter()
             .nth(tag)
+    }
+
+    /// Whether the robot asks something, instead of planning.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        self.robot.ends_with('?')
     }
 
     /// As a text, a line a part. An empty history, vision or feasibility is left out. Reading it gives the same exchange

@@ -16,5 +16,5 @@ pub use chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 pub use judge::{Judged, judge};
 pub use later::without_first_step;
 pub use listen::{Happening, Listener};
-pub use planner::{ModelPlanner, Settings, Start};
+pub use planner::{ModelPlanner, Settings, Start, chat};
 pub use reading::{Reading, Verdict, Wrong};

@@ -86,23 +86,6 @@ impl<'m> ModelPlanner<'m> {
         Self { model: Box::new(model), listener: Box::new(listener), settings, later: None }
     }
 
-    /// What the model is told and asked.
-    fn chat(&self, ask: &Ask<'_>) -> Vec<Message> {
-        let prompt = Prompt {
-            session: ask.session,
-            robot: ask.robot,
-            scene: ask.situation.scene,
-            situation: ask.situation,
-            memory: ask.memory,
-            tokens: self.settings.tokens,
-        };
-        let written = prompt.write(&asked(ask));
-        vec![
-            Message { role: Role::System, text: written.system },
-            Message { role: Role::User, text: written.user },
-        ]
-    }
-
     /// Asks until a reply is a policy that passes the check.
     fn rounds(&mut self, session: &Session, first: &[Message]) -> Result<Planned, Unplanned> {
         let offer = Offer::new(&session.signatures(), self.settings.surface);
@@ -227,7 +210,7 @@ impl<'m> ModelPlanner<'m> {
 impl Planner for ModelPlanner<'_> {
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
         self.later = None;
-        let chat = self.chat(ask);
+        let chat = chat(ask, self.settings.tokens);
         let planned = self.rounds(ask.session, &chat)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(request::named(ask.request, ask.situation));
@@ -240,7 +223,7 @@ impl Planner for ModelPlanner<'_> {
 
     fn begin(&mut self, ask: &Ask<'_>) -> bool {
         self.later = None;
-        let chat = self.chat(ask);
+        let chat = chat(ask, self.settings.tokens);
         let name = self.model.name();
         self.listener.hear(&Happening::Asked { round: 0, model: &name, chat: &chat });
         let offer = Offer::new(&ask.session.signatures(), self.settings.surface);
@@ -283,6 +266,24 @@ impl Planner for ModelPlanner<'_> {
             }
         }
     }
+}
+
+/// What a model is told and asked first, in at most so many tokens as far as bytes tell.
+#[must_use]
+pub fn chat(ask: &Ask<'_>, tokens: usize) -> Vec<Message> {
+    let prompt = Prompt {
+        session: ask.session,
+        robot: ask.robot,
+        scene: ask.situation.scene,
+        situation: ask.situation,
+        memory: ask.memory,
+        tokens,
+    };
+    let written = prompt.write(&asked(ask));
+    vec![
+        Message { role: Role::System, text: written.system },
+        Message { role: Role::User, text: written.user },
+    ]
 }
 
 /// The request, with what was found out that its words mean.

@@ -1,0 +1,122 @@
+//! Lints files of rows.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use motet_dataset::lint::{Finding, Linter, Worlds};
+use motet_robots::card;
+use motet_robots::scene::{self, Scene};
+use motet_syntax::{FileId, Severity, Source, Sources};
+use serde_json::{Value, json};
+use smol_str::SmolStr;
+
+use crate::args::{LintArgs, LintFormat};
+use crate::exit::{Exit, Trouble};
+use crate::input::{Bytes, Flow, Input};
+use crate::out::{count, note};
+use crate::report::Report;
+use crate::workbench::read_scene;
+
+/// The file beside rows that has their rooms.
+const ROOMS: &str = "scenes.jsonl";
+
+/// Lints files.
+///
+/// # Errors
+///
+/// A file cannot be read, or a robot or a room cannot be used.
+pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble> {
+    let worlds = worlds(args, report)?;
+    let mut linter = Linter::new(&worlds);
+    let (mut rows, mut wrong) = (0, BTreeSet::new());
+    for path in &args.files {
+        let file = path.display().to_string();
+        lines(path, &mut |number, line| {
+            rows += 1;
+            for finding in linter.line(&file, number, line) {
+                wrong.insert((file.clone(), number));
+                report.out.line(&shown(&finding, args.format));
+            }
+            Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
+        })?;
+    }
+    note(&format!("{}, {} with something wrong", count(rows, "row"), wrong.len()));
+    Ok(if wrong.is_empty() { Exit::Clean } else { Exit::Findings })
+}
+
+fn shown(finding: &Finding, format: LintFormat) -> String {
+    let Finding { at, fault, message, other } = finding;
+    match format {
+        LintFormat::Human => {
+            let other = other.as_ref().map(|other| format!(": {}:{}", other.file, other.row));
+            format!("{}:{}: {}: {message}{}", at.file, at.row, fault.name(), other.unwrap_or_default())
+        }
+        LintFormat::Json => {
+            let other = other.as_ref().map(|other| json!({"file": other.file, "row": other.row}));
+            json!({"file": at.file, "row": at.row, "fault": fault.name(), "message": message, "other": other})
+                .to_string()
+        }
+    }
+}
+
+/// All robots and rooms that rows may name.
+fn worlds(args: &LintArgs, report: &mut Report) -> Result<Worlds, Trouble> {
+    let mut worlds = Worlds { effort: super::effort(&args.motions), ..Worlds::default() };
+    let own = card::embedded().iter().map(|(name, _, _)| (*name).to_owned());
+    for name in own.chain(args.robot.clone()) {
+        let body = super::body(&name, report)?;
+        let known = SmolStr::from(body.robot.name.as_str());
+        if args.robot.as_deref() == Some(name.as_str()) {
+            worlds.robot = Some(known.clone());
+        }
+        worlds.bodies.insert(known, body);
+    }
+    for (name, _) in scene::embedded() {
+        worlds.scenes.insert((*name).into(), read_scene(name, &mut Sources::default(), report)?);
+    }
+    if let Some(name) = &args.scene {
+        worlds.scene = Some(name.into());
+        worlds.scenes.insert(name.into(), read_scene(name, &mut Sources::default(), report)?);
+    }
+    let folders: BTreeSet<PathBuf> =
+        args.files.iter().map(|file| file.parent().unwrap_or(Path::new("")).to_owned()).collect();
+    for folder in folders {
+        let path = folder.join(ROOMS);
+        if path.is_file() {
+            lines(&path, &mut |number, line| {
+                let (name, room) = room(line)
+                    .map_err(|why| Trouble::Other(format!("`{}`, line {number}: {why}", path.display())))?;
+                worlds.scenes.insert(name, room);
+                Ok(Flow::GoOn)
+            })?;
+        }
+    }
+    Ok(worlds)
+}
+
+/// A room with its name.
+fn room(line: &str) -> Result<(SmolStr, Scene), String> {
+    let row: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
+    let name = row.get("name").and_then(Value::as_str).ok_or("it has no `name`")?;
+    let text = row.get("scene").ok_or("it has no `scene`")?.to_string();
+    let (scene, said) = scene::read(&Source::new(name, text), FileId(0));
+    let error = said.iter().find(|said| said.severity == Severity::Error);
+    match (scene, error) {
+        (Some(scene), None) => Ok((name.into(), scene)),
+        (_, error) => Err(error.map_or_else(|| "it is no scene".to_owned(), |error| error.message.clone())),
+    }
+}
+
+/// The lines of a file with their numbers, from 1; empty ones are passed over.
+fn lines(path: &Path, each: &mut dyn FnMut(usize, &str) -> Result<Flow, Trouble>) -> Result<(), Trouble> {
+    let input = Input::Lines(path.to_owned());
+    input.documents(&mut |document| {
+        let number =
+            document.name.rsplit(':').next().and_then(|number| number.parse().ok()).unwrap_or_default();
+        match &document.bytes {
+            Bytes::All(bytes) => each(number, &String::from_utf8_lossy(bytes)),
+            Bytes::TooMany(_) => Err(Trouble::Other(format!("`{}` is too long for a row", document.name))),
+        }
+    })?;
+    Ok(())
+}

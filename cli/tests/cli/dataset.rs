@@ -1,0 +1,63 @@
+//! `motet dataset`: files of rows made and linted.
+
+use crate::support::Place;
+
+const MAKE: &str = "dataset --robot hsr --room kitchen --scenes 3 --cases 4 --no-geometry --seed 3";
+
+#[test]
+fn a_dataset_is_made_and_passes_lint() {
+    let place = Place::new("dataset");
+    for form in ["trl", "llamafactory", "qwen-vl", "inteliplan"] {
+        place
+            .run(&format!("{MAKE} --out {form} --form {form}"))
+            .check(0, &["out:train.jsonl: ", "out: in 2 rooms", "out:test.jsonl: "]);
+        place
+            .run(&format!("dataset lint {form}/train.jsonl {form}/test.jsonl --no-geometry"))
+            .check(0, &["err: rows, 0 with something wrong"]);
+    }
+    assert!(place.read("llamafactory/dataset_info.json").contains("motet_train"));
+    place.run(&format!("{MAKE} --out again")).check(0, &[]);
+    for file in ["train.jsonl", "test.jsonl", "scenes.jsonl"] {
+        assert_eq!(place.read(&format!("trl/{file}")), place.read(&format!("again/{file}")), "{file}");
+    }
+    // The same rows on both sides are a leak, and duplicates.
+    place.run("dataset lint trl/train.jsonl again/train.jsonl --no-geometry").check(
+        1,
+        &["out:again/train.jsonl:1: duplicate: ", "out:again/train.jsonl:1: leak: its room `kitchen-"],
+    );
+}
+
+#[test]
+fn rows_of_others_are_linted_in_the_room_that_is_given() {
+    let policy = "policy p for hsr { go(counter) pick(coke) pick(apple) }";
+    let place = Place::new("dataset_lint").file(
+        "rows.jsonl",
+        format!("\n{{\"prompt\": \"Bring both.\", \"completion\": \"{policy}\"}}\n{{\"text\": \"<user> Go. <robot> go to sink\"}}\n"),
+    );
+    let lint = "dataset lint rows.jsonl --no-geometry";
+    place
+        .run(lint)
+        .check(1, &["out:rows.jsonl:2: no_world: it does not say for which robot it is: give --robot NAME"]);
+    place.run(&format!("{lint} --robot hsr --scene kitchen")).check(
+        1,
+        &["out:rows.jsonl:2: cannot_run: ", "out:pick(coke)", "err:2 rows, 1 with something wrong"],
+    );
+    place
+        .run(&format!("{lint} --robot hsr --scene kitchen --format json"))
+        .check(1, &["out:{\"file\":\"rows.jsonl\",\"row\":2,\"fault\":\"cannot_run\""]);
+}
+
+#[test]
+fn what_cannot_be_used_is_said() {
+    let place = Place::new("dataset_wrong").file("w.txt", "bring: bring it\n");
+    for (line, words) in [
+        ("dataset", "--out"),
+        ("dataset --out x --wordings w.txt", "line 1: `bring` has no {thing}"),
+        ("dataset --out x --test 1", "below 1"),
+        ("dataset --out x --robot hs", "did you mean `hsr`?"),
+        ("dataset lint gone.jsonl", "cannot read `gone.jsonl`"),
+    ] {
+        println!("motet {line}");
+        place.run(line).check(2, &[&format!("err:{words}")]);
+    }
+}

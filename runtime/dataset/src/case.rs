@@ -1,0 +1,240 @@
+//! Cases: a request in words for something in a room, what shall come of it, and what goes wrong on the way.
+
+use motet_planner::conversation::Kind;
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Scene};
+use motet_sim::{CallEnd, CallFault, Faults};
+use smol_str::SmolStr;
+
+use crate::random::Draw;
+use crate::scenery::is_bin;
+use crate::wordings::{Task, Wordings};
+
+/// A case.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What is asked for.
+    pub task: Task,
+    /// In which words.
+    pub request: String,
+    /// A fact, and whether it shall hold at the end.
+    pub goal: (&'static str, Vec<SmolStr>, bool),
+    /// What goes wrong, in order.
+    pub failures: Vec<Kind>,
+    /// The room as it is, where that is not as the robot was told.
+    pub real: Scene,
+    /// What goes wrong with steps.
+    pub faults: Faults,
+    /// What the person answers to the question of each kind.
+    pub answers: Vec<(Kind, String)>,
+    /// Whether the person gives it up: what is asked for cannot be done.
+    pub is_given_up: bool,
+}
+
+/// What goes wrong, with its weight: nothing, each kind by itself, two after each other.
+const TROUBLES: &[(usize, &[Kind])] = &[
+    (9, &[]),
+    (2, &[Kind::NotFound]),
+    (2, &[Kind::NotReachable]),
+    (2, &[Kind::AmbiguousReference]),
+    (1, &[Kind::AmbiguousTask]),
+    (2, &[Kind::ActionFailed]),
+    (1, &[Kind::AmbiguousReference, Kind::NotFound]),
+    (1, &[Kind::NotFound, Kind::ActionFailed]),
+    (1, &[Kind::AmbiguousTask, Kind::NotReachable]),
+];
+/// How often a step that merely failed is tried before somebody is asked, and once more.
+const SLIPS: u32 = 3;
+
+/// Draws a case for a robot in a room; none where the room has nothing for what was drawn. O(things²).
+#[must_use]
+pub fn draw(robot: &Robot, room: &Scene, wordings: &Wordings, draw: &mut Draw) -> Option<Case> {
+    let task = *draw.pick(&Task::ALL)?;
+    let said: Vec<&String> =
+        wordings.requests.iter().filter(|(known, _)| *known == task).map(|(_, said)| said).collect();
+    let wording = (*draw.pick(&said)?).clone();
+    if task.carries() {
+        carried(robot, room, wordings, task, &wording, draw)
+    } else {
+        plain(room, task, &wording, draw)
+    }
+}
+
+/// A request that is about a place alone: nothing goes wrong with it.
+fn plain(room: &Scene, task: Task, wording: &str, draw: &mut Draw) -> Option<Case> {
+    let fits = |entity: &&Entity| match task {
+        Task::Open => is_closet(entity) && entity.open == Some(false),
+        Task::Close => is_closet(entity) && entity.open == Some(true),
+        _ => matches!(entity.kind.as_str(), "Surface" | "Place"),
+    };
+    let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
+    let place = draw.pick(&places)?;
+    let goal = match task {
+        Task::Go => ("at", vec![SmolStr::new_static("robot"), place.id.clone()], true),
+        other => ("open", vec![place.id.clone()], other == Task::Open),
+    };
+    Some(Case {
+        task,
+        request: fill(wording, "{place}", &the(room, place, draw)?),
+        goal,
+        failures: Vec::new(),
+        real: room.clone(),
+        faults: Faults::default(),
+        answers: Vec::new(),
+        is_given_up: false,
+    })
+}
+
+fn carried(
+    robot: &Robot,
+    room: &Scene,
+    wordings: &Wordings,
+    task: Task,
+    wording: &str,
+    draw: &mut Draw,
+) -> Option<Case> {
+    let mut failures = drawn_failures(draw).to_vec();
+    let objects: Vec<&Entity> =
+        room.entities.values().filter(|entity| entity.kind == "Object" && !entity.fixed).collect();
+    let is_twin = |one: &&&Entity| objects.iter().any(|other| other.id != one.id && other.class == one.class);
+    let asks_which = failures.contains(&Kind::AmbiguousReference);
+    let among: Vec<&Entity> = objects.iter().filter(|one| !asks_which || is_twin(one)).copied().collect();
+    let thing = *draw.pick(&among)?;
+    let is_given_up = !can_carry(robot, thing);
+    if is_given_up {
+        // That alone is trouble enough.
+        failures = vec![Kind::NotReachable];
+    }
+    let own = the(room, thing, draw)?;
+    let called = if asks_which && !is_given_up { format!("the {}", thing.class) } else { own.clone() };
+    let holder = match task {
+        Task::Put => Some(other_place(room, "Surface", thing, draw)?),
+        Task::Stow => Some(other_place(room, "Container", thing, draw)?),
+        _ => None,
+    };
+    let place = holder.map(|holder| the(room, holder, draw)).unwrap_or(Some(String::new()))?;
+    let mut request = fill(&fill(wording, "{thing}", &called), "{place}", &place);
+    let id = thing.id.clone();
+    let goal = match (task, holder) {
+        (Task::Put, Some(holder)) => ("on", vec![id, holder.id.clone()], true),
+        (Task::Stow, Some(holder)) => ("in", vec![id, holder.id.clone()], true),
+        (Task::Throw, _) => {
+            ("in", vec![id, room.entities.values().find(|entity| is_bin(entity))?.id.clone()], true)
+        }
+        (Task::Pick, _) => ("holding", vec![id], true),
+        _ => ("at", vec![id, SmolStr::new_static("user")], true),
+    };
+    let mut answers = Vec::new();
+    let mut real = room.clone();
+    for kind in &failures {
+        let answer = match kind {
+            Kind::NotReachable if is_given_up => draw.pick(&wordings.leave)?.clone(),
+            Kind::NotReachable | Kind::ActionFailed => draw.pick(&wordings.again)?.clone(),
+            Kind::AmbiguousReference => own.clone(),
+            Kind::AmbiguousTask => {
+                let vague = fill(draw.pick(&wordings.vague)?, "{thing}", &called);
+                std::mem::replace(&mut request, vague)
+            }
+            Kind::NotFound => {
+                let hidden = hide(&mut real, thing, holder, draw)?;
+                fill(draw.pick(&wordings.places)?, "{at}", &hidden)
+            }
+        };
+        answers.push((*kind, answer));
+    }
+    let faults = if is_given_up { Faults::default() } else { faults(&failures) };
+    Some(Case { task, request, goal, failures, real, faults, answers, is_given_up })
+}
+
+fn drawn_failures(draw: &mut Draw) -> &'static [Kind] {
+    let whole: usize = TROUBLES.iter().map(|(weight, _)| weight).sum();
+    let mut left = draw.below(whole);
+    for (weight, kinds) in TROUBLES {
+        match left.checked_sub(*weight) {
+            Some(rest) => left = rest,
+            None => return kinds,
+        }
+    }
+    &[]
+}
+
+/// What goes wrong with the steps that pick up.
+fn faults(failures: &[Kind]) -> Faults {
+    let fails = |nth: u32, kind: &'static str| CallFault {
+        primitive: SmolStr::new_static("pick"),
+        nth: Some(nth),
+        then: CallEnd::Fails(SmolStr::new_static(kind)),
+    };
+    let calls = if failures.contains(&Kind::NotReachable) {
+        vec![fails(1, "unreachable")]
+    } else if failures.contains(&Kind::ActionFailed) {
+        (1..=SLIPS).map(|nth| fails(nth, "slipped")).collect()
+    } else {
+        Vec::new()
+    };
+    Faults { calls, ..Faults::default() }
+}
+
+/// Puts a thing where the robot does not think that it is, and says where.
+fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Draw) -> Option<String> {
+    let is_other = |place: &Entity| {
+        let is_goal = goal.is_some_and(|goal| goal.id == place.id);
+        let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
+        !is_goal && !is_there
+    };
+    let fits = |place: &&Entity| (place.kind == "Surface" || is_closet(place)) && is_other(place);
+    let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
+    let place = (*draw.pick(&places)?).clone();
+    let called = the(real, &place, draw)?;
+    let hidden = real.entities.get_mut(&thing.id)?;
+    (hidden.on, hidden.inside, hidden.pose) = (None, None, None);
+    hidden.visible = Some(false);
+    if place.kind == "Container" {
+        hidden.inside = Some(place.id);
+        Some(format!("in {called}"))
+    } else {
+        hidden.on = Some(place.id);
+        Some(format!("on {called}"))
+    }
+}
+
+/// A place of a kind where a thing is not yet.
+fn other_place<'r>(room: &'r Scene, kind: &str, thing: &Entity, draw: &mut Draw) -> Option<&'r Entity> {
+    let fits = |place: &&Entity| {
+        let is_there = [&thing.on, &thing.inside].into_iter().flatten().any(|id| *id == place.id);
+        place.kind == kind && !is_there && (kind == "Surface" || is_closet(place))
+    };
+    let places: Vec<&Entity> = room.entities.values().filter(fits).collect();
+    draw.pick(&places).copied()
+}
+
+/// Whether something is a container that the robot can open and close.
+fn is_closet(entity: &Entity) -> bool {
+    entity.kind == "Container" && entity.travel.is_some() && entity.locked != Some(true)
+}
+
+fn can_carry(robot: &Robot, thing: &Entity) -> bool {
+    robot.hands.values().any(|hand| {
+        thing.mass_kg.is_none_or(|mass| mass <= hand.payload_kg)
+            && thing.width().is_none_or(|width| width <= hand.opening_m)
+    })
+}
+
+/// What people call something, with its article: one of the names that nothing else here has.
+fn the(room: &Scene, entity: &Entity, draw: &mut Draw) -> Option<String> {
+    let own = entity.names.iter().chain([&entity.class]).filter(|name| !name.is_empty());
+    let names: Vec<&SmolStr> = own.filter(|name| room.matches(name).len() == 1).collect();
+    draw.pick(&names).map(|name| format!("the {name}"))
+}
+
+/// Fills a hole, in upper case where the wording begins with it.
+fn fill(wording: &str, hole: &str, with: &str) -> String {
+    match wording.strip_prefix(hole) {
+        Some(rest) => {
+            let mut letters = with.chars();
+            let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+            format!("{first}{}{}", letters.as_str(), rest.replace(hole, with))
+        }
+        None => wording.replace(hole, with),
+    }
+}

@@ -1,0 +1,206 @@
+//! Datasets: rooms are varied, cases drawn in them and played, and the turns kept that hold what they promise.
+
+use std::collections::BTreeMap;
+
+use indexmap::IndexMap;
+use motet_geometry::query::Budget;
+use motet_robots::scene::Scene;
+use rustc_hash::FxHashSet;
+use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+
+use crate::case;
+use crate::form::{self, Form};
+use crate::lint;
+use crate::play::play;
+use crate::random::Draw;
+use crate::row::{About, Row};
+use crate::scenery;
+use crate::stage::{Body, Stage};
+use crate::wordings::Wordings;
+
+/// What is to be made.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The same seed gives the same dataset.
+    pub seed: u64,
+    /// The robots.
+    pub bodies: Vec<Body>,
+    /// Rooms by name, to be varied in turn.
+    pub rooms: Vec<(SmolStr, Scene)>,
+    /// Things that may stand in them beside their own.
+    pub things: Scene,
+    /// How people speak.
+    pub wordings: Wordings,
+    /// How many varied rooms.
+    pub scenes: usize,
+    /// How many cases for each robot in each of them.
+    pub cases: usize,
+    /// Which share of the varied rooms is kept for tests, between 0 and 1.
+    pub test: f64,
+    /// How long motions are looked for; not at all where there is none.
+    pub effort: Option<Budget>,
+    /// In which form the rows will be written: what that cannot say is left out.
+    pub form: Form,
+}
+
+/// What came of one varied room.
+#[derive(Clone, Debug, Default)]
+pub struct Part {
+    rows: Vec<Row>,
+    scenes: IndexMap<SmolStr, Scene>,
+    dropped: BTreeMap<&'static str, usize>,
+}
+
+/// A dataset.
+#[derive(Clone, Debug, Default)]
+pub struct Dataset {
+    /// To learn from.
+    pub train: Vec<Row>,
+    /// To test with, in rooms that are not among those of `train`.
+    pub test: Vec<Row>,
+    /// Every room of a row, by name.
+    pub scenes: IndexMap<SmolStr, Scene>,
+    /// How many cases and turns were left out, and why.
+    pub dropped: BTreeMap<&'static str, usize>,
+}
+
+/// How often a case is drawn anew where a room has nothing for the first.
+const DRAWS: usize = 8;
+
+/// Makes the rows of one varied room, by its number below [`Order::scenes`]. Each number by itself gives the same, so they
+/// can be made in any order.
+#[must_use]
+pub fn part(order: &Order, number: usize) -> Part {
+    let mut part = Part::default();
+    let Some((name, room)) = order.rooms.get(number % order.rooms.len().max(1)) else { return part };
+    let seed = u64::try_from(number).unwrap_or(u64::MAX);
+    let mut draw = Draw::part(order.seed, seed);
+    let told = scenery::vary(room, &order.things, &mut draw);
+    let name = format_smolstr!("{name}-{}", number + 1);
+    for body in &order.bodies {
+        let stage = match Stage::new(body, &told, order.effort) {
+            Ok(stage) => stage,
+            Err(_) => {
+                part.leave_out("the robot cannot be in the room");
+                continue;
+            }
+        };
+        for _ in 0..order.cases {
+            let drawn = (0..DRAWS).find_map(|_| case::draw(&body.robot, &told, &order.wordings, &mut draw));
+            let Some(case) = drawn else {
+                part.leave_out("the room has nothing for it");
+                continue;
+            };
+            match play(&case, &stage) {
+                Ok(turns) => {
+                    for (turn, played) in turns.into_iter().enumerate() {
+                        part.turn(order, body, &stage, &name, &case, turn, played);
+                    }
+                }
+                Err(why) => part.leave_out(why),
+            }
+        }
+    }
+    part
+}
+
+impl Part {
+    fn leave_out(&mut self, why: &'static str) {
+        *self.dropped.entry(why).or_default() += 1;
+    }
+
+    /// Keeps a turn as a row where its answer can be carried out in the room as it is then.
+    #[expect(clippy::too_many_arguments, reason = "what a turn is about")]
+    fn turn(
+        &mut self,
+        order: &Order,
+        body: &Body,
+        stage: &Stage,
+        room: &SmolStr,
+        case: &case::Case,
+        turn: usize,
+        played: crate::mind::Turn,
+    ) {
+        let Ok(policy) = played.policy else {
+            self.leave_out("the plan has no place on the model surface");
+            return;
+        };
+        let is_start = played.scene == stage.scene;
+        let mut row = Row {
+            about: About {
+                robot: body.robot.name.to_smolstr(),
+                scene: room.clone(),
+                task: case.task,
+                failures: case.failures.clone(),
+                turn,
+            },
+            system: played.system,
+            user: played.user,
+            policy,
+            request: played.request,
+            history: played.history,
+            vision: played.vision,
+            feasibility: played.feasibility,
+            actions: played.actions,
+        };
+        let Ok(read) = form::read(&form::write(&row, order.form)) else {
+            self.leave_out("the form cannot say it");
+            return;
+        };
+        let own = if is_start { None } else { Stage::new(body, &played.scene, order.effort).ok() };
+        let fault = match &own {
+            Some(own) => lint::fault(own, &read.target),
+            None if is_start => lint::fault(stage, &read.target),
+            None => Some(String::new()),
+        };
+        if fault.is_some() {
+            self.leave_out("the plan cannot run in the room as it is known then");
+            return;
+        }
+        if !is_start {
+            let known = self.scenes.iter().find(|(_, scene)| **scene == played.scene);
+            row.about.scene = known
+                .map(|(name, _)| name.clone())
+                .unwrap_or_else(|| format_smolstr!("{room}.{}", self.scenes.len() + 1));
+        }
+        self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
+        self.rows.push(row);
+    }
+}
+
+/// Puts parts together, in the order of their numbers: a row whose input is there already is left out, and each varied room
+/// is either for learning or for testing.
+#[must_use]
+pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
+    let mut dataset = Dataset::default();
+    let is_test = tested(order);
+    let mut inputs: FxHashSet<String> = FxHashSet::default();
+    for (part, is_test) in parts.into_iter().zip(is_test) {
+        for (why, count) in part.dropped {
+            *dataset.dropped.entry(why).or_default() += count;
+        }
+        let rows = if is_test { &mut dataset.test } else { &mut dataset.train };
+        for row in part.rows {
+            let input = form::read(&form::write(&row, order.form)).map(|read| lint::normal(&read.input));
+            if !inputs.insert(input.unwrap_or_default()) {
+                *dataset.dropped.entry("the same input is there already").or_default() += 1;
+                continue;
+            }
+            if let Some(scene) = part.scenes.get(&row.about.scene) {
+                dataset.scenes.entry(row.about.scene.clone()).or_insert_with(|| scene.clone());
+            }
+            rows.push(row);
+        }
+    }
+    dataset
+}
+
+/// Which varied rooms are kept for tests. At least one is where a share is asked for, and one is always left to learn from.
+fn tested(order: &Order) -> Vec<bool> {
+    let wanted = (order.test.clamp(0.0, 1.0) * order.scenes as f64).round() as usize;
+    let least = usize::from(order.test > 0.0);
+    let count = wanted.max(least).min(order.scenes.saturating_sub(1));
+    let mut is_test: Vec<bool> = (0..order.scenes).map(|number| number < count).collect();
+    Draw::part(order.seed, u64::MAX).shuffle(&mut is_test);
+    is_test
+}

@@ -1,0 +1,221 @@
+//! What is wrong with files of rows: rows that cannot be read, plans that cannot run on their robot, other answers to the
+//! same input, the same row twice, and rooms that are in more than one file.
+
+use indexmap::IndexMap;
+use motet_geometry::query::Budget;
+use motet_planner::dialect::actions;
+use motet_planner::request::Situation;
+use motet_robots::scene::Scene;
+use rustc_hash::{FxHashMap, FxHashSet};
+use smol_str::SmolStr;
+
+use crate::form::{self, Read, Target};
+use crate::stage::{Body, Stage};
+
+/// What is wrong.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Fault {
+    /// It is no row in any of the forms.
+    Unreadable,
+    /// Neither the row nor anybody else says on which robot and in which room its plan is to run.
+    NoWorld,
+    /// Its plan cannot run there.
+    CannotRun,
+    /// The same input has another answer elsewhere.
+    Contradiction,
+    /// The same input has the same answer elsewhere.
+    Duplicate,
+    /// Its room is in another file too.
+    Leak,
+}
+
+impl Fault {
+    /// As it is written in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unreadable => "unreadable",
+            Self::NoWorld => "no_world",
+            Self::CannotRun => "cannot_run",
+            Self::Contradiction => "contradiction",
+            Self::Duplicate => "duplicate",
+            Self::Leak => "leak",
+        }
+    }
+}
+
+/// A row: its file, and its line from 1.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Place {
+    /// The file's name.
+    pub file: String,
+    /// The line, from 1.
+    pub row: usize,
+}
+
+/// Something that is wrong with a row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Finding {
+    /// Which row.
+    pub at: Place,
+    /// What is wrong.
+    pub fault: Fault,
+    /// The same in words.
+    pub message: String,
+    /// The other row, where two are compared.
+    pub other: Option<Place>,
+}
+
+/// The robots and rooms that rows can be about.
+#[derive(Clone, Debug, Default)]
+pub struct Worlds {
+    /// Robots by name.
+    pub bodies: IndexMap<SmolStr, Body>,
+    /// Rooms by name.
+    pub scenes: IndexMap<SmolStr, Scene>,
+    /// The robot of rows that name none.
+    pub robot: Option<SmolStr>,
+    /// The room of rows that name none.
+    pub scene: Option<SmolStr>,
+    /// How long motions are looked for; not at all where there is none.
+    pub effort: Option<Budget>,
+}
+
+/// Looks at the rows of files, one after the other.
+pub struct Linter<'w> {
+    worlds: &'w Worlds,
+    /// Robot and room of the row before, and the stage of them: rows of one room mostly follow each other.
+    stage: Option<((SmolStr, SmolStr), Result<Stage, String>)>,
+    /// Inputs, with the answer and where it stands.
+    inputs: FxHashMap<String, (String, Place)>,
+    /// In which file a room was first.
+    rooms: FxHashMap<SmolStr, Place>,
+    leaked: FxHashSet<(String, SmolStr)>,
+}
+
+impl<'w> Linter<'w> {
+    /// Looks at rows about these robots and rooms.
+    #[must_use]
+    pub fn new(worlds: &'w Worlds) -> Self {
+        Self {
+            worlds,
+            stage: None,
+            inputs: FxHashMap::default(),
+            rooms: FxHashMap::default(),
+            leaked: FxHashSet::default(),
+        }
+    }
+
+    /// What is wrong with a line of a file, its number from 1; nothing with an empty one.
+    pub fn line(&mut self, file: &str, number: usize, line: &str) -> Vec<Finding> {
+        if line.trim().is_empty() {
+            return Vec::new();
+        }
+        let at = Place { file: file.to_owned(), row: number };
+        let mut found = Vec::new();
+        let mut find = |fault, message: String, other: Option<Place>| {
+            found.push(Finding { at: at.clone(), fault, message, other });
+        };
+        let row = match form::read(line) {
+            Ok(row) => row,
+            Err(why) => {
+                find(Fault::Unreadable, why, None);
+                return found;
+            }
+        };
+        let (input, target) = (normal(&row.input), squeezed(row.target.text()));
+        match self.inputs.get(&input) {
+            Some((known, other)) if *known == target => {
+                find(Fault::Duplicate, "the same input with the same answer".to_owned(), Some(other.clone()));
+            }
+            Some((_, other)) => {
+                let message = "the same input has another answer".to_owned();
+                find(Fault::Contradiction, message, Some(other.clone()));
+            }
+            None => {
+                self.inputs.insert(input, (target, at.clone()));
+            }
+        }
+        if let Some(other) = self.leak(&row, &at) {
+            let message = format!("its room `{}` is in another file too", family(&other.1));
+            find(Fault::Leak, message, Some(other.0));
+        }
+        match self.fault(&row) {
+            Ok(None) => {}
+            Ok(Some(why)) => find(Fault::CannotRun, why, None),
+            Err(why) => find(Fault::NoWorld, why, None),
+        }
+        found
+    }
+
+    /// Where the room of a row is in another file, told once for each room and file.
+    fn leak(&mut self, row: &Read, at: &Place) -> Option<(Place, SmolStr)> {
+        let scene = row.scene.clone()?;
+        let room = SmolStr::from(family(&scene));
+        let first = self.rooms.entry(room.clone()).or_insert_with(|| at.clone()).clone();
+        let is_new = first.file != at.file && self.leaked.insert((at.file.clone(), room));
+        is_new.then_some((first, scene))
+    }
+
+    /// Why the plan of a row cannot run.
+    ///
+    /// # Errors
+    ///
+    /// It is not known where it should.
+    fn fault(&mut self, row: &Read) -> Result<Option<String>, String> {
+        if let Target::Question(_) = row.target {
+            return Ok(None);
+        }
+        let worlds = self.worlds;
+        let missing = |what: &str, flag: &str| format!("it does not say {what}: give {flag}");
+        let robot = row.robot.clone().or_else(|| worlds.robot.clone());
+        let robot = robot.ok_or_else(|| missing("for which robot it is", "--robot NAME"))?;
+        let scene = row.scene.clone().or_else(|| worlds.scene.clone());
+        let scene = scene.ok_or_else(|| missing("in which room it is", "--scene NAME"))?;
+        let key = (robot, scene);
+        if self.stage.as_ref().is_none_or(|(known, _)| *known != key) {
+            let (robot, scene) = &key;
+            let body = worlds.bodies.get(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
+            let room = worlds.scenes.get(scene).ok_or_else(|| format!("there is no room `{scene}`"))?;
+            self.stage = Some((key, Stage::new(body, room, worlds.effort)));
+        }
+        match self.stage.as_ref().map(|(_, stage)| stage) {
+            Some(Ok(stage)) => Ok(fault(stage, &row.target)),
+            Some(Err(why)) => Err(format!("its robot cannot be in its room: {why}")),
+            None => Ok(None),
+        }
+    }
+}
+
+/// Why an answer cannot be carried out on a stage; none where it can, or asks something.
+#[must_use]
+pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
+    match target {
+        Target::Policy(policy) => stage.fault(policy),
+        Target::Question(_) => None,
+        Target::Actions(list) => {
+            let situation = Situation::new(&stage.scene);
+            match actions::read(list, "plan", &stage.session, Some(&stage.robot), &situation) {
+                Ok(loose) => stage.fault(&loose.policy),
+                Err(why) => Some(why.to_string()),
+            }
+        }
+    }
+}
+
+/// The varied room of a room in which something has happened: what stands before the last point.
+#[must_use]
+pub fn family(scene: &str) -> &str {
+    scene.rsplit_once('.').map_or(scene, |(room, _)| room)
+}
+
+/// An input as it is compared: letter case, white space and the marks of sentences do not count.
+#[must_use]
+pub fn normal(input: &str) -> String {
+    let letters = input.chars().filter(|letter| !matches!(letter, '.' | ',' | '!' | '?' | ';'));
+    squeezed(&letters.flat_map(char::to_lowercase).collect::<String>())
+}
+
+fn squeezed(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,239 @@
+//! A planner that keeps what it was asked and what it answered, and the driver that lets it see the room as it is then.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use motet_decode::{Surface, canonical};
+use motet_planner::builtin::{Answered, Unplanned};
+use motet_planner::conversation::{Ask, Builtin, Planner, Problem};
+use motet_planner::dialect::{actions, exchange};
+use motet_planner::model;
+use motet_planner::prompt::{self, Prompt};
+use motet_planner::request;
+use motet_robots::scene::{Entity, Scene};
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
+use motet_sim::Sim;
+use motet_syntax::{FileId, Source, print};
+use smol_str::SmolStr;
+
+/// A turn: a planner is asked, and answers.
+#[derive(Clone, Debug)]
+pub(crate) struct Turn {
+    /// The room as it is then, as far as it is known.
+    pub(crate) scene: Scene,
+    pub(crate) system: String,
+    pub(crate) user: String,
+    pub(crate) request: String,
+    pub(crate) history: String,
+    pub(crate) vision: String,
+    pub(crate) feasibility: String,
+    /// On the model surface; why it has no place there otherwise.
+    pub(crate) policy: Result<String, String>,
+    pub(crate) actions: String,
+}
+
+/// A simulator that a planner looks at while the conversation drives it.
+#[derive(Clone, Debug)]
+pub(crate) struct Shared(pub(crate) Rc<RefCell<Sim>>);
+
+/// The planner that needs no model, with a memory of its turns.
+pub(crate) struct Mind {
+    /// The room as the robot was told that it is.
+    pub(crate) told: Scene,
+    pub(crate) sim: Shared,
+    pub(crate) turns: Vec<Turn>,
+}
+
+impl Planner for Mind {
+    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+        let answer = Builtin.plan(ask);
+        let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
+        let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
+        let (scene, situation) = (ask.situation.scene, ask.situation);
+        let prompt = Prompt {
+            session: ask.session,
+            robot: ask.robot,
+            scene,
+            situation,
+            memory: ask.memory,
+            tokens: prompt::TOKENS,
+        };
+        let now = self.scene_now(ask);
+        let named = request::named(ask.request, situation);
+        let (_, feasibility) = exchange::sight(&prompt.seen(&named));
+        let vision: Vec<String> = named.iter().filter_map(|id| sight(&now, id)).collect();
+        // The first entry is the request itself.
+        let entries = ask.memory.entries().skip(1).map(|entry| entry.to_string());
+        let history: Vec<String> = std::iter::once(stance(ask, &now)).chain(entries).collect();
+        let (policy, actions) = match &answer {
+            Ok(answered) => {
+                let policy = answered.planned.parsed.file.policies().next();
+                let actions = policy.map(|policy| actions::write(policy, scene).0).unwrap_or_default();
+                (surfaced(ask, &answered.planned.text), actions)
+            }
+            Err(why) => {
+                let question = Problem::of_planning(why, scene).question;
+                (surfaced(ask, &asking(ask, &question)), question)
+            }
+        };
+        self.turns.push(Turn {
+            scene: now,
+            system,
+            user,
+            request: ask.request.to_owned(),
+            history: history.join("; "),
+            vision: vision.join(", "),
+            feasibility,
+            policy,
+            actions,
+        });
+        answer
+    }
+
+    fn reads_answers(&self) -> bool {
+        true
+    }
+}
+
+impl Mind {
+    /// The room as it is known: what is believed of things counts where it is not the case.
+    fn scene_now(&self, ask: &Ask<'_>) -> Scene {
+        let sim = self.sim.0.borrow();
+        let mut scene = self.told.clone();
+        let base = sim.base();
+        scene.robot.base = [base.x, base.y, base.heading];
+        if sim.now() == Time::ZERO {
+            return scene;
+        }
+        scene.robot.joints.clear();
+        scene.robot.holding = Some(ask.situation.holding.clone());
+        let serves = |id: &str| sim.holds("at", &["robot", id]) == Some(true);
+        scene.robot.at = scene.entities.keys().find(|id| serves(id)).cloned();
+        let kinds: Vec<_> =
+            scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
+        for (id, entity) in &mut scene.entities {
+            if entity.travel.is_some() {
+                entity.open = sim.holds("open", &[id.as_str()]);
+            }
+            if entity.kind != "Object" || entity.fixed {
+                continue;
+            }
+            // What was in view was so from where the robot stood.
+            entity.visible = None;
+            let believed = ask.situation.supports.iter().find(|(known, _)| known == id);
+            let Some((_, support)) = believed else { continue };
+            let is_held = ask.situation.holding.as_ref() == Some(id);
+            let before = entity.on.as_ref().or(entity.inside.as_ref());
+            if !is_held && before == support.as_ref() {
+                continue;
+            }
+            (entity.on, entity.inside, entity.pose) = (None, None, None);
+            let Some(support) = support.as_ref().filter(|_| !is_held) else { continue };
+            let is_container = kinds.iter().any(|(known, kind)| known == support && kind == "Container");
+            if is_container {
+                entity.inside = Some(support.clone());
+            } else {
+                entity.on = Some(support.clone());
+            }
+        }
+        scene
+    }
+}
+
+/// The robot as it stands, in the words of the dialect.
+fn stance(ask: &Ask<'_>, now: &Scene) -> String {
+    let mut text = format!("robot: {}", ask.robot.name);
+    if let Some(place) = &now.robot.at {
+        text.push_str(&format!(", at {place}"));
+    }
+    if let Some(Some(held)) = &now.robot.holding {
+        text.push_str(&format!(", holding {held}"));
+    }
+    text
+}
+
+/// What is known of a thing, in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
+fn sight(now: &Scene, id: &str) -> Option<String> {
+    let entity = now.entities.get(id)?;
+    let word = match entity.visible {
+        Some(true) => "seen",
+        Some(false) => "not seen",
+        None => "unknown",
+    };
+    let state = |entity: &Entity| match entity.open {
+        Some(true) => " (open)",
+        Some(false) => " (closed)",
+        None => "",
+    };
+    let at = |preposition: &str, holder: &Option<SmolStr>| {
+        let holder = now.entities.get(holder.as_ref()?)?;
+        Some(format!(", {preposition} {}{}", holder.id, state(holder)))
+    };
+    let place = at("on", &entity.on).or_else(|| at("in", &entity.inside)).unwrap_or_default();
+    Some(format!("{id}: {word}{}{place}", state(entity)))
+}
+
+/// A policy as a model writes it.
+fn surfaced(ask: &Ask<'_>, text: &str) -> Result<String, String> {
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
+    let policy = parsed.file.policies().next().ok_or_else(|| "there is no policy".to_owned())?;
+    canonical(policy, &ask.session.signatures(), Surface::default()).map_err(|outside| outside.why)
+}
+
+/// A policy that asks a question, whose answer goes into the next plan.
+fn asking(ask: &Ask<'_>, question: &str) -> String {
+    let plain: String =
+        question.chars().map(|letter| if letter == '"' || letter == '\\' { '\'' } else { letter }).collect();
+    let robot = print::identifier(&ask.robot.name);
+    format!("policy ask_first for {robot} {{\n    let answer = ask(\"{plain}\")\n    replan answer\n}}\n")
+}
+
+impl Driver for Shared {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.0.borrow_mut().start(now, goal, command);
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.0.borrow_mut().cancel(now, goal);
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.0.borrow().capabilities()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        Driver::base(&*self.0.borrow())
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.0.borrow_mut().update(now, goal, command);
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.0.borrow_mut().hold(now, goal);
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.0.borrow_mut().proceed(now, goal);
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.0.borrow_mut().safe_stop(now, goal);
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.0.borrow_mut().observe(now, query);
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.0.borrow_mut().watch(now, query);
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.0.borrow_mut().unwatch(now, query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        self.0.borrow_mut().advance(until)
+    }
+}

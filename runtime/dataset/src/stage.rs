@@ -1,0 +1,119 @@
+//! A robot in a room, as plans are tried in it: checked, with their motions, and run in simulation.
+
+use std::sync::Arc;
+
+use motet_compiler::{Geometry, Options as CheckOptions, Session};
+use motet_geometry::query::Budget;
+use motet_graph::NodeKind;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_robots::urdf::Urdf;
+use motet_runtime::{Driver, Engine, RunEnd, StartState, Time};
+use motet_sim::{Options, Sim};
+use motet_syntax::ast::{File, Item};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
+
+/// A robot with its body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its card.
+    pub robot: Robot,
+    /// Its links and joints; without them no motion is looked for.
+    pub urdf: Option<Urdf>,
+}
+
+/// A robot in a room.
+#[derive(Debug)]
+pub struct Stage {
+    /// What plans are checked against.
+    pub session: Session,
+    /// The robot's body in the room, where motions are looked for.
+    pub geometry: Option<Arc<Geometry>>,
+    /// The robot.
+    pub robot: Robot,
+    /// The room.
+    pub scene: Scene,
+}
+
+impl Stage {
+    /// Puts a robot into a room. With an effort, motions are looked for.
+    ///
+    /// # Errors
+    ///
+    /// What keeps the robot from being in that room.
+    pub fn new(body: &Body, scene: &Scene, effort: Option<Budget>) -> Result<Self, String> {
+        let robot = &body.robot;
+        let (mut session, said) = Session::new(
+            Some(robot),
+            &[],
+            Some(scene),
+            None,
+            CheckOptions::default(),
+            &mut Sources::default(),
+        );
+        if let Some(error) = said.iter().find(|said| said.severity == Severity::Error) {
+            return Err(format!("{}: {}", error.code, error.message));
+        }
+        let mut geometry = None;
+        if let (Some(budget), Some(urdf)) = (effort, &body.urdf) {
+            let made = Arc::new(Geometry::new(robot, urdf, scene, None, budget));
+            session = session.with_geometry(Arc::clone(&made));
+            geometry = Some(made);
+        }
+        Ok(Self { session, geometry, robot: robot.clone(), scene: scene.clone() })
+    }
+
+    /// Why a plan cannot be carried out here, in either form of the language; none where it can: it passes the check,
+    /// motions included, and a simulated run of it comes to its end, or to the question that it asks.
+    #[must_use]
+    pub fn fault(&self, plan: &str) -> Option<String> {
+        let parsed = motet_syntax::read(&Source::new("plan", plan), FileId(0));
+        if let Some(extra) = parsed.file.items.iter().find(|item| !matches!(item, Item::Policy(_))) {
+            return Some(format!("it declares something beside its policy: {}", what(extra)));
+        }
+        let compiled = self.session.compile(&parsed, None);
+        let errors: Vec<Diagnostic> =
+            compiled.diagnostics.into_iter().filter(|said| said.severity == Severity::Error).collect();
+        let Some(graph) = compiled.graph.filter(|_| errors.is_empty()) else {
+            let words = render::llm(&errors, &Sources::default());
+            return Some(words.lines().next().unwrap_or("it is no policy").to_owned());
+        };
+        let asks = graph.nodes.iter().any(|node| {
+            let NodeKind::Call(call) = &node.kind else { return false };
+            let primitive = graph.primitives.get(call.primitive.index());
+            primitive.is_some_and(|primitive| matches!(primitive.name.as_str(), "ask" | "choose"))
+        });
+        let mut sim = Sim::new(&self.robot, &self.scene, Options::default());
+        let entities = self.scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
+        let start = StartState { entities: entities.collect(), ..StartState::default() };
+        let mut engine = match Engine::new(graph, &start) {
+            Ok(engine) => engine.with_capabilities(sim.capabilities()),
+            Err(wrong) => {
+                return Some(
+                    wrong.first().map_or_else(|| "its graph is not valid".to_owned(), ToString::to_string),
+                );
+            }
+        };
+        match motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO) {
+            RunEnd::Done { .. } => None,
+            RunEnd::Replan { .. } if asks => None,
+            RunEnd::Replan { why } => Some(format!(
+                "in simulation it asks for another plan: {}",
+                why.as_deref().unwrap_or("without a reason")
+            )),
+            RunEnd::Failed { kind, why, .. } => {
+                let why = why.map(|why| format!(", {why}")).unwrap_or_default();
+                Some(format!("in simulation it fails with {kind}{why}"))
+            }
+            RunEnd::Interrupted => Some("in simulation it is interrupted".to_owned()),
+            RunEnd::Fault(fault) => Some(format!("in simulation it comes to {fault}")),
+        }
+    }
+}
+
+/// What stands in a document, for people.
+fn what(item: &Item) -> String {
+    let text = motet_syntax::print::text(&File { items: vec![item.clone()] });
+    let line = text.lines().find(|line| !line.trim_start().starts_with("//")).unwrap_or_default();
+    format!("`{}`", line.trim())
+}

@@ -1,0 +1,281 @@
+//! Datasets as they are made, written and linted.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    reason = "a test fails by panicking"
+)]
+
+use std::collections::BTreeSet;
+
+use motet_dataset::form::{self, Form};
+use motet_dataset::generate::{self, Dataset, Order};
+use motet_dataset::lint::{Fault, Finding, Linter, Worlds, family};
+use motet_dataset::{Body, Row, scenery, wordings};
+use motet_geometry::query::Budget;
+use motet_robots::{card, scene, urdf};
+use motet_syntax::{FileId, Source};
+use serde_json::{Value, json};
+
+const FORMS: [Form; 4] = [Form::Trl, Form::LlamaFactory, Form::QwenVl, Form::InteLiPlan];
+
+fn body(name: &str) -> Body {
+    let (_, toml, declarations) = card::embedded().iter().find(|row| row.0 == name).unwrap();
+    let (robot, _) = card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations);
+    let (urdf, _) = urdf::read(&Source::new("robot.urdf", card::embedded_urdf(name).unwrap()), FileId(0));
+    Body { robot: robot.unwrap(), urdf }
+}
+
+fn room(name: &str) -> scene::Scene {
+    let (_, text) = scene::embedded().iter().find(|row| row.0 == name).unwrap();
+    scene::read(&Source::new(name, *text), FileId(0)).0.unwrap()
+}
+
+fn order(form: Form) -> Order {
+    Order {
+        seed: 5,
+        bodies: vec![body("hsr"), body("anymal_z1")],
+        rooms: ["kitchen", "living_room"].map(|name| (name.into(), room(name))).to_vec(),
+        things: scenery::things(),
+        wordings: wordings::read(wordings::OWN).unwrap(),
+        scenes: 3,
+        cases: 4,
+        test: 0.3,
+        effort: None,
+        form,
+    }
+}
+
+fn made(order: &Order) -> Dataset {
+    generate::gather(order, (0..order.scenes).map(|number| generate::part(order, number)).collect())
+}
+
+fn worlds(dataset: &Dataset, effort: Option<Budget>) -> Worlds {
+    Worlds {
+        bodies: ["hsr", "anymal_z1"].map(|name| (name.into(), body(name))).into_iter().collect(),
+        scenes: dataset.scenes.clone(),
+        effort,
+        ..Worlds::default()
+    }
+}
+
+fn linted(worlds: &Worlds, files: &[(&str, Vec<String>)]) -> Vec<Finding> {
+    let mut linter = Linter::new(worlds);
+    let mut found = Vec::new();
+    for (file, lines) in files {
+        for (index, line) in lines.iter().enumerate() {
+            found.extend(linter.line(file, index + 1, line));
+        }
+    }
+    found
+}
+
+fn lines(rows: &[Row], form: Form) -> Vec<String> {
+    rows.iter().map(|row| form::write(row, form)).collect()
+}
+
+#[test]
+fn every_row_of_a_dataset_passes_lint_in_every_form() {
+    for form in FORMS {
+        let order = match form {
+            Form::Trl | Form::InteLiPlan => order(form),
+            Form::LlamaFactory | Form::QwenVl => {
+                Order { bodies: vec![body("hsr")], scenes: 2, ..order(form) }
+            }
+        };
+        let dataset = made(&order);
+        let rows = dataset.train.len() + dataset.test.len();
+        assert!(rows >= 6 && !dataset.test.is_empty(), "{form:?}: {rows}, {:?}", dataset.dropped);
+        let files = [("train", lines(&dataset.train, form)), ("test", lines(&dataset.test, form))];
+        assert_eq!(linted(&worlds(&dataset, None), &files), [], "{form:?}");
+    }
+}
+
+#[test]
+fn motions_are_verified_too() {
+    let order = Order {
+        bodies: vec![body("hsr")],
+        scenes: 2,
+        cases: 3,
+        effort: Some(Budget::default()),
+        ..order(Form::Trl)
+    };
+    let dataset = made(&order);
+    assert!(dataset.train.len() >= 2, "{:?}", dataset.dropped);
+    let files = [("train", lines(&dataset.train, Form::Trl)), ("test", lines(&dataset.test, Form::Trl))];
+    assert_eq!(linted(&worlds(&dataset, order.effort), &files), []);
+}
+
+#[test]
+fn a_seed_gives_the_same_rows_and_another_seed_others() {
+    let one = Order { bodies: vec![body("hsr")], scenes: 2, cases: 2, ..order(Form::Trl) };
+    let (first, second) = (made(&one), made(&one));
+    assert_eq!((&first.train, &first.test), (&second.train, &second.test));
+    let other = made(&Order { seed: 6, ..one });
+    assert_ne!(first.train, other.train);
+}
+
+#[test]
+fn rooms_are_on_one_side_and_what_happens_varies() {
+    let dataset = made(&Order { scenes: 6, cases: 8, ..order(Form::Trl) });
+    let rooms = |rows: &[Row]| -> BTreeSet<String> {
+        rows.iter().map(|row| family(&row.about.scene).to_owned()).collect()
+    };
+    let (train, test) = (rooms(&dataset.train), rooms(&dataset.test));
+    assert!(train.is_disjoint(&test), "{train:?} {test:?}");
+    assert_eq!((train.len(), test.len()), (4, 2));
+    let all: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
+    let tasks: BTreeSet<_> = all.iter().map(|row| row.about.task).collect();
+    let failures: BTreeSet<_> = all.iter().flat_map(|row| &row.about.failures).collect();
+    let requests: BTreeSet<_> = all.iter().map(|row| row.request.as_str()).collect();
+    assert!(tasks.len() >= 6 && failures.len() == 5, "{tasks:?} {failures:?}");
+    assert!(requests.len() * 2 > all.len(), "{} of {}", requests.len(), all.len());
+    assert!(all.iter().any(|row| row.about.turn > 0 && row.policy.contains("\"do\":\"pick\"")), "recoveries");
+    assert!(all.iter().any(|row| row.policy.contains("\"do\":\"ask\"")), "questions");
+}
+
+#[test]
+fn rows_have_the_shapes_that_trainers_read() {
+    let dataset = made(&Order { scenes: 2, cases: 3, ..order(Form::Trl) });
+    let row = &dataset.train[0];
+    let of = |form| -> Value { serde_json::from_str(&form::write(row, form)).unwrap() };
+    let trl = of(Form::Trl);
+    let roles: Vec<&str> =
+        trl["messages"].as_array().unwrap().iter().map(|one| one["role"].as_str().unwrap()).collect();
+    assert_eq!(roles, ["system", "user", "assistant"]);
+    let llama = of(Form::LlamaFactory);
+    assert_eq!(llama["conversations"][0]["from"], "human");
+    assert_eq!(llama["conversations"][1]["from"], "gpt");
+    assert_eq!(llama["system"], trl["messages"][0]["content"]);
+    let qwen = of(Form::QwenVl);
+    assert_eq!(qwen["conversations"].as_array().unwrap().len(), 2);
+    assert!(qwen["conversations"][0]["value"].as_str().unwrap().starts_with(&row.system));
+    let text = of(Form::InteLiPlan)["text"].as_str().unwrap().to_owned();
+    assert!(text.contains("<user> ") && text.contains("<robot> "), "{text}");
+    let info: Value = serde_json::from_str(&form::dataset_info(&["train"])).unwrap();
+    assert_eq!(info["motet_train"]["formatting"], "sharegpt");
+    for form in FORMS {
+        let read = form::read(&form::write(row, form)).unwrap();
+        assert_eq!(read.robot.as_deref(), Some(row.about.robot.as_str()));
+        assert_eq!(read.scene.as_deref(), Some(row.about.scene.as_str()));
+    }
+}
+
+/// A row in TRL's form for the HSR in the kitchen.
+fn wrong_row(request: &str, policy: &str) -> String {
+    json!({
+        "messages": [{"role": "user", "content": request}, {"role": "assistant", "content": policy}],
+        "motet": {"robot": "hsr", "scene": "kitchen"},
+    })
+    .to_string()
+}
+
+#[test]
+fn rows_that_are_wrong_are_found_each_in_its_way() {
+    let mut worlds = worlds(&Dataset::default(), None);
+    worlds.scenes.insert("kitchen".into(), room("kitchen"));
+    let fetch = "policy p for hsr { go(counter) pick(coke) }";
+    let say = "policy p for hsr { say(\"hello\") }";
+    for (name, rows, fault, row, words) in [
+        ("not JSON", vec!["{".to_owned()], Fault::Unreadable, 1, "it is not JSON"),
+        ("no row", vec!["{\"a\": 1}".to_owned()], Fault::Unreadable, 1, "none of `messages`"),
+        (
+            "the wrong turn",
+            vec![json!({"messages": [{"role": "assistant", "content": "x"}]}).to_string()],
+            Fault::Unreadable,
+            1,
+            "`user`'s turn",
+        ),
+        (
+            "no answer",
+            vec![json!({"conversations": [{"from": "human", "value": "x"}]}).to_string()],
+            Fault::Unreadable,
+            1,
+            "last message is not of `gpt`",
+        ),
+        (
+            "no world",
+            vec![json!({"prompt": "Say hello.", "completion": say}).to_string()],
+            Fault::NoWorld,
+            1,
+            "give --robot",
+        ),
+        (
+            "an unknown room",
+            vec![wrong_row("a", say).replace("kitchen", "cellar")],
+            Fault::NoWorld,
+            1,
+            "no room `cellar`",
+        ),
+        ("a misspelt step", vec![wrong_row("a", "policy p for hsr { goo(counter) }")], Fault::CannotRun, 1, "goo"),
+        (
+            "a refuted step",
+            vec![wrong_row("a", "policy p for hsr { pick(coke) pick(apple) }")],
+            Fault::CannotRun,
+            1,
+            "needs",
+        ),
+        (
+            "a step that fails",
+            vec![wrong_row("a", "policy p for hsr { let x = detect(\"teddy\") }")],
+            Fault::CannotRun,
+            1,
+            "not_found",
+        ),
+        ("a new plan", vec![wrong_row("a", "policy p for hsr { replan \"no\" }")], Fault::CannotRun, 1, "another plan"),
+        ("prose", vec![wrong_row("a", "I cannot do that.")], Fault::CannotRun, 1, ""),
+        (
+            "a contract of its own",
+            vec![wrong_row("a", "action fly() policy p for hsr { fly() }")],
+            Fault::CannotRun,
+            1,
+            "beside its policy",
+        ),
+        (
+            "the same twice",
+            vec![wrong_row("Fetch the coke.", fetch), wrong_row("fetch  the coke", fetch)],
+            Fault::Duplicate,
+            2,
+            "the same answer",
+        ),
+        (
+            "two answers",
+            vec![wrong_row("Fetch the coke.", fetch), wrong_row("Fetch the coke.", say)],
+            Fault::Contradiction,
+            2,
+            "another answer",
+        ),
+        (
+            "an action that the robot lacks",
+            vec![json!({"text": "<user> Fly. <robot> go to counter, fly home", "motet": {"robot": "hsr", "scene": "kitchen"}}).to_string()],
+            Fault::CannotRun,
+            1,
+            "action 2",
+        ),
+    ] {
+        let found = linted(&worlds, &[("rows", rows)]);
+        assert_eq!(found.len(), 1, "{name}: {found:?}");
+        assert_eq!((found[0].fault, found[0].at.row), (fault, row), "{name}: {found:?}");
+        assert!(found[0].message.contains(words), "{name}: {found:?}");
+    }
+    let ask = "policy p for hsr { let answer = ask(\"Which one?\") replan answer }";
+    assert_eq!(linted(&worlds, &[("rows", vec![wrong_row("a", ask), wrong_row("b", fetch)])]), []);
+}
+
+#[test]
+fn a_room_in_two_files_is_found_once() {
+    let mut worlds = worlds(&Dataset::default(), None);
+    for name in ["kitchen-1", "kitchen-1.2", "kitchen-2"] {
+        worlds.scenes.insert(name.into(), room("kitchen"));
+    }
+    let row = |request: &str, scene: &str| {
+        wrong_row(request, "policy p for hsr { go(counter) }").replace("\"kitchen\"", &format!("\"{scene}\""))
+    };
+    let train = vec![row("a", "kitchen-1")];
+    let test = vec![row("b", "kitchen-2"), row("c", "kitchen-1.2"), row("d", "kitchen-1")];
+    let found = linted(&worlds, &[("train", train), ("test", test)]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].fault, found[0].at.row), (Fault::Leak, 2));
+    assert_eq!(found[0].other.as_ref().map(|other| other.file.as_str()), Some("train"));
+}
