@@ -16,18 +16,37 @@ impl Solid {
     /// nearly flat. Where they overlap it is 0 or negative, and says nothing about how deep.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
-        self.bounded(other, f64::INFINITY)
+        self.bounded(other, Told { enough: f64::INFINITY, least: None }, &mut Vector3::zeros())
     }
 
     /// Whether the distance is more than `metres`. Cheaper than the distance.
     #[must_use]
     pub fn is_farther(&self, other: &Self, metres: f64) -> bool {
-        self.distance_to(self.reach(), other, other.reach(), metres) > metres
+        self.apart(self.reach(), other, other.reach(), [metres, metres], &mut Vector3::zeros()) > metres
     }
 
     /// The distance, or a bound from below where one is above `enough`: at once where that suffices, from the balls around
     /// both, whose radii the caller knows, or from the directions of a box or a cylinder.
     pub(crate) fn distance_to(&self, reach: f64, other: &Self, other_reach: f64, enough: f64) -> f64 {
+        self.told(reach, other, other_reach, Told { enough, least: None }, &mut Vector3::zeros())
+    }
+
+    /// A bound from below that tells only whether the distance is above `enough`, and if it is not, whether it is above
+    /// `least`, which is no more: cheaper than the distance. `axis` is a direction, of length 1, along which the two were apart
+    /// before, or 0; it becomes one for the next time.
+    pub(crate) fn apart(
+        &self,
+        reach: f64,
+        other: &Self,
+        other_reach: f64,
+        [least, enough]: [f64; 2],
+        axis: &mut Vector3<f64>,
+    ) -> f64 {
+        self.told(reach, other, other_reach, Told { enough, least: Some(least) }, axis)
+    }
+
+    fn told(&self, reach: f64, other: &Self, other_reach: f64, told: Told, axis: &mut Vector3<f64>) -> f64 {
+        let enough = told.enough;
         let wide = reach + other_reach + enough;
         let between = (self.centre - other.centre).norm_squared();
         if between > wide * wide {
@@ -41,10 +60,11 @@ impl Solid {
             (Shape::Cylinder { radius, half }, _) => self.beside_cylinder(*radius, *half, other),
             (Shape::Capsule { .. }, Shape::Capsule { .. }) => f64::NEG_INFINITY,
         };
-        if below > enough { below } else { self.bounded(other, enough) }
+        if below > enough { below } else { self.bounded(other, told, axis) }
     }
 
-    /// The same for all places of this solid while it moves by `shift` without turning.
+    /// A bound from below that tells only whether the distance is above `enough`, for all places of this solid while it moves by
+    /// `shift` without turning.
     pub(crate) fn swept_distance_to(
         &self,
         shift: &Vector3<f64>,
@@ -70,7 +90,8 @@ impl Solid {
             }
         }
         let rims = self.rim() + other.rim();
-        cores(&Swept { solid: self, shift: *shift }, other, enough + rims) - rims
+        let told = Told { enough: enough + rims, least: Some(enough + rims) };
+        cores(&Swept { solid: self, shift: *shift }, other, told, &mut Vector3::zeros()) - rims
     }
 
     /// The distance from this box to the smallest box along its directions that holds the other, less its rim.
@@ -119,7 +140,7 @@ impl Solid {
     }
 
     /// The distance, or a bound from below as soon as one is above `enough`.
-    fn bounded(&self, other: &Self, enough: f64) -> f64 {
+    fn bounded(&self, other: &Self, told: Told, axis: &mut Vector3<f64>) -> f64 {
         match (&self.shape, &other.shape) {
             (Shape::HalfSpace, Shape::HalfSpace) => f64::NEG_INFINITY,
             (_, Shape::HalfSpace) => above(other, self),
@@ -129,10 +150,20 @@ impl Solid {
             }
             _ => {
                 let rims = self.rim() + other.rim();
-                cores(self, other, enough + rims) - rims
+                let least = told.least.map(|least| least + rims);
+                cores(self, other, Told { enough: told.enough + rims, least }, axis) - rims
             }
         }
     }
+}
+
+/// What is to be told of a distance.
+#[derive(Clone, Copy)]
+struct Told {
+    /// Above this any bound does.
+    enough: f64,
+    /// If it is not above that, only whether it is above this; the distance itself where there is none.
+    least: Option<f64>,
 }
 
 fn above(half_space: &Solid, solid: &Solid) -> f64 {
@@ -182,7 +213,17 @@ impl Convex for Swept<'_> {
 
 /// The distance between the cores of two solids, from below. With the nearest point `v` of a simplex within the difference of
 /// both, no point of the difference is nearer to the origin than the plane square to `v` through the support `w`.
-fn cores(one: &impl Convex, other: &Solid, enough: f64) -> f64 {
+///
+/// `nearest` is a point of the difference, so its length is never below the distance.
+fn cores(one: &impl Convex, other: &Solid, told: Told, axis: &mut Vector3<f64>) -> f64 {
+    let enough = told.enough;
+    if *axis != Vector3::zeros() {
+        // The plane square to where they were apart before, most often, is enough.
+        let below = axis.dot(&(one.farthest(&-*axis) - other.support(axis)));
+        if below > enough {
+            return below;
+        }
+    }
     let mut nearest = one.middle() - other.centre;
     let mut simplex = Simplex::empty();
     let mut below = 0.0_f64;
@@ -192,8 +233,12 @@ fn cores(one: &impl Convex, other: &Solid, enough: f64) -> f64 {
             return 0.0;
         }
         let support = one.farthest(&-nearest) - other.support(&nearest);
-        below = below.max(nearest.dot(&support) / length);
-        if below > enough || length - below <= CLOSE || simplex.contains(&support) {
+        let bound = nearest.dot(&support) / length;
+        if bound > below {
+            (below, *axis) = (bound, nearest / length);
+        }
+        let is_told = told.least.is_some_and(|least| length <= least || (length <= enough && below > least));
+        if below > enough || is_told || length - below <= CLOSE || simplex.contains(&support) {
             return below;
         }
         simplex.push(support);

@@ -124,7 +124,7 @@ impl Around<'_, '_> {
             }
             for near in &self.things {
                 if !limb.may_touch(near.entity, allowed)
-                    && solid.distance_to(limb.reach, &near.solid, near.reach, GAP) <= GAP
+                    && touches(solid, limb.reach, &near.solid, near.reach)
                 {
                     return Some((part, Other::Thing(near.index)));
                 }
@@ -135,8 +135,8 @@ impl Around<'_, '_> {
         }
         self.room.body.pairs().iter().find_map(|[one, other]| {
             let (a, b) = (self.limbs.get(*one)?, self.limbs.get(*other)?);
-            let metres = placed.get(*one)?.distance_to(a.reach, placed.get(*other)?, b.reach, GAP);
-            (metres <= GAP).then_some((*one, Other::Part(*other)))
+            touches(placed.get(*one)?, a.reach, placed.get(*other)?, b.reach)
+                .then_some((*one, Other::Part(*other)))
         })
     }
 
@@ -243,6 +243,11 @@ impl Limb {
     pub(super) fn may_touch(&self, entity: usize, allowed: Allowed) -> bool {
         (self.in_hand && allowed.hand == Some(entity)) || (self.is_held && allowed.held == Some(entity))
     }
+}
+
+/// Whether two solids are no farther from each other than [`GAP`].
+pub(super) fn touches(one: &Solid, reach: f64, other: &Solid, other_reach: f64) -> bool {
+    one.apart(reach, other, other_reach, [GAP, GAP], &mut Vector3::zeros()) <= GAP
 }
 
 pub(super) fn above_floor(solid: &Solid) -> f64 {

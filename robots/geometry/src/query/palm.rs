@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::around::above_floor;
+use super::around::{above_floor, touches};
 use super::machine::Hand;
 use super::room::{GAP, Room};
 use super::things::Thing;
@@ -70,7 +70,7 @@ impl Palm<'_, '_> {
                 if own.is_held && self.beneath == Some(thing.entity) {
                     continue;
                 }
-                if solid.distance_to(own.reach, &thing.solid, thing.reach, GAP) <= GAP {
+                if touches(&solid, own.reach, &thing.solid, thing.reach) {
                     return told(self.room.name(thing.entity));
                 }
             }

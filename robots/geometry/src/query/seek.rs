@@ -103,7 +103,7 @@ impl Room<'_> {
                         return Ok(found);
                     }
                     if tried >= budget.paths {
-                        return Err(Answer::Unknown(Unknown::Budget));
+                        return searched(&mut left, &mut ways).ok_or(Answer::Unknown(Unknown::Budget));
                     }
                 }
             }

@@ -5,6 +5,8 @@
 
 use std::collections::VecDeque;
 
+use nalgebra::Vector3;
+
 use super::around::{Around, above_floor};
 use super::room::GAP;
 use super::state::State;
@@ -74,6 +76,14 @@ struct Moved {
 struct Pair {
     part: usize,
     other: Other,
+    /// A direction along which they were apart on the leg of which this is a half; 0 where none is known.
+    axis: Vector3<f64>,
+}
+
+impl Pair {
+    fn new(part: usize, other: Other) -> Self {
+        Self { part, other, axis: Vector3::zeros() }
+    }
 }
 
 /// A leg of a way: from `middle - half` to `middle + half`.
@@ -131,34 +141,36 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         for (limb, part) in around.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts) {
             for (near, at) in around.things.iter().zip(0..) {
                 if !limb.may_touch(near.entity, allowed) {
-                    look(self, Pair { part, other: Other::Thing(at) })?;
+                    look(self, Pair::new(part, Other::Thing(at)))?;
                 }
             }
             // The base stands on the floor.
             if limb.is_carried {
-                look(self, Pair { part, other: Other::Floor })?;
+                look(self, Pair::new(part, Other::Floor))?;
             }
         }
         for [part, other] in around.room.body.pairs() {
-            look(self, Pair { part: *part, other: Other::Part(*other) })?;
+            look(self, Pair::new(*part, Other::Part(*other)))?;
         }
         Ok(())
     }
 
     /// Looks at a pair: it touches, or stays apart on the whole leg, or has to be looked at again.
-    fn look(&mut self, pair: Pair, depth: u32, again: &mut Vec<Pair>) -> Result<(), Touch> {
+    fn look(&mut self, mut pair: Pair, depth: u32, again: &mut Vec<Pair>) -> Result<(), Touch> {
         let around = self.around;
         let Some((one, limb)) = self.moved(pair.part).zip(around.limbs.get(pair.part)) else { return Ok(()) };
         let (metres, room) = match pair.other {
             Other::Thing(at) => {
                 let Some(near) = around.things.get(at) else { return Ok(()) };
                 let room = GAP + one.whole;
-                (one.solid.distance_to(limb.reach, &near.solid, near.reach, room), room)
+                let told = [GAP, room];
+                (one.solid.apart(limb.reach, &near.solid, near.reach, told, &mut pair.axis), room)
             }
             Other::Part(at) => {
                 let Some((other, beyond)) = self.moved(at).zip(around.limbs.get(at)) else { return Ok(()) };
                 let room = GAP + self.approach(pair.part, &one.solid, at, &other.solid);
-                (one.solid.distance_to(limb.reach, &other.solid, beyond.reach, room), room)
+                let told = [GAP, room];
+                (one.solid.apart(limb.reach, &other.solid, beyond.reach, told, &mut pair.axis), room)
             }
             Other::Floor => (above_floor(&one.solid), GAP + one.whole),
         };
