@@ -237,10 +237,7 @@ impl Prover<'_> {
             return;
         }
         // Only a symbol can be the same as something else.
-        let symbolic = self.library.fluent(fluent).is_some_and(|def| {
-            let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
-            entities.into_iter().any(|(index, _)| self.symbols.get(Entity(key.arg(index))).is_some())
-        });
+        let symbolic = self.has_symbol(fluent, key);
         if let Some(aliased) = self.aliased.get_mut(fluent.index()) {
             *aliased |= symbolic;
             if *aliased {
@@ -250,16 +247,30 @@ impl Prover<'_> {
         }
     }
 
+    /// Whether an argument of a fact is an entity of which it is not known which it is.
+    fn has_symbol(&self, fluent: Fluent, key: Key) -> bool {
+        self.library.fluent(fluent).is_some_and(|def| {
+            let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
+            entities.into_iter().any(|(index, _)| self.symbols.get(Entity(key.arg(index))).is_some())
+        })
+    }
+
     /// An effect on one entity is a possible effect on all that it may be.
     fn echo(&mut self, fluent: Fluent, key: Key, value: Value, cause: Cause) {
         let library = self.library;
         let Some(def) = library.fluent(fluent) else { return };
         let mut targets: Vec<(Key, Value)> = Vec::new();
-        self.facts.entries(fluent, Key::ALL, |other, known| {
+        let mut feels = |other: Key, known: Value| {
             if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {
                 targets.push((other, known));
             }
-        });
+        };
+        if self.has_symbol(fluent, key) {
+            self.facts.entries(fluent, Key::ALL, &mut feels);
+        } else {
+            // What is no symbol may be one, and the facts at the start speak of none.
+            self.facts.written(fluent, &mut feels);
+        }
         // Entities behind a symbol that have no entry yet.
         for (index, (_, ty)) in def.params.iter().enumerate() {
             let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| ty.kind().is_some());
