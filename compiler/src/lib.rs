@@ -21,10 +21,10 @@ pub mod signature;
 mod world;
 
 pub use library::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
-pub use place::Geometry;
+pub use place::{Access, Geometry};
 pub use prove::MAX_FIXPOINTS;
 pub use resolve::{MAX_COUNT, MAX_NODES, MAX_SECONDS};
-pub use session::{Compiled, Options, Session};
+pub use session::{Compiled, Given, Options, Session};
 pub use settle::settle;
 pub use signature::Signatures;
 pub use world::{MAX_ENTITIES, State, World};

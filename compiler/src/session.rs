@@ -1,18 +1,19 @@
 //! What a host holds on to: a library and a world, made once, against which any number of documents is checked.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use motet_graph::Graph;
+use motet_graph::{Graph, Value};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{File, Item, Policy};
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Sources, Span};
+use smol_str::SmolStr;
 
 use crate::check::errors::{NoPolicy, OtherRobot};
 use crate::fix::Finding;
-use crate::ir::{Program, StepKind};
+use crate::ir::{Program, StepKind, Term};
 use crate::library::{Library, LibraryBuilder};
-use crate::place::{Geometry, Placed};
+use crate::place::{Access, Geometry, Placed};
 use crate::prove::Proof;
 use crate::signature::Signatures;
 use crate::world::{State, World};
@@ -24,16 +25,28 @@ pub struct Options {
     pub max_duration_secs: Option<f64>,
 }
 
-/// A library and a world.
+/// A library and a world. Cheap to copy: both are shared.
 #[derive(Clone, Debug)]
 pub struct Session {
-    builder: LibraryBuilder,
-    library: Library,
-    world: World,
-    scene: Option<Scene>,
-    state: Option<State>,
+    builder: Arc<LibraryBuilder>,
+    library: Arc<Library>,
+    world: Arc<World>,
+    state: Option<Arc<State>>,
     options: Options,
     geometry: Option<Arc<Geometry>>,
+    /// Made when they are first asked for.
+    signatures: Arc<OnceLock<Arc<Signatures>>>,
+}
+
+/// A fact that is known at the start.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Given {
+    /// The fluent.
+    pub fluent: SmolStr,
+    /// Its arguments, entities or cases; none stands for any entity.
+    pub args: Vec<Option<Value>>,
+    /// Whether it holds.
+    pub holds: bool,
 }
 
 /// What compiling a document gave.
@@ -64,8 +77,33 @@ impl Session {
         let (library, mut diagnostics) = builder.clone().build();
         let (world, said) = World::new(&library, scene, state);
         diagnostics.extend(said);
-        let (scene, state) = (scene.cloned(), state.cloned());
-        let session = Self { builder, library, world, scene, state, options, geometry: None };
+        let session = Self {
+            builder: Arc::new(builder),
+            library: Arc::new(library),
+            world: Arc::new(world),
+            state: state.cloned().map(Arc::new),
+            options,
+            geometry: None,
+            signatures: Arc::default(),
+        };
+        (session, diagnostics)
+    }
+
+    /// The same library in another scene and state, without geometry: much cheaper than a new session, since nothing is
+    /// read again. The diagnostics are about the scene and the state.
+    #[must_use]
+    pub fn elsewhere(&self, scene: Option<&Scene>, state: Option<&State>) -> (Self, Vec<Diagnostic>) {
+        let (world, diagnostics) = World::new(&self.library, scene, state);
+        // Facts say nothing of what a policy can be made of.
+        let signatures =
+            if world.speaks_as(&self.world) { Arc::clone(&self.signatures) } else { Arc::default() };
+        let session = Self {
+            world: Arc::new(world),
+            state: state.cloned().map(Arc::new),
+            geometry: None,
+            signatures,
+            ..self.clone()
+        };
         (session, diagnostics)
     }
 
@@ -75,6 +113,18 @@ impl Session {
     pub fn with_geometry(mut self, geometry: Arc<Geometry>) -> Self {
         self.geometry = Some(geometry);
         self
+    }
+
+    /// Whether motions are answered.
+    #[must_use]
+    pub fn has_geometry(&self) -> bool {
+        self.geometry.is_some()
+    }
+
+    /// Whether the robot can get at a thing from where it is, see [`Geometry::access`]; none without geometry.
+    #[must_use]
+    pub fn access(&self, id: &str) -> Option<Access> {
+        Some(self.geometry.as_ref()?.access(id))
     }
 
     /// The declarations in force.
@@ -89,10 +139,30 @@ impl Session {
         self.world.is_description(text)
     }
 
-    /// What a policy for this robot, scene and state can be made of.
+    /// What a policy for this robot and scene can be made of. Made once for all sessions that come from one another with the
+    /// same entities: those have the same [`Arc`].
     #[must_use]
-    pub fn signatures(&self) -> Signatures {
-        Signatures::new(&self.library, &self.world)
+    pub fn signatures(&self) -> Arc<Signatures> {
+        let made = || Arc::new(Signatures::new(&self.library, &self.world));
+        Arc::clone(self.signatures.get_or_init(made))
+    }
+
+    /// What is known at the start, facts with their values, in order: a later one wins, and one with an argument that is
+    /// none is meant of every entity.
+    pub fn given(&self) -> impl Iterator<Item = Given> {
+        self.world.given.iter().filter_map(|(fact, holds)| {
+            let def = self.library.fluent(fact.fluent)?;
+            let args = fact.args.iter().map(|arg| match arg {
+                None => Some(None),
+                Some(Term::Entity(entity)) => Some(Some(Value::Entity(self.world.name(*entity)))),
+                Some(Term::Case(of, case)) => {
+                    let cases = &self.library.enums.get(of.index())?.cases;
+                    Some(Some(Value::Case(cases.get(usize::from(*case))?.clone())))
+                }
+                Some(_) => None,
+            });
+            Some(Given { fluent: def.name.clone(), args: args.collect::<Option<_>>()?, holds: *holds })
+        })
     }
 
     /// The library and the world.
@@ -183,13 +253,13 @@ impl Session {
         if matches!(parsed.file.items.as_slice(), [Item::Policy(policy)] if policy.params.is_empty()) {
             return run(&self.library, &self.world, diagnostics);
         }
-        let mut builder = self.builder.clone();
+        let mut builder = LibraryBuilder::clone(&self.builder);
         builder.layer(std::slice::from_ref(&parsed.file));
         let (library, said) = builder.build();
         let file = parsed.file.items.first().map(|item| item.span().file);
         // What is wrong with the layers below was said when they were read.
         diagnostics.extend(said.into_iter().filter(|said| Some(said.span.file) == file));
-        let (world, _) = World::new(&library, self.scene.as_ref(), self.state.as_ref());
+        let (world, _) = World::new(&library, self.world.scene(), self.state.as_deref());
         run(&library, &world, diagnostics);
     }
 

@@ -151,3 +151,41 @@ fn a_request_in_between_takes_over() {
         assert_eq!(sim.holds("at", &["coke", "user"]), Some(false));
     }
 }
+
+/// A request and another at a time, where it comes while the robot drives, grasps or carries.
+fn changes(robot: &str, request: &str, (at, says): (f64, &'static str), goal: (&str, [&str; 2])) {
+    let setting = setting(robot);
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut talk = Conversation::new(&setting);
+    let at = Time::from_secs(at);
+    let mut watcher = Interrupts { at, says: Some(says), swapped: 0, picked: 0 };
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    assert_eq!(outcome, Outcome::Done, "{robot}: {request} {at:?}");
+    assert_eq!(sim.holds(goal.0, &goal.1), Some(true), "{robot}: {request} {at:?}");
+}
+
+#[test]
+fn what_the_scene_says_of_every_entity_is_not_forgotten_between_policies() {
+    // Nothing was touched yet: where the mug is not is as well known as where it is.
+    let goal = ("on", ["mug_1", "sink"]);
+    changes("hsr", "put the red mug on the counter", (3.5, "no, put it on the sink"), goal);
+    changes(
+        "hsr",
+        "put the apple in the drawer",
+        (20.5, "put it in the fridge instead"),
+        ("in", ["apple", "fridge_1"]),
+    );
+}
+
+#[test]
+fn a_robot_that_is_under_way_is_no_longer_where_it_was() {
+    // It carries the coke away from the counter: to put it down there it has to drive back.
+    let goal = ("at", ["bottle", "user"]);
+    changes("hsr", "bring me the coke", (20.4, "actually, bring me the water bottle"), goal);
+}
+
+#[test]
+fn a_thing_is_looked_for_where_it_is_believed_to_be() {
+    let goal = ("at", ["apple", "user"]);
+    changes("anymal_z1", "bring me the red mug", (21.5, "bring me the green apple instead"), goal);
+}

@@ -31,7 +31,7 @@ const OF_SCOPE: &[&str] = &["M0202", "M0203", "M0206", "M0211", "M0301"];
 /// What only state can tell, and what runs at once; that a fluent is not decided yet where a goal is stated.
 const OF_STATE: &[&str] = &["M0501", "M0502", "M0503", "M0701", "M0702", "M0804"];
 
-fn settings() -> Vec<(Session, Signatures)> {
+fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
     let known = [("hsr", Some("kitchen")), ("anymal_z1", Some("lab")), ("panda", Some("lab")), ("hsr", None)];
     known
         .into_iter()

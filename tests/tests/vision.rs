@@ -97,13 +97,18 @@ fn answers_are_read_however_they_come() {
         "{\"point\": [\"1\", \"2\"]}",
         "{\"point\": {\"u\": 1}}",
         "{\"point\": [1e999, 2]}",
-        "{\"point\": [1, 2]} {\"point\": [3, 4]}",
         "{\"point\": [1, 2",
         &"{".repeat(5_000),
         &format!("{}{{\"point\": [1, 2]}}", "x".repeat(5_000)),
     ] {
         assert!(matches!(point(hostile), Err(NoPoint::Unreadable(_))), "{hostile:.40}");
     }
+}
+
+#[test]
+fn several_points_are_no_answer() {
+    assert_eq!(point("{\"point\": [1, 2]} {\"point\": [3, 4]}"), Err(NoPoint::Several));
+    assert_eq!(NoPoint::Several.failure(), "ambiguous");
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! `motet dialog`: plans in InteLiPlan's dialect read as policies, and exchanges in it written.
 
 use std::path::Path;
+use std::time::Duration;
 
 use motet_planner::builtin;
 use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
-use motet_planner::prompt::Prompt;
+use motet_planner::prompt::{self, Lasting, Prompt};
 use motet_planner::request::{self, Situation};
 use motet_robots::scene::Scene;
 use motet_runtime::Time;
@@ -125,7 +126,10 @@ fn write(request: &str, setting: &Setting, report: &mut Report) -> Result<Exit, 
         scene: &scene,
         situation: &situation,
         memory: &memory,
-        tokens: motet_planner::prompt::TOKENS,
+        lasting: &Lasting::new(&setting.session, robot, &scene),
+        tokens: prompt::TOKENS,
+        // The dialect's texts tell what numbers tell, and no more than that.
+        time: Duration::ZERO,
     };
     let seen = prompt.seen(&request::named(request, &situation));
     let (vision, feasibility) = exchange::sight(&seen);

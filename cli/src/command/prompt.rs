@@ -1,6 +1,6 @@
 //! `motet prompt`: what a model would see of a request.
 
-use motet_planner::prompt::Prompt;
+use motet_planner::prompt::{self, Lasting, Prompt};
 use motet_planner::request::Situation;
 use motet_runtime::Time;
 use motet_runtime::memory::{Limits, Memory};
@@ -40,7 +40,9 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
         scene: &scene,
         situation: &situation,
         memory: &memory,
+        lasting: &Lasting::new(&setting.session, robot, &scene),
         tokens: args.tokens,
+        time: prompt::TIME,
     };
     let written = prompt.write(&args.request);
     report.out.line(written.system.trim_end());

@@ -84,6 +84,10 @@ impl Geometry {
         &self.machine
     }
 
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Whether a container with a door is open in a world; none of what has no door.
     pub(super) fn is_open(&self, world: &World, id: &str) -> Option<bool> {
         let entity = self.scene.entities.get(id)?;

@@ -5,6 +5,7 @@
 //! a known place, motions are deferred: nothing is called feasible without a witness, and nothing infeasible that was not
 //! searched to its end. What is not known to this stage is left to the run.
 
+mod access;
 mod after;
 pub(crate) mod errors;
 mod geometry;
@@ -14,6 +15,7 @@ mod walk;
 mod ways;
 mod witness;
 
+pub use access::Access;
 pub use geometry::Geometry;
 
 use motet_graph::Witness;

@@ -5,7 +5,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::ir::{Condition, Fact, Fluent, Kind, Term};
-use crate::library::{NeedDef, PrimitiveDef};
+use crate::library::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
 use crate::prove::Prover;
 use crate::prove::eval::Frame;
 use crate::prove::facts::Key;
@@ -21,6 +21,8 @@ const GENERAL: u32 = 10;
 const RESULT: u32 = 150;
 /// An argument that neither a need nor an effect speaks of: nothing says which is right.
 const GUESS: u32 = 300;
+/// A person whom nothing that is wanted speaks of: who wants a free hand gives nobody what it holds.
+const BOTHER: u32 = 250;
 /// A need that is left to a guard.
 const GUARD: u32 = 300;
 /// The same, where a perception could tell.
@@ -185,7 +187,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
 
     fn maker(&mut self, maker: &Maker<'_>) -> Option<Cost> {
         self.effort = self.effort.checked_sub(1)?;
-        let Maker { call, when, .. } = maker;
+        let Maker { call, when, want } = maker;
         let def = self.prover.library.primitive(call.primitive)?;
         let frame = Frame { args: &call.args, result: call.result, each: None };
         let mut before = Cost::default();
@@ -203,6 +205,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         let own = STEP
             .saturating_add(self.general(def, call))
             .saturating_add(guesses(def, call))
+            .saturating_add(self.bothers(call, *want))
             .saturating_add(found);
         if before.calls == 0 && !self.ready.iter().any(|ready| ready.call == *call) {
             self.ready.push(Ready { call: call.clone(), cost: own.saturating_add(before.guards) });
@@ -257,6 +260,20 @@ impl<'p, 'a> Estimate<'p, 'a> {
             _ => None,
         });
         args.sum::<u32>().saturating_mul(GENERAL)
+    }
+
+    /// What it costs to trouble people.
+    fn bothers(&self, call: &Proposed, (_, key, _): Want) -> u32 {
+        let (library, entities) = (self.prover.library, self.prover.world.entities());
+        let Some(person) = library.names.kinds.get("Person").copied() else { return 0 };
+        let troubled = call.args.iter().filter(|arg| match arg {
+            Term::Entity(entity) => {
+                let is_person = entities.kind(*entity).is_some_and(|kind| library.is_kind(kind, person));
+                is_person && !(0..MAX_FLUENT_PARAMS).any(|index| key.arg(index) == entity.0)
+            }
+            _ => false,
+        });
+        u32::try_from(troubled.count()).unwrap_or(u32::MAX).saturating_mul(BOTHER)
     }
 
     fn bury(&mut self, show: impl Fn(&Prover<'_>) -> String) {

@@ -9,7 +9,7 @@ use crate::ir::{Entity, Kind};
 pub const MAX_ENTITIES: usize = 40_000;
 
 /// Entities in order, and by name.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct Entities {
     list: Vec<(SmolStr, Kind)>,
     names: FxHashMap<SmolStr, Entity>,

@@ -10,6 +10,8 @@ pub(crate) use entities::Entities;
 pub use entities::MAX_ENTITIES;
 pub use state::State;
 
+use std::sync::Arc;
+
 use motet_robots::scene::{Scene, normal};
 use motet_syntax::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -27,7 +29,7 @@ pub(crate) use errors::CODES;
 pub struct World {
     entities: Entities,
     /// The scene's entity behind each of ours, from the first that a scene gave.
-    scene: Option<Scene>,
+    scene: Option<Arc<Scene>>,
     /// What a description finds.
     descriptions: FxHashMap<String, Vec<Entity>>,
     /// The last two bytes of each, by which most texts are seen to be none.
@@ -63,8 +65,8 @@ impl World {
             [] => [(0, 0), (0, 0)],
         });
         let endings = endings.collect();
-        let mut world =
-            Self { entities, scene: scene.cloned(), descriptions, endings, facts, given: Vec::new() };
+        let scene = scene.cloned().map(Arc::new);
+        let mut world = Self { entities, scene, descriptions, endings, facts, given: Vec::new() };
         seed::facts(library, &mut world);
         for (fact, value, _) in &library.initially {
             world.tell(fact.clone(), *value);
@@ -77,6 +79,19 @@ impl World {
 
     pub(crate) fn entities(&self) -> &Entities {
         &self.entities
+    }
+
+    /// The scene, where one was given.
+    pub(crate) fn scene(&self) -> Option<&Scene> {
+        self.scene.as_deref()
+    }
+
+    /// Whether names, kinds and descriptions are those of another world of the same library: what may then be said in a
+    /// policy is the same in both, though not what is true.
+    pub(crate) fn speaks_as(&self, other: &Self) -> bool {
+        self.has_scene() == other.has_scene()
+            && self.entities == other.entities
+            && self.descriptions == other.descriptions
     }
 
     /// Whether a scene was given.

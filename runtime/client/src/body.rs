@@ -2,26 +2,39 @@
 
 use motet_decode::export::{Dialect, Offer, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
+use motet_runtime::Image as Picture;
 use serde_json::{Map, Value, json};
 
+use crate::image::Image;
 use crate::settings::Settings;
 
 /// The body of a chat that is answered piece by piece, held to a grammar where the server takes one.
-pub(crate) fn chat(settings: &Settings, chat: &[Message], constraint: &Offer) -> Result<Value, ModelError> {
+pub(crate) fn chat(
+    settings: &Settings,
+    chat: &[Message],
+    constraint: Option<&Map<String, Value>>,
+) -> Result<Value, ModelError> {
     let mut body = Map::new();
     body.insert("model".to_owned(), settings.model.clone().into());
-    body.insert("messages".to_owned(), messages(settings, chat));
-    if let Some(dialect) = settings.dialect {
-        let Some(Value::Object(fields)) = request_constraint(dialect, constraint) else {
-            return Err(ModelError::Refused { why: "it takes no grammar of this form".to_owned() });
-        };
-        body.extend(fields);
-    }
+    body.insert("messages".to_owned(), messages(settings, chat)?);
+    body.extend(constraint.into_iter().flatten().map(|(name, value)| (name.clone(), value.clone())));
     body.insert("stream".to_owned(), true.into());
     Ok(Value::Object(body))
 }
 
-fn messages(settings: &Settings, chat: &[Message]) -> Value {
+/// What holds a reply to an offer, in the server's dialect; none where it has none.
+pub(crate) fn constraint(
+    settings: &Settings,
+    offer: &Offer,
+) -> Result<Option<Map<String, Value>>, ModelError> {
+    let Some(dialect) = settings.dialect else { return Ok(None) };
+    match request_constraint(dialect, offer) {
+        Some(Value::Object(fields)) => Ok(Some(fields)),
+        _ => Err(ModelError::Refused { why: "it takes no grammar of this form".to_owned() }),
+    }
+}
+
+fn messages(settings: &Settings, chat: &[Message]) -> Result<Value, ModelError> {
     let with_images = chat.iter().position(|message| message.role == Role::User);
     let messages = chat.iter().enumerate().map(|(index, message)| {
         let role = match message.role {
@@ -29,18 +42,38 @@ fn messages(settings: &Settings, chat: &[Message]) -> Value {
             Role::User => "user",
             Role::Assistant => "assistant",
         };
-        if Some(index) != with_images || settings.images.is_empty() {
-            return json!({"role": role, "content": message.text});
-        }
-        if settings.dialect == Some(Dialect::Ollama) {
-            let images: Vec<&str> = settings.images.iter().map(|image| image.base64()).collect();
-            return json!({"role": role, "content": message.text, "images": images});
-        }
-        let mut parts = vec![json!({"type": "text", "text": message.text})];
-        for image in &settings.images {
-            parts.push(json!({"type": "image_url", "image_url": {"url": image.data_url()}}));
-        }
-        json!({"role": role, "content": parts})
+        let fixed = if Some(index) == with_images { settings.images.as_slice() } else { &[] };
+        let fresh = message.images.iter().map(|image| encoded(image)).collect::<Result<Vec<_>, _>>()?;
+        let images: Vec<&Image> = fixed.iter().chain(&fresh).collect();
+        Ok(said(settings, role, &message.text, &images))
     });
     messages.collect()
+}
+
+/// What one says and shows.
+fn said(settings: &Settings, role: &str, text: &str, images: &[&Image]) -> Value {
+    if images.is_empty() {
+        return json!({"role": role, "content": text});
+    }
+    if settings.dialect == Some(Dialect::Ollama) {
+        let images: Vec<&str> = images.iter().map(|image| image.base64()).collect();
+        return json!({"role": role, "content": text, "images": images});
+    }
+    let mut parts = vec![json!({"type": "text", "text": text})];
+    for image in images {
+        parts.push(json!({"type": "image_url", "image_url": {"url": image.data_url()}}));
+    }
+    json!({"role": role, "content": parts})
+}
+
+fn encoded(image: &Picture) -> Result<Image, ModelError> {
+    Image::new(&image.bytes).map_err(|why| ModelError::Refused {
+        why: format!("the picture of the camera `{}` cannot be sent: {why}", image.camera),
+    })
+}
+
+/// The body of a question about a picture, which is answered all at once.
+pub(crate) fn question(settings: &Settings, image: &Picture, question: &str) -> Result<Value, ModelError> {
+    let messages = json!([said(settings, "user", question, &[&encoded(image)?])]);
+    Ok(json!({"model": settings.model, "messages": messages, "stream": false}))
 }

@@ -25,9 +25,11 @@ use std::time::Duration;
 
 use motet_decode::export::Offer;
 use motet_planner::model::{Message, Model, ModelError, News, Reply};
+use motet_planner::vision::Pointer;
+use motet_runtime::Image as Picture;
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue};
 use reqwest::redirect;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use tokio::runtime::Runtime;
 use tokio::task::AbortHandle;
 
@@ -37,6 +39,8 @@ pub struct Client {
     http: reqwest::Client,
     settings: Arc<Settings>,
     runtime: Option<Runtime>,
+    /// The latest offer, and what holds a reply to it: a room offers the same for many requests.
+    held: Option<(Offer, Option<Map<String, Value>>)>,
 }
 
 impl Client {
@@ -71,7 +75,7 @@ impl Client {
             .enable_all()
             .build()
             .map_err(|error| wrong(error.to_string()))?;
-        Ok(Self { http, settings: Arc::new(settings), runtime: Some(runtime) })
+        Ok(Self { http, settings: Arc::new(settings), runtime: Some(runtime), held: None })
     }
 
     /// Sends a body as it is, with the retries and times of the settings, and gives the whole answer. Blocks.
@@ -105,12 +109,25 @@ impl Drop for Client {
 
 impl Model for Client {
     fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError> {
-        let body = body::chat(&self.settings, chat, constraint)?;
+        if self.held.as_ref().is_none_or(|(offer, _)| offer != constraint) {
+            self.held = Some((constraint.clone(), body::constraint(&self.settings, constraint)?));
+        }
+        let held = self.held.as_ref().and_then(|(_, held)| held.as_ref());
+        let body = body::chat(&self.settings, chat, held)?;
         Ok(Box::new(self.send(&body)))
     }
 
     fn name(&self) -> String {
         format!("{} at {}", self.settings.model, self.settings.address)
+    }
+}
+
+/// Asks with the picture, and gives the answer as it was written.
+impl Pointer for Client {
+    fn ask(&mut self, image: &Picture, question: &str) -> Result<String, String> {
+        let answer = body::question(&self.settings, image, question).and_then(|body| self.once(&body));
+        let answer = answer.map_err(|why| why.to_string())?;
+        content(&answer).map(ToOwned::to_owned).ok_or_else(|| "its answer is no reply to a chat".to_owned())
     }
 }
 

@@ -13,7 +13,7 @@ use motet_decode::export::{Dialect, Offer};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
 
 fn chat() -> Vec<Message> {
-    let message = |role, text: &str| Message { role, text: text.to_owned() };
+    let message = |role, text: &str| Message::new(role, text);
     vec![message(Role::System, "you plan"), message(Role::User, "bring me the coke")]
 }
 

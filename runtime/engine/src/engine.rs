@@ -149,6 +149,15 @@ impl Engine {
         Snapshot::of(&self.plan, &self.run)
     }
 
+    /// The state as it would be if all that runs were interrupted now: nothing is known of what running calls make or
+    /// unsettle. A policy that is to take over is proved from this, since what it does not go on with is cancelled. O(state).
+    #[must_use]
+    pub fn interrupted(&self) -> Snapshot {
+        let mut stopped = self.clone();
+        stopped.turn(&mut Vec::new()).doubt_running();
+        stopped.snapshot()
+    }
+
     pub(crate) fn turn<'a>(&'a mut self, out: &'a mut Vec<Effect>) -> Turn<'a> {
         Turn {
             plan: &self.plan,

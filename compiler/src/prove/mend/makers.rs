@@ -3,11 +3,11 @@
 use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
 use super::{MAX_PROPOSALS, Maker, Proposed, Want};
-use crate::ir::{Base, BindingId, Condition, Entity, Primitive, StepKind, Term, Ty};
+use crate::ir::{Base, BindingId, Condition, Entity, Primitive, ROBOT, StepKind, Term, Ty};
 use crate::library::{EffectDef, PrimitiveDef};
 use crate::prove::Prover;
 use crate::prove::eval::Frame;
-use crate::prove::facts::{ANY, Key};
+use crate::prove::facts::{ANY, Key, arg};
 
 /// The arguments for which an effect is about a fact; those that it leaves open are none.
 pub(super) struct Unified {
@@ -86,8 +86,32 @@ impl<'a> Prover<'a> {
         let described = def.params.iter().zip(&mut args).find(|(param, _)| param.ty == Ty::TEXT);
         let Some((_, slot)) = described else { return Vec::new() };
         *slot = Some(Term::Text(name.clone()));
+        self.look_where_it_is(def, &mut args, found);
         let all = self.fill(def, args).into_iter();
         all.map(|args| Proposed { primitive, args, result: Some(found), again: None }).collect()
+    }
+
+    /// An argument of which nothing says what it is, of a call that finds a thing, is where the thing is known to be: who
+    /// looks for it looks there first.
+    fn look_where_it_is(&self, def: &PrimitiveDef, args: &mut [Option<Term>], found: Entity) {
+        let Some(at) = self.library.names.fluents.get("at").copied() else { return };
+        let takes_two = self.library.fluent(at).is_some_and(|def| def.params.len() == 2);
+        let mut places = Vec::new();
+        if takes_two {
+            self.facts.entries(at, Key::new([arg(found), ANY].into_iter()), |key, value| {
+                if value.is_true() {
+                    places.push(Entity(key.arg(1)));
+                }
+            });
+        }
+        places.sort_unstable();
+        for (param, slot) in
+            def.params.iter().zip(args).filter(|(param, slot)| slot.is_none() && param.default.is_none())
+        {
+            let Some(kind) = param.ty.kind() else { continue };
+            let place = places.iter().find(|place| self.is_of_kind(**place, kind));
+            *slot = place.map(|place| Term::Entity(*place));
+        }
     }
 
     /// The step that bound a symbol, once more.
@@ -242,7 +266,14 @@ impl<'a> Prover<'a> {
         found.dedup();
         found.retain(|entity| self.is_of_kind(*entity, kind));
         if found.is_empty() {
-            found = self.of_kind(kind, MAX_PROPOSALS);
+            let surface = self.library.kind_named("Surface");
+            if self.library.is_kind(surface, kind) {
+                found = self.of_kind(surface, MAX_PROPOSALS);
+            }
+            // Of the robot itself only what a need says of it could be meant.
+            let others = self.of_kind(kind, MAX_PROPOSALS + 1).into_iter().filter(|entity| *entity != ROBOT);
+            let others: Vec<Entity> = others.filter(|entity| !found.contains(entity)).collect();
+            found.extend(others);
         }
         // Furniture is a better place to put something than a thing or a person.
         let rank = |entity: &Entity| {

@@ -76,7 +76,7 @@ pub(crate) struct Proposed {
 #[derive(Clone, Debug)]
 pub(crate) struct Maker<'l> {
     pub(crate) call: Proposed,
-    pub(super) want: Want,
+    pub(crate) want: Want,
     /// What the effect stands under, and for which entity.
     pub(crate) when: Option<(&'l Condition, Option<Entity>)>,
 }

@@ -51,8 +51,20 @@ impl Prepared {
             Some((callable, u16::try_from(entity).ok()?))
         };
         let infeasible = infeasible.iter().filter_map(number).collect();
-        let (session, memo) = (session.clone(), Memo::default());
+        let (program, session, memo) = (Arc::new(program), session.clone(), Memo::default());
         Self(Arc::new(Machine { program, session, infeasible, memo }))
+    }
+
+    /// The same for another session, without verdicts. O(1) where that came from this one's by [`Session::elsewhere`] and has
+    /// the same entities: the program does not depend on what is true.
+    #[must_use]
+    pub fn elsewhere(&self, session: &Session) -> Self {
+        let program = &self.0.program;
+        if !Arc::ptr_eq(&program.signatures, &session.signatures()) {
+            return Self::new(session, program.surface);
+        }
+        let (program, session) = (Arc::clone(program), session.clone());
+        Self(Arc::new(Machine { program, session, infeasible: Default::default(), memo: Memo::default() }))
     }
 
     /// An acceptor of a policy of at most `budget` bytes; none where no policy is that short.

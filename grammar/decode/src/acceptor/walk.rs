@@ -19,7 +19,7 @@ const SLACK: usize = 16;
 /// What all walks of one session share.
 #[derive(Debug)]
 pub(crate) struct Machine {
-    pub(crate) program: Program,
+    pub(crate) program: Arc<Program>,
     pub(crate) session: Session,
     /// Callables and entities of which a motion query found that there is no motion.
     pub(crate) infeasible: FxHashSet<(usize, u16)>,

@@ -277,7 +277,7 @@ pub(crate) struct Program {
     /// By operation: how many bytes lead from before it to the end of its rule, at the shortest.
     pub(crate) rest: Vec<u32>,
     pub(crate) start: OpId,
-    pub(crate) signatures: Signatures,
+    pub(crate) signatures: Arc<Signatures>,
     pub(crate) types: Vec<Type>,
     pub(crate) callables: Vec<Callable>,
     /// The operations of the arguments of each fluent.

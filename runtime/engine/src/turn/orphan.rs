@@ -219,6 +219,13 @@ impl Turn<'_> {
         }
     }
 
+    /// Nothing is known any more of what the calls of orphans make or unsettle.
+    pub(super) fn doubt_orphans(&mut self) {
+        for orphan in self.run.orphans.clone() {
+            self.contracts_of(&orphan).doubt_node(&orphan);
+        }
+    }
+
     /// The id of a failure in the graph of an orphan.
     fn failure_of(&self, index: usize, kind: &str) -> FailureId {
         let Some(orphan) = self.run.orphans.get(index) else { return self.plan.failed };

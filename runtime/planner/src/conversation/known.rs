@@ -2,10 +2,10 @@
 //! state that the next policy is checked against, and the start of the next run.
 
 use indexmap::IndexMap;
-use motet_compiler::State;
+use motet_compiler::{Given, Session, State};
 use motet_graph::{Graph, Value};
 use motet_robots::scene::Scene;
-use motet_runtime::{Engine, Pattern, Query, StartState, Truth};
+use motet_runtime::{Engine, Pattern, Query, Snapshot, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
@@ -28,15 +28,25 @@ impl Known {
         self.facts.is_empty()
     }
 
-    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays.
-    pub fn learn(&mut self, engine: &Engine) {
-        let snapshot = engine.snapshot();
-        let graph: &Graph = engine.graph();
+    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays; of what the scene
+    /// says, as a session was `given` it, nothing stays that is no longer believed.
+    pub fn learn(&mut self, engine: &Engine, given: &Session) {
+        self.take(engine.snapshot(), engine.graph(), given);
+    }
+
+    /// The same in the middle of a run, for a policy that is to take over: of what running steps change nothing is known then.
+    pub fn learn_midway(&mut self, engine: &Engine, given: &Session) {
+        self.take(engine.interrupted(), engine.graph(), given);
+    }
+
+    fn take(&mut self, snapshot: Snapshot, graph: &Graph, given: &Session) {
         let speaks = |query: &Query| match query {
             Query::Fact { fluent, .. } => graph.fluents.iter().any(|known| known.name == *fluent),
             Query::Measure { .. } | Query::Field { .. } => true,
         };
         self.facts.retain(|(query, _)| !speaks(query));
+        let said = given.given().map(|given| (query(given), Truth::Unknown));
+        self.facts.extend(said.filter(|(query, _)| speaks(query)));
         self.facts.extend(snapshot.facts);
         self.some.retain(|query| !speaks(query));
         self.some.extend(snapshot.some);
@@ -111,6 +121,13 @@ impl Known {
             }
             self.facts.push((query.clone(), *truth));
         }
+    }
+
+    /// Where the robot stands no longer counts: from there something could not be reached.
+    pub fn doubt_standing(&mut self) {
+        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
+        let args = vec![robot, Pattern::Any];
+        self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::Unknown));
     }
 
     /// Takes in where somebody says that a thing is.
@@ -241,12 +258,17 @@ impl Known {
         State { facts }
     }
 
-    /// What the next run begins with.
+    /// What the next run begins with, where its policy was checked in a session: what the session was given, of which a graph
+    /// says only what it says of single entities, then what is known.
     #[must_use]
-    pub fn start(&self, scene: &Scene) -> StartState {
+    pub fn start(&self, scene: &Scene, session: &Session) -> StartState {
         let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
+        let given = session.given().map(|given| {
+            let truth = if given.holds { Truth::True } else { Truth::False };
+            (query(given), truth)
+        });
         StartState {
-            facts: self.facts.clone(),
+            facts: given.chain(self.facts.iter().cloned()).collect(),
             some: self.some.clone(),
             entities: entities.collect(),
             ..StartState::default()
@@ -304,6 +326,11 @@ impl Known {
             ..Situation::new(scene)
         }
     }
+}
+
+fn query(given: Given) -> Query {
+    let args = given.args.into_iter().map(|arg| arg.map_or(Pattern::Any, Pattern::Is));
+    Query::Fact { fluent: given.fluent, args: args.collect() }
 }
 
 /// A fact as a state file has it; none where an argument is no name.

@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 use super::first::First;
 use super::sense::sense;
-use super::{Conversation, Planner, Problem, Rest, Wait, Watcher};
+use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::model::{Judged, judge};
 use crate::request::{Situation, Understood};
@@ -66,6 +66,13 @@ impl<'r, 'a> Live<'r, 'a> {
         matches!(end, RunEnd::Failed { node, .. } if !self.started.contains(node))
     }
 
+    /// Whether the first thing that was tried could not be reached from where the robot happened to stand.
+    pub(super) fn stood_wrong(&self, end: &RunEnd) -> bool {
+        let RunEnd::Failed { kind, node, .. } = end else { return false };
+        matches!(kind.as_str(), "unreachable" | "blocked")
+            && (self.started.is_empty() || self.started.as_slice() == [*node])
+    }
+
     /// Runs a policy to its end, and learns from it. Gives the graph that ran last too.
     pub(super) fn run(
         &mut self,
@@ -91,7 +98,9 @@ impl<'r, 'a> Live<'r, 'a> {
         let end = motet_runtime::run(&mut engine, driver, self, from);
         self.pending = self.pending.take().or(self.awaited.take());
         self.watcher.ended(self.now, &end);
-        self.talk.known.learn(&engine);
+        let mut known = std::mem::take(&mut self.talk.known);
+        known.learn(&engine, self.talk.base());
+        self.talk.known = known;
         // What was not found is not where it was thought to be.
         if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
             self.talk.known.presume(&before);
@@ -150,7 +159,7 @@ impl Live<'_, '_> {
         engine: &Engine,
     ) -> Option<Prepared> {
         let mut known = self.talk.known.clone();
-        known.learn(engine);
+        known.learn_midway(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
         // Where the base is while it moves nobody knows beforehand.
         let Judged::Good { planned, .. } = judge(&self.talk.session(&scene, &known, None), policy) else {
@@ -192,17 +201,20 @@ impl Onlooker for Live<'_, '_> {
         self.talk.memory.instruct(now, &request);
         let mut known = self.talk.known.clone();
         let before = known.places(&self.talk.setting.scene);
-        known.learn(engine);
+        known.learn_midway(engine, self.talk.base());
         known.presume(&before);
         let scene = known.scene(&self.talk.setting.scene);
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
         let situation = Situation { meant: meant.clone(), ..known.situation(&scene) };
-        if self.planner.begin(&self.talk.ask(&session, &request, &situation)) {
+        let image = self.talk.look(now);
+        let ask = Ask { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
+        if self.planner.begin(&ask) {
             (self.awaited, self.first) = (Some(request), None);
             return None;
         }
-        let planned = self.talk.plan_for(&request, &meant, self.planner, (&session, &scene, &known));
+        let planned =
+            self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
         let prepared = planned.ok().and_then(|answered| {
             let graph = answered.planned.compiled.graph.clone()?;
             Some((Prepared::new(graph, &engine.running()).ok()?, answered))

@@ -11,6 +11,7 @@ mod live;
 mod problem;
 mod sense;
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options, Session};
@@ -18,13 +19,14 @@ use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Driver, Effect, Engine, Event, Refusal, RunEnd, Time};
+use motet_runtime::{Driver, Effect, Engine, Event, Image, Perception, Refusal, RunEnd, Time};
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
 
 pub use answer::Answer;
 pub use known::Known;
+pub(crate) use problem::called;
 pub use problem::{Kind, Problem};
 
 use crate::builtin::{self, Answered, Unplanned};
@@ -117,6 +119,8 @@ pub struct Ask<'a> {
     pub situation: &'a Situation<'a>,
     /// What was asked and done.
     pub memory: &'a Memory,
+    /// What the robot sees at the moment, where it has eyes.
+    pub image: Option<&'a Image>,
 }
 
 /// The planner that needs no model.
@@ -196,6 +200,9 @@ pub struct Conversation<'a> {
     pub known: Known,
     /// What was asked and done.
     pub memory: Memory,
+    /// The library, read once.
+    base: OnceCell<Session>,
+    eyes: Option<Box<dyn Perception + 'a>>,
 }
 
 /// What one request has come to.
@@ -211,7 +218,14 @@ impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
     pub fn new(setting: &'a Setting) -> Self {
-        Self { setting, known: Known::default(), memory: Memory::new(Limits::default()) }
+        let (known, memory) = (Known::default(), Memory::new(Limits::default()));
+        Self { setting, known, memory, base: OnceCell::new(), eyes: None }
+    }
+
+    /// The same with eyes, from which a fresh image goes to who plans, each time anew.
+    #[must_use]
+    pub fn with_eyes(self, eyes: impl Perception + 'a) -> Self {
+        Self { eyes: Some(Box::new(eyes)), ..self }
     }
 
     /// Carries out a request to its end. Runs from the driver's present time `from`; gives the time at the end too.
@@ -233,7 +247,7 @@ impl<'a> Conversation<'a> {
             let scene = self.known.scene(&self.setting.scene);
             let proposed = match ready.take() {
                 Some(answered) => Ok(answered),
-                None => self.propose(&task, planner, &scene, driver.base()),
+                None => self.propose(&task, planner, &scene, (driver.base(), now)),
             };
             let mut was_refused = false;
             let problem = match proposed {
@@ -243,6 +257,7 @@ impl<'a> Conversation<'a> {
                     now = live.now;
                     let (pending, first) = (live.pending.take(), live.first.take());
                     was_refused = end.as_ref().is_ok_and(|(end, _)| live.was_refused(end));
+                    let stood_wrong = end.as_ref().is_ok_and(|(end, _)| live.stood_wrong(end));
                     if let Some(request) = live.request.take() {
                         task = Task { request, meant: Vec::new(), questions: 0, tries: task.tries };
                     }
@@ -266,6 +281,10 @@ impl<'a> Conversation<'a> {
                             After::PlansAnew => {}
                         }
                         continue;
+                    }
+                    if stood_wrong {
+                        self.known.doubt_standing();
+                        was_refused = true;
                     }
                     match Problem::of_run(&end, &graph, &scene) {
                         None => return (Outcome::Done, now),
@@ -322,22 +341,26 @@ impl<'a> Conversation<'a> {
     }
 
     fn propose(
-        &self,
+        &mut self,
         task: &Task,
         planner: &mut dyn Planner,
         scene: &Scene,
-        base: Option<[f64; 3]>,
+        (base, now): (Option<[f64; 3]>, Time),
     ) -> Result<Answered, Unplanned> {
         let session = self.session(scene, &self.known, base);
-        self.plan_for(&task.request, &task.meant, planner, (&session, scene, &self.known))
+        let image = self.look(now);
+        let world = (&session, scene, &self.known);
+        self.plan_for((&task.request, image.as_ref()), &task.meant, planner, world)
+    }
+
+    /// A fresh image, where there are eyes.
+    fn look(&mut self, now: Time) -> Option<Image> {
+        self.eyes.as_mut()?.image(now)
     }
 
     /// A session in what is known; with motions where it is known where everything is.
     fn session(&self, scene: &Scene, known: &Known, base: Option<[f64; 3]>) -> Session {
-        let Setting { robot, domains, options, .. } = self.setting;
-        let state = known.state();
-        let (session, _) =
-            Session::new(Some(robot), domains, Some(scene), Some(&state), *options, &mut Sources::default());
+        let (session, _) = self.base().elsewhere(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };
         if known.is_empty() {
             return session.with_geometry(Arc::clone(geometry));
@@ -348,24 +371,33 @@ impl<'a> Conversation<'a> {
         }
     }
 
+    /// The library, in the scene as the setting has it.
+    fn base(&self) -> &Session {
+        let Setting { robot, domains, options, scene, .. } = self.setting;
+        self.base.get_or_init(|| {
+            Session::new(Some(robot), domains, Some(scene), None, *options, &mut Sources::default()).0
+        })
+    }
+
     fn plan_for(
         &self,
-        request: &str,
+        (request, image): (&str, Option<&Image>),
         meant: &[(String, SmolStr)],
         planner: &mut dyn Planner,
         (session, scene, known): (&Session, &Scene, &Known),
     ) -> Result<Answered, Unplanned> {
         let situation = Situation { meant: meant.to_vec(), ..known.situation(scene) };
-        planner.plan(&self.ask(session, request, &situation))
+        planner.plan(&Ask { image, ..self.ask(session, request, &situation) })
     }
 
     fn ask<'s>(&'s self, session: &'s Session, request: &'s str, situation: &'s Situation<'s>) -> Ask<'s> {
-        Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory }
+        Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory, image: None }
     }
 
     /// An engine for a policy, in the state that is known.
     fn engine(&self, graph: Graph, scene: &Scene) -> Result<Engine, Problem> {
-        Engine::new(graph, &self.known.start(scene)).map_err(|wrong| Problem {
+        let session = self.session(scene, &self.known, None);
+        Engine::new(graph, &self.known.start(scene, &session)).map_err(|wrong| Problem {
             kind: Kind::ActionFailed,
             question: wrong.first().map_or_else(|| "the graph is not valid".to_owned(), ToString::to_string),
             options: Vec::new(),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use thiserror::Error;
 
-use crate::prompt::Seen;
+use crate::prompt::{Feasible, Seen};
 
 /// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
 /// the tag is missing.
@@ -145,8 +145,9 @@ pub fn sight(seen: &[Seen]) -> (String, String) {
         format!("{}: {word}", one.id)
     });
     let feasibility = seen.iter().map(|one| match &one.feasible {
-        Ok(()) => format!("{}: feasible", one.id),
-        Err(why) => format!("{}: infeasible ({why})", one.id),
+        Feasible::Yes | Feasible::AsFarAsNumbersTell => format!("{}: feasible", one.id),
+        Feasible::No(why) | Feasible::Hardly(why) => format!("{}: infeasible ({why})", one.id),
+        Feasible::Unknown(why) => format!("{}: unknown ({why})", one.id),
     });
     (vision.collect::<Vec<_>>().join(", "), feasibility.collect::<Vec<_>>().join(", "))
 }

@@ -1,8 +1,10 @@
 //! A model as the planner sees it: a chat goes out, a reply comes in piece by piece.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use motet_decode::export::Offer;
+use motet_runtime::Image;
 use thiserror::Error;
 
 /// Who says something.
@@ -23,6 +25,16 @@ pub struct Message {
     pub role: Role,
     /// What is said.
     pub text: String,
+    /// What is shown with it.
+    pub images: Vec<Arc<Image>>,
+}
+
+impl Message {
+    /// A message without images.
+    #[must_use]
+    pub fn new(role: Role, text: impl Into<String>) -> Self {
+        Self { role, text: text.into(), images: Vec::new() }
+    }
 }
 
 /// Answers chats.

@@ -1,8 +1,9 @@
 //! The planner: a prompt out, a reply in, and what is wrong with it back to the model, a few times at most.
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use motet_compiler::Session;
+use motet_compiler::{Session, Signatures};
 use motet_decode::export::Offer;
 use motet_decode::{Prepared, Surface};
 use motet_syntax::{Diagnostic, Sources, render};
@@ -14,7 +15,7 @@ use super::listen::{Happening, Listener};
 use super::reading::{Reading, Verdict, Wrong};
 use crate::builtin::{Answered, Planned, Unplanned};
 use crate::conversation::{Ask, Planner, Rest, Wait};
-use crate::prompt::{self, Prompt};
+use crate::prompt::{self, Lasting, Prompt};
 use crate::request::{self, Understood};
 
 /// How long a piece of a reply is waited for until somebody is asked whether to stop.
@@ -60,6 +61,16 @@ pub struct ModelPlanner<'m> {
     settings: Settings,
     /// The rest of the policy of which the first step was given out.
     later: Option<Later>,
+    ready: Option<Ready>,
+}
+
+/// What depends on the robot and the room alone, kept from one request to the next.
+#[derive(Clone)]
+struct Ready {
+    signatures: Arc<Signatures>,
+    lasting: Arc<Lasting>,
+    offer: Arc<Offer>,
+    prepared: Prepared,
 }
 
 /// How far a reply was read.
@@ -83,26 +94,41 @@ impl<'m> ModelPlanner<'m> {
     /// A planner that asks a model.
     #[must_use]
     pub fn new(model: impl Model + 'm, listener: impl Listener + 'm, settings: Settings) -> Self {
-        Self { model: Box::new(model), listener: Box::new(listener), settings, later: None }
+        Self { model: Box::new(model), listener: Box::new(listener), settings, later: None, ready: None }
+    }
+
+    /// What is kept, for the session of a request: made anew where robot or things are others.
+    fn ready(&mut self, ask: &Ask<'_>) -> Ready {
+        let signatures = ask.session.signatures();
+        let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
+        let ready = match kept {
+            Some(kept) => Ready { prepared: kept.prepared.elsewhere(ask.session), ..kept },
+            None => Ready {
+                lasting: Arc::new(Lasting::new(ask.session, ask.robot, ask.situation.scene)),
+                offer: Arc::new(Offer::new(&signatures, self.settings.surface)),
+                prepared: Prepared::new(ask.session, self.settings.surface),
+                signatures,
+            },
+        };
+        self.ready = Some(ready.clone());
+        ready
     }
 
     /// Asks until a reply is a policy that passes the check.
-    fn rounds(&mut self, session: &Session, first: &[Message]) -> Result<Planned, Unplanned> {
-        let offer = Offer::new(&session.signatures(), self.settings.surface);
-        let prepared = Prepared::new(session, self.settings.surface);
+    fn rounds(&mut self, session: &Session, ready: &Ready, first: &[Message]) -> Result<Planned, Unplanned> {
         let mut chat = first.to_vec();
         let mut last = Unplanned::NoModel { why: String::new() };
         for round in 0..=self.settings.repairs {
             let name = self.model.name();
             self.listener.hear(&Happening::Asked { round, model: &name, chat: &chat });
-            match self.round(session, &prepared, &offer, &chat, round) {
+            match self.round(session, ready, &chat, round) {
                 Round::Good(planned) => return Ok(*planned),
                 Round::Bad(reply, findings) => {
                     let words = render::llm(&findings, &Sources::default());
                     self.listener.hear(&Happening::Refused { round, reply: &reply, findings: &words });
                     chat = first.to_vec();
-                    chat.push(Message { role: Role::User, text: again(&words) });
-                    chat.insert(first.len(), Message { role: Role::Assistant, text: reply.clone() });
+                    chat.push(Message::new(Role::User, again(&words)));
+                    chat.insert(first.len(), Message::new(Role::Assistant, reply.as_str()));
                     last = Unplanned::Refused { text: reply, diagnostics: findings };
                 }
                 Round::Failed(ModelError::Cancelled) => return Err(Unplanned::Stopped),
@@ -118,16 +144,9 @@ impl<'m> ModelPlanner<'m> {
         Err(last)
     }
 
-    fn round(
-        &mut self,
-        session: &Session,
-        prepared: &Prepared,
-        offer: &Offer,
-        chat: &[Message],
-        round: u32,
-    ) -> Round {
-        let mut reading = Reading::new(session, prepared.acceptor(POLICY_BYTES));
-        let mut reply = match self.model.ask(chat, offer) {
+    fn round(&mut self, session: &Session, ready: &Ready, chat: &[Message], round: u32) -> Round {
+        let mut reading = Reading::new(session, ready.prepared.acceptor(POLICY_BYTES));
+        let mut reply = match self.model.ask(chat, &ready.offer) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
         };
@@ -210,8 +229,9 @@ impl<'m> ModelPlanner<'m> {
 impl Planner for ModelPlanner<'_> {
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
         self.later = None;
-        let chat = chat(ask, self.settings.tokens);
-        let planned = self.rounds(ask.session, &chat)?;
+        let ready = self.ready(ask);
+        let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
+        let planned = self.rounds(ask.session, &ready, &chat)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(request::named(ask.request, ask.situation));
         Ok(Answered { understood: Understood { spoken_of, ..Understood::default() }, planned })
@@ -223,12 +243,12 @@ impl Planner for ModelPlanner<'_> {
 
     fn begin(&mut self, ask: &Ask<'_>) -> bool {
         self.later = None;
-        let chat = chat(ask, self.settings.tokens);
+        let ready = self.ready(ask);
+        let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
         let name = self.model.name();
         self.listener.hear(&Happening::Asked { round: 0, model: &name, chat: &chat });
-        let offer = Offer::new(&ask.session.signatures(), self.settings.surface);
-        let Ok(reply) = self.model.ask(&chat, &offer) else { return false };
-        let acceptor = Prepared::new(ask.session, self.settings.surface).acceptor(POLICY_BYTES);
+        let Ok(reply) = self.model.ask(&chat, &ready.offer) else { return false };
+        let acceptor = ready.prepared.acceptor(POLICY_BYTES);
         let reading = Reading::new(ask.session, acceptor).into_owned();
         self.later = Some(Later { reply, reading, round: 0 });
         true
@@ -268,22 +288,30 @@ impl Planner for ModelPlanner<'_> {
     }
 }
 
-/// What a model is told and asked first, in at most so many tokens as far as bytes tell.
+/// What a model is told and asked first, in at most so many tokens as far as bytes tell. No motion is looked for, so that the same
+/// question gives the same chat.
 #[must_use]
 pub fn chat(ask: &Ask<'_>, tokens: usize) -> Vec<Message> {
+    let lasting = Lasting::new(ask.session, ask.robot, ask.situation.scene);
+    written(ask, &lasting, (tokens, Duration::ZERO))
+}
+
+/// The same with what is kept, and with what is seen at the moment.
+fn written(ask: &Ask<'_>, lasting: &Lasting, (tokens, time): (usize, Duration)) -> Vec<Message> {
     let prompt = Prompt {
         session: ask.session,
         robot: ask.robot,
         scene: ask.situation.scene,
         situation: ask.situation,
         memory: ask.memory,
+        lasting,
         tokens,
+        time,
     };
     let written = prompt.write(&asked(ask));
-    vec![
-        Message { role: Role::System, text: written.system },
-        Message { role: Role::User, text: written.user },
-    ]
+    let images = ask.image.cloned().into_iter().map(Arc::new).collect();
+    let asked = Message { images, ..Message::new(Role::User, written.user) };
+    vec![Message::new(Role::System, written.system), asked]
 }
 
 /// The request, with what was found out that its words mean.

@@ -1,8 +1,9 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
+use super::lead::skip_leads;
 use super::noun::{Noun, located, noun};
-use super::token::Token;
-use super::verb::{Act, begins, skip_leads, stands, verb};
+use super::token::{Token, stands};
+use super::verb::{Act, begins, verb};
 
 /// One thing that is asked for.
 #[derive(Clone, PartialEq, Debug)]

@@ -5,7 +5,9 @@
 mod command;
 mod errand;
 mod frame;
+mod inflection;
 mod knowledge;
+mod lead;
 mod meaning;
 mod noun;
 mod pick;

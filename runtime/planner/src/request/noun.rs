@@ -1,8 +1,7 @@
 //! What a request speaks of: a noun with its article, count, and what narrows it down.
 
 use super::knowledge;
-use super::token::{Token, singular};
-use super::verb::stands;
+use super::token::{Token, singular, stands};
 
 /// Which of several things are meant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

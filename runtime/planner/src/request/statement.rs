@@ -6,8 +6,7 @@ use super::Located;
 use super::command::{Spoken, Statement};
 use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
 use super::noun::{Noun, Phrase, Which, located, noun};
-use super::token::Token;
-use super::verb::stands;
+use super::token::{Token, stands};
 use super::vocabulary::Role;
 
 impl Reader<'_> {

@@ -130,3 +130,15 @@ pub(super) fn singular(word: &str) -> String {
         None => word.to_owned(),
     }
 }
+
+/// How many tokens words take at a place; none where they do not stand there.
+pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
+    let mut count = 0;
+    for word in words.split(' ') {
+        if tokens.get(at + count)?.word() != word {
+            return None;
+        }
+        count += 1;
+    }
+    Some(count)
+}

@@ -63,6 +63,9 @@ pub enum NoPoint {
     /// The answer is no point.
     #[error("the answer is no point: {0}")]
     Unreadable(&'static str),
+    /// It names more than one point.
+    #[error("the answer has several points")]
+    Several,
     /// The point is not in the image.
     #[error("the point ({u:.1}, {v:.1}) is outside of the image of {width} x {height} pixels")]
     Outside {
@@ -86,6 +89,18 @@ pub enum NoPoint {
     /// The camera cannot be used.
     #[error("the camera cannot be used: {0}")]
     Camera(&'static str),
+}
+
+impl NoPoint {
+    /// The failure of `ground` that it is: what is meant is not clear, or was not found.
+    #[must_use]
+    pub const fn failure(&self) -> &'static str {
+        match self {
+            Self::Several => "ambiguous",
+            Self::Silent(_) | Self::Unreadable(_) | Self::Outside { .. } => "not_found",
+            Self::NoDepth { .. } | Self::Camera(_) => "not_found",
+        }
+    }
 }
 
 /// Asks where on an object to act for a use, and gives the pose: at the point, turned as the camera is.
@@ -134,7 +149,7 @@ pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
             return Err(NoPoint::Unreadable("`point` is not finite"));
         }
         if found.is_some_and(|known| known != [u, v]) {
-            return Err(NoPoint::Unreadable("it has several points"));
+            return Err(NoPoint::Several);
         }
         found = Some([u, v]);
     }

@@ -1,7 +1,9 @@
 //! What is seen, for who plans: detections taken into the scene, and points of an image that a model gives lifted into it.
 
 mod ground;
+mod pointing;
 mod seen;
 
 pub use ground::{Camera, Depth, Grounding, NoPoint, Pointer, ground, lift, point};
+pub use pointing::{Pointing, Sight, View};
 pub use seen::with_detections;

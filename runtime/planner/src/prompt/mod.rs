@@ -1,0 +1,158 @@
+//! What a model sees: the robot's primitives, the room in words, what is known, what was asked and done, two examples, and
+//! the request. The same inputs give the same text, within a budget of tokens; only where looking for motions takes longer
+//! than it may is less said of them.
+
+mod lasting;
+mod seen;
+
+use std::time::Duration;
+
+use motet_compiler::Session;
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_runtime::memory::Memory;
+use smol_str::SmolStr;
+
+pub use lasting::Lasting;
+pub use seen::{Feasible, Seen};
+
+use crate::request::{self, Situation};
+
+/// Bytes of English text and JSON that make about one token of a byte-pair encoding.
+const BYTES_PER_TOKEN: usize = 4;
+/// The budget where nothing else is said, in tokens.
+pub const TOKENS: usize = 6_000;
+/// How long motions are looked for where nothing else is said, where that was not done before.
+pub const TIME: Duration = Duration::from_millis(500);
+
+/// The most entries of the memory.
+const LATEST: usize = 24;
+
+/// What a prompt is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Prompt<'a> {
+    /// What policies are checked against.
+    pub session: &'a Session,
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The room.
+    pub scene: &'a Scene,
+    /// What is known of it.
+    pub situation: &'a Situation<'a>,
+    /// What was asked and done.
+    pub memory: &'a Memory,
+    /// What does not change from one prompt to the next.
+    pub lasting: &'a Lasting,
+    /// The most tokens, as far as bytes tell.
+    pub tokens: usize,
+    /// After how long no further motion is looked for.
+    pub time: Duration,
+}
+
+/// A prompt, and what had to be left out of it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Written {
+    /// The text for the system's part of a chat.
+    pub system: String,
+    /// The text for the user's part.
+    pub user: String,
+    /// About how many tokens both are.
+    pub tokens: usize,
+    /// What was left out to stay within the budget.
+    pub left_out: Vec<&'static str>,
+}
+
+/// A part that may be left out: the least important first.
+type Part = (&'static str, String);
+
+impl Prompt<'_> {
+    /// Writes the prompt for a request.
+    #[must_use]
+    pub fn write(&self, request: &str) -> Written {
+        let named = request::named(request, self.situation);
+        let room = |entities: &dyn Fn(&SmolStr) -> bool| self.room(entities);
+        let examples = &self.lasting.examples;
+        let mut parts: Vec<Part> = vec![
+            ("what the primitives need and make", self.lasting.contracts.clone()),
+            ("the second example", examples.get(1).cloned().unwrap_or_default()),
+            ("things that the request does not name", room(&|id| !named.contains(id))),
+            ("what was done", self.done()),
+            ("the first example", examples.first().cloned().unwrap_or_default()),
+        ];
+        let mut left_out = Vec::new();
+        let fixed = [
+            self.lasting.rules.clone(),
+            room(&|id| named.contains(id)),
+            seen::told(&self.seen(&named)),
+            format!("# Request\n{}\n", request.trim()),
+        ];
+        let fixed_bytes: usize = fixed.iter().map(String::len).sum();
+        let budget = self.tokens.saturating_mul(BYTES_PER_TOKEN);
+        let bytes = |parts: &[Part]| fixed_bytes + parts.iter().map(|(_, text)| text.len()).sum::<usize>();
+        let mut next = 0;
+        while bytes(&parts) > budget && next < parts.len() {
+            if let Some((name, text)) = parts.get_mut(next) {
+                // Signatures without contracts are still worth their place.
+                let shorter = if next == 0 { self.lasting.signatures.clone() } else { String::new() };
+                *text = shorter;
+                left_out.push(*name);
+            }
+            next += 1;
+        }
+        let text = |index: usize| parts.get(index).map(|(_, text)| text.as_str()).unwrap_or_default();
+        let [rules, things, seen, asked] = fixed;
+        let system = join(&[&rules, text(0), text(4), text(1)]);
+        let user = join(&[&things, text(2), &seen, text(3), &asked]);
+        let tokens = (system.len() + user.len()).div_ceil(BYTES_PER_TOKEN);
+        Written { system, user, tokens, left_out }
+    }
+
+    /// The first request, the latest failure, and the latest of what was said and done.
+    fn done(&self) -> String {
+        let entries = self.memory.entries();
+        let skipped = entries.len().saturating_sub(LATEST).max(1);
+        let lines: String = entries.skip(skipped).map(|entry| format!("- {entry}\n")).collect();
+        format!("# What was asked and done\n{}{lines}", self.memory.short())
+    }
+
+    /// The entities of the scene that are picked, a line each.
+    fn room(&self, picked: &dyn Fn(&SmolStr) -> bool) -> String {
+        let mut text = String::new();
+        for entity in self.scene.entities.values().filter(|entity| picked(&entity.id)) {
+            let names: Vec<&str> = entity.names.iter().map(SmolStr::as_str).collect();
+            let called = if names.is_empty() { entity.class.to_string() } else { names.join(", ") };
+            text.push_str(&format!("- {} ({}): {called}", entity.id, entity.kind));
+            let now = self.situation.supports.iter().find(|(id, _)| *id == entity.id);
+            match now {
+                Some((_, Some(support))) => text.push_str(&format!("; at {support}")),
+                Some((_, None)) => text.push_str("; it is not known where"),
+                None => {
+                    if let Some(support) = &entity.on {
+                        text.push_str(&format!("; on {support}"));
+                    } else if let Some(container) = &entity.inside {
+                        text.push_str(&format!("; in {container}"));
+                    }
+                }
+            }
+            for (is, word) in [
+                (entity.open, ["open", "closed"]),
+                (entity.locked, ["locked", ""]),
+                (entity.visible, ["seen", "not seen"]),
+            ] {
+                let [yes, no] = word;
+                match is {
+                    Some(true) => text.push_str(&format!("; {yes}")),
+                    Some(false) if !no.is_empty() => text.push_str(&format!("; {no}")),
+                    Some(false) | None => {}
+                }
+            }
+            text.push('\n');
+        }
+        if text.is_empty() { text } else { format!("# In the room\n{text}") }
+    }
+}
+
+fn join(parts: &[&str]) -> String {
+    let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
+    parts.join("\n\n") + "\n"
+}

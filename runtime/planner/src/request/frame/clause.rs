@@ -1,0 +1,237 @@
+//! Clauses that ask without an imperative: predicates, wishes, causatives, and what stands before its verb.
+
+use super::ONLY_IF_SO;
+use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
+use crate::request::inflection::Form;
+use crate::request::lead::skip_leads;
+use crate::request::noun::{located, noun};
+use crate::request::token::{Token, stands};
+use crate::request::verb::begins;
+
+/// What stands between a thing and where it shall be, or what shall be done with it.
+const SHALL: &[&str] = &[
+    "belongs",
+    "belong",
+    "goes",
+    "lives",
+    "should be",
+    "should go",
+    "should get",
+    "should stay",
+    "should end up",
+    "needs to be",
+    "needs to go",
+    "needs to get",
+    "need to be",
+    "need to go",
+    "has to be",
+    "has to go",
+    "have to be",
+    "have to go",
+    "ought to be",
+    "ought to go",
+    "is supposed to be",
+    "is supposed to go",
+    "are supposed to be",
+    "is to be",
+    "must go",
+    "can go",
+    "can be",
+    "could go",
+    "could be",
+    "may go",
+    "might go",
+];
+/// The same as a question: between the auxiliary and the state stands the thing.
+const SHALL_IT: &[&str] = &["be", "go", "get", "stay", "end up"];
+const WANT: &[&str] = &[
+    "i want",
+    "i need",
+    "i would like",
+    "i would love",
+    "i would prefer",
+    "i would rather have",
+    "i prefer",
+    "we want",
+    "we need",
+    "we would like",
+];
+const DO_NOT_WANT: &[&str] =
+    &["i do not want", "we do not want", "i would not like", "do not leave", "do not keep", "never leave"];
+const TO_BE: &[&str] = &["to be", "to go", "to get", "to stay", "to end up", "to be put", "to be left"];
+const SEE_TO: &[&str] = &[
+    "make sure that",
+    "make sure",
+    "ensure that",
+    "ensure",
+    "see to it that",
+    "see that",
+    "take care that",
+    "be sure that",
+    "make certain that",
+];
+const IS: &[&str] = &[
+    "is",
+    "are",
+    "ends up",
+    "end up",
+    "gets",
+    "get",
+    "stays",
+    "stay",
+    "goes",
+    "has been",
+    "is put",
+    "is left",
+    "is placed",
+];
+/// Verbs that bring about a state: `get the fridge open`.
+const CAUSE: &[&str] = &["get", "have", "leave", "keep", "make", "pull", "push", "swing", "slide", "set"];
+
+/// One clause said plainly, and where what follows it begins.
+pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> Option<(Vec<Token>, usize)> {
+    let limit = (begin..tokens.len())
+        .find(|at| matches!(tokens.get(*at), Some(Token::Comma | Token::Stop)))
+        .unwrap_or(tokens.len());
+    let tokens_here = tokens.get(..limit)?;
+    predicate(tokens_here, begin)
+        .or_else(|| wish(tokens_here, begin))
+        .or_else(|| cause(tokens_here, begin))
+        .or_else(|| self_moved(tokens_here, begin))
+        .or_else(|| fronted(tokens_here, begin))
+        .or_else(|| unless_so(tokens, begin, limit))
+        .or_else(|| begins_sentence.then(|| bare(tokens, begin, limit)).flatten())
+}
+
+/// `the coke belongs in the fridge`, `can the coke go in the fridge`, `make sure that the drawer is shut`
+fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let asks = ["can", "could", "may", "would"].iter().find_map(|ask| stands(tokens, begin, ask));
+    let sees = SEE_TO.iter().filter_map(|see| stands(tokens, begin, see)).max();
+    let (begin, links) = match (asks, sees) {
+        (Some(count), _) => (begin + count, SHALL_IT),
+        (None, Some(count)) => (begin + count, IS),
+        (None, None) => (begin, SHALL),
+    };
+    let is_seen_to = asks.is_none() && sees.is_some();
+    thing_before(tokens, begin, |at| {
+        let count = links.iter().filter_map(|link| stands(tokens, at, link)).max();
+        let none = ["should not be", "is not", "needs"].iter().find_map(|link| stands(tokens, at, link));
+        let (count, is_wanted) = match (count, none) {
+            (Some(count), _) => (count, true),
+            (None, Some(1)) => (1, true),
+            (None, Some(count)) if is_seen_to || count == 3 => (count, false),
+            (None, _) => return None,
+        };
+        let needs = stands(tokens, at, "needs") == Some(count);
+        let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
+        Some((if is_wanted { state } else { opposite(state)? }, after))
+    })
+}
+
+/// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
+fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
+    let wants = WANT.iter().filter_map(|want| stands(tokens, begin, want)).max();
+    if let Some(count) = wants
+        && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
+        && is_place(tokens, begin + count + you)
+    {
+        return Some((words("go"), begin + count + you));
+    }
+    if let Some(count) = wants {
+        return thing_before(tokens, begin + count, |at| {
+            let to_be = TO_BE.iter().filter_map(|to_be| stands(tokens, at, to_be)).max();
+            let found = state(tokens, at + to_be.unwrap_or(0), Form::Participle)?;
+            // `I want the mug on the table` is left to who knows where the mug is.
+            (to_be.is_some() || !matches!(found.0, State::At)).then_some(found)
+        });
+    }
+    let count = DO_NOT_WANT.iter().filter_map(|want| stands(tokens, begin, want)).max()?;
+    thing_before(tokens, begin + count, |at| {
+        let to_be = TO_BE.iter().filter_map(|to_be| stands(tokens, at, to_be)).max().unwrap_or(0);
+        let (state, after) = state(tokens, at + to_be, Form::Participle)?;
+        Some((opposite(state)?, after))
+    })
+}
+
+/// `get the fridge open`, `push the drawer shut`, `have the coke brought to me`
+pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let verb = tokens.get(begin)?.word();
+    if !CAUSE.contains(&verb) {
+        return None;
+    }
+    thing_before(tokens, begin + 1, |at| {
+        let (state, after) = state(tokens, at, Form::Participle)?;
+        let is_open_or_closed = opposite_name(&state).is_some();
+        (is_open_or_closed || (matches!(verb, "get" | "have") && matches!(state, State::Done(_))))
+            .then_some((state, after))
+    })
+}
+
+/// `take yourself to the door`
+fn self_moved(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let moves = matches!(tokens.get(begin)?.word(), "take" | "get" | "bring" | "move" | "drive" | "park");
+    let is_self = matches!(tokens.get(begin + 1)?.word(), "yourself");
+    (moves && is_self).then(|| (words("go"), begin + 2))
+}
+
+/// `on the table is where I want the coke`
+fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let (_, after) = located(tokens, begin)?;
+    let at = after + stands(tokens, after, "is where")?;
+    let at = at + WANT.iter().filter_map(|want| stands(tokens, at, want)).max()?;
+    let (_, end) = noun(tokens, at)?;
+    let mut said = words("put");
+    said.extend_from_slice(tokens.get(at..end)?);
+    said.extend_from_slice(tokens.get(begin..after)?);
+    let end = end + TO_BE.iter().filter_map(|to_be| stands(tokens, end, to_be)).max().unwrap_or(0);
+    Some((said, end))
+}
+
+/// `if the drawer is open, close it`: `close the drawer if it is open`.
+fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
+    let at = begin + ["if", "in case", "when"].iter().find_map(|word| stands(tokens, begin, word))?;
+    let here = tokens.get(..limit)?;
+    let (said, after) = thing_before(here, at, |at| {
+        let count =
+            ["is still", "is", "was left", "has been left"].iter().find_map(|is| stands(here, at, is))?;
+        let (state, after) = state(here, at + count, Form::Participle)?;
+        Some((opposite(state)?, after))
+    })?;
+    if after != limit {
+        return None;
+    }
+    let then = skip_leads(tokens, limit + 1);
+    let verb = tokens.get(then)?.word();
+    let wanted = said.first()?.word();
+    let is_same = verb == wanted || (verb == "shut" && wanted == "close");
+    let is_it = matches!(tokens.get(then + 1)?.word(), "it" | "that");
+    (is_same && is_it).then(|| ([said, words(ONLY_IF_SO)].concat(), then + 2))
+}
+
+/// `the coke, please`: someone wants to have it.
+fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
+    if begins(tokens, begin) {
+        return None;
+    }
+    let (_, after) = noun(tokens.get(..limit)?, begin)?;
+    let is_named = tokens.get(begin).is_some_and(|token| !is_pronoun(token.word()));
+    let please = |at: usize| stands(tokens, at, "please").is_some();
+    if is_named && (please(after) || (after == limit && please(limit + 1))) {
+        let mut said = words("bring me");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, after));
+    }
+    let goes = ["over to", "to", "into", "onto"].iter().find_map(|to| stands(tokens, after, to));
+    let (_, end) = noun(tokens.get(..limit)?, after + goes?)?;
+    if is_named && (please(end) || (end == limit && please(limit + 1))) {
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, after));
+    }
+    None
+}
+
+fn is_pronoun(word: &str) -> bool {
+    matches!(word, "me" | "us" | "it" | "them" | "that" | "this" | "here" | "there" | "you" | "i")
+}

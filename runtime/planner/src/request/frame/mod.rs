@@ -1,0 +1,104 @@
+//! Sentences that ask without an imperative, said as imperatives: `I need the fridge open` is `open the fridge`, `could the
+//! coke be brought to me` is `bring the coke to me`. What is framed otherwise stays as it is.
+//!
+//! The frames are constructions with places for nouns, after Goldberg, Constructions (1995): a predicate of place or state
+//! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
+
+mod clause;
+mod filler;
+mod state;
+
+use self::clause::{cause, clause};
+use self::filler::without_fillers;
+use super::inflection::{Form, base};
+use super::lead::skip_leads;
+use super::token::{Token, stands};
+use super::verb::begins;
+
+/// What asks for the form in `-ing`.
+const MIND: &[&str] = &[
+    "would you mind",
+    "do you mind",
+    "mind",
+    "how about",
+    "what about",
+    "any chance of",
+    "is there any chance of",
+    "i would appreciate you",
+    "after",
+    "start by",
+];
+/// Going somewhere in order to do something there: only the second counts.
+const SET_OUT: &[&str] = &[
+    "go over and",
+    "go back and",
+    "go out and",
+    "go ahead and",
+    "go and",
+    "run over and",
+    "run and",
+    "hurry and",
+    "come and",
+    "head over and",
+    "go",
+    "run",
+    "come",
+    "try and",
+    "try to",
+];
+
+/// Behind a verb of opening or closing: only where it is not so already, which has to be seen first.
+pub(super) const ONLY_IF_SO: &str = "if it is open";
+
+/// A request with its frames said plainly.
+pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
+    let mut tokens = without_fillers(tokens);
+    let mut said = Vec::with_capacity(tokens.len());
+    let (mut at, mut starts, mut begins_sentence) = (0, true, true);
+    // Every rewriting takes words away or goes on behind what it wrote: the bound only guards against a slip of that.
+    let mut left = tokens.len() * 4 + 16;
+    while at < tokens.len() && left > 0 {
+        left -= 1;
+        if starts {
+            let begin = skip_leads(&tokens, at);
+            if let Some((from, words)) = unwrapped(&tokens, begin) {
+                tokens.splice(begin..from, words);
+                continue;
+            }
+            if let Some((words, after)) = clause(&tokens, begin, begins_sentence) {
+                // A comma before a clause that takes the place of a statement stays one.
+                said.extend(words);
+                (at, starts, begins_sentence) = (after, false, false);
+                continue;
+            }
+        }
+        let Some(token) = tokens.get(at) else { break };
+        let joins = matches!(token, Token::Comma | Token::Stop)
+            || matches!(token.word(), "and" | "so" | "but" | "then" | "because");
+        begins_sentence = *token == Token::Stop || (begins_sentence && starts && is_lead(&tokens, at));
+        starts = joins;
+        said.push(token.clone());
+        at += 1;
+    }
+    said
+}
+
+/// Whether something begins here that politeness puts before a request.
+fn is_lead(tokens: &[Token], at: usize) -> bool {
+    skip_leads(tokens, at) > at
+}
+
+/// A frame around an imperative: what stands for the tokens up to where.
+fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
+    let mind = MIND.iter().filter_map(|mind| stands(tokens, at, mind)).max();
+    if let Some(count) = mind
+        && let Some((verb, Form::Gerund)) = base(tokens.get(at + count)?.word())
+    {
+        return Some((at + count + 1, vec![Token::Word(verb)]));
+    }
+    let set_out = SET_OUT.iter().filter_map(|out| stands(tokens, at, out)).max()?;
+    let next = tokens.get(at + set_out)?.word();
+    let is_verb = base(next).is_some_and(|(_, form)| form == Form::Base) && begins(tokens, at + set_out);
+    let is_verb = is_verb || cause(tokens, at + set_out).is_some();
+    is_verb.then(|| (at + set_out, Vec::new()))
+}
