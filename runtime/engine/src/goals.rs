@@ -56,16 +56,14 @@ impl Goals {
         self.assign(goal, NOBODY);
     }
 
-    /// The goal is no longer live.
+    /// The goal is no longer live. Gives the step that it was for; none where it was not live or for no step.
     #[inline]
-    pub(crate) fn close(&mut self, goal: GoalId) {
+    pub(crate) fn close(&mut self, goal: GoalId) -> Option<NodeId> {
         let index = Self::slot(goal);
-        if let Some(place) = self.slots.get_mut(index)
-            && place.is_some_and(|(live, _)| live == goal)
-        {
-            *place = None;
-            self.free.push(index as u32);
-        }
+        let place = self.slots.get_mut(index)?;
+        let (_, node) = place.take_if(|(live, _)| *live == goal)?;
+        self.free.push(index as u32);
+        Some(node).filter(|node| *node != NOBODY)
     }
 
     /// All live goals that have a step, by slot.

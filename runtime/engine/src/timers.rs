@@ -34,14 +34,16 @@ impl Timers {
     /// Sets a key's instant, in place of an earlier one.
     #[inline]
     pub(crate) fn set(&mut self, key: u32, at: Time) {
-        let Some(place) = self.places.get(key as usize).copied() else { return };
-        if place == NOWHERE {
+        let Some(own) = self.places.get_mut(key as usize) else { return };
+        let place = *own as usize;
+        if *own == NOWHERE {
+            let last = self.heap.len();
+            *own = last as u32;
             self.heap.push((at, key));
-            self.note(self.heap.len() - 1);
-            self.rise(self.heap.len() - 1);
-        } else if let Some(entry) = self.heap.get_mut(place as usize) {
+            self.rise(last);
+        } else if let Some(entry) = self.heap.get_mut(place) {
             entry.0 = at;
-            self.rise(place as usize);
+            self.rise(place);
             self.sink(self.places.get(key as usize).map_or(0, |place| *place as usize));
         }
     }

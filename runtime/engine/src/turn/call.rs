@@ -3,7 +3,7 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
-use crate::plan;
+use crate::plan::{self, Step};
 use crate::record::{Cause, Happening, NodeEnding};
 use crate::state::{Exit, Phase, Wish};
 use crate::truth::Truth;
@@ -37,33 +37,42 @@ enum Refusal {
 impl Turn<'_> {
     /// Gets a call's resources, checks its guards, and starts it.
     pub(super) fn acquire(&mut self, node: NodeId) {
-        let region = self.region_of(node);
-        if let Some(cause) = self.stopping(region) {
+        let step = self.plan.step(node);
+        let region = self.run.regions.at(step.region.index());
+        if let Some(cause) = region.stopping {
             self.exit(node, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
-        } else if self.suspended(region) {
+        } else if region.suspended > 0 {
             self.run.nodes.at_mut(node.index()).phase = Phase::Suspended;
-        } else if !self.run.orphans.is_empty() && self.claim(node) {
-            // A goal of the policy before goes on for it.
-        } else if !self.reserve(node) {
-            self.enqueue(node);
         } else {
-            let plan = self.plan;
-            let step = plan.step(node);
-            if let Some(command) = step.command.as_ref().filter(|_| step.is_ready) {
-                self.launch(node, command.clone());
-                return;
-            }
-            match self.first_look(node) {
-                Look::Unknown(refusal) => {
-                    if self.ask(node) {
-                        self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
-                    } else {
-                        self.refuse(node, refusal);
-                    }
+            self.begin(node, step);
+        }
+    }
+
+    /// The same where the step's region runs.
+    #[inline]
+    pub(super) fn begin(&mut self, node: NodeId, step: &Step) {
+        if !self.run.orphans.is_empty() && self.claim(node) {
+            // A goal of the policy before goes on for it.
+        } else if !self.reserve(step) {
+            self.enqueue(node);
+        } else if let Some(command) = step.command.as_ref().filter(|_| step.is_ready) {
+            self.launch(node, step, command.clone());
+        } else {
+            self.check(node);
+        }
+    }
+
+    fn check(&mut self, node: NodeId) {
+        match self.first_look(node) {
+            Look::Unknown(refusal) => {
+                if self.ask(node) {
+                    self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
+                } else {
+                    self.refuse(node, refusal);
                 }
-                Look::Refused(refusal) => self.refuse(node, refusal),
-                Look::Go(command) => self.start(node, command),
             }
+            Look::Refused(refusal) => self.refuse(node, refusal),
+            Look::Go(command) => self.start(node, command),
         }
     }
 
@@ -168,7 +177,7 @@ impl Turn<'_> {
 
     fn refuse(&mut self, node: NodeId, refusal: Refusal) {
         self.forget_asked(node);
-        self.release(node);
+        self.release(self.plan.step(node));
         match refusal {
             Refusal::Need(need, failure, truth) => {
                 self.report(Happening::Guard { node, need, truth });
@@ -198,7 +207,7 @@ impl Turn<'_> {
             self.forget_asked(node);
         }
         self.guards_hold(node);
-        self.launch(node, command);
+        self.launch(node, self.plan.step(node), command);
     }
 
     /// All that is asked of a call holds: nothing is known any more of what its start unsettles.
@@ -216,17 +225,17 @@ impl Turn<'_> {
     }
 
     /// The goal goes out.
-    fn launch(&mut self, node: NodeId, command: Arc<Command>) {
-        let plan = self.plan;
+    #[inline]
+    fn launch(&mut self, node: NodeId, step: &Step, command: Arc<Command>) {
         let goal = self.run.goals.open(node);
-        let deadline = self.run.now.after(plan.step(node).deadline);
-        self.run.timers.set(plan.node_key(node), deadline);
+        let deadline = self.run.now.after(step.deadline);
+        self.run.timers.set(self.plan.node_key(node), deadline);
         let state = self.run.nodes.at_mut(node.index());
         state.phase = Phase::Starting;
         state.wish = Wish::None;
         state.goal = Some(goal);
         let attempt = state.count;
-        if plan.step(node).command.is_none() {
+        if step.command.is_none() {
             self.run.commands.push((node, command.clone()));
         }
         self.report(Happening::Started { node, goal, attempt });

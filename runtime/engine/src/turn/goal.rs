@@ -9,13 +9,6 @@ use crate::state::{Exit, Phase, Wish};
 use crate::work::Micro;
 use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
 
-/// How a goal came out, in the engine's own terms.
-enum End {
-    Success(Option<Value>),
-    Failure(FailureId, Cause),
-    Interrupted,
-}
-
 impl Turn<'_> {
     /// A driver reports.
     pub(super) fn driver(&mut self, event: DriverEvent) {
@@ -31,19 +24,23 @@ impl Turn<'_> {
                     self.acknowledged(node, goal);
                 }
             }
-            DriverEvent::Refused { goal, failure } => {
-                let failure = self.failure_id(&failure);
-                self.goal_ended(goal, End::Failure(failure, Cause::Refused));
-            }
             DriverEvent::Ended { goal, outcome } => {
-                let end = match outcome {
-                    Outcome::Success(value) => End::Success(value),
-                    Outcome::Failure(kind) => End::Failure(self.failure_id(&kind), Cause::Failed),
-                    Outcome::Interrupted => End::Interrupted,
-                };
-                self.goal_ended(goal, end);
+                if let Some((node, wish)) = self.close(goal) {
+                    self.goal_ended(node, goal, wish, outcome);
+                }
             }
-            DriverEvent::Stopped { goal } => self.goal_ended(goal, End::Interrupted),
+            DriverEvent::Stopped { goal } => {
+                if let Some((node, wish)) = self.close(goal) {
+                    self.goal_ended(node, goal, wish, Outcome::Interrupted);
+                }
+            }
+            DriverEvent::Refused { goal, failure } => {
+                if let Some((node, _)) = self.close(goal) {
+                    let failure = self.failure_id(&failure);
+                    self.goal_failed(node, goal, failure, Cause::Refused);
+                    self.check_clearing();
+                }
+            }
             DriverEvent::Lost { goal } => self.lost(goal),
             DriverEvent::DriverLost => {
                 (0..self.run.orphans.len()).for_each(|index| self.orphan_lost(index));
@@ -138,39 +135,53 @@ impl Turn<'_> {
         self.out.push(Effect::SafeStop { goal });
     }
 
-    fn goal_ended(&mut self, goal: GoalId, end: End) {
-        let Some(node) = self.run.goals.node(goal) else { return };
-        self.run.goals.close(goal);
+    /// A goal is no longer live: what it kept is free. Gives its step, and why it was to end early.
+    #[inline]
+    fn close(&mut self, goal: GoalId) -> Option<(NodeId, Wish)> {
+        let node = self.run.goals.close(goal)?;
+        let step = self.plan.step(node);
         self.run.timers.clear(self.plan.node_key(node));
-        self.release(node);
-        if self.plan.step(node).command.is_none() {
+        self.release(step);
+        if step.command.is_none() {
             self.run.commands.retain(|(of, _)| *of != node);
         }
         let state = self.run.nodes.at_mut(node.index());
-        let wish = std::mem::replace(&mut state.wish, Wish::None);
         state.goal = None;
-        match end {
-            End::Success(value) => self.goal_succeeded(node, goal, value),
-            End::Failure(failure, cause) => self.goal_failed(node, goal, failure, cause),
-            End::Interrupted => match wish {
-                Wish::Expire => self.goal_failed(node, goal, TIMEOUT, Cause::Deadline),
-                Wish::Lose => self.goal_failed(node, goal, TIMEOUT, Cause::Lost),
-                Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop => {
-                    self.goal_interrupted(node, goal, wish);
-                }
-            },
+        Some((node, std::mem::replace(&mut state.wish, Wish::None)))
+    }
+
+    #[inline]
+    fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: Wish, outcome: Outcome) {
+        match (outcome, wish) {
+            (Outcome::Success(value), _) => self.goal_succeeded(node, goal, value),
+            (Outcome::Failure(kind), _) => {
+                let failure = self.failure_id(&kind);
+                self.goal_failed(node, goal, failure, Cause::Failed);
+            }
+            (Outcome::Interrupted, Wish::Expire) => self.goal_failed(node, goal, TIMEOUT, Cause::Deadline),
+            (Outcome::Interrupted, Wish::Lose) => self.goal_failed(node, goal, TIMEOUT, Cause::Lost),
+            (Outcome::Interrupted, Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop) => {
+                self.goal_interrupted(node, goal, wish);
+            }
         }
         self.check_clearing();
     }
 
+    #[inline]
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
         if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
             // The common case, without a detour over the work list. What waits for this goal to end has its own place there.
             let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node };
             self.node_ended(node, exit);
-            return;
+        } else {
+            self.goal_made(node, goal, value);
         }
+    }
+
+    /// A goal's value is bound, and its effects are believed.
+    fn goal_made(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
+        let plan = self.plan;
         let Some(call) = plan.call(node) else { return };
         if let Some(binding) = call.binds {
             let ty = plan.graph.bindings.get(binding.index()).map(|binding| &binding.ty);

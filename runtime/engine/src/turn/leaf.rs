@@ -3,6 +3,7 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::Effect;
+use crate::plan::Step;
 use crate::state::Phase;
 use crate::time::Time;
 use crate::work::Micro;
@@ -55,7 +56,7 @@ impl Turn<'_> {
             Phase::Queued => self.run.queue.retain(|queued| *queued != node),
             Phase::Checking => {
                 self.forget_asked(node);
-                self.release(node);
+                self.release(self.plan.step(node));
             }
             Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending | Phase::Inside => {}
             Phase::Suspended | Phase::Starting | Phase::Running | Phase::Held => {}
@@ -64,19 +65,20 @@ impl Turn<'_> {
     }
 
     /// Takes a call's resources. False where somebody else holds what conflicts.
-    pub(super) fn reserve(&mut self, node: NodeId) -> bool {
-        let mask = self.plan.step(node).mask;
+    #[inline]
+    pub(super) fn reserve(&mut self, step: &Step) -> bool {
         let orphans = self.run.orphans.iter().fold(0, |bits, orphan| bits | orphan.uses);
-        if (self.run.held | orphans) & mask.conflicts != 0 {
+        if (self.run.held | orphans) & step.mask.conflicts != 0 {
             return false;
         }
-        self.run.held |= mask.uses;
+        self.run.held |= step.mask.uses;
         true
     }
 
     /// Gives a call's resources back.
-    pub(super) fn release(&mut self, node: NodeId) {
-        self.run.held &= !self.plan.step(node).mask.uses;
+    #[inline]
+    pub(super) fn release(&mut self, step: &Step) {
+        self.run.held &= !step.mask.uses;
         self.run.freed = !self.run.queue.is_empty();
     }
 

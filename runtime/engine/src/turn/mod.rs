@@ -50,10 +50,7 @@ impl Turn<'_> {
         let now = now.max(self.run.now);
         self.run.now = now;
         // What was due earlier happened earlier: this event does not change it. But its effects go out only now.
-        while let Some(key) = self.due(|at| at < now) {
-            self.wake(key);
-            self.settle();
-        }
+        self.catch_up(|at| at < now);
         match event {
             Event::Begin if self.run.begun => {}
             Event::Begin => {
@@ -66,13 +63,13 @@ impl Turn<'_> {
             Event::Stop => self.stop_run(),
         }
         self.settle();
-        self.catch_up();
+        self.catch_up(|at| at <= now);
     }
 
-    /// Does what is due by now.
-    fn catch_up(&mut self) {
-        let now = self.run.now;
-        while let Some(key) = self.due(|at| at <= now) {
+    /// Does what is due.
+    #[inline]
+    fn catch_up(&mut self, is_due: impl Fn(Time) -> bool + Copy) {
+        while let Some(key) = self.due(is_due) {
             self.wake(key);
             self.settle();
         }
@@ -93,11 +90,19 @@ impl Turn<'_> {
     }
 
     /// The next key that is due.
+    #[inline]
     fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Key> {
+        let own = self.run.timers.next();
+        if self.run.orphans.is_empty() && own.is_none_or(|(at, _)| !is_due(at)) {
+            return None;
+        }
+        self.first_due(own, is_due)
+    }
+
+    fn first_due(&mut self, own: Option<(Time, u32)>, is_due: impl Fn(Time) -> bool) -> Option<Key> {
         if self.run.over {
             return None;
         }
-        let own = self.run.timers.next();
         if let Some(orphan) = self.run.orphans.iter().min_by_key(|orphan| orphan.due)
             && own.is_none_or(|(at, _)| orphan.due <= at)
         {
@@ -118,7 +123,14 @@ impl Turn<'_> {
     }
 
     /// Makes transitions until none is left.
+    #[inline]
     fn settle(&mut self) {
+        if !self.is_quiet() || self.run.freed {
+            self.make_transitions();
+        }
+    }
+
+    fn make_transitions(&mut self) {
         let mut steps = 0;
         while !self.run.over {
             if !self.run.beliefs.changed.is_empty() {
@@ -151,6 +163,7 @@ impl Turn<'_> {
     }
 
     /// Whether nothing else is to be done first: no watch is to be judged, and no other step has work.
+    #[inline]
     fn is_quiet(&self) -> bool {
         self.run.beliefs.changed.is_empty() && self.run.dirty.is_empty() && self.run.work.is_empty()
     }
@@ -272,6 +285,7 @@ impl Turn<'_> {
         }
     }
 
+    #[inline]
     fn stopping(&self, region: RegionId) -> Option<Cause> {
         self.run.regions.at(region.index()).stopping
     }
@@ -280,6 +294,7 @@ impl Turn<'_> {
         self.run.regions.at(region.index()).suspended > 0
     }
 
+    #[inline]
     fn region_of(&self, node: NodeId) -> RegionId {
         self.plan.step(node).region
     }

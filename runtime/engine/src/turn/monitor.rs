@@ -139,10 +139,14 @@ impl Turn<'_> {
     }
 
     /// Runs the blocks of monitors whose bodies are down by now.
+    #[inline]
     pub(super) fn check_clearing(&mut self) {
-        if self.run.clearing.is_empty() {
-            return;
+        if !self.run.clearing.is_empty() {
+            self.run_cleared();
         }
+    }
+
+    fn run_cleared(&mut self) {
         for node in self.run.clearing.clone() {
             let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { continue };
             // One that is being stopped runs no block any more.

@@ -37,23 +37,22 @@ impl Turn<'_> {
 
     /// Enters a step.
     pub(super) fn enter(&mut self, node: NodeId) {
-        let region = self.region_of(node);
-        if let Some(cause) = self.stopping(region) {
+        let step = self.plan.step(node);
+        let region = self.run.regions.at(step.region.index());
+        if let Some(cause) = region.stopping {
             // It was never entered, so it has no ending of its own.
             self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
-            self.leave_region(region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
-            return;
-        }
-        if self.suspended(region) {
+            self.leave_region(step.region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+        } else if region.suspended > 0 {
             self.run.nodes.at_mut(node.index()).phase = Phase::Parked;
-            return;
-        }
-        self.report(Happening::Entered { node });
-        if self.plan.step(node).is_call {
-            self.run.nodes.at_mut(node.index()).count = 1;
-            self.acquire(node);
         } else {
-            self.enter_other(node);
+            self.report(Happening::Entered { node });
+            if step.is_call {
+                self.run.nodes.at_mut(node.index()).count = 1;
+                self.begin(node, step);
+            } else {
+                self.enter_other(node);
+            }
         }
     }
 
@@ -114,22 +113,22 @@ impl Turn<'_> {
     /// A step is over: goes on to the next, or ends the region.
     pub(super) fn node_ended(&mut self, node: NodeId, exit: Exit) {
         let step = self.plan.step(node);
-        let (region, next) = (step.region, step.next);
-        self.leave(node);
-        self.report(Happening::Ended { node, ending: exit.ending, cause: exit.cause });
-        if let Some(cause) = self.stopping(region) {
-            self.leave_region(region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
-            return;
+        if step.is_composite {
+            self.leave_composite(node);
         }
-        match (exit.ending, next) {
-            (NodeEnding::Success, Some(next)) => {
-                self.run.regions.at_mut(region.index()).current = Some(next);
-                self.run.nodes.at_mut(next.index()).phase = Phase::Entering;
+        self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
+        self.report(Happening::Ended { node, ending: exit.ending, cause: exit.cause });
+        let region = self.run.regions.at_mut(step.region.index());
+        match (region.stopping, exit.ending, step.next) {
+            (None, NodeEnding::Success, Some(next)) => {
+                region.current = Some(next);
                 self.enter(next);
             }
-            (NodeEnding::Success, None) | (NodeEnding::Failure(_) | NodeEnding::Interrupted, _) => {
-                self.leave_region(region, exit);
+            (Some(cause), _, _) => {
+                let exit = Exit { ending: NodeEnding::Interrupted, cause, origin: node };
+                self.leave_region(step.region, exit);
             }
+            (None, _, _) => self.leave_region(step.region, exit),
         }
     }
 
@@ -169,15 +168,7 @@ impl Turn<'_> {
         self.plan.owned(node).iter().all(|region| !self.run.regions.at(region.index()).active)
     }
 
-    /// Forgets what a step kept while it ran.
-    #[inline]
-    fn leave(&mut self, node: NodeId) {
-        if self.plan.step(node).is_composite {
-            self.leave_composite(node);
-        }
-        self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
-    }
-
+    /// Forgets what a composite step kept while it ran.
     fn leave_composite(&mut self, node: NodeId) {
         match &self.plan.node(node).kind {
             NodeKind::Monitor { watches, .. } => self.leave_monitor(node, watches.len() as u32),

@@ -95,7 +95,8 @@ impl Turn<'_> {
         }
         self.unwatch_idle();
         self.run.swapping = false;
-        self.catch_up();
+        let now = self.run.now;
+        self.catch_up(|at| at <= now);
     }
 
     /// Ends the watches that only the old policy needed.
