@@ -88,7 +88,7 @@ pub struct Command {
     /// All its parameters, in the order of its signature, with their values.
     pub args: Vec<(SmolStr, Value)>,
     /// Names of the resources that it may use until it has ended.
-    pub uses: Vec<SmolStr>,
+    pub uses: Arc<[SmolStr]>,
     /// Seconds after which the engine cancels it.
     pub deadline_secs: f64,
 }

@@ -29,6 +29,8 @@ pub(crate) struct Plan {
     owned: Vec<RegionId>,
     /// What every step needs at hand.
     steps: Vec<Step>,
+    /// Of each primitive.
+    means: Vec<Means>,
     spare_step: Step,
     spare: Node,
     spare_region: Region,
@@ -52,6 +54,14 @@ pub(crate) struct Step {
     pub(crate) is_ready: bool,
     /// Call: whether its success changes nothing that the engine knows.
     pub(crate) is_silent: bool,
+}
+
+/// What the calls of a primitive have in common.
+#[derive(Debug)]
+struct Means {
+    mask: Mask,
+    /// The names of its resources.
+    uses: Arc<[SmolStr]>,
 }
 
 /// Resources as bits.
@@ -83,6 +93,7 @@ impl Plan {
             ranges: Vec::with_capacity(graph.nodes.len()),
             owned: Vec::with_capacity(graph.regions.len()),
             steps: Vec::with_capacity(graph.nodes.len()),
+            means: graph.primitives.iter().map(|primitive| means(&graph, primitive)).collect(),
             spare_step: Step::of_kind(ROOT, None),
             spare: Node {
                 path: SmolStr::default(),
@@ -94,10 +105,9 @@ impl Plan {
             spare_region: Region { owner: None, entry: None },
             graph: graph.clone(),
         };
-        let masks: Vec<Mask> = graph.primitives.iter().map(|primitive| mask(&graph, primitive)).collect();
         for (index, node) in graph.nodes.iter().enumerate() {
             plan.add(NodeId(index as u32), &node.kind);
-            let step = step(&graph, node, &masks, plan.owned(NodeId(index as u32)).is_empty());
+            let step = plan.ready(node, plan.owned(NodeId(index as u32)).is_empty());
             plan.steps.push(step);
         }
         plan
@@ -140,6 +150,45 @@ impl Plan {
 
     pub(crate) fn region(&self, id: RegionId) -> &Region {
         self.graph.regions.get(id.index()).unwrap_or(&self.spare_region)
+    }
+
+    fn ready(&self, node: &Node, is_leaf: bool) -> Step {
+        let mut step = Step { is_composite: !is_leaf, ..Step::of_kind(node.region, node.next) };
+        if let NodeKind::Call(call) = &node.kind {
+            let deferred = |verdict| verdict == Verdict::Deferred;
+            let checks = call.needs.iter().any(|need| deferred(need.verdict))
+                || call.motion.as_ref().is_some_and(|motion| deferred(motion.verdict));
+            let literals = call
+                .args
+                .iter()
+                .map(|arg| if let Term::Literal(value) = arg { Some(value.clone()) } else { None });
+            step.is_call = true;
+            step.deadline = Time::from_secs(call.deadline_secs);
+            step.mask = self.means.get(call.primitive.index()).map(|means| means.mask).unwrap_or_default();
+            step.command = self.command(call, literals).map(Arc::new);
+            step.is_ready = !checks && call.unsettles.is_empty();
+            step.is_silent = call.effects.is_empty() && call.binds.is_none();
+        }
+        step
+    }
+
+    /// The command of a call with these arguments; none where one of them is not known.
+    pub(crate) fn command(
+        &self,
+        call: &CallNode,
+        args: impl Iterator<Item = Option<Value>>,
+    ) -> Option<Command> {
+        let primitive = self.graph.primitives.get(call.primitive.index())?;
+        let mut named = Vec::with_capacity(primitive.params.len());
+        for ((name, _), arg) in primitive.params.iter().zip(args) {
+            named.push((name.clone(), arg?));
+        }
+        Some(Command {
+            primitive: primitive.name.clone(),
+            args: named,
+            uses: self.means.get(call.primitive.index())?.uses.clone(),
+            deadline_secs: call.deadline_secs,
+        })
     }
 
     /// The regions that a node owns, in document order.
@@ -208,19 +257,6 @@ pub(crate) enum Key {
     Orphan(GoalId),
 }
 
-/// The command of a call with these arguments.
-pub(crate) fn command(graph: &Graph, call: &CallNode, args: Vec<Value>) -> Option<Command> {
-    let primitive = graph.primitives.get(call.primitive.index())?;
-    let names = primitive.params.iter().map(|(name, _)| name.clone());
-    let uses = primitive.uses.iter().filter_map(|id| graph.resources.get(id.index()));
-    Some(Command {
-        primitive: primitive.name.clone(),
-        args: names.zip(args).collect(),
-        uses: uses.map(|resource| resource.name.clone()).collect(),
-        deadline_secs: call.deadline_secs,
-    })
-}
-
 impl Step {
     /// A step that is no call.
     fn of_kind(region: RegionId, next: Option<NodeId>) -> Self {
@@ -238,26 +274,9 @@ impl Step {
     }
 }
 
-fn step(graph: &Graph, node: &Node, masks: &[Mask], is_leaf: bool) -> Step {
-    let mut step = Step { is_composite: !is_leaf, ..Step::of_kind(node.region, node.next) };
-    if let NodeKind::Call(call) = &node.kind {
-        let deferred = |verdict| verdict == Verdict::Deferred;
-        let checks = call.needs.iter().any(|need| deferred(need.verdict))
-            || call.motion.as_ref().is_some_and(|motion| deferred(motion.verdict));
-        step.is_call = true;
-        step.deadline = Time::from_secs(call.deadline_secs);
-        step.mask = masks.get(call.primitive.index()).copied().unwrap_or_default();
-        step.command = literal_command(graph, call);
-        step.is_ready = !checks && call.unsettles.is_empty();
-        step.is_silent = call.effects.is_empty() && call.binds.is_none();
-    }
-    step
-}
-
-fn literal_command(graph: &Graph, call: &CallNode) -> Option<Arc<Command>> {
-    let literals =
-        call.args.iter().map(|arg| if let Term::Literal(value) = arg { Some(value.clone()) } else { None });
-    command(graph, call, literals.collect::<Option<_>>()?).map(Arc::new)
+fn means(graph: &Graph, primitive: &Primitive) -> Means {
+    let uses = primitive.uses.iter().filter_map(|id| graph.resources.get(id.index()));
+    Means { mask: mask(graph, primitive), uses: uses.map(|resource| resource.name.clone()).collect() }
 }
 
 fn mask(graph: &Graph, primitive: &Primitive) -> Mask {

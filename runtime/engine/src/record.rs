@@ -4,7 +4,6 @@ use crate::event::GoalId;
 use crate::time::Time;
 use crate::truth::Truth;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
-use smol_str::SmolStr;
 
 /// Something that happened in a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -89,7 +88,7 @@ pub enum Happening {
     /// A new policy has taken over. Its ids are those of this record's revision.
     Swapped {
         /// Its name.
-        policy: SmolStr,
+        policy: Box<str>,
     },
     /// A goal that the old policy started goes on for a step of the new one, untouched.
     Kept {

@@ -40,7 +40,9 @@ impl Timers {
             let last = self.heap.len();
             *own = last as u32;
             self.heap.push((at, key));
-            self.rise(last);
+            if last > 0 {
+                self.rise(last);
+            }
         } else if let Some(entry) = self.heap.get_mut(place) {
             entry.0 = at;
             self.rise(place);
@@ -81,6 +83,7 @@ impl Timers {
         self.note(b);
     }
 
+    #[inline(never)]
     fn rise(&mut self, mut index: usize) {
         while index > 0 {
             let parent = (index - 1) / 2;

@@ -10,13 +10,14 @@ use motet_graph::Value;
 use motet_robots::scene::Scene;
 use motet_runtime::{GoalId, Outcome, Time};
 use smol_str::SmolStr;
+use std::sync::Arc;
 
 /// A goal that runs.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Task {
     pub(crate) goal: GoalId,
     pub(crate) deed: Deed,
-    pub(crate) uses: Vec<SmolStr>,
+    pub(crate) uses: Arc<[SmolStr]>,
     /// Seconds that its work takes, driving aside.
     pub(crate) work_secs: f64,
     /// How many times as long everything takes.

@@ -3,7 +3,7 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
-use crate::plan::{self, Step};
+use crate::plan::Step;
 use crate::record::{Cause, Happening, NodeEnding};
 use crate::state::{Exit, Phase, Wish};
 use crate::truth::Truth;
@@ -141,7 +141,7 @@ impl Turn<'_> {
             return unknown.map_or_else(|| self.look_at_motion(call, command.clone()), Look::Unknown);
         }
         let args: Option<Vec<Value>> = self.values(&call.args, fresh);
-        match (unknown, args.and_then(|args| plan::command(&plan.graph, call, args))) {
+        match (unknown, args.and_then(|args| plan.command(call, args.into_iter().map(Some)))) {
             (Some(refusal), _) => Look::Unknown(refusal),
             (None, None) => Look::Unknown(Refusal::Argument),
             (None, Some(command)) => self.look_at_motion(call, Arc::new(command)),
@@ -180,7 +180,7 @@ impl Turn<'_> {
         self.release(self.plan.step(node));
         match refusal {
             Refusal::Need(need, failure, truth) => {
-                self.report(Happening::Guard { node, need, truth });
+                self.report(move || Happening::Guard { node, need, truth });
                 self.attempt_failed(node, failure, Cause::GuardRefuted);
             }
             Refusal::Motion(failure) => self.attempt_failed(node, failure, Cause::GuardRefuted),
@@ -216,7 +216,7 @@ impl Turn<'_> {
         let Some(call) = plan.call(node) else { return };
         for (index, need) in call.needs.iter().enumerate() {
             if need.verdict == Verdict::Deferred {
-                self.report(Happening::Guard { node, need: index as u32, truth: Truth::True });
+                self.report(move || Happening::Guard { node, need: index as u32, truth: Truth::True });
             }
         }
         if !call.unsettles.is_empty() {
@@ -225,7 +225,7 @@ impl Turn<'_> {
     }
 
     /// The goal goes out.
-    #[inline]
+    #[inline(always)]
     fn launch(&mut self, node: NodeId, step: &Step, command: Arc<Command>) {
         let goal = self.run.goals.open(node);
         let deadline = self.run.now.after(step.deadline);
@@ -238,8 +238,8 @@ impl Turn<'_> {
         if step.command.is_none() {
             self.run.commands.push((node, command.clone()));
         }
-        self.report(Happening::Started { node, goal, attempt });
-        self.emit(|| Effect::Start { goal, node, command, deadline });
+        self.report(move || Happening::Started { node, goal, attempt });
+        self.emit(move || Effect::Start { goal, node, command, deadline });
     }
 
     /// The id of a failure; a kind that the graph does not name gets one of its own.

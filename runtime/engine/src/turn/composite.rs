@@ -97,7 +97,8 @@ impl Turn<'_> {
         let graph = &self.plan.graph;
         let ty = graph.bindings.get(binding.index()).map(|binding| &binding.ty);
         self.run.beliefs.entities.hear_value(graph, &value, ty);
-        self.report(Happening::Bound { binding, value: Box::new(value.clone()) });
+        let bound = Box::new(value.clone());
+        self.report(move || Happening::Bound { binding, value: bound });
         if let Some(slot) = self.run.bindings.get_mut(binding.index()) {
             *slot = Some(value);
         }

@@ -51,7 +51,7 @@ impl Turn<'_> {
     pub(super) fn tested(&mut self, node: NodeId, truth: Truth) {
         self.forget_asked(node);
         self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
-        self.report(Happening::Tested { node, truth });
+        self.report(move || Happening::Tested { node, truth });
         let holds = truth == Truth::True;
         match &self.plan.node(node).kind {
             NodeKind::If { then, .. } if holds => self.enter_region(*then),

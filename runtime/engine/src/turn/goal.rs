@@ -11,6 +11,7 @@ use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
 
 impl Turn<'_> {
     /// A driver reports.
+    #[inline]
     pub(super) fn driver(&mut self, event: DriverEvent) {
         if !self.run.orphans.is_empty()
             && let Some(index) = event.goal().and_then(|goal| self.orphan(goal))
@@ -136,7 +137,7 @@ impl Turn<'_> {
     }
 
     /// A goal is no longer live: what it kept is free. Gives its step, and why it was to end early.
-    #[inline]
+    #[inline(always)]
     fn close(&mut self, goal: GoalId) -> Option<(NodeId, Wish)> {
         let node = self.run.goals.close(goal)?;
         let step = self.plan.step(node);
@@ -150,7 +151,7 @@ impl Turn<'_> {
         Some((node, std::mem::replace(&mut state.wish, Wish::None)))
     }
 
-    #[inline]
+    #[inline(always)]
     fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: Wish, outcome: Outcome) {
         match (outcome, wish) {
             (Outcome::Success(value), _) => self.goal_succeeded(node, goal, value),
@@ -167,7 +168,7 @@ impl Turn<'_> {
         self.check_clearing();
     }
 
-    #[inline]
+    #[inline(always)]
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
         if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
@@ -199,7 +200,7 @@ impl Turn<'_> {
 
     fn goal_failed(&mut self, node: NodeId, goal: GoalId, failure: FailureId, cause: Cause) {
         self.doubt(node);
-        self.report(Happening::GoalEnded { node, goal, ending: NodeEnding::Failure(failure), cause });
+        self.report(move || Happening::GoalEnded { node, goal, ending: NodeEnding::Failure(failure), cause });
         self.attempt_failed(node, failure, cause);
     }
 
@@ -212,7 +213,7 @@ impl Turn<'_> {
             (None, Wish::None | Wish::Hold | Wish::Lose | Wish::Expire | Wish::Stop) => Cause::Driver,
         };
         let ending = NodeEnding::Interrupted;
-        self.report(Happening::GoalEnded { node, goal, ending, cause });
+        self.report(move || Happening::GoalEnded { node, goal, ending, cause });
         if stopped.is_none() && wish == Wish::Suspend {
             // It starts again: at once where what suspended it has gone on already.
             self.run.nodes.at_mut(node.index()).phase = Phase::Entering;

@@ -99,6 +99,7 @@ impl Turn<'_> {
         self.first_due(own, is_due)
     }
 
+    #[cold]
     fn first_due(&mut self, own: Option<(Time, u32)>, is_due: impl Fn(Time) -> bool) -> Option<Key> {
         if self.run.over {
             return None;
@@ -208,19 +209,16 @@ impl Turn<'_> {
         self.run.work.push(place, micro);
     }
 
+    /// Writes down what happened.
     #[inline(always)]
-    fn report(&mut self, what: Happening) {
+    fn report(&mut self, what: impl FnOnce() -> Happening) {
         let (at, revision) = (self.run.now, self.run.revision);
-        self.emit(|| Effect::Report(Record { at, revision, what }));
+        self.emit(move || Effect::Report(Record { at, revision, what: what() }));
     }
 
-    /// Room is made before the effect is built, so that it is built in its place: built apart and copied, it costs several
-    /// times as much.
+    /// Gives out an effect. It is built in its place: built apart and copied, it costs several times as much.
     #[inline(always)]
     fn emit(&mut self, effect: impl FnOnce() -> Effect) {
-        if self.out.len() == self.out.capacity() {
-            self.out.reserve(64);
-        }
         self.out.extend(std::iter::once_with(effect));
     }
 

@@ -179,7 +179,7 @@ impl Turn<'_> {
         (0..pauses).for_each(|_| self.suspend(*body, Wish::Hold));
         self.go_on(*body);
         if let Some((_, watch, _)) = number.and_then(|number| self.plan.watch(number)) {
-            self.report(Happening::WentOn { node, watch });
+            self.report(move || Happening::WentOn { node, watch });
         }
         if let Some(number) = number {
             self.rearm(number);

@@ -6,7 +6,6 @@ use super::goal::stronger;
 use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, GoalId, Outcome};
 use crate::orphan::Orphan;
-use crate::plan;
 use crate::record::{Cause, Happening, NodeEnding, Record};
 use crate::state::{Phase, Wish};
 use crate::time::Time;
@@ -33,7 +32,7 @@ impl Turn<'_> {
         let command = literal.or_else(|| {
             self.run.missing.clear();
             let args = self.values(&call.args, crate::belief::Freshness::Readings(now))?;
-            plan::command(&plan.graph, call, args).map(std::sync::Arc::new)
+            plan.command(call, args.into_iter().map(Some)).map(std::sync::Arc::new)
         });
         let Some(command) = command else { return false };
         let same = self.run.orphans.iter().position(|orphan| {
@@ -77,7 +76,7 @@ impl Turn<'_> {
         if self.plan.step(node).command.is_none() {
             self.run.commands.push((node, orphan.command.clone()));
         }
-        self.report(Happening::Kept { node, goal: orphan.goal });
+        self.report(move || Happening::Kept { node, goal: orphan.goal });
         self.go_on_if_held(orphan);
     }
 
@@ -90,7 +89,7 @@ impl Turn<'_> {
         if self.plan.step(node).command.is_none() {
             self.run.commands.push((node, command.clone()));
         }
-        self.report(Happening::Updated { node, goal });
+        self.report(move || Happening::Updated { node, goal });
         self.out.push(Effect::Update { goal, node, command, deadline });
         self.go_on_if_held(orphan);
     }

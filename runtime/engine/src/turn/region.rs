@@ -36,6 +36,7 @@ impl Turn<'_> {
     }
 
     /// Enters a step.
+    #[inline(always)]
     pub(super) fn enter(&mut self, node: NodeId) {
         let step = self.plan.step(node);
         let region = self.run.regions.at(step.region.index());
@@ -46,7 +47,7 @@ impl Turn<'_> {
         } else if region.suspended > 0 {
             self.run.nodes.at_mut(node.index()).phase = Phase::Parked;
         } else {
-            self.report(Happening::Entered { node });
+            self.report(move || Happening::Entered { node });
             if step.is_call {
                 self.run.nodes.at_mut(node.index()).count = 1;
                 self.begin(node, step);
@@ -117,7 +118,7 @@ impl Turn<'_> {
             self.leave_composite(node);
         }
         self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
-        self.report(Happening::Ended { node, ending: exit.ending, cause: exit.cause });
+        self.report(move || Happening::Ended { node, ending: exit.ending, cause: exit.cause });
         let region = self.run.regions.at_mut(step.region.index());
         match (region.stopping, exit.ending, step.next) {
             (None, NodeEnding::Success, Some(next)) => {

@@ -34,7 +34,11 @@ impl Turn<'_> {
                     self.orphan_goal(node, plan, &bindings);
                 }
             }
-            self.report(Happening::Ended { node, ending: NodeEnding::Interrupted, cause: Cause::Swap });
+            self.report(move || Happening::Ended {
+                node,
+                ending: NodeEnding::Interrupted,
+                cause: Cause::Swap,
+            });
         }
         // Goals by start, so that the earliest is taken first.
         self.run.orphans.sort_by_key(|orphan| orphan.goal);
@@ -85,7 +89,7 @@ impl Turn<'_> {
         }
         // What the old policy alone depended on concerns nobody any more.
         self.run.beliefs.changed.clear();
-        self.report(Happening::Swapped { policy: graph.policy.clone() });
+        self.report(move || Happening::Swapped { policy: graph.policy.as_str().into() });
         if self.run.begun {
             self.enter_region(ROOT);
             self.settle();

@@ -32,7 +32,7 @@ impl Turn<'_> {
             Some(_) => {
                 self.run.timers.clear(number);
                 if self.may_fire(node, number, watch) {
-                    self.report(Happening::Fired { node, watch: index, truth });
+                    self.report(move || Happening::Fired { node, watch: index, truth });
                     self.fire(node, number, watch);
                 }
             }
@@ -134,7 +134,7 @@ impl Turn<'_> {
     /// What a pause held goes on.
     fn end_pause(&mut self, node: NodeId, number: u32, index: u32) {
         self.stop_pausing(number);
-        self.report(Happening::WentOn { node, watch: index });
+        self.report(move || Happening::WentOn { node, watch: index });
         let state = self.run.composites.at_mut(node.index());
         state.pauses = state.pauses.saturating_sub(1);
         if let Some(part) = self.running_part(node) {

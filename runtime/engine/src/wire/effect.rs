@@ -214,7 +214,7 @@ impl From<Command> for m::Command {
         Self {
             primitive: command.primitive.into(),
             args: command.args.into_iter().map(|Arg(name, value)| (name.into(), value.into())).collect(),
-            uses: command.uses.into_iter().map(Into::into).collect(),
+            uses: command.uses.into_iter().map(smol_str::SmolStr::from).collect(),
             deadline_secs: command.deadline_secs,
         }
     }

@@ -94,7 +94,7 @@ proptest! {
         let command = Command {
             primitive: "pick".into(),
             args: args.into_iter().map(|(name, value)| (name.into(), value)).collect(),
-            uses: vec!["hand".into()],
+            uses: ["hand".into()].into(),
             deadline_secs: 20.1,
         };
         let (goal, node, command) = (GoalId::from_number(goal), NodeId(node), Arc::new(command));

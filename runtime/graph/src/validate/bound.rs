@@ -22,7 +22,7 @@ enum Todo {
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     let bound = graph.bindings.iter().map(|binding| binding.given).collect();
-    let mut walk = Walk { graph, findings, bound, log: Vec::new(), todo: Vec::new() };
+    let mut walk = Walk { graph, findings, bound, log: Vec::new(), todo: Vec::new(), terms: Vec::new() };
     walk.todo.push(Todo::Open { region: crate::model::ROOT, item: None, until: None });
     while let Some(todo) = walk.todo.pop() {
         walk.step(todo);
@@ -36,6 +36,8 @@ struct Walk<'a> {
     /// What was bound, in order.
     log: Vec<BindingId>,
     todo: Vec<Todo>,
+    /// Parts of a term that are still to be looked at; empty between two terms.
+    terms: Vec<&'a Term>,
 }
 
 impl<'a> Walk<'a> {
@@ -143,7 +145,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn fact(&mut self, node: &Node, fact: &Fact) {
+    fn fact(&mut self, node: &'a Node, fact: &'a Fact) {
         for arg in &fact.args {
             if let FactArg::Term(term) = arg {
                 self.term(node, term);
@@ -151,7 +153,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn condition(&mut self, node: &Node, condition: &Condition) {
+    fn condition(&mut self, node: &'a Node, condition: &'a Condition) {
         // A stack of its own: how deep it goes is checked elsewhere.
         let mut open = vec![condition];
         while let Some(condition) = open.pop() {
@@ -168,9 +170,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn term(&mut self, node: &Node, term: &Term) {
-        let mut open = vec![term];
-        while let Some(term) = open.pop() {
+    fn term(&mut self, node: &'a Node, term: &'a Term) {
+        self.terms.push(term);
+        while let Some(term) = self.terms.pop() {
             match term {
                 Term::Literal(_) | Term::Each => {}
                 Term::Binding(id) => {
@@ -179,9 +181,9 @@ impl<'a> Walk<'a> {
                         self.findings.node(node, Reason::Unbound(name.unwrap_or_default()));
                     }
                 }
-                Term::Field(of, _) => open.push(of),
-                Term::Measure(_, args) | Term::List(args) => open.extend(args),
-                Term::Arith(_, left, right) => open.extend([&**left, &**right]),
+                Term::Field(of, _) => self.terms.push(of),
+                Term::Measure(_, args) | Term::List(args) => self.terms.extend(args),
+                Term::Arith(_, left, right) => self.terms.extend([&**left, &**right]),
             }
         }
     }

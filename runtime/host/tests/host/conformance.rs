@@ -28,7 +28,7 @@ fn the_example_in_python_keeps_the_laws() {
         command: Command {
             primitive: "go".into(),
             args: vec![("to".into(), user())],
-            uses: vec!["base".into()],
+            uses: ["base".into()].into(),
             deadline_secs: 10.0,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![user()] },

@@ -18,7 +18,7 @@ fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<Strin
         command: Command {
             primitive: "go".into(),
             args: vec![("to".into(), entity("kitchen_table"))],
-            uses: vec!["base".into()],
+            uses: ["base".into()].into(),
             deadline_secs: 60.0,
         },
         query: Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] },

@@ -24,7 +24,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         params: args.iter().map(|(name, value)| ((*name).into(), ty(value))).collect(),
         result: (*name == "detect").then(|| object.clone()),
         perceives: *name == "detect",
-        uses: Vec::new(),
+        uses: [].into(),
         fails: (0..failures.len() as u32).map(FailureId).collect(),
     });
     let nodes = calls.iter().enumerate().map(|(index, (name, args))| Node {

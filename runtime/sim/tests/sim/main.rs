@@ -64,7 +64,7 @@ impl Bench {
         let command = Command {
             primitive: primitive.into(),
             args: args.iter().map(|(name, value)| ((*name).into(), value.clone())).collect(),
-            uses: vec!["hand".into()],
+            uses: ["hand".into()].into(),
             deadline_secs: 20.0,
         };
         self.sim.start(self.now, goal, &command);
