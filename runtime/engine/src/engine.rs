@@ -22,7 +22,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Engine {
     pub(crate) plan: Arc<Plan>,
-    pub(crate) run: Run,
+    /// Boxed, so that a swap exchanges it by its address.
+    pub(crate) run: Box<Run>,
     /// Graphs that were replaced, with their numbers.
     pub(crate) older: Vec<(u32, Arc<Plan>)>,
     settings: Settings,
@@ -53,7 +54,7 @@ impl Engine {
         }
         Ok(Self {
             plan: Arc::new(plan),
-            run,
+            run: Box::new(run),
             older: Vec::new(),
             settings: Settings::default(),
             verifier: Arc::new(LeaveToDriver),

@@ -28,7 +28,7 @@ pub struct Running {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     plan: Arc<Plan>,
-    run: Run,
+    run: Box<Run>,
     /// The graph that it was prepared against.
     against: Arc<Plan>,
     /// Whether fluents stand at the same places in both.
@@ -52,7 +52,7 @@ struct Told {
 pub struct Retired {
     revision: u32,
     plan: Arc<Plan>,
-    _run: Box<(Run, Entities)>,
+    _run: (Box<Run>, Entities),
 }
 
 /// Why a swap was refused. The run goes on as if nobody had asked.
@@ -123,7 +123,7 @@ impl Prepared {
         let told = told(&graph);
         let plan = Plan::new(Arc::new(graph));
         let beliefs = start::believe(&plan.graph, &StartState::default());
-        let run = Run::new(&plan, beliefs);
+        let run = Box::new(Run::new(&plan, beliefs));
         let mut prepared = Self {
             plan: Arc::new(plan),
             run,
@@ -229,7 +229,7 @@ impl Engine {
         let old = std::mem::replace(&mut self.run, run);
         self.older.push((revision, std::mem::replace(&mut self.plan, next)));
         self.turn(out).take_over(&heard);
-        Ok(Retired { revision, plan, _run: Box::new((old, heard)) })
+        Ok(Retired { revision, plan, _run: (old, heard) })
     }
 
     /// The graph with a number, to read a trace by: the one that runs, or one that was replaced.
