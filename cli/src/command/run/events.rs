@@ -78,7 +78,7 @@ impl Events {
                 self.write(at, "went_on", Some(*node), json!({"watch": watch}));
             }
             Happening::Swapped { policy } => {
-                self.write(at, "swapped", None, json!({"policy": policy.as_str()}));
+                self.write(at, "swapped", None, json!({"policy": &**policy}));
             }
             Happening::Kept { node, goal } => {
                 self.write(at, "kept", Some(*node), json!({"goal": goal.to_string()}));
