@@ -73,8 +73,10 @@ def carried_out(binary, world, url, dialect, folder, wrong, tally):
         return
     talk = [json.loads(line) for line in (folder / "talk.jsonl").read_text().splitlines()]
     whats = Counter(line["what"] for line in talk)
-    if whats["failed"] or not whats["taken"] + whats["refused"]:
-        wrong.append(f"motet do got no whole reply: {dict(whats)} {ran.stderr}")
+    # A model without sense may write without an end, most of all under the schema, which leaves the length of texts open.
+    if not whats["taken"] + whats["refused"] + whats["failed"]:
+        wrong.append(f"motet do got no reply: {dict(whats)} {ran.stderr}")
+    tally["broke off"] += whats["failed"]
     tally["taken"] += whats["taken"]
     tally["refused"] += whats["refused"]
 
@@ -117,7 +119,7 @@ def main():
         print(f"  {what}: {count}")
     for line in wrong:
         print(f"WRONG {line}")
-    if wrong or not tally["policies"]:
+    if wrong or not tally["policies"] or not tally["taken"] + tally["refused"]:
         raise SystemExit(1)
 
 
