@@ -58,7 +58,7 @@ impl Subject<'_> {
         line["moves"] = self.moves();
         line["reach"] = json!(machine.hand().map(|hand| hand.card.reach_m));
         line["said"] = json!(case.said);
-        line["truth"] = json!(case.truth);
+        line["is_reachable"] = json!(case.is_reachable());
         line["took_us"] = json!(case.took.as_secs_f64() * 1e6);
         line
     }

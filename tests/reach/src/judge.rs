@@ -202,6 +202,18 @@ fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
 }
 
 impl Case {
+    /// Answered with a witness that holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.said == Said::Feasible && self.faults.is_empty()
+    }
+
+    /// The search found a way, or a witness that holds shows one.
+    #[must_use]
+    pub fn is_reachable(&self) -> bool {
+        self.truth == Truth::Reachable || self.holds()
+    }
+
     /// What is not as it should be, in a line.
     #[must_use]
     pub fn line(&self) -> Option<String> {

@@ -46,9 +46,8 @@ pub struct Table {
 
 impl Table {
     pub(crate) fn new(robot: &str, cases: &[Case]) -> Self {
-        let holds = |case: &&Case| case.said == Said::Feasible && case.faults.is_empty();
-        let reachable: Vec<&Case> =
-            cases.iter().filter(|case| case.truth == Truth::Reachable || holds(case)).collect();
+        let holds = |case: &&Case| case.holds();
+        let reachable: Vec<&Case> = cases.iter().filter(|case| case.is_reachable()).collect();
         let within = |limit: Duration| {
             let found = reachable.iter().filter(|case| holds(case) && case.took <= limit).count();
             percent(found, reachable.len())
