@@ -21,7 +21,7 @@ pub mod signature;
 mod world;
 
 pub use library::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
-pub use place::{Access, Geometry};
+pub use place::{Access, Course, Geometry, Prospect};
 pub use prove::MAX_FIXPOINTS;
 pub use resolve::{MAX_COUNT, MAX_NODES, MAX_SECONDS};
 pub use session::{Compiled, Given, Options, Session};

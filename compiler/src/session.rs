@@ -13,7 +13,7 @@ use crate::check::errors::{NoPolicy, OtherRobot};
 use crate::fix::Finding;
 use crate::ir::{Program, StepKind, Term};
 use crate::library::{Library, LibraryBuilder};
-use crate::place::{Access, Geometry, Placed};
+use crate::place::{Access, Course, Geometry, Placed};
 use crate::prove::Proof;
 use crate::signature::Signatures;
 use crate::world::{State, World};
@@ -125,6 +125,12 @@ impl Session {
     #[must_use]
     pub fn access(&self, id: &str) -> Option<Access> {
         Some(self.geometry.as_ref()?.access(id))
+    }
+
+    /// The world of a run that begins in this session's, for motions that are left to it. None without geometry.
+    #[must_use]
+    pub fn course(&self) -> Option<Course> {
+        Some(Course::new(Arc::clone(&self.library), Arc::clone(self.geometry.as_ref()?)))
     }
 
     /// The declarations in force.

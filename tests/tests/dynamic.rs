@@ -84,7 +84,8 @@ impl Onlooker for Script<'_> {
             Effect::SafeStop { .. }
             | Effect::Observe { .. }
             | Effect::Watch { .. }
-            | Effect::Unwatch { .. } => return,
+            | Effect::Unwatch { .. }
+            | Effect::Verify { .. } => return,
         };
         self.log.push(format!("{:6.2} {line}", now.secs()));
     }

@@ -17,6 +17,7 @@ mod world;
 use std::path::Path;
 
 use motet_graph::Graph;
+use motet_planner::guard::Guard;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, Event, StartState, Time};
@@ -69,16 +70,17 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start(setting.scene.as_ref());
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let engine = play::engine(graph, &start, simulator.capabilities())?;
+    let guard = setting.session.course().map(Guard::new);
+    let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::simulator(card, setting.scene_text.clone(), &options);
-            Some(play::journal(folder, engine.graph(), &start, &simulator.capabilities(), &saved)?)
+            Some(play::journal(folder, &engine, &start, &simulator.capabilities(), &saved)?)
         }
         None => None,
     };
     let view = play::view(args.format, engine.graph(), colors);
-    let pace = Pace::new(view, args.simulated.speed);
+    let pace = Pace::new(view, args.simulated.speed).with_guard(guard);
     let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
 }

@@ -7,6 +7,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::Verdict;
 use super::geometry::Change;
+use super::meaning::{Leaves, leaves, moves, moves_blindly};
 use super::walk::Walk;
 use super::ways::{Situation, Ways};
 use super::witness::kept;
@@ -18,7 +19,7 @@ impl Walk<'_> {
     pub(super) fn call(&mut self, id: StepId, call: &Call, before: Ways) -> Ways {
         let Some(def) = self.library.primitive(call.primitive) else { return before };
         if def.motion.is_none() {
-            if !self.moves_blindly(def) {
+            if !moves_blindly(self.library, def) {
                 self.caught(&before);
                 return before;
             }
@@ -34,7 +35,7 @@ impl Walk<'_> {
                 return self.blind(def, before, why);
             }
         };
-        let moves = self.moves(&query);
+        let moves = moves(&query);
         if moves {
             self.caught(&Ways::lost(format_smolstr!("where `{}` stopped is not known", def.name)));
         } else {
@@ -91,16 +92,6 @@ impl Walk<'_> {
         after
     }
 
-    /// Whether a motion leaves the robot or a thing elsewhere.
-    fn moves(&self, query: &Query) -> bool {
-        match query {
-            Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
-            Query::Put(..) | Query::Offer(..) | Query::Pull(_) | Query::Push(_) | Query::Other(_) => true,
-            // The head may look elsewhere afterwards, which changes nothing that is kept.
-            Query::Look(_) => false,
-        }
-    }
-
     /// After a call of which the motion is not known.
     fn blind(&mut self, def: &PrimitiveDef, before: Ways, why: SmolStr) -> Ways {
         let moves = def.motion.as_ref().is_some_and(|(name, _)| name != "look");
@@ -121,17 +112,10 @@ impl Walk<'_> {
     ) -> Ways {
         let lost = || Ways::lost(format_smolstr!("how `{}` ends is not known", def.name));
         let Answer::Feasible(way) = answer else { return lost() };
-        let change = match query {
-            Query::GoTo(_) | Query::Posture(_) => Change::Gone,
-            Query::Reach(..) if self.makes(def, "holding", true).is_some() => Change::Taken,
-            Query::Reach(..) => return only(from.clone()),
-            Query::Look(_) => return only(from.clone()),
-            Query::Put(..) if self.makes(def, "holding", false).is_some() => Change::Put,
-            Query::Offer(..) if self.makes(def, "holding", false).is_some() => Change::Given,
-            Query::Pull(_) if self.makes(def, "open", true).is_some() => Change::Travelled,
-            Query::Push(_) if self.makes(def, "open", false).is_some() => Change::Travelled,
-            Query::Put(..) | Query::Offer(..) => return lost(),
-            Query::Pull(_) | Query::Push(_) | Query::Other(_) => return lost(),
+        let change = match leaves(self.library, def, query) {
+            Leaves::Changed(change) => change,
+            Leaves::Nothing => return only(from.clone()),
+            Leaves::Unknown => return lost(),
         };
         let Some(at) = self.geometry.after(&from.at, query, change, way) else { return lost() };
         let mut next = Situation { at, ..from.clone() };

@@ -3,9 +3,10 @@
 use motet_geometry::query::{Query, Side};
 use smol_str::{SmolStr, format_smolstr};
 
+use super::geometry::Change;
 use super::walk::Walk;
 use crate::ir::{Call, Entity, ROBOT, START, Term};
-use crate::library::{EffectDef, PrimitiveDef};
+use crate::library::{EffectDef, Library, PrimitiveDef};
 
 impl Walk<'_> {
     /// The motion that a call asks for.
@@ -19,31 +20,14 @@ impl Walk<'_> {
         for arg in args {
             names.push(self.named(arg, call)?);
         }
-        let mut names = names.into_iter();
-        let (first, second) = (names.next().unwrap_or_default(), names.next());
-        Ok(match (name.as_str(), second) {
-            ("go_to", None) => Query::GoTo(first),
-            ("reach", None) => Query::Reach(first, self.side(call)),
-            ("put", Some(on)) => Query::Put(first, on),
-            ("offer", Some(to)) => Query::Offer(first, to),
-            ("look", None) => Query::Look(first),
-            ("pull", None) => Query::Pull(first),
-            ("push", None) => Query::Push(first),
-            ("posture", None) => Query::Posture(first),
-            (name, _) => Query::Other(name.into()),
-        })
+        Ok(asked(name, names, self.side(call)))
     }
 
     /// The side from which a thing is to be grasped, where an argument of the call says so.
     fn side(&self, call: &Call) -> Option<Side> {
         let approach = self.library.names.enums.get("Approach").copied()?;
         call.args.iter().find_map(|arg| match arg {
-            Term::Case(of, case) if *of == approach => match self.library.case_name(approach, *case) {
-                "top" => Some(Side::Top),
-                "side" => Some(Side::Side),
-                "front" => Some(Side::Front),
-                _ => None,
-            },
+            Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
             _ => None,
         })
     }
@@ -91,40 +75,103 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether a contract makes a fact of a fluent about one thing, not about all of a kind.
-    pub(super) fn makes<'d>(
-        &self,
-        def: &'d PrimitiveDef,
-        fluent: &str,
-        value: bool,
-    ) -> Option<&'d EffectDef> {
-        let id = self.library.names.fluents.get(fluent).copied()?;
-        def.makes.iter().find(|effect| {
-            effect.fact.fluent == id
-                && effect.value == value
-                && effect.each.is_none()
-                && effect.when.is_none()
-                && !effect.fact.args.iter().any(Option::is_none)
-        })
-    }
-
     /// Where a call leaves the robot beyond the target of its motion: `search` ends where it serves what it found.
     pub(super) fn ends_at(&self, call: &Call, def: &PrimitiveDef) -> Option<Result<SmolStr, SmolStr>> {
-        let effect = self.makes(def, "at", true)?;
+        let effect = makes(self.library, def, "at", true)?;
         match effect.fact.args.as_slice() {
             [Some(robot), Some(place)] if *robot == Term::Entity(ROBOT) => Some(self.named(place, call)),
             _ => None,
         }
     }
+}
 
-    /// Whether a primitive without a motion may move the robot or something all the same: what it sees is not what it saw, or
-    /// something is elsewhere.
-    pub(super) fn moves_blindly(&self, def: &PrimitiveDef) -> bool {
-        let fluent =
-            |effect: &EffectDef| self.library.fluent(effect.fact.fluent).map(|def| def.name.as_str());
-        let places = ["at", "on", "in", "holding", "open", "lifted"];
-        let elsewhere = |effect: &EffectDef| fluent(effect).is_some_and(|name| places.contains(&name));
-        let unseen = def.unsettles.iter().any(|effect| fluent(effect) == Some("visible"));
-        unseen || def.makes.iter().chain(&def.unsettles).any(elsewhere)
+/// A motion by its name and its arguments.
+pub(super) fn asked(name: &str, args: Vec<SmolStr>, side: Option<Side>) -> Query {
+    let mut args = args.into_iter();
+    let (first, second) = (args.next().unwrap_or_default(), args.next());
+    match (name, second) {
+        ("go_to", None) => Query::GoTo(first),
+        ("reach", None) => Query::Reach(first, side),
+        ("put", Some(on)) => Query::Put(first, on),
+        ("offer", Some(to)) => Query::Offer(first, to),
+        ("look", None) => Query::Look(first),
+        ("pull", None) => Query::Pull(first),
+        ("push", None) => Query::Push(first),
+        ("posture", None) => Query::Posture(first),
+        (name, _) => Query::Other(name.into()),
     }
+}
+
+/// The side of a case of `Approach`; none where any will do.
+pub(super) fn side_of(case: &str) -> Option<Side> {
+    match case {
+        "top" => Some(Side::Top),
+        "side" => Some(Side::Side),
+        "front" => Some(Side::Front),
+        _ => None,
+    }
+}
+
+/// Whether a motion leaves the robot or a thing elsewhere.
+pub(super) const fn moves(query: &Query) -> bool {
+    match query {
+        Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
+        Query::Put(..) | Query::Offer(..) | Query::Pull(_) | Query::Push(_) | Query::Other(_) => true,
+        // The head may look elsewhere afterwards, which changes nothing that is kept.
+        Query::Look(_) => false,
+    }
+}
+
+/// What a motion that succeeded leaves behind.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Leaves {
+    /// Nothing that is kept.
+    Nothing,
+    /// This.
+    Changed(Change),
+    /// Its contract does not tell.
+    Unknown,
+}
+
+/// What the contract of a primitive says of a motion that succeeded.
+pub(super) fn leaves(library: &Library, def: &PrimitiveDef, query: &Query) -> Leaves {
+    let makes = |fluent: &str, value: bool| makes(library, def, fluent, value).is_some();
+    match query {
+        Query::GoTo(_) | Query::Posture(_) => Leaves::Changed(Change::Gone),
+        Query::Reach(..) if makes("holding", true) => Leaves::Changed(Change::Taken),
+        Query::Reach(..) | Query::Look(_) => Leaves::Nothing,
+        Query::Put(..) if makes("holding", false) => Leaves::Changed(Change::Put),
+        Query::Offer(..) if makes("holding", false) => Leaves::Changed(Change::Given),
+        Query::Pull(_) if makes("open", true) => Leaves::Changed(Change::Travelled),
+        Query::Push(_) if makes("open", false) => Leaves::Changed(Change::Travelled),
+        Query::Put(..) | Query::Offer(..) => Leaves::Unknown,
+        Query::Pull(_) | Query::Push(_) | Query::Other(_) => Leaves::Unknown,
+    }
+}
+
+/// Whether a contract makes a fact of a fluent about one thing, not about all of a kind.
+pub(super) fn makes<'d>(
+    library: &Library,
+    def: &'d PrimitiveDef,
+    fluent: &str,
+    value: bool,
+) -> Option<&'d EffectDef> {
+    let id = library.names.fluents.get(fluent).copied()?;
+    def.makes.iter().find(|effect| {
+        effect.fact.fluent == id
+            && effect.value == value
+            && effect.each.is_none()
+            && effect.when.is_none()
+            && !effect.fact.args.iter().any(Option::is_none)
+    })
+}
+
+/// Whether a primitive without a motion may move the robot or something all the same: what it sees is not what it saw, or
+/// something is elsewhere.
+pub(super) fn moves_blindly(library: &Library, def: &PrimitiveDef) -> bool {
+    let fluent = |effect: &EffectDef| library.fluent(effect.fact.fluent).map(|def| def.name.as_str());
+    let places = ["at", "on", "in", "holding", "open", "lifted"];
+    let elsewhere = |effect: &EffectDef| fluent(effect).is_some_and(|name| places.contains(&name));
+    let unseen = def.unsettles.iter().any(|effect| fluent(effect) == Some("visible"));
+    unseen || def.makes.iter().chain(&def.unsettles).any(elsewhere)
 }

@@ -7,6 +7,7 @@
 
 mod access;
 mod after;
+mod course;
 pub(crate) mod errors;
 mod geometry;
 mod meaning;
@@ -16,6 +17,7 @@ mod ways;
 mod witness;
 
 pub use access::Access;
+pub use course::{Course, Prospect};
 pub use geometry::Geometry;
 
 use motet_graph::Witness;

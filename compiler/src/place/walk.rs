@@ -9,6 +9,7 @@ use smol_str::SmolStr;
 
 use super::after::at_start;
 use super::geometry::Geometry;
+use super::meaning::moves_blindly;
 use super::ways::{Keyed, Ways};
 use super::{Placed, Verdict};
 use crate::ir::{Condition, Program, Reaction, StepId, StepKind, Term, When};
@@ -225,7 +226,9 @@ impl<'a> Walk<'a> {
         let program = self.program;
         block.iter().filter_map(|id| program.steps.get(id.index())).any(|step| match &step.kind {
             StepKind::Call(call) => self.library.primitive(call.primitive).is_some_and(|def| {
-                def.motion.as_ref().map_or_else(|| self.moves_blindly(def), |(name, _)| name != "look")
+                def.motion
+                    .as_ref()
+                    .map_or_else(|| moves_blindly(self.library, def), |(name, _)| name != "look")
             }),
             StepKind::Sequence { body, .. }
             | StepKind::Inline { body, .. }

@@ -23,6 +23,9 @@ impl Engine {
             Effect::Observe { query } => format!("observe {query}"),
             Effect::Watch { query } => format!("watch {query}"),
             Effect::Unwatch { query } => format!("unwatch {query}"),
+            Effect::Verify { check, node, motion } => {
+                format!("verify {check} {motion} for {}", self.path(*node))
+            }
             Effect::Report(record) => self.describe_happening(record.revision, &record.what),
             Effect::Finished(end) => match &**end {
                 RunEnd::Failed { node, .. } => format!("finished: {end}, in {}", self.path(*node)),
@@ -49,6 +52,7 @@ impl Engine {
             Happening::Guard { node, need, truth } => {
                 format!("guard {need} of {}: {truth}", path(*node))
             }
+            Happening::Verified { node, verdict } => format!("verified {}: {verdict}", path(*node)),
             Happening::Tested { node, truth } => format!("tested {}: {truth}", path(*node)),
             Happening::Fired { node, watch, truth } => {
                 format!("watch {watch} of {} fired: {truth}", path(*node))

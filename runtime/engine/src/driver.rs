@@ -59,7 +59,8 @@ pub trait Driver {
     /// means that nothing will ever happen. A driver of a real robot blocks here.
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)>;
 
-    /// Carries an effect out by the call that is meant by it. Records and the end of the run are none of its affair.
+    /// Carries an effect out by the call that is meant by it. Records, verdicts and the end of the run are none of its
+    /// affair.
     fn carry_out(&mut self, now: Time, effect: &Effect) {
         match effect {
             Effect::Start { goal, command, .. } => self.start(now, *goal, command),
@@ -71,7 +72,7 @@ pub trait Driver {
             Effect::Observe { query } => self.observe(now, query),
             Effect::Watch { query } => self.watch(now, query),
             Effect::Unwatch { query } => self.unwatch(now, query),
-            Effect::Report(_) | Effect::Finished(_) => {}
+            Effect::Verify { .. } | Effect::Report(_) | Effect::Finished(_) => {}
         }
     }
 }

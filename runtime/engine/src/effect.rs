@@ -4,6 +4,7 @@ use crate::event::GoalId;
 use crate::query::Query;
 use crate::record::Record;
 use crate::time::Time;
+use crate::verifier::{CheckId, Motion};
 use motet_graph::{NodeId, Value};
 use smol_str::SmolStr;
 use std::fmt;
@@ -73,6 +74,16 @@ pub enum Effect {
     Unwatch {
         /// What.
         query: Arc<Query>,
+    },
+    /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts, and only where
+    /// [`crate::Settings::verify_within`] says that somebody will answer.
+    Verify {
+        /// The question.
+        check: CheckId,
+        /// The step that waits for the verdict.
+        node: NodeId,
+        /// What.
+        motion: Arc<Motion>,
     },
     /// What happened in the run, for people, traces and journals.
     Report(Record),

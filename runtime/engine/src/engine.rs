@@ -12,7 +12,7 @@ use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
-use crate::verifier::{LeaveToDriver, Verifier};
+use crate::verifier::{CheckId, Motion};
 use motet_graph::{BindingId, FailureId, Graph, Invalid, Reason, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
@@ -27,7 +27,6 @@ pub struct Engine {
     /// Graphs that were replaced, with their numbers.
     pub(crate) older: Vec<(u32, Arc<Plan>)>,
     settings: Settings,
-    verifier: Arc<dyn Verifier>,
     capabilities: Capabilities,
 }
 
@@ -57,7 +56,6 @@ impl Engine {
             run: Box::new(run),
             older: Vec::new(),
             settings: Settings::default(),
-            verifier: Arc::new(LeaveToDriver),
             capabilities: Capabilities::default(),
         })
     }
@@ -68,10 +66,10 @@ impl Engine {
         Self { settings, ..self }
     }
 
-    /// With somebody who checks deferred motions.
+    /// How patient it is.
     #[must_use]
-    pub fn with_verifier(self, verifier: Arc<dyn Verifier>) -> Self {
-        Self { verifier, ..self }
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// With what the driver can do. They are part of what the effects follow from, so a replay needs the same.
@@ -108,6 +106,12 @@ impl Engine {
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.run.over
+    }
+
+    /// Motions that were asked for and have no verdict yet, by question: who goes on with a run asks for them again.
+    pub fn unverified(&self) -> impl Iterator<Item = (CheckId, &Arc<Motion>)> {
+        let open = self.run.checks.iter().filter(|check| check.verdict.is_none());
+        open.map(|check| (check.id, &check.motion))
     }
 
     /// The graph that runs.
@@ -164,7 +168,6 @@ impl Engine {
             plan: &self.plan,
             run: &mut self.run,
             settings: &self.settings,
-            verifier: &*self.verifier,
             capabilities: &self.capabilities,
             out,
         }

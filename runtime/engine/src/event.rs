@@ -1,6 +1,7 @@
 //! What happens: everything that the engine learns, it learns from one of these.
 
 use crate::query::{Answer, Query};
+use crate::verifier::{CheckId, Verification};
 use motet_graph::Value;
 use smol_str::SmolStr;
 use std::fmt;
@@ -39,6 +40,13 @@ pub enum Event {
     Tick,
     /// The driver reports.
     Driver(DriverEvent),
+    /// The verdict on a motion, to [`crate::Effect::Verify`].
+    Verified {
+        /// The question.
+        check: CheckId,
+        /// The verdict.
+        verdict: Verification,
+    },
     /// A person stops the run: everything is interrupted, and the run ends as [`crate::RunEnd::Interrupted`].
     Stop,
 }

@@ -6,6 +6,7 @@ use crate::engine::Engine;
 use crate::event::{DriverEvent, Event};
 use crate::swap::{Prepared, Refusal, Retired};
 use crate::time::Time;
+use crate::verifier::{CheckId, Motion, Verification, Verifier};
 use motet_graph::Graph;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
@@ -40,6 +41,12 @@ pub trait Onlooker {
     /// What became of a swap, before its effects are carried out.
     fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<Retired, Refusal>) {}
 
+    /// Who checks the motions that the compiler deferred, where somebody does. An engine that is to ask is told so by
+    /// [`crate::Settings::verify_within`].
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        None
+    }
+
     /// The longest span without a call of [`Onlooker::reached`], for a live display or to notice an interrupt.
     fn at_least_every(&self) -> Time {
         Time::NEVER
@@ -71,11 +78,16 @@ pub fn go_on(
     from: Time,
     events: Vec<Event>,
 ) -> RunEnd {
-    let mut host =
-        Host { driver, onlooker, now: from, first: events.into(), out: Vec::new(), stopped: false };
+    let asked = engine.unverified().map(|(check, motion)| (check, Arc::clone(motion))).collect();
+    let (first, out) = (events.into(), Vec::new());
+    let mut host = Host { driver, onlooker, now: from, first, out, asked, stopped: false };
     loop {
+        host.verify(engine);
         if let Some(event) = host.first.pop_front() {
             host.onlooker.event(host.now, &event);
+            if let Some(verifier) = host.onlooker.verifier() {
+                verifier.event(&event);
+            }
             engine.handle(host.now, event, &mut host.out);
             if let Some(end) = host.carry_out().or_else(|| host.swap(engine)) {
                 return end;
@@ -101,6 +113,8 @@ struct Host<'a> {
     /// Events that come before anything that the driver reports.
     first: VecDeque<Event>,
     out: Vec<Effect>,
+    /// Motions that wait for a verdict.
+    asked: Vec<(CheckId, Arc<Motion>)>,
     stopped: bool,
 }
 
@@ -119,6 +133,17 @@ impl Host<'_> {
                 self.now = until.max(self.now);
                 Some(Event::Tick)
             }
+        }
+    }
+
+    /// Has the motions verified that were asked for. What comes of it goes before anything that the driver reports.
+    fn verify(&mut self, engine: &Engine) {
+        for (check, motion) in std::mem::take(&mut self.asked) {
+            let verdict = match self.onlooker.verifier() {
+                Some(verifier) => verifier.motion(engine, &motion),
+                None => Verification::Unknown { why: SmolStr::new_static("nobody is there to ask") },
+            };
+            self.first.push_back(Event::Verified { check, verdict });
         }
     }
 
@@ -157,9 +182,13 @@ impl Host<'_> {
                 (_, Control::Stop | Control::GoOn) => {}
             }
             self.onlooker.effect(now, &effect);
+            if let Some(verifier) = self.onlooker.verifier() {
+                verifier.effect(&effect);
+            }
             match effect {
                 Effect::Report(_) => {}
                 Effect::Finished(ending) => end = Some(*ending),
+                Effect::Verify { check, motion, .. } => self.asked.push((check, motion)),
                 command => self.driver.carry_out(now, &command),
             }
         }

@@ -79,4 +79,4 @@ pub use start::StartState;
 pub use swap::{Prepared, Refusal, Retired, Running};
 pub use time::Time;
 pub use truth::Truth;
-pub use verifier::{LeaveToDriver, Verification, Verifier};
+pub use verifier::{CheckId, Motion, Verification, Verifier};

@@ -3,6 +3,7 @@
 use crate::event::GoalId;
 use crate::time::Time;
 use crate::truth::Truth;
+use crate::verifier::Verification;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
 
 /// Something that happened in a run.
@@ -61,6 +62,13 @@ pub enum Happening {
         need: u32,
         /// What came out; unknown counts as false.
         truth: Truth,
+    },
+    /// The verdict on a call's motion came, which the compiler had left to the run.
+    Verified {
+        /// The call.
+        node: NodeId,
+        /// The verdict.
+        verdict: Box<Verification>,
     },
     /// The test of an `if` or an `until` came out.
     Tested {

@@ -11,6 +11,7 @@ use crate::table::Table;
 use crate::time::Time;
 use crate::timers::Timers;
 use crate::truth::Truth;
+use crate::verifier::{CheckId, Motion, Verification};
 use crate::work::Work;
 use motet_graph::{NodeId, RegionId, Value};
 use smol_str::SmolStr;
@@ -163,6 +164,15 @@ pub(crate) struct WatchRun {
     pub(crate) dirty: bool,
 }
 
+/// A motion whose verdict a call awaits, or has had.
+#[derive(Clone, Debug)]
+pub(crate) struct Check {
+    pub(crate) id: CheckId,
+    pub(crate) node: NodeId,
+    pub(crate) motion: Arc<Motion>,
+    pub(crate) verdict: Option<Verification>,
+}
+
 /// The state of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
@@ -192,6 +202,10 @@ pub(crate) struct Run {
     pub(crate) freed: bool,
     /// Monitors that wait for their body to be down before they run a block.
     pub(crate) clearing: Vec<NodeId>,
+    /// Motions of calls that are about to start.
+    pub(crate) checks: Vec<Check>,
+    /// How many were asked for.
+    pub(crate) checked: u64,
     /// Observations that steps await.
     pub(crate) asked: Vec<(CellId, NodeId)>,
     pub(crate) work: Work,
@@ -258,6 +272,8 @@ impl Run {
             queue: Vec::new(),
             freed: false,
             clearing: Vec::new(),
+            checks: Vec::new(),
+            checked: 0,
             asked: Vec::new(),
             work: Work::default(),
             dirty: BinaryHeap::new(),

@@ -272,6 +272,7 @@ impl Run {
         self.idle = std::mem::take(&mut old.idle);
         self.walk = std::mem::take(&mut old.walk);
         self.missing = std::mem::take(&mut old.missing);
+        self.checked = old.checked;
         for (from, to) in carried {
             let value = bindings.get(*from as usize).cloned().flatten();
             if let Some(slot) = self.bindings.get_mut(*to as usize) {

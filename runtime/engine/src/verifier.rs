@@ -1,50 +1,118 @@
 //! Who answers what the compiler left to be checked just before a step starts.
+//!
+//! The engine itself asks and goes on ([`crate::Effect::Verify`]); the verdict comes back as an event
+//! ([`crate::Event::Verified`]). So it stands in the journal, a replay needs no geometry, and a search that takes its time
+//! keeps no monitor waiting.
 
+use crate::effect::{Command, Effect};
+use crate::engine::Engine;
+use crate::event::Event;
 use crate::query::Query;
 use crate::truth::Truth;
 use motet_graph::Value;
 use smol_str::SmolStr;
-use std::fmt::Debug;
+use std::fmt;
+use std::sync::Arc;
 
-/// Checks deferred motions, and answers for facts that are derived rather than observed.
-///
-/// # Laws
-///
-/// Pure: the same questions in the same world have the same answers, and asking changes nothing.
-pub trait Verifier: Debug + Send + Sync {
-    /// Whether a motion has a solution in the world as it is.
-    fn motion(&self, query: &str, args: &[Value]) -> Verification;
+/// One question to a verifier. The engine chooses it; it is never used twice in a run.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct CheckId(pub(crate) u64);
 
-    /// Whether a fact holds that the robot cannot observe and of which nothing is believed.
-    fn fact(&self, query: &Query) -> Truth;
+impl CheckId {
+    /// As a number, for a wire or a log.
+    #[must_use]
+    pub const fn number(self) -> u64 {
+        self.0
+    }
+
+    /// From its number. A verdict on a check that nobody waits for is ignored.
+    #[must_use]
+    pub const fn from_number(number: u64) -> Self {
+        Self(number)
+    }
+}
+
+impl fmt::Display for CheckId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "?{}", self.0)
+    }
+}
+
+/// A motion that was left to the run.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Motion {
+    /// The name of the query, `reach`.
+    pub query: SmolStr,
+    /// Its arguments.
+    pub args: Vec<Value>,
+    /// The call that it is for.
+    pub command: Arc<Command>,
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}(", self.query)?;
+        for (index, arg) in self.args.iter().enumerate() {
+            let comma = if index > 0 { ", " } else { "" };
+            write!(f, "{comma}{arg}")?;
+        }
+        f.write_str(")")
+    }
 }
 
 /// The verdict on a motion.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Verification {
-    /// It may start; the driver will see.
-    Accepted,
-    /// It has no solution.
-    Refuted {
-        /// The failure in which the step ends, such as `unreachable`.
+    /// It has a solution.
+    Feasible,
+    /// It has none: the step ends in this failure, without moving.
+    Infeasible {
+        /// One of the failures of the call's primitive, such as `unreachable`.
         failure: SmolStr,
+        /// Why, in words and numbers.
+        why: SmolStr,
+    },
+    /// Nobody can tell: it starts, and the driver will see.
+    Unknown {
+        /// Why not.
+        why: SmolStr,
     },
 }
 
-/// Accepts every motion: whether it can be done is left to the driver.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct LeaveToDriver;
-
-impl Verifier for LeaveToDriver {
-    fn motion(&self, _query: &str, _args: &[Value]) -> Verification {
-        Verification::Accepted
-    }
-
-    /// `reachable` is the verdict of a motion, so it is accepted like one.
-    fn fact(&self, query: &Query) -> Truth {
-        match query {
-            Query::Fact { fluent, .. } if fluent == "reachable" => Truth::True,
-            Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => Truth::Unknown,
+impl fmt::Display for Verification {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Feasible => f.write_str("feasible"),
+            Self::Infeasible { failure, why } => write!(f, "{failure}: {why}"),
+            Self::Unknown { why } => write!(f, "unknown: {why}"),
         }
+    }
+}
+
+/// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one that its
+/// onlooker has ([`crate::Onlooker::verifier`]) all events and effects, and asks it.
+///
+/// # Laws
+///
+/// 1. A motion is called infeasible only where that is proven for the world as it is known; what is not known is unknown.
+/// 2. A failure is one that the primitive lists.
+/// 3. Asking changes nothing.
+pub trait Verifier {
+    /// An event is about to be handled: what follows from it for the world.
+    fn event(&mut self, event: &Event);
+
+    /// An effect is about to be carried out.
+    fn effect(&mut self, effect: &Effect);
+
+    /// Whether a motion has a solution in the world as it is. The engine's state is that of the question.
+    fn motion(&mut self, engine: &Engine, motion: &Motion) -> Verification;
+}
+
+/// What holds of a fact that no robot observes and of which nothing is believed. `reachable` is the verdict of a motion, and
+/// the guard of that motion is checked beside it, so it is accepted.
+pub(crate) fn derived(query: &Query) -> Truth {
+    match query {
+        Query::Fact { fluent, .. } if fluent == "reachable" => Truth::True,
+        Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. } => Truth::Unknown,
     }
 }

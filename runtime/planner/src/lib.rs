@@ -5,11 +5,12 @@
 //!
 //! [`conversation`] is the loop around a planner: it runs what is planned, asks where something goes wrong, and plans anew.
 //! [`model`] is the planner that asks a model, [`prompt`] what a model sees. [`dialect`] is another way to write both down, as
-//! one model was trained on it; [`vision`] is what is seen.
+//! one model was trained on it; [`vision`] is what is seen. [`guard`] checks in a run what the compiler left to it.
 
 pub mod builtin;
 pub mod conversation;
 pub mod dialect;
+pub mod guard;
 pub mod model;
 pub mod prompt;
 pub mod request;

@@ -2,6 +2,7 @@
 
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{Address, Patience, RemoteDriver};
+use motet_planner::guard::Guard;
 use motet_runtime::{Driver, Event, Time};
 
 use super::pace::Pace;
@@ -33,17 +34,18 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     };
     let start = start(setting.scene.as_ref());
     let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
-    let engine = play::engine(graph, &start, driver.capabilities())?;
+    let guard = setting.session.course().map(Guard::new);
+    let engine = play::engine(graph, &start, driver.capabilities(), guard.as_ref())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::process(&args.driver, &driver.welcome().instance);
-            Some(play::journal(folder, engine.graph(), &start, &driver.capabilities(), &saved)?)
+            Some(play::journal(folder, &engine, &start, &driver.capabilities(), &saved)?)
         }
         None => None,
     };
     let view = play::view(args.format, engine.graph(), colors);
     // The driver's time is the wall clock's; the pace has nothing to wait for.
-    let pace = Pace::new(view, Speed::Times(1.0));
+    let pace = Pace::new(view, Speed::Times(1.0)).with_guard(guard);
     let play = Play { engine, driver: &mut driver, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
 }

@@ -62,6 +62,9 @@ impl Events {
             Happening::Guard { node, need, truth } => {
                 self.write(at, "guard", Some(*node), json!({"need": need, "truth": word(*truth)}));
             }
+            Happening::Verified { node, verdict } => {
+                self.write(at, "verified", Some(*node), json!({"verdict": verdict.to_string()}));
+            }
             Happening::Tested { node, truth } => {
                 self.write(at, "tested", Some(*node), json!({"truth": word(*truth)}));
             }
@@ -109,6 +112,10 @@ impl View for Events {
             Effect::Proceed { goal } => self.write(now, "proceed", None, json!({"goal": goal.to_string()})),
             Effect::SafeStop { goal } => {
                 self.write(now, "safe_stop", None, json!({"goal": goal.to_string()}))
+            }
+            Effect::Verify { check, node, motion } => {
+                let asked = json!({"check": check.to_string(), "motion": motion.to_string()});
+                self.write(now, "verify", Some(*node), asked);
             }
             Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } | Effect::Finished(_) => {}
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind};
-use motet_runtime::{Effect, Happening, NodeEnding, Record, RunEnd, Time};
+use motet_runtime::{Effect, Happening, NodeEnding, Record, RunEnd, Time, Verification};
 
 use super::tree::{Row, Tree};
 use super::view::{self, View, duration, mark, paint};
@@ -32,6 +32,7 @@ impl Lines {
             Happening::Kept { .. } | Happening::Updated { .. } => true,
             Happening::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
             Happening::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
+            Happening::Verified { verdict, .. } => matches!(**verdict, Verification::Infeasible { .. }),
             Happening::Swapped { .. } | Happening::Bound { .. } => false,
         };
         if let (true, Some(row)) = (is_told, self.tree.row(node)) {

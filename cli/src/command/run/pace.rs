@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use motet_runtime::{Control, Effect, Onlooker, RunEnd, Time};
+use motet_planner::guard::Guard;
+use motet_runtime::{Control, Effect, Onlooker, RunEnd, Time, Verifier};
 
 use super::view::View;
 use crate::args::Speed;
@@ -41,11 +42,17 @@ pub(crate) struct Pace {
     speed: Speed,
     begun: Option<(Instant, Time)>,
     now: Time,
+    guard: Option<Guard>,
 }
 
 impl Pace {
     pub(super) fn new(view: Box<dyn View>, speed: Speed) -> Self {
-        Self { view, speed, begun: None, now: Time::ZERO }
+        Self { view, speed, begun: None, now: Time::ZERO, guard: None }
+    }
+
+    /// With somebody who checks motions that were left to the run.
+    pub(super) fn with_guard(self, guard: Option<Guard>) -> Self {
+        Self { guard, ..self }
     }
 
     /// Takes in what was carried out before the process began.
@@ -88,6 +95,11 @@ impl Onlooker for Pace {
         self.view.reached(now);
         // A run that nobody watches is not left to itself.
         if is_interrupted() || self.view.is_closed() { Control::Stop } else { Control::GoOn }
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        let guard: &mut dyn Verifier = self.guard.as_mut()?;
+        Some(guard)
     }
 
     fn at_least_every(&self) -> Time {

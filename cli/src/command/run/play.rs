@@ -7,8 +7,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
 use motet_host::journal::{JournalError, Recorder, Writer};
+use motet_planner::guard::{Guard, WITHIN};
 use motet_runtime::journal::Head;
-use motet_runtime::{Capabilities, Driver, Engine, Event, RunEnd, StartState, Time, go_on};
+use motet_runtime::{Capabilities, Driver, Engine, Event, RunEnd, Settings, StartState, Time, go_on};
 
 use super::pace::{Pace, catch_interrupts};
 use super::saved::Saved;
@@ -52,18 +53,24 @@ impl Play<'_> {
 }
 
 /// An engine for a compiled graph.
-pub(super) fn engine(graph: Graph, start: &StartState, can: Capabilities) -> Result<Engine, Trouble> {
+pub(super) fn engine(
+    graph: Graph,
+    start: &StartState,
+    can: Capabilities,
+    guard: Option<&Guard>,
+) -> Result<Engine, Trouble> {
     let engine = Engine::new(graph, start).map_err(|wrong| {
         let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
         Trouble::Other(format!("the compiled graph is not valid{first}"))
     })?;
-    Ok(engine.with_capabilities(can))
+    let settings = Settings { verify_within: guard.map(|_| WITHIN), ..Settings::default() };
+    Ok(engine.with_capabilities(can).with_settings(settings))
 }
 
 /// A new journal in a folder.
 pub(super) fn journal(
     folder: &Path,
-    graph: &Graph,
+    engine: &Engine,
     start: &StartState,
     can: &Capabilities,
     driver: &Saved,
@@ -71,9 +78,10 @@ pub(super) fn journal(
     let head = Head {
         began_unix_ns: unix_ns(),
         start: start.into(),
+        settings: (*engine.settings()).into(),
         capabilities: can.into(),
         driver: driver.to_json()?,
-        ..Head::new(graph)
+        ..Head::new(engine.graph())
     };
     Writer::create(folder, head).map_err(journal_trouble)
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT};
-use motet_runtime::{Happening, NodeEnding, Record, Time};
+use motet_runtime::{Happening, NodeEnding, Record, Time, Verification};
 
 use super::branch::{Open, branches};
 
@@ -125,6 +125,9 @@ impl Tree {
                     *node,
                     (*truth != motet_runtime::Truth::True).then(|| format!("needs {need}, which is {truth}")),
                 )
+            }
+            Happening::Verified { node, verdict } => {
+                (*node, matches!(**verdict, Verification::Infeasible { .. }).then(|| verdict.to_string()))
             }
             Happening::Tested { node, truth } => (*node, Some(truth.to_string())),
             Happening::Fired { node, watch, .. } => {

@@ -4,7 +4,7 @@ use super::cells::{Beliefs, CellId};
 use crate::query::{Answer, Pattern, Query};
 use crate::time::Time;
 use crate::truth::Truth;
-use crate::verifier::Verifier;
+use crate::verifier::derived;
 use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, Value};
 
 /// How fresh a belief must be to count.
@@ -24,7 +24,6 @@ pub(crate) struct Judge<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) beliefs: &'a mut Beliefs,
     pub(crate) bindings: &'a [Option<Value>],
-    pub(crate) verifier: &'a dyn Verifier,
     /// What [`Term::Each`] stands for.
     pub(crate) each: Option<Value>,
     pub(crate) fresh: Freshness,
@@ -151,7 +150,7 @@ impl Judge<'_> {
             self.miss(query);
             return Truth::Unknown;
         }
-        self.verifier.fact(&query)
+        derived(&query)
     }
 
     /// Whether a fact was seen since what counts began, or is watched.

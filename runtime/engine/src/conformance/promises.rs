@@ -114,7 +114,7 @@ impl Onlooker for Promises {
                 }
                 Effect::Finished(_) => self.is_over = true,
                 Effect::Hold { .. } | Effect::Proceed { .. } | Effect::Update { .. } => {}
-                Effect::SafeStop { .. } | Effect::Report(_) => {}
+                Effect::SafeStop { .. } | Effect::Verify { .. } | Effect::Report(_) => {}
                 Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } => {}
             }
         }

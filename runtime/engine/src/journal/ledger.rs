@@ -89,7 +89,7 @@ impl Ledger {
             }
             Effect::Unwatch { query } => self.watches.retain(|watched| watched != query),
             Effect::Finished(_) => self.is_over = true,
-            Effect::Report(_) => return,
+            Effect::Verify(_) | Effect::Report(_) => return,
         }
         if !self.is_over {
             self.uncertain.push(effect.clone());

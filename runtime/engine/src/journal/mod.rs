@@ -46,6 +46,7 @@ pub fn must_be_durable(effects: &[Effect]) -> bool {
         Effect::Cancel { .. } | Effect::Hold { .. } | Effect::Proceed { .. } | Effect::SafeStop { .. } => {
             false
         }
-        Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } | Effect::Report(_) => false,
+        Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } => false,
+        Effect::Verify { .. } | Effect::Report(_) => false,
     })
 }

@@ -80,7 +80,11 @@ impl Retrace {
                     return Err(Box::new(Astray { at, journal: None, driver: Some(report) }));
                 }
             }
-            Some(wire::Event::Begin | wire::Event::Tick | wire::Event::Stop) | None => {}
+            // Verdicts are none of the driver's affair.
+            Some(
+                wire::Event::Begin | wire::Event::Tick | wire::Event::Verified { .. } | wire::Event::Stop,
+            )
+            | None => {}
         }
         self.carry_out(driver, step.at, &step.effects);
         Ok(())

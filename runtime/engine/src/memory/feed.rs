@@ -72,7 +72,7 @@ impl Memory {
             Effect::Report(record) => self.record(record),
             Effect::Finished(end) => self.finished(at, end),
             Effect::Cancel { .. } | Effect::Hold { .. } | Effect::Proceed { .. } => {}
-            Effect::SafeStop { .. } => {}
+            Effect::SafeStop { .. } | Effect::Verify { .. } => {}
             Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } => {}
         }
     }
@@ -117,6 +117,7 @@ impl Memory {
                 }
             }
             Happening::Entered { .. } | Happening::Started { .. } | Happening::Guard { .. } => {}
+            Happening::Verified { .. } => {}
             Happening::Tested { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => {}
             Happening::Swapped { .. } | Happening::Updated { .. } | Happening::Bound { .. } => {}
         }

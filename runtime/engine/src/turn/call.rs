@@ -7,16 +7,20 @@ use crate::plan::Step;
 use crate::record::{Cause, Happening, NodeEnding};
 use crate::state::{Exit, Phase, Wish};
 use crate::truth::Truth;
-use crate::verifier::Verification;
+use crate::verifier::Motion;
 use crate::work::Micro;
-use motet_graph::{CallNode, FailureId, NodeId, Term, Value, Verdict};
+use motet_graph::{FailureId, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
 /// What a look at the guards gives.
-enum Look {
+pub(super) enum Look {
     /// All hold, and the arguments are known.
     Go(Arc<Command>),
+    /// All but the motion are known to hold: somebody is to be asked for that.
+    Ask(Motion),
+    /// Somebody was.
+    Wait(Arc<Motion>),
     /// Something would have to be observed.
     Unknown(Refusal),
     /// A guard does not hold.
@@ -25,7 +29,7 @@ enum Look {
 
 /// Why a call does not start.
 #[derive(Clone, Copy)]
-enum Refusal {
+pub(super) enum Refusal {
     /// A need by its place, with its failure.
     Need(u32, FailureId, Truth),
     /// The motion has no solution.
@@ -71,6 +75,8 @@ impl Turn<'_> {
                     self.refuse(node, refusal);
                 }
             }
+            Look::Ask(motion) => self.ask_for_motion(node, motion),
+            Look::Wait(_) => {}
             Look::Refused(refusal) => self.refuse(node, refusal),
             Look::Go(command) => self.start(node, command),
         }
@@ -89,7 +95,7 @@ impl Turn<'_> {
     pub(super) fn may_start(&mut self, node: NodeId) -> Option<Arc<Command>> {
         match self.first_look(node) {
             Look::Go(command) => Some(command),
-            Look::Unknown(_) | Look::Refused(_) => None,
+            Look::Unknown(_) | Look::Ask(_) | Look::Wait(_) | Look::Refused(_) => None,
         }
     }
 
@@ -98,16 +104,24 @@ impl Turn<'_> {
         self.run.missing.clear();
         match self.look(node) {
             Look::Unknown(_) if self.awaits(node) => {}
+            // What was known when the motion was asked for may have become unknown since.
+            Look::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
             Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
+            Look::Ask(motion) => self.ask_for_motion(node, motion),
+            Look::Wait(_) => {}
             Look::Go(command) => self.start(node, command),
         }
     }
 
-    /// No time is left to observe.
+    /// No time is left to observe, or to wait for a verdict.
     pub(super) fn check_last(&mut self, node: NodeId) {
         self.run.missing.clear();
+        let is_verifying = self.is_verifying(node);
         match self.look(node) {
             Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
+            Look::Ask(motion) if is_verifying => self.start(node, motion.command),
+            Look::Ask(motion) => self.ask_for_motion(node, motion),
+            Look::Wait(motion) => self.start(node, motion.command.clone()),
             Look::Go(command) => self.start(node, command),
         }
     }
@@ -138,13 +152,13 @@ impl Turn<'_> {
             }
         }
         if let Some(command) = &plan.step(node).command {
-            return unknown.map_or_else(|| self.look_at_motion(call, command.clone()), Look::Unknown);
+            return unknown.map_or_else(|| self.look_at_motion(node, call, command.clone()), Look::Unknown);
         }
         let args: Option<Vec<Value>> = self.values(&call.args, fresh);
         match (unknown, args.and_then(|args| plan.command(call, args.into_iter().map(Some)))) {
             (Some(refusal), _) => Look::Unknown(refusal),
             (None, None) => Look::Unknown(Refusal::Argument),
-            (None, Some(command)) => self.look_at_motion(call, Arc::new(command)),
+            (None, Some(command)) => self.look_at_motion(node, call, Arc::new(command)),
         }
     }
 
@@ -161,22 +175,8 @@ impl Turn<'_> {
         known
     }
 
-    fn look_at_motion(&mut self, call: &CallNode, command: Arc<Command>) -> Look {
-        let Some(motion) = call.motion.as_ref().filter(|motion| motion.verdict == Verdict::Deferred) else {
-            return Look::Go(command);
-        };
-        let now = self.run.now;
-        let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else {
-            return Look::Go(command);
-        };
-        match self.verifier.motion(&motion.query, &args) {
-            Verification::Accepted => Look::Go(command),
-            Verification::Refuted { failure } => Look::Refused(Refusal::Motion(self.failure_id(&failure))),
-        }
-    }
-
     fn refuse(&mut self, node: NodeId, refusal: Refusal) {
-        self.forget_asked(node);
+        self.stop_checking(node);
         self.release(self.plan.step(node));
         match refusal {
             Refusal::Need(need, failure, truth) => {
@@ -204,7 +204,7 @@ impl Turn<'_> {
 
     fn start(&mut self, node: NodeId, command: Arc<Command>) {
         if self.run.nodes.at(node.index()).phase == Phase::Checking {
-            self.forget_asked(node);
+            self.stop_checking(node);
         }
         self.guards_hold(node);
         self.launch(node, self.plan.step(node), command);

@@ -5,7 +5,6 @@ use crate::belief::{Beliefs, Change, Freshness, Judge, OfKind};
 use crate::query::Pattern;
 use crate::time::Time;
 use crate::truth::Truth;
-use crate::verifier::Verifier;
 use motet_graph::{CallNode, Condition, Fact, FactArg, Graph, KindId, Need, NodeId, Term, Value};
 use smol_str::SmolStr;
 
@@ -27,7 +26,6 @@ pub(super) struct Contracts<'a> {
     pub(super) graph: &'a Graph,
     pub(super) bindings: &'a [Option<Value>],
     pub(super) beliefs: &'a mut Beliefs,
-    pub(super) verifier: &'a dyn Verifier,
     pub(super) now: Time,
 }
 
@@ -65,7 +63,6 @@ impl Turn<'_> {
             graph: &self.plan.graph,
             bindings: &self.run.bindings,
             beliefs: &mut self.run.beliefs,
-            verifier: self.verifier,
             now: self.run.now,
         }
     }
@@ -204,7 +201,6 @@ impl Contracts<'_> {
             graph: self.graph,
             beliefs: self.beliefs,
             bindings: self.bindings,
-            verifier: self.verifier,
             each,
             fresh: Freshness::Readings(self.now),
             missing: None,

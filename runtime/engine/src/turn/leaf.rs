@@ -55,7 +55,7 @@ impl Turn<'_> {
             Phase::Waiting => self.leave_wait(node),
             Phase::Queued => self.run.queue.retain(|queued| *queued != node),
             Phase::Checking => {
-                self.forget_asked(node);
+                self.stop_checking(node);
                 self.release(self.plan.step(node));
             }
             Phase::Idle | Phase::Entering | Phase::Parked | Phase::Ending | Phase::Inside => {}

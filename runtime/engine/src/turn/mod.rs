@@ -15,6 +15,7 @@ mod region;
 mod stop;
 mod suspend;
 mod takeover;
+mod verify;
 mod watch;
 
 use crate::belief::{Freshness, Judge};
@@ -26,7 +27,6 @@ use crate::record::{Cause, Happening, NodeEnding, Record};
 use crate::settings::Settings;
 use crate::state::{Exit, Phase, Run};
 use crate::time::Time;
-use crate::verifier::Verifier;
 use crate::work::Micro;
 use motet_graph::{NodeId, ROOT, RegionId};
 use std::cmp::Reverse;
@@ -36,7 +36,6 @@ pub(crate) struct Turn<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) run: &'a mut Run,
     pub(crate) settings: &'a Settings,
-    pub(crate) verifier: &'a dyn Verifier,
     pub(crate) capabilities: &'a Capabilities,
     pub(crate) out: &'a mut Vec<Effect>,
 }
@@ -60,6 +59,7 @@ impl Turn<'_> {
             Event::Tick => {}
             Event::Driver(event) if self.run.begun => self.driver(event),
             Event::Driver(_) => {}
+            Event::Verified { check, verdict } => self.verified(check, verdict),
             Event::Stop => self.stop_run(),
         }
         self.settle();
@@ -263,7 +263,6 @@ impl Turn<'_> {
             graph: &self.plan.graph,
             beliefs: &mut self.run.beliefs,
             bindings: &self.run.bindings,
-            verifier: self.verifier,
             each: None,
             fresh,
             missing: None,
@@ -276,7 +275,6 @@ impl Turn<'_> {
             graph: &self.plan.graph,
             beliefs: &mut self.run.beliefs,
             bindings: &self.run.bindings,
-            verifier: self.verifier,
             each: None,
             fresh,
             missing: Some(&mut self.run.missing),

@@ -237,7 +237,6 @@ impl Turn<'_> {
             graph: &orphan.plan.graph,
             bindings: &orphan.bindings,
             beliefs: &mut self.run.beliefs,
-            verifier: self.verifier,
             now: self.run.now,
         }
     }

@@ -4,6 +4,7 @@ use super::{Query, Record, Value};
 use crate::effect as m;
 use crate::event::GoalId;
 use crate::time::Time;
+use crate::verifier::{CheckId, Motion};
 use motet_graph::NodeId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,6 +53,8 @@ pub enum Effect {
         /// What.
         query: Query,
     },
+    /// Say whether a motion has a solution.
+    Verify(Verify),
     /// Something happened in the run.
     Report(Record),
     /// The run is over.
@@ -70,6 +73,22 @@ pub struct Start {
     pub command: Command,
     /// When the engine will cancel it.
     pub deadline: u64,
+}
+
+/// A question for a motion.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Verify {
+    /// The question.
+    pub check: u64,
+    /// The index of the step that waits for the verdict.
+    pub node: u32,
+    /// The name of the motion.
+    pub query: String,
+    /// Its arguments.
+    pub args: Vec<Value>,
+    /// The call that it is for.
+    pub command: Command,
 }
 
 /// A primitive with its arguments.
@@ -159,6 +178,13 @@ impl From<&m::Effect> for Effect {
             m::Effect::Observe { query } => Self::Observe { query: (&**query).into() },
             m::Effect::Watch { query } => Self::Watch { query: (&**query).into() },
             m::Effect::Unwatch { query } => Self::Unwatch { query: (&**query).into() },
+            m::Effect::Verify { check, node, motion } => Self::Verify(Verify {
+                check: check.number(),
+                node: node.0,
+                query: motion.query.to_string(),
+                args: motion.args.iter().map(Value::from).collect(),
+                command: (&*motion.command).into(),
+            }),
             m::Effect::Report(record) => Self::Report(record.into()),
             m::Effect::Finished(end) => Self::Finished((&**end).into()),
         }
@@ -192,6 +218,15 @@ impl From<Effect> for m::Effect {
             Effect::Observe { query } => Self::Observe { query: Arc::new(query.into()) },
             Effect::Watch { query } => Self::Watch { query: Arc::new(query.into()) },
             Effect::Unwatch { query } => Self::Unwatch { query: Arc::new(query.into()) },
+            Effect::Verify(verify) => Self::Verify {
+                check: CheckId::from_number(verify.check),
+                node: NodeId(verify.node),
+                motion: Arc::new(Motion {
+                    query: verify.query.into(),
+                    args: verify.args.into_iter().map(motet_graph::Value::from).collect(),
+                    command: Arc::new(verify.command.into()),
+                }),
+            },
             Effect::Report(record) => Self::Report(record.into()),
             Effect::Finished(end) => Self::Finished(Box::new(end.into())),
         }

@@ -2,6 +2,7 @@
 
 use super::{Answer, Query, Value};
 use crate::event as m;
+use crate::verifier as v;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,8 +16,35 @@ pub enum Event {
     Tick,
     /// The driver reports.
     Driver(DriverEvent),
+    /// The verdict on a motion.
+    Verified {
+        /// The question.
+        check: u64,
+        /// The verdict.
+        verdict: Verification,
+    },
     /// A person stops the run.
     Stop,
+}
+
+/// The verdict on a motion.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Verification {
+    /// It has a solution.
+    Feasible,
+    /// It has none.
+    Infeasible {
+        /// The failure in which the step ends.
+        failure: String,
+        /// Why, in words and numbers.
+        why: String,
+    },
+    /// Nobody can tell.
+    Unknown {
+        /// Why not.
+        why: String,
+    },
 }
 
 /// What a driver reports.
@@ -86,6 +114,9 @@ impl From<&m::Event> for Event {
             m::Event::Begin => Self::Begin,
             m::Event::Tick => Self::Tick,
             m::Event::Driver(event) => Self::Driver(event.into()),
+            m::Event::Verified { check, verdict } => {
+                Self::Verified { check: check.number(), verdict: verdict.into() }
+            }
             m::Event::Stop => Self::Stop,
         }
     }
@@ -97,7 +128,34 @@ impl From<Event> for m::Event {
             Event::Begin => Self::Begin,
             Event::Tick => Self::Tick,
             Event::Driver(event) => Self::Driver(event.into()),
+            Event::Verified { check, verdict } => {
+                Self::Verified { check: v::CheckId::from_number(check), verdict: verdict.into() }
+            }
             Event::Stop => Self::Stop,
+        }
+    }
+}
+
+impl From<&v::Verification> for Verification {
+    fn from(verdict: &v::Verification) -> Self {
+        match verdict {
+            v::Verification::Feasible => Self::Feasible,
+            v::Verification::Infeasible { failure, why } => {
+                Self::Infeasible { failure: failure.to_string(), why: why.to_string() }
+            }
+            v::Verification::Unknown { why } => Self::Unknown { why: why.to_string() },
+        }
+    }
+}
+
+impl From<Verification> for v::Verification {
+    fn from(verdict: Verification) -> Self {
+        match verdict {
+            Verification::Feasible => Self::Feasible,
+            Verification::Infeasible { failure, why } => {
+                Self::Infeasible { failure: failure.into(), why: why.into() }
+            }
+            Verification::Unknown { why } => Self::Unknown { why: why.into() },
         }
     }
 }

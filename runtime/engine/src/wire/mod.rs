@@ -12,8 +12,8 @@ mod record;
 mod snapshot;
 mod start;
 
-pub use effect::{Arg, Command, Effect, Fault, RunEnd, Start};
-pub use event::{DriverEvent, Event, Outcome};
+pub use effect::{Arg, Command, Effect, Fault, RunEnd, Start, Verify};
+pub use event::{DriverEvent, Event, Outcome, Verification};
 pub use motet_graph::encode::wire::{Document, Float, Value};
 pub use query::{Answer, Pattern, Query};
 pub use record::{Cause, Happening, NodeEnding, Record, Truth};

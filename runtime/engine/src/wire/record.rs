@@ -1,6 +1,6 @@
 //! What happened in a run.
 
-use super::Value;
+use super::{Value, Verification};
 use crate::event::GoalId;
 use crate::record as m;
 use crate::time::Time;
@@ -66,6 +66,13 @@ pub enum Happening {
         need: u32,
         /// What came out.
         truth: Truth,
+    },
+    /// The verdict on a call's motion came.
+    Verified {
+        /// The call.
+        node: u32,
+        /// The verdict.
+        verdict: Verification,
     },
     /// A test came out.
     Tested {
@@ -271,6 +278,9 @@ impl From<&m::Happening> for Happening {
             m::Happening::Guard { node, need, truth } => {
                 Self::Guard { node: node.0, need: *need, truth: (*truth).into() }
             }
+            m::Happening::Verified { node, verdict } => {
+                Self::Verified { node: node.0, verdict: (&**verdict).into() }
+            }
             m::Happening::Tested { node, truth } => Self::Tested { node: node.0, truth: (*truth).into() },
             m::Happening::Fired { node, watch, truth } => {
                 Self::Fired { node: node.0, watch: *watch, truth: (*truth).into() }
@@ -304,6 +314,9 @@ impl From<Happening> for m::Happening {
             },
             Happening::Guard { node, need, truth } => {
                 Self::Guard { node: NodeId(node), need, truth: truth.into() }
+            }
+            Happening::Verified { node, verdict } => {
+                Self::Verified { node: NodeId(node), verdict: Box::new(verdict.into()) }
             }
             Happening::Tested { node, truth } => Self::Tested { node: NodeId(node), truth: truth.into() },
             Happening::Fired { node, watch, truth } => {

@@ -56,6 +56,9 @@ pub struct Settings {
     pub safe_stop_within: u64,
     /// The least time for which a watched condition may be unknown.
     pub unknown_for: u64,
+    /// How long a deferred motion may go without a verdict; nothing where nobody verifies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verify_within: Option<u64>,
     /// The most transitions at one instant.
     pub step_budget: u32,
 }
@@ -158,6 +161,7 @@ impl From<s::Settings> for Settings {
             cancel_within: settings.cancel_within.nanos(),
             safe_stop_within: settings.safe_stop_within.nanos(),
             unknown_for: settings.unknown_for.nanos(),
+            verify_within: settings.verify_within.map(Time::nanos),
             step_budget: settings.step_budget,
         }
     }
@@ -169,6 +173,7 @@ impl From<Settings> for s::Settings {
             cancel_within: Time::from_nanos(settings.cancel_within),
             safe_stop_within: Time::from_nanos(settings.safe_stop_within),
             unknown_for: Time::from_nanos(settings.unknown_for),
+            verify_within: settings.verify_within.map(Time::from_nanos),
             step_budget: settings.step_budget,
         }
     }

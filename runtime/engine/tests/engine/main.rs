@@ -18,3 +18,4 @@ mod rescan;
 mod script;
 mod snapshot;
 mod swap;
+mod verify;

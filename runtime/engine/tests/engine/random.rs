@@ -1,11 +1,13 @@
 //! Random graphs under random events and random swaps: no panic, the laws of effects hold, every run ends, a refused swap
 //! changes nothing, and a replay is the same.
 
-use motet_graph::arbitrary::{graph, steps};
-use motet_graph::{Graph, NodeId, Type, Value};
+use crate::verify::with_motions;
+use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
+use motet_graph::arbitrary::{Step, graph, steps};
+use motet_graph::{Graph, NodeId, PrimitiveId, Type, Value};
 use motet_runtime::{
-    Answer, Capabilities, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, Outcome, Prepared,
-    Primitives, Query, RunEnd, StartState, Time,
+    Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, Outcome,
+    Prepared, Primitives, Query, RunEnd, Settings, StartState, Time, Verification,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -84,6 +86,9 @@ impl Counts {
     }
 }
 
+/// Primitives whose motions are left to the run; the others are free to be updated.
+const ASKED: [PrimitiveId; 2] = [PICK, PLACE];
+
 /// How often each policy runs.
 const RUNS: usize = 135;
 
@@ -94,6 +99,8 @@ struct Ledger {
     ever: BTreeSet<GoalId>,
     watched: Vec<Query>,
     asked: Vec<Query>,
+    checks: Vec<CheckId>,
+    ever_asked: BTreeSet<CheckId>,
     entered: BTreeSet<(u32, NodeId)>,
     revision: u32,
     counts: Counts,
@@ -147,6 +154,10 @@ impl Ledger {
                 Effect::SafeStop { goal } => {
                     assert!(self.live.contains_key(goal), "a safe stop of a dead goal")
                 }
+                Effect::Verify { check, .. } => {
+                    assert!(self.ever_asked.insert(*check), "a check is asked for twice");
+                    self.checks.push(*check);
+                }
                 Effect::Observe { query } => self.asked.push((**query).clone()),
                 Effect::Watch { query } => {
                     assert!(!self.watched.contains(query), "watched twice");
@@ -186,7 +197,7 @@ impl Ledger {
                         self.revision = record.revision;
                     }
                     Happening::Guard { .. } | Happening::Tested { .. } | Happening::Fired { .. } => {}
-                    Happening::WentOn { .. } | Happening::Bound { .. } => {}
+                    Happening::WentOn { .. } | Happening::Bound { .. } | Happening::Verified { .. } => {}
                 },
                 Effect::Finished(end) => {
                     if !matches!(**end, RunEnd::Fault(_)) {
@@ -263,6 +274,11 @@ impl Ledger {
             }
             Act::Lost(0) => DriverEvent::DriverLost,
             Act::Lost(number) => DriverEvent::Lost { goal: self.pick(*number)? },
+            // What nobody waits for any more is answered too: it is to be ignored.
+            Act::Answer(number, answer) if number % 2 == 1 && !self.checks.is_empty() => {
+                let check = self.checks.remove(usize::from(*number) % self.checks.len());
+                return Some(Event::Verified { check, verdict: verdict(*answer) });
+            }
             Act::Answer(number, answer) => {
                 let open: Vec<&Query> = self.watched.iter().chain(&self.asked).collect();
                 let query = (*open.get(usize::from(*number).checked_rem(open.len())?)?).clone();
@@ -284,6 +300,14 @@ fn result(primitive: &str, number: u8) -> Option<Value> {
         "detect" => Some(object(number)),
         "detect_all" => Some(Value::List((0..number % 4).map(object).collect())),
         _ => None,
+    }
+}
+
+fn verdict(number: u8) -> Verification {
+    match number % 4 {
+        0 => Verification::Infeasible { failure: "unreachable".into(), why: "too far".into() },
+        1 => Verification::Unknown { why: "too hard".into() },
+        _ => Verification::Feasible,
     }
 }
 
@@ -316,7 +340,9 @@ fn engine(graph: Graph) -> Result<Engine, Vec<motet_graph::Invalid>> {
     let only = |names: &[&str]| Primitives::Only(names.iter().map(|name| (*name).into()).collect());
     let hold = only(&["go", "pick", "detect", "detect_all", "say"]);
     let capabilities = Capabilities { hold, update: only(&["go", "pick"]) };
-    Ok(Engine::new(graph, &StartState::default())?.with_capabilities(capabilities))
+    let settings = Settings { verify_within: Some(Time::from_nanos(300_000_000)), ..Settings::default() };
+    let engine = Engine::new(graph, &StartState::default())?.with_settings(settings);
+    Ok(engine.with_capabilities(capabilities))
 }
 
 /// Swaps, and sees that a refused one changes nothing.
@@ -402,6 +428,7 @@ fn drive(
             // It waits while it is held: then only time helps.
             Some((goal, true, false)) if ledger.live[&goal].held => None,
             Some((_, true, false)) => ledger.event(&Act::Succeed(0)),
+            None if !ledger.checks.is_empty() => ledger.event(&Act::Answer(1, (round % 256) as u8)),
             None if ledger.asked.is_empty() => None,
             None => {
                 let first = ledger.watched.len() as u8;
@@ -468,6 +495,7 @@ fn is_expected(end: &RunEnd, graph: &Graph, strict: bool) -> bool {
 fn cases() -> impl Strategy<Value = (Graph, Vec<Graph>, u64)> {
     (vec(steps(), 2..5), steps(), any::<bool>(), any::<u64>()).prop_map(|(own, other, proved, seed)| {
         let own = own.concat();
+        let graph = |steps: &[Step]| with_motions(graph(steps), &ASKED);
         let mut others = vec![graph(&other), graph(&own), graph(&[own.clone(), other.clone()].concat())];
         others.iter_mut().skip(usize::from(proved)).for_each(|graph| graph.initial.clear());
         (graph(&own), others, seed)
@@ -560,7 +588,7 @@ proptest! {
         other in any::<prop::sample::Index>(),
         what in 0..4_u8,
     ) {
-        let mut graph = graph(&steps);
+        let mut graph = with_motions(graph(&steps), &ASKED);
         if graph.nodes.is_empty() {
             return Ok(());
         }

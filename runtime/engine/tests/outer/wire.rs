@@ -2,8 +2,8 @@
 
 use motet_graph::{NodeId, Pose, Value};
 use motet_runtime::{
-    Answer, Cause, Command, DriverEvent, Effect, Event, Fault, GoalId, Happening, NodeEnding, Outcome,
-    Pattern, Query, Record, RunEnd, Time, Truth, wire,
+    Answer, Cause, CheckId, Command, DriverEvent, Effect, Event, Fault, GoalId, Happening, Motion,
+    NodeEnding, Outcome, Pattern, Query, Record, RunEnd, Time, Truth, Verification, wire,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -105,6 +105,22 @@ proptest! {
     }
 
     #[test]
+    fn motions(args in vec(value(), 0..3), check: u64, why: String) {
+        let command = Command { primitive: "pick".into(), args: Vec::new(), uses: [].into(), deadline_secs: 20.1 };
+        let motion = Arc::new(Motion { query: "reach".into(), args, command: Arc::new(command) });
+        let check = CheckId::from_number(check);
+        there_and_back!(wire::Effect, Effect, Effect::Verify { check, node: NodeId(3), motion });
+        let why = smol_str::SmolStr::from(why);
+        for verdict in [
+            Verification::Feasible,
+            Verification::Infeasible { failure: "unreachable".into(), why: why.clone() },
+            Verification::Unknown { why },
+        ] {
+            there_and_back!(wire::Event, Event, Event::Verified { check, verdict });
+        }
+    }
+
+    #[test]
     fn questions(query in query()) {
         there_and_back!(wire::Effect, Effect, Effect::Watch { query: Arc::new(query) });
     }
@@ -120,6 +136,7 @@ fn records_and_ends() {
         Happening::Started { node, goal, attempt: 2 },
         Happening::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: Cause::Swap },
         Happening::Guard { node, need: 1, truth: Truth::Unknown },
+        Happening::Verified { node, verdict: Box::new(Verification::Feasible) },
         Happening::Tested { node, truth: Truth::True },
         Happening::Fired { node, watch: 1, truth: Truth::False },
         Happening::WentOn { node, watch: 0 },

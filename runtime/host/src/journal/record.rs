@@ -3,7 +3,7 @@
 use super::{JournalError, Writer};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
-use motet_runtime::{Control, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, Time};
+use motet_runtime::{Control, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, Time, Verifier};
 use std::sync::Arc;
 
 /// An onlooker that writes a journal and then lets another one look on. Where the journal cannot be written, the run is
@@ -91,6 +91,10 @@ impl Onlooker for Recorder<'_> {
         let took_over = result.is_ok();
         self.cause = Some(if took_over { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap });
         self.inner.swapped(now, graph, result);
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        self.inner.verifier()
     }
 
     fn at_least_every(&self) -> Time {

@@ -58,6 +58,7 @@ impl RemoteDriver {
                 | wire::Effect::Proceed { .. }
                 | wire::Effect::SafeStop { .. } => self.carry_out(now, &Effect::from(effect.clone())),
                 wire::Effect::Start(_) | wire::Effect::Report(_) | wire::Effect::Finished(_) => {}
+                wire::Effect::Verify(_) => {}
                 wire::Effect::Observe { .. } | wire::Effect::Watch { .. } | wire::Effect::Unwatch { .. } => {}
             }
         }

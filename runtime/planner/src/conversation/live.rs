@@ -5,7 +5,7 @@ use std::sync::Arc;
 use motet_graph::{Graph, NodeId};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time,
+    Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
 };
 use smol_str::SmolStr;
 
@@ -13,6 +13,7 @@ use super::first::First;
 use super::sense::sense;
 use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
+use crate::guard::Guard;
 use crate::model::{Judged, judge};
 use crate::request::{Situation, Understood};
 
@@ -36,6 +37,8 @@ pub(super) struct Live<'r, 'a> {
     pub(super) first: Option<First>,
     /// The steps of the running policy that were started.
     started: Vec<NodeId>,
+    /// Who checks motions that were left to the run.
+    guard: Option<Guard>,
 }
 
 impl<'r, 'a> Live<'r, 'a> {
@@ -58,6 +61,7 @@ impl<'r, 'a> Live<'r, 'a> {
             next: None,
             first: None,
             started: Vec::new(),
+            guard: None,
         }
     }
 
@@ -87,7 +91,9 @@ impl<'r, 'a> Live<'r, 'a> {
         self.talk.known.spoken_of.clone_from(&answered.understood.spoken_of);
         self.watcher.planned(&answered, &shared);
         let before = self.talk.known.places(scene);
-        let mut engine = self.talk.engine(graph, scene)?;
+        let session = self.talk.session(scene, &self.talk.known, driver.base());
+        self.guard = session.course().map(Guard::new);
+        let mut engine = self.talk.engine(graph, scene, self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
             Rest::Nothing => None,
@@ -185,6 +191,11 @@ impl Onlooker for Live<'_, '_> {
             self.started.push(*node);
         }
         self.watcher.effect(now, effect);
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        let guard: &mut dyn Verifier = self.guard.as_mut()?;
+        Some(guard)
     }
 
     fn reached(&mut self, now: Time) -> Control {

@@ -19,7 +19,7 @@ use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Driver, Effect, Engine, Event, Image, Perception, Refusal, RunEnd, Time};
+use motet_runtime::{Driver, Effect, Engine, Event, Image, Perception, Refusal, RunEnd, Settings, Time};
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
@@ -30,6 +30,7 @@ pub(crate) use problem::called;
 pub use problem::{Kind, Problem};
 
 use crate::builtin::{self, Answered, Unplanned};
+use crate::guard::WITHIN;
 use crate::request::Situation;
 use first::After;
 use live::Live;
@@ -395,9 +396,11 @@ impl<'a> Conversation<'a> {
     }
 
     /// An engine for a policy, in the state that is known.
-    fn engine(&self, graph: Graph, scene: &Scene) -> Result<Engine, Problem> {
+    fn engine(&self, graph: Graph, scene: &Scene, verifies: bool) -> Result<Engine, Problem> {
         let session = self.session(scene, &self.known, None);
-        Engine::new(graph, &self.known.start(scene, &session)).map_err(|wrong| Problem {
+        let settings = Settings { verify_within: verifies.then_some(WITHIN), ..Settings::default() };
+        let engine = Engine::new(graph, &self.known.start(scene, &session));
+        engine.map(|engine| engine.with_settings(settings)).map_err(|wrong| Problem {
             kind: Kind::ActionFailed,
             question: wrong.first().map_or_else(|| "the graph is not valid".to_owned(), ToString::to_string),
             options: Vec::new(),
