@@ -15,7 +15,7 @@ use motet_runtime::{
     Control, Driver, Effect, Engine, Event, Happening, Onlooker, RunEnd, Settings, StartState, Time,
     Verifier, run, wire,
 };
-use motet_sim::{Options as SimOptions, Sim};
+use motet_sim::{Options as SimOptions, Script, Sim};
 use motet_syntax::{FileId, Source, Sources};
 use std::sync::Arc;
 
@@ -29,10 +29,10 @@ fn kitchen() -> Scene {
     scene::read(&Source::new("kitchen", *text), FileId(0)).0.unwrap()
 }
 
-/// The kitchen with walls around the sink, higher than the robot.
+/// The kitchen with walls around the table, higher than the robot.
 fn walled() -> Scene {
     let mut scene = kitchen();
-    let walls = [(2.1, -0.9, 2.4, 0.1), (2.1, -3.3, 2.4, 0.1), (0.9, -2.1, 0.1, 2.5), (3.3, -2.1, 0.1, 2.5)];
+    let walls = [(2.2, -0.8, 2.7, 0.1), (2.2, 1.8, 2.7, 0.1), (0.9, 0.5, 0.1, 2.7), (3.5, 0.5, 0.1, 2.7)];
     for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
         let mut wall = scene.entities["shelf"].clone();
         wall.id = format!("wall_{at}").into();
@@ -101,7 +101,8 @@ fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
     let start = StartState { entities: entities.collect(), ..StartState::default() };
-    let mut sim = Sim::new(&hsr(), scene, SimOptions::default());
+    let script = Script { answers: vec![Some("red mug".into())] };
+    let mut sim = Sim::new(&hsr(), scene, SimOptions { script, ..SimOptions::default() });
     let settings = Settings { verify_within: Some(WITHIN), ..Settings::default() };
     let mut engine = Engine::new(graph.clone(), &start)
         .unwrap()
@@ -123,10 +124,12 @@ fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
     (end, host.told)
 }
 
-const TIDY: &str = r#"policy tidy for hsr {
-    let thing = detect("yellow sponge")
+/// Only the run can tell which cup is chosen.
+const CHOSEN: &str = r#"policy chosen for hsr {
+    let cups = detect_all("drinkware")
+    let cup = choose("Which of these?", cups)
     try {
-        go(thing)
+        go(cup)
     } catch unreachable {
         say("I cannot get there.")
     }
@@ -134,17 +137,17 @@ const TIDY: &str = r#"policy tidy for hsr {
 
 #[test]
 fn what_the_run_finds_out_of_reach_is_a_failure_that_can_be_caught() {
-    let (end, told) = play(&walled(), TIDY);
+    let (end, told) = play(&walled(), CHOSEN);
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
-    assert_eq!(told[1], "verify go_to(sponge)", "{told:#?}");
-    assert!(told[2].starts_with("unreachable: "), "{told:#?}");
-    assert!(told[3].starts_with("say(") && told.len() == 4, "the robot does not start to go: {told:#?}");
+    assert_eq!(told[2], "verify go_to(mug_1)", "{told:#?}");
+    assert!(told[3].starts_with("unreachable: "), "{told:#?}");
+    assert!(told[4].starts_with("say(") && told.len() == 5, "the robot does not start to go: {told:#?}");
 }
 
 #[test]
 fn what_can_be_done_is_done() {
-    let (end, told) = play(&kitchen(), TIDY);
+    let (end, told) = play(&kitchen(), CHOSEN);
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
-    assert_eq!(told[1..3], ["verify go_to(sponge)", "feasible"], "{told:#?}");
-    assert!(told[3].starts_with("go(") && told.len() == 4, "{told:#?}");
+    assert_eq!(told[2..4], ["verify go_to(mug_1)", "feasible"], "{told:#?}");
+    assert!(told[4].starts_with("go(") && told.len() == 5, "{told:#?}");
 }
