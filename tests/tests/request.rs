@@ -50,6 +50,11 @@ fn places_and_doors() {
     means("kitchen", "open the fridge", &["open(fridge_1)"]);
     means("kitchen", "could you shut the cupboard?", &["not open(cupboard_1)"]);
     means("kitchen", "drive to the sink and then to the door", &["at(robot, sink)", "at(robot, door)"]);
+    means(
+        "kitchen",
+        "There is a sink, a shelf and a table. Visit all of these places.",
+        &["at(robot, sink)", "at(robot, shelf)", "at(robot, kitchen_table)"],
+    );
 }
 
 #[test]

@@ -39,9 +39,11 @@ impl Reader<'_> {
                 at = after.max(at + 1);
                 continue;
             }
-            // `the can is rubbish` says what it is, and speaks of nothing else.
-            let before = at.checked_sub(1).and_then(|before| tokens.get(before)).map_or("", Token::word);
-            if !(matches!(before, "is" | "are" | "was" | "were") && phrase.which != Which::The) {
+            // `the can is rubbish` says what it is, and speaks of nothing else; `there is a can` does speak of it.
+            let word =
+                |back: usize| at.checked_sub(back).and_then(|at| tokens.get(at)).map_or("", Token::word);
+            let is_told = matches!(word(1), "is" | "are" | "was" | "were") && word(2) != "there";
+            if !(is_told && phrase.which != Which::The) {
                 self.mention(&phrase);
             }
             at = after.max(at + 1);
