@@ -4,6 +4,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
+use super::excursion::Excursion;
 use super::grasp::Hold;
 use super::opening::Opening;
 use super::pull::Pull;
@@ -153,14 +154,16 @@ impl Room<'_> {
             let state = from.towards(to, middle);
             let poses = self.machine.map_from_links(&state);
             let placed = self.body.placed(&poses);
-            let goes = self.goes(&poses, &placed, &state, from, to, half);
+            let excursion = Excursion { from, to, half };
             let moving = pull.opening.moving(part(middle));
             let span = (part(middle + half) - part(middle - half)).abs() / 2.0;
             let mut is_certain = true;
-            for ((own, solid), (_, goes)) in self.body.parts().iter().zip(&placed).zip(&goes) {
+            for (own, solid) in self.body.parts().iter().zip(&placed) {
                 if !drives && pull.hand.carried.get(own.link) != Some(&true) {
                     continue;
                 }
+                let levers = self.machine.levers(own.link);
+                let goes = excursion.in_map(state.base, levers, &poses, solid, solid.reach());
                 for other in &moving {
                     let room = goes + pull.opening.goes(other, span);
                     if solid.is_farther(other, GAP + room) {
@@ -179,47 +182,6 @@ impl Room<'_> {
             }
         }
         Ok(())
-    }
-
-    /// For each part how far any of its points goes at most from the middle of a way to `half` of the way on either side:
-    /// as seen from the base, and in the map.
-    fn goes(
-        &self,
-        poses: &[Isometry3<f64>],
-        placed: &[Solid],
-        state: &State,
-        from: &State,
-        to: &State,
-        half: f64,
-    ) -> Vec<(f64, f64)> {
-        let change = |at: usize| {
-            let value = |joints: &[f64]| joints.get(at).copied().unwrap_or(0.0);
-            (value(&to.joints) - value(&from.joints)).abs() * half
-        };
-        let ([x, y, yaw], [to_x, to_y, to_yaw]) = (from.base, to.base);
-        let (shift, turn) = (libm::hypot(to_x - x, to_y - y) * half, (to_yaw - yaw).abs() * half);
-        let [base_x, base_y, _] = state.base;
-        let parts = self.body.parts().iter().zip(placed).map(|(part, solid)| {
-            let reach = solid.reach();
-            let mut goes = 0.0;
-            for lever in self.machine.levers(part.link).iter().rev() {
-                let amount = change(lever.driver.variable) * lever.driver.multiplier.abs();
-                if amount == 0.0 {
-                    continue;
-                }
-                goes += if lever.slides {
-                    amount
-                } else {
-                    let pose = poses.get(lever.frame).copied().unwrap_or_default();
-                    let axis = pose.rotation * lever.axis.into_inner();
-                    let arm = (solid.centre - pose.translation.vector).cross(&axis).norm() + reach;
-                    amount * (arm + goes)
-                };
-            }
-            let arm = libm::hypot(solid.centre.x - base_x, solid.centre.y - base_y) + reach;
-            (goes, goes + turn * (arm + goes) + shift)
-        });
-        parts.collect()
     }
 
     /// The room without a container and what goes with it, but with what of it stays; and what goes with it, as it lies when it

@@ -9,6 +9,7 @@ mod answer;
 mod arm;
 mod around;
 mod connect;
+mod excursion;
 mod follow;
 mod go;
 mod grasp;

@@ -1,13 +1,13 @@
 //! Straight ways between two states, certified and not sampled: where every pair of solids is farther apart at the middle than
 //! both can come nearer until the ends, the whole of it is free; else it is halved, and only the pairs that were too near are
-//! looked at again. How far a point can go is bounded joint by joint, from the link outwards: a joint that turns by `a` moves a
-//! point at a distance `r` from its axis by at most `a r`.
+//! looked at again.
 
 use std::collections::VecDeque;
 
 use nalgebra::Vector3;
 
 use super::around::{Around, above_floor};
+use super::excursion::Excursion;
 use super::room::GAP;
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
@@ -98,11 +98,9 @@ struct Leg {
 /// A straight way, with the robot where it is in the middle of a leg.
 struct Way<'a, 'r, 'w> {
     around: &'a Around<'r, 'w>,
-    from: &'a State,
-    to: &'a State,
+    excursion: Excursion<'a>,
     /// The state in the middle.
     state: State,
-    half: f64,
     along: crate::kinematics::Along,
     moved: Vec<Moved>,
     leg: usize,
@@ -113,10 +111,8 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         let nowhere = Moved { leg: 0, solid: Solid::floor(), whole: 0.0 };
         Self {
             around,
-            from,
-            to,
+            excursion: Excursion { from, to, half: 0.0 },
             state: from.clone(),
-            half: 0.0,
             along: around.room.machine.tree().along(&from.joints, &to.joints),
             moved: vec![nowhere; around.limbs.len()],
             leg: 0,
@@ -125,8 +121,8 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
 
     fn go_to(&mut self, middle: f64, half: f64) {
         let machine = self.around.room.machine;
-        self.state.set_towards(self.from, self.to, middle);
-        (self.half, self.leg) = (half, self.leg + 1);
+        self.state.set_towards(self.excursion.from, self.excursion.to, middle);
+        (self.excursion.half, self.leg) = (half, self.leg + 1);
         let root = machine.map_from_root(self.state.base);
         machine.tree().place(&mut self.along, &root, &self.state.joints);
     }
@@ -195,48 +191,10 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         let (levers, others) = (room.machine.levers(one.link), room.machine.levers(two.link));
         let common = levers.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
         let goes = |levers: &[Lever], solid: &Solid, reach: f64| {
-            self.goes(levers.get(common..).unwrap_or_default(), solid, reach)
+            let own = levers.get(common..).unwrap_or_default();
+            self.excursion.by(own, self.along.poses(), solid, reach)
         };
         goes(levers, solid, one.reach) + goes(others, beyond, two.reach)
-    }
-
-    /// How far any point of a solid goes at most while levers move it, until the ends of the leg.
-    fn goes(&self, levers: &[Lever], solid: &Solid, reach: f64) -> f64 {
-        let change = |at: usize| {
-            let value = |joints: &[f64]| joints.get(at).copied().unwrap_or(0.0);
-            (value(&self.to.joints) - value(&self.from.joints)).abs() * self.half
-        };
-        let mut goes = 0.0;
-        for lever in levers.iter().rev() {
-            let amount = change(lever.driver.variable) * lever.driver.multiplier.abs();
-            if amount == 0.0 {
-                continue;
-            }
-            goes += if lever.slides {
-                amount
-            } else {
-                let pose = self.along.poses().get(lever.frame).copied().unwrap_or_default();
-                let axis = pose.rotation * lever.axis.into_inner();
-                let arm = (solid.centre - pose.translation.vector).cross(&axis).norm() + reach;
-                amount * (arm + goes)
-            };
-        }
-        goes
-    }
-
-    /// How far any point of a solid goes at most in the map, until the ends of the leg.
-    fn whole(&self, link: usize, solid: &Solid, reach: f64) -> f64 {
-        let goes = self.goes(self.around.room.machine.levers(link), solid, reach);
-        let ([x, y, yaw], [to_x, to_y, to_yaw]) = (self.from.base, self.to.base);
-        let (dx, dy, turn) = (to_x - x, to_y - y, (to_yaw - yaw).abs() * self.half);
-        let shift = (dx * dx + dy * dy).sqrt() * self.half;
-        if turn == 0.0 {
-            return goes + shift;
-        }
-        let [base_x, base_y, _] = self.state.base;
-        let (dx, dy) = (solid.centre.x - base_x, solid.centre.y - base_y);
-        let arm = (dx * dx + dy * dy).sqrt() + reach;
-        goes + turn * (arm + goes) + shift
     }
 
     /// A part where it is, and how far it goes.
@@ -248,7 +206,8 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         let room = self.around.room;
         let (limb, own) = (self.around.limbs.get(part)?, room.body.parts().get(part)?);
         let solid = own.solid.moved(self.along.poses().get(limb.link)?);
-        let whole = self.whole(limb.link, &solid, limb.reach);
+        let (levers, poses) = (room.machine.levers(limb.link), self.along.poses());
+        let whole = self.excursion.in_map(self.state.base, levers, poses, &solid, limb.reach);
         let moved = Moved { leg: self.leg, solid, whole };
         *self.moved.get_mut(part)? = moved;
         Some(moved)
