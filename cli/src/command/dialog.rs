@@ -7,11 +7,9 @@ use motet_planner::builtin;
 use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
-use motet_planner::prompt::{self, Lasting, Prompt};
+use motet_planner::prompt;
 use motet_planner::request::{self, Situation};
 use motet_robots::scene::Scene;
-use motet_runtime::Time;
-use motet_runtime::memory::{Limits, Memory};
 use motet_syntax::ast::File;
 use motet_syntax::{Form, Severity, Source};
 
@@ -118,20 +116,9 @@ fn write(request: &str, setting: &Setting, report: &mut Report) -> Result<Exit, 
     };
     let scene = setting.scene.clone().unwrap_or_default();
     let situation = Situation::new(&scene);
-    let mut memory = Memory::new(Limits::default());
-    memory.instruct(Time::ZERO, request);
-    let prompt = Prompt {
-        session: &setting.session,
-        robot,
-        scene: &scene,
-        situation: &situation,
-        memory: &memory,
-        lasting: &Lasting::new(&setting.session, robot, &scene),
-        tokens: prompt::TOKENS,
-        // The dialect's texts tell what numbers tell, and no more than that.
-        time: Duration::ZERO,
-    };
-    let seen = prompt.seen(&request::named(request, &situation));
+    let named = request::named(request, &situation);
+    // The dialect's texts tell what numbers tell, and no more than that.
+    let seen = prompt::seen(&setting.session, robot, &scene, &named, Duration::ZERO);
     let (vision, feasibility) = exchange::sight(&seen);
     let answer = builtin::answer(&setting.session, Some(robot), request, &situation);
     let said = match answer {

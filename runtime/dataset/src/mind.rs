@@ -9,7 +9,7 @@ use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{Ask, Builtin, Planner, Problem};
 use motet_planner::dialect::{actions, exchange};
 use motet_planner::model;
-use motet_planner::prompt::{self, Lasting, Prompt};
+use motet_planner::prompt;
 use motet_planner::request;
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
@@ -51,21 +51,11 @@ impl Planner for Mind {
         let mut chat = model::chat(ask, prompt::TOKENS).into_iter().map(|message| message.text);
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
         let (scene, situation) = (ask.situation.scene, ask.situation);
-        let lasting = Lasting::new(ask.session, ask.robot, scene);
-        let prompt = Prompt {
-            session: ask.session,
-            robot: ask.robot,
-            scene,
-            situation,
-            memory: ask.memory,
-            lasting: &lasting,
-            tokens: prompt::TOKENS,
-            // The same seed gives the same rows, however fast the machine is.
-            time: Duration::ZERO,
-        };
         let now = self.scene_now(ask);
         let named = request::named(ask.request, situation);
-        let (_, feasibility) = exchange::sight(&prompt.seen(&named));
+        // The same seed gives the same rows, however fast the machine is.
+        let seen = prompt::seen(ask.session, ask.robot, scene, &named, Duration::ZERO);
+        let (_, feasibility) = exchange::sight(&seen);
         let vision: Vec<String> = named.iter().filter_map(|id| sight(&now, id)).collect();
         // The first entry is the request itself.
         let entries = ask.memory.entries().skip(1).map(|entry| entry.to_string());

@@ -14,7 +14,7 @@ use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
 pub use lasting::Lasting;
-pub use seen::{Feasible, Seen};
+pub use seen::{Feasible, Seen, seen};
 
 use crate::request::{self, Situation};
 
@@ -83,7 +83,7 @@ impl Prompt<'_> {
         let fixed = [
             self.lasting.rules.clone(),
             room(&|id| named.contains(id)),
-            seen::told(&self.seen(&named)),
+            seen::told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];
         let fixed_bytes: usize = fixed.iter().map(String::len).sum();

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use motet_compiler::Access;
+use motet_compiler::{Access, Session};
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Scene};
 use smol_str::SmolStr;
-
-use super::Prompt;
 
 /// What is seen of a thing that a request names, and whether it can be got at.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -33,42 +33,39 @@ pub enum Feasible {
     Unknown(String),
 }
 
-impl Prompt<'_> {
-    /// What is seen of the things that a request names. Motions are looked for one thing after the other, and no more of them
-    /// once the time is over; answers that are known take none.
-    #[must_use]
-    pub fn seen(&self, named: &[SmolStr]) -> Vec<Seen> {
-        let begun = Instant::now();
-        let seen = named.iter().filter_map(|id| {
-            let entity = self.scene.entities.get(id)?;
-            let left = self.time.saturating_sub(begun.elapsed());
-            Some(Seen { id: id.clone(), seen: entity.visible, feasible: self.feasible(id, left) })
-        });
-        seen.collect()
-    }
+/// What is seen of the things that a request names. Motions are looked for one thing after the other, and no more of them
+/// once the time is over; answers that are known take none.
+#[must_use]
+pub fn seen(session: &Session, robot: &Robot, scene: &Scene, named: &[SmolStr], time: Duration) -> Vec<Seen> {
+    let begun = Instant::now();
+    let seen = named.iter().filter_map(|id| {
+        let entity = scene.entities.get(id)?;
+        let left = time.saturating_sub(begun.elapsed());
+        Some(Seen { id: id.clone(), seen: entity.visible, feasible: feasible(session, robot, entity, left) })
+    });
+    seen.collect()
+}
 
-    fn feasible(&self, id: &SmolStr, left: Duration) -> Feasible {
-        let Some(entity) = self.scene.entities.get(id) else { return Feasible::AsFarAsNumbersTell };
-        if let Some(hand) = self.robot.hands.values().next()
-            && entity.kind == "Object"
-        {
-            if let Some(mass) = entity.mass_kg.filter(|mass| *mass > hand.payload_kg) {
-                return Feasible::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));
-            }
-            if let Some(width) = entity.width().filter(|width| *width > hand.opening_m) {
-                return Feasible::No(format!("too wide: {width} m, opening is {} m", hand.opening_m));
-            }
+fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Feasible {
+    if let Some(hand) = robot.hands.values().next()
+        && entity.kind == "Object"
+    {
+        if let Some(mass) = entity.mass_kg.filter(|mass| *mass > hand.payload_kg) {
+            return Feasible::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));
         }
-        if left.is_zero() {
-            return Feasible::AsFarAsNumbersTell;
+        if let Some(width) = entity.width().filter(|width| *width > hand.opening_m) {
+            return Feasible::No(format!("too wide: {width} m, opening is {} m", hand.opening_m));
         }
-        match self.session.access(id) {
-            None => Feasible::AsFarAsNumbersTell,
-            Some(Access::Feasible) => Feasible::Yes,
-            Some(Access::Infeasible { why, is_certified: true }) => Feasible::No(why.to_string()),
-            Some(Access::Infeasible { why, is_certified: false }) => Feasible::Hardly(why.to_string()),
-            Some(Access::Unknown(why)) => Feasible::Unknown(why.to_string()),
-        }
+    }
+    if left.is_zero() {
+        return Feasible::AsFarAsNumbersTell;
+    }
+    match session.access(&entity.id) {
+        None => Feasible::AsFarAsNumbersTell,
+        Some(Access::Feasible) => Feasible::Yes,
+        Some(Access::Infeasible { why, is_certified: true }) => Feasible::No(why.to_string()),
+        Some(Access::Infeasible { why, is_certified: false }) => Feasible::Hardly(why.to_string()),
+        Some(Access::Unknown(why)) => Feasible::Unknown(why.to_string()),
     }
 }
 
