@@ -6,7 +6,7 @@ import coal
 import numpy as np
 import pinocchio as pin
 
-from room import followers, obstacle, pose, urdf
+from room import followers, obstacle, pose, turn_joints, urdf
 
 GAP = 0.002
 
@@ -86,14 +86,7 @@ class Planner:
         x, y, yaw = base
         root = pin.SE3(pin.utils.rotate("z", yaw), np.array([x, y, self.height])) * self.base_from_root
         q[:7] = pin.SE3ToXYZQUAT(root)
-        values = self.fixed | dict(zip(self.moves, joints))
-        values |= {name: f * values[of] + more for name, (of, f, more) in self.follows.items()}
-        for name, value in values.items():
-            joint = self.model.joints[self.model.getJointId(name)]
-            if joint.nq == 1:
-                q[joint.idx_q] = value
-            else:
-                q[joint.idx_q], q[joint.idx_q + 1] = math.cos(value), math.sin(value)
+        turn_joints(self.model, q, self.fixed | dict(zip(self.moves, joints)), self.follows)
         return q
 
     def is_free(self, state, exempt=False):

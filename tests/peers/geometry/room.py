@@ -31,6 +31,17 @@ def followers(robot):
     }
 
 
+def turn_joints(model, q, values, follows):
+    """Writes joints into pinocchio's row of numbers, by name, with those that follow them."""
+    values = values | {name: f * values[of] + more for name, (of, f, more) in follows.items()}
+    for name, value in values.items():
+        joint = model.joints[model.getJointId(name)]
+        if joint.nq == 1:
+            q[joint.idx_q] = value
+        else:
+            q[joint.idx_q], q[joint.idx_q + 1] = math.cos(value), math.sin(value)
+
+
 def obstacle(it):
     """Entity, shape and pose in the map."""
     shape, at = it["shape"], pose(it["pose"])

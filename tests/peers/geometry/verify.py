@@ -14,7 +14,7 @@ import coal
 import numpy as np
 import pinocchio as pin
 
-from room import followers, obstacle, pose, urdf
+from room import followers, obstacle, pose, turn_joints, urdf
 
 GAP = 0.001
 
@@ -44,14 +44,7 @@ class Robot:
     def place(self, base, joints):
         """Poses of the shapes and of the tip in the map, and whether every joint is within its limits."""
         q = pin.neutral(self.model)
-        values = dict(zip(self.variables, joints))
-        values |= {name: f * values[of] + more for name, (of, f, more) in self.follows.items()}
-        for name, value in values.items():
-            joint = self.model.joints[self.model.getJointId(name)]
-            if joint.nq == 1:
-                q[joint.idx_q] = value
-            else:
-                q[joint.idx_q], q[joint.idx_q + 1] = math.cos(value), math.sin(value)
+        turn_joints(self.model, q, dict(zip(self.variables, joints)), self.follows)
         ok = all(
             self.model.lowerPositionLimit[j.idx_q] - 1e-9 <= q[j.idx_q] <= self.model.upperPositionLimit[j.idx_q] + 1e-9
             for name, j in zip(self.model.names, self.model.joints) if j.nq == 1 and name not in self.follows
