@@ -20,7 +20,7 @@ use motet_graph::Graph;
 use motet_planner::guard::Guard;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Driver, Event, StartState, Time};
+use motet_runtime::{Driver, Event, Settings, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::{Parsed, Severity};
 
@@ -71,7 +71,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
     let guard = setting.session.course().map(Guard::new);
-    let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref())?;
+    let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::simulator(card, setting.scene_text.clone(), &options);

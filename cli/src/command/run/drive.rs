@@ -3,7 +3,7 @@
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{Address, Patience, RemoteDriver};
 use motet_planner::guard::Guard;
-use motet_runtime::{Driver, Event, Time};
+use motet_runtime::{Driver, Event, Settings, Time};
 
 use super::pace::Pace;
 use super::play::{self, Play};
@@ -35,7 +35,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     let start = start(setting.scene.as_ref());
     let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
     let guard = setting.session.course().map(Guard::new);
-    let engine = play::engine(graph, &start, driver.capabilities(), guard.as_ref())?;
+    let engine = play::engine(graph, &start, driver.capabilities(), guard.as_ref(), settings())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::process(&args.driver, &driver.welcome().instance);
@@ -48,6 +48,12 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     let pace = Pace::new(view, Speed::Times(1.0)).with_guard(guard);
     let play = Play { engine, driver: &mut driver, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
+}
+
+/// A safe stop is waited for until a driver that went silent can have been called again.
+fn settings() -> Settings {
+    let recovery = u64::try_from(Patience::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    Settings { safe_stop_within: Time::from_nanos(recovery), ..Settings::default() }
 }
 
 /// Starts or calls a driver.

@@ -52,18 +52,19 @@ impl Play<'_> {
     }
 }
 
-/// An engine for a compiled graph.
+/// An engine for a compiled graph. A guard answers what its settings leave to nobody.
 pub(super) fn engine(
     graph: Graph,
     start: &StartState,
     can: Capabilities,
     guard: Option<&Guard>,
+    settings: Settings,
 ) -> Result<Engine, Trouble> {
     let engine = Engine::new(graph, start).map_err(|wrong| {
         let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
         Trouble::Other(format!("the compiled graph is not valid{first}"))
     })?;
-    let settings = Settings { verify_within: guard.map(|_| WITHIN), ..Settings::default() };
+    let settings = Settings { verify_within: guard.map(|_| WITHIN), ..settings };
     Ok(engine.with_capabilities(can).with_settings(settings))
 }
 

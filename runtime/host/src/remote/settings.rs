@@ -36,3 +36,12 @@ impl Default for Patience {
         }
     }
 }
+
+impl Patience {
+    /// The longest that it takes until a driver that went silent is noticed, called again, greeted and told: how long a safe stop
+    /// has to be waited for at least.
+    #[must_use]
+    pub const fn recovery(&self) -> Duration {
+        self.silence.saturating_add(self.greeting).saturating_add(self.answer)
+    }
+}
