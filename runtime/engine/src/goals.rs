@@ -66,9 +66,12 @@ impl Goals {
         Some(node).filter(|node| *node != NOBODY)
     }
 
-    /// All live goals that have a step, by slot.
-    pub(crate) fn live(&self) -> impl Iterator<Item = (GoalId, NodeId)> + '_ {
-        self.slots.iter().flatten().copied().filter(|(_, node)| *node != NOBODY)
+    /// All live goals that have a step, in the order of their starts.
+    pub(crate) fn live(&self) -> Vec<(GoalId, NodeId)> {
+        let own = self.slots.iter().flatten().copied().filter(|(_, node)| *node != NOBODY);
+        let mut live: Vec<_> = own.collect();
+        live.sort_unstable();
+        live
     }
 
     fn slot(goal: GoalId) -> usize {

@@ -53,8 +53,7 @@ impl Turn<'_> {
 
     /// Nothing is known any more of what running calls make or unsettle.
     pub(crate) fn doubt_running(&mut self) {
-        let nodes: Vec<NodeId> = self.run.goals.live().map(|(_, node)| node).collect();
-        nodes.into_iter().for_each(|node| self.doubt(node));
+        self.run.goals.live().into_iter().for_each(|(_, node)| self.doubt(node));
         self.doubt_orphans();
     }
 

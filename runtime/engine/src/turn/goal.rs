@@ -45,8 +45,7 @@ impl Turn<'_> {
             DriverEvent::Lost { goal } => self.lost(goal),
             DriverEvent::DriverLost => {
                 (0..self.run.orphans.len()).for_each(|index| self.orphan_lost(index));
-                let live: Vec<GoalId> = self.run.goals.live().map(|(goal, _)| goal).collect();
-                live.into_iter().for_each(|goal| self.lost(goal));
+                self.run.goals.live().into_iter().for_each(|(goal, _)| self.lost(goal));
             }
             DriverEvent::NotHeld { goal } => {
                 if let Some(node) = self.run.goals.node(goal)

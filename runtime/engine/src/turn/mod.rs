@@ -82,7 +82,7 @@ impl Turn<'_> {
         }
         let run = &*self.run;
         let told = |node: NodeId| run.nodes.at(node.index()).phase == Phase::SafeStopping;
-        let untold = run.goals.live().filter(|(_, node)| !told(*node));
+        let untold = run.goals.live().into_iter().filter(|(_, node)| !told(*node));
         self.out.extend(untold.map(|(goal, _)| Effect::SafeStop { goal }));
         let untold = run.orphans.iter().filter(|orphan| orphan.phase != Phase::SafeStopping);
         self.out.extend(untold.map(|orphan| Effect::SafeStop { goal: orphan.goal }));

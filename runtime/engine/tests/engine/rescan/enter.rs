@@ -1,6 +1,7 @@
 //! Entering steps and regions, and leaving steps.
 
-use super::state::{After, At, Flow, Live, Naive, Phase, Region, Wish};
+use super::clock::nanos;
+use super::state::{After, At, Flow, Live, Naive, Phase, Region, Watched, Wish};
 use motet_graph::{Ending, NodeId, NodeKind, ROOT, RegionId};
 
 impl Naive {
@@ -27,7 +28,8 @@ impl Naive {
                     if !self.holds(&condition) {
                         continue;
                     }
-                    self.live(node).at = At::Ended(Flow::Ok);
+                    let live = self.live(node);
+                    (live.at, live.timer) = (At::Ended(Flow::Ok), None);
                 }
                 At::Waiting | At::Parked | At::Queued | At::Suspended | At::Goal(..) | At::Inside => continue,
             }
@@ -39,7 +41,7 @@ impl Naive {
     /// The first step that waits for resources which are free.
     pub(super) fn grant(&mut self) -> bool {
         let queued = self.nodes.iter().filter(|(_, live)| live.at == At::Queued).map(|(node, _)| *node);
-        let first = queued.collect::<Vec<_>>().into_iter().find(|node| self.is_free(*node));
+        let first = queued.collect::<Vec<_>>().into_iter().find(|node| self.is_free(*node, None));
         first.inspect(|node| self.acquire(*node)).is_some()
     }
 
@@ -52,7 +54,7 @@ impl Naive {
             let around = self.regions.get(&self.region_of(owner)).map_or(0, |region| region.suspended);
             let NodeKind::Monitor { body, .. } = self.kind(owner) else { return around };
             let live = &self.nodes[&owner];
-            let pauses = live.watches.iter().filter(|watch| watch.1).count() as u32;
+            let pauses = live.watches.iter().filter(|watch| watch.paused_at.is_some()).count() as u32;
             around + pauses + u32::from(live.resuming.is_some() && body == region)
         });
         let ended = entry.is_none().then_some(Flow::Ok);
@@ -65,11 +67,13 @@ impl Naive {
     /// A step is to be entered.
     pub(super) fn begin(&mut self, node: NodeId) {
         let watches = match self.kind(node) {
-            NodeKind::Monitor { watches, .. } => vec![(0, false); watches.len()],
+            NodeKind::Monitor { watches, .. } => vec![Watched::default(); watches.len()],
             _ => Vec::new(),
         };
         let live = Live {
             at: At::Enter,
+            timer: None,
+            left: 0,
             count: 1,
             after: After::Nothing,
             watches,
@@ -93,7 +97,10 @@ impl Naive {
         self.live(node).at = At::Inside;
         match self.kind(node) {
             NodeKind::Call(_) => self.acquire(node),
-            NodeKind::Wait { .. } => self.live(node).at = At::Waiting,
+            NodeKind::Wait { within_secs, .. } => {
+                self.live(node).at = At::Waiting;
+                self.set(node, nanos(within_secs));
+            }
             NodeKind::If { condition, then, otherwise } => {
                 match if self.holds(&condition) { Some(then) } else { otherwise } {
                     Some(region) => self.enter_region(region),
@@ -124,15 +131,23 @@ impl Naive {
             self.live(node).at = At::Ended(Flow::Interrupted);
         } else if self.is_suspended(region) {
             self.live(node).at = At::Suspended;
-        } else if !self.is_free(node) {
+        } else if self.claim(node) {
+            // A goal of the policy before goes on.
+        } else if !self.is_free(node, None) {
             self.live(node).at = At::Queued;
         } else {
             self.started += 1;
-            let number = self.started;
-            self.goals.insert(number, node);
-            self.live(node).at = At::Goal(number, Phase::Starting, Wish::None);
-            self.out.push(format!("start {number} {node:?}"));
+            self.take(self.started, node, Phase::Starting);
+            self.out.push(format!("start {} {node:?}", self.started));
         }
+    }
+
+    /// A step has a goal from now on, for which its deadline counts.
+    pub(super) fn take(&mut self, number: usize, node: NodeId, phase: Phase) {
+        let NodeKind::Call(call) = self.kind(node) else { panic!("no call") };
+        self.goals.insert(number, node);
+        self.live(node).at = At::Goal(number, phase, Wish::None);
+        self.set(node, nanos(call.deadline_secs));
     }
 
     pub(super) fn node_ended(&mut self, node: NodeId, flow: Flow) {

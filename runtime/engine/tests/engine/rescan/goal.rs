@@ -1,5 +1,6 @@
 //! Stopping and suspending, and the goals.
 
+use super::clock::CANCEL_WITHIN;
 use super::state::{At, Flow, Naive, Phase, Wish};
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::{NodeId, NodeKind, RegionId};
@@ -13,7 +14,10 @@ impl Naive {
         match self.nodes[&node].at.clone() {
             At::Enter | At::Acquire | At::Ended(_) => {}
             At::Parked => self.leave_region(node, Flow::Interrupted),
-            At::Waiting | At::Queued | At::Suspended => self.live(node).at = At::Ended(Flow::Interrupted),
+            At::Waiting | At::Queued | At::Suspended => {
+                let live = self.live(node);
+                (live.at, live.timer) = (At::Ended(Flow::Interrupted), None);
+            }
             At::Goal(..) => self.cancel(node, Wish::Stop),
             At::Inside => self.owned(node).into_iter().for_each(|region| self.stop(region)),
         }
@@ -23,8 +27,13 @@ impl Naive {
         let At::Goal(number, phase, before) = self.nodes[&node].at else { return };
         let stronger = if wish > before { wish } else { before };
         self.live(node).at = match phase {
-            Phase::Starting | Phase::Cancelling => At::Goal(number, phase, stronger),
+            Phase::Starting if matches!(before, Wish::None | Wish::Hold) => {
+                self.set(node, CANCEL_WITHIN);
+                At::Goal(number, phase, stronger)
+            }
+            Phase::Starting | Phase::Cancelling | Phase::SafeStopping => At::Goal(number, phase, stronger),
             Phase::Running | Phase::Held => {
+                self.set(node, CANCEL_WITHIN);
                 self.out.push(format!("cancel {number}"));
                 At::Goal(number, Phase::Cancelling, wish)
             }
@@ -42,17 +51,21 @@ impl Naive {
                 let NodeKind::Call(call) = self.kind(node) else { panic!("no call") };
                 let can_hold = call.primitive != v::PLACE;
                 match phase {
+                    Phase::Cancelling | Phase::SafeStopping => {}
                     _ if wish == Wish::Suspend || !can_hold => self.cancel(node, Wish::Suspend),
                     Phase::Starting if before == Wish::None => {
+                        self.keep_time(node);
                         self.live(node).at = At::Goal(number, phase, Wish::Hold);
                     }
                     Phase::Running => {
+                        self.keep_time(node);
                         self.out.push(format!("hold {number}"));
                         self.live(node).at = At::Goal(number, Phase::Held, before);
                     }
-                    Phase::Starting | Phase::Held | Phase::Cancelling => {}
+                    Phase::Starting | Phase::Held => {}
                 }
             }
+            At::Waiting if self.nodes[&node].timer.is_some() => self.keep_time(node),
             At::Enter | At::Parked | At::Acquire | At::Suspended | At::Waiting | At::Ended(_) => {}
         }
     }
@@ -66,9 +79,12 @@ impl Naive {
             At::Parked if on => self.live(node).at = At::Enter,
             At::Suspended if on => self.live(node).at = At::Acquire,
             At::Goal(number, Phase::Starting, Wish::Hold) if on => {
+                self.set(node, self.nodes[&node].left);
                 self.live(node).at = At::Goal(number, Phase::Starting, Wish::None);
             }
+            At::Waiting if on => self.set(node, self.nodes[&node].left),
             At::Goal(number, Phase::Held, wish) if on => {
+                self.set(node, self.nodes[&node].left);
                 self.out.push(format!("proceed {number}"));
                 self.live(node).at = At::Goal(number, Phase::Running, wish);
             }
@@ -85,7 +101,7 @@ impl Naive {
                 self.out.push(format!("hold {number}"));
                 Phase::Held
             }
-            Wish::Suspend | Wish::Stop => {
+            Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop => {
                 self.out.push(format!("cancel {number}"));
                 Phase::Cancelling
             }
@@ -96,15 +112,26 @@ impl Naive {
     pub(super) fn ended(&mut self, number: usize, outcome: &Outcome) {
         let node = self.goals.remove(&number).unwrap();
         let At::Goal(_, _, wish) = self.nodes[&node].at else { panic!("no goal") };
+        self.live(node).timer = None;
         let stopping = self.is_stopping(self.region_of(node));
         let NodeKind::Call(call) = self.kind(node) else { panic!("no call") };
+        let failure = match (outcome, wish) {
+            (Outcome::Failure(kind), _) => Some(kind.to_string()),
+            (Outcome::Interrupted, Wish::Expire | Wish::Lose) => Some("timeout".to_owned()),
+            (Outcome::Success(_) | Outcome::Interrupted, _) => None,
+        };
         self.live(node).at = match outcome {
             Outcome::Success(_) => At::Ended(Flow::Ok),
-            Outcome::Failure(_) if self.nodes[&node].count <= call.retries && !stopping => {
+            Outcome::Failure(_) | Outcome::Interrupted
+                if failure.is_some() && self.nodes[&node].count <= call.retries && !stopping =>
+            {
                 self.live(node).count += 1;
                 At::Acquire
             }
-            Outcome::Failure(kind) => At::Ended(Flow::Fail(kind.to_string(), node)),
+            Outcome::Failure(_) | Outcome::Interrupted if failure.is_some() => {
+                At::Ended(Flow::Fail(failure.unwrap_or_default(), node))
+            }
+            Outcome::Failure(_) => panic!("a failure without a kind"),
             Outcome::Interrupted if !stopping && wish == Wish::Suspend => At::Acquire,
             Outcome::Interrupted => At::Ended(Flow::Interrupted),
         };

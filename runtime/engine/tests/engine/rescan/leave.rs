@@ -76,7 +76,7 @@ impl Naive {
     }
 
     pub(super) fn block_ended(&mut self, node: NodeId, body: RegionId, flow: Flow) -> Option<Flow> {
-        self.live(node).resuming = None;
+        let resumed = self.live(node).resuming.take();
         if let Some(of_body) = self.live(node).body_ended.take() {
             return Some(if of_body == Flow::Ok { flow } else { of_body });
         }
@@ -84,10 +84,13 @@ impl Naive {
             self.stop_within(node, After::Exit(flow));
             return None;
         }
-        for _ in 0..self.nodes[&node].watches.iter().filter(|watch| watch.1).count() {
+        for _ in 0..self.nodes[&node].watches.iter().filter(|watch| watch.paused_at.is_some()).count() {
             self.suspend(body, Wish::Hold);
         }
         self.go_on(body);
+        if let Some(index) = resumed {
+            self.live(node).watches[index].holds_since = None;
+        }
         None
     }
 
@@ -115,6 +118,14 @@ impl Naive {
             Flow::Fail(kind, node) => RunEnd::Failed { kind: kind.into(), why: None, node },
             Flow::Interrupted => RunEnd::Interrupted,
         });
+        if self.orphans.is_empty() {
+            self.finish(&end);
+        } else {
+            self.closing = Some(end);
+        }
+    }
+
+    pub(super) fn finish(&mut self, end: &RunEnd) {
         self.out.push(format!("finished {end:?}"));
         self.over = true;
     }

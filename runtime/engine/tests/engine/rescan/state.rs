@@ -1,8 +1,11 @@
 //! What the interpreter keeps.
 
-use motet_graph::{Condition, FactArg, Graph, NodeId, NodeKind, RegionId, Term, Value};
+use motet_graph::{Condition, FactArg, Graph, NodeId, NodeKind, PrimitiveId, RegionId, Term, Value};
 use motet_runtime::RunEnd;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// An instant, or a time, in ns.
+pub(super) type Nanos = u64;
 
 /// How a region or a step ended; a failure with its kind and where it arose.
 #[derive(Clone, PartialEq, Debug)]
@@ -16,7 +19,9 @@ pub(super) enum Flow {
 pub(super) enum Wish {
     None,
     Hold,
+    Lose,
     Suspend,
+    Expire,
     Stop,
 }
 
@@ -26,6 +31,7 @@ pub(super) enum Phase {
     Running,
     Held,
     Cancelling,
+    SafeStopping,
 }
 
 /// Where a step stands.
@@ -58,14 +64,50 @@ pub(super) struct Region {
     pub(super) ended: Option<Flow>,
 }
 
+/// A condition that is watched.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Watched {
+    pub(super) fired: u32,
+    /// Since when it holds without a break.
+    pub(super) holds_since: Option<Nanos>,
+    pub(super) paused_at: Option<Nanos>,
+    /// When its pause will have taken too long.
+    pub(super) until: Option<Nanos>,
+    /// How long it has paused before.
+    pub(super) spent: Nanos,
+}
+
+/// A goal whose policy was replaced.
+#[derive(Clone, Debug)]
+pub(super) struct Orphan {
+    pub(super) number: usize,
+    pub(super) call: Call,
+    pub(super) phase: Phase,
+    pub(super) wish: Wish,
+    pub(super) due: Nanos,
+    pub(super) revision: u32,
+    pub(super) node: NodeId,
+}
+
+/// What a goal does.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Call {
+    pub(super) primitive: PrimitiveId,
+    pub(super) args: Vec<Term>,
+    pub(super) uses: Vec<String>,
+}
+
 /// A step that was entered.
 #[derive(Clone, Debug)]
 pub(super) struct Live {
     pub(super) at: At,
+    /// When it will have taken too long.
+    pub(super) timer: Option<Nanos>,
+    /// What was left of that when it was held.
+    pub(super) left: Nanos,
     pub(super) count: u32,
     pub(super) after: After,
-    /// By watch: how often it fired, and whether it pauses.
-    pub(super) watches: Vec<(u32, bool)>,
+    pub(super) watches: Vec<Watched>,
     /// The watch whose block interrupts the body.
     pub(super) resuming: Option<usize>,
     pub(super) clearing: bool,
@@ -73,13 +115,18 @@ pub(super) struct Live {
 }
 
 pub(super) struct Naive {
+    pub(super) now: Nanos,
     pub(super) graph: Graph,
+    pub(super) revision: u32,
     pub(super) held: BTreeSet<String>,
     pub(super) regions: BTreeMap<RegionId, Region>,
     pub(super) nodes: BTreeMap<NodeId, Live>,
     pub(super) goals: BTreeMap<usize, NodeId>,
+    pub(super) orphans: Vec<Orphan>,
     pub(super) started: usize,
     pub(super) ending: Option<RunEnd>,
+    /// How the run ends once no orphan is left.
+    pub(super) closing: Option<RunEnd>,
     pub(super) out: Vec<String>,
     pub(super) over: bool,
 }
@@ -87,13 +134,17 @@ pub(super) struct Naive {
 impl Naive {
     pub(super) fn new(graph: Graph) -> Self {
         Self {
+            now: 0,
             graph,
+            revision: 0,
             held: BTreeSet::new(),
             regions: BTreeMap::new(),
             nodes: BTreeMap::new(),
             goals: BTreeMap::new(),
+            orphans: Vec::new(),
             started: 0,
             ending: None,
+            closing: None,
             out: Vec::new(),
             over: false,
         }
@@ -143,14 +194,19 @@ impl Naive {
         }
     }
 
-    pub(super) fn uses(&self, node: NodeId) -> Vec<String> {
-        let NodeKind::Call(call) = self.kind(node) else { return Vec::new() };
+    pub(super) fn call(&self, node: NodeId) -> Call {
+        let NodeKind::Call(call) = self.kind(node) else { panic!("no call") };
         let uses = &self.graph.primitives[call.primitive.index()].uses;
-        uses.iter().map(|id| self.graph.resources[id.index()].name.to_string()).collect()
+        let uses = uses.iter().map(|id| self.graph.resources[id.index()].name.to_string());
+        Call { primitive: call.primitive, args: call.args.clone(), uses: uses.collect() }
     }
 
-    pub(super) fn is_free(&self, node: NodeId) -> bool {
-        let wanted = self.uses(node);
-        self.goals.values().all(|other| self.uses(*other).iter().all(|used| !wanted.contains(used)))
+    /// Whether nobody holds what a step needs, but for the orphan of a number.
+    pub(super) fn is_free(&self, node: NodeId, but: Option<usize>) -> bool {
+        let wanted = self.call(node).uses;
+        let orphans = self.orphans.iter().filter(|orphan| Some(orphan.number) != but);
+        let held = self.goals.values().map(|other| self.call(*other).uses);
+        held.chain(orphans.map(|orphan| orphan.call.uses.clone()))
+            .all(|held| held.iter().all(|used| !wanted.contains(used)))
     }
 }

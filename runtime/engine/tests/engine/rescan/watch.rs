@@ -1,5 +1,6 @@
 //! Which transition comes next, and monitors.
 
+use super::clock::nanos;
 use super::state::{After, At, Flow, Naive, Wish};
 use motet_graph::{NodeId, NodeKind, Reaction, RegionId};
 
@@ -16,10 +17,14 @@ impl Naive {
             let NodeKind::Monitor { watches, .. } = self.kind(node) else { continue };
             for (index, watch) in watches.iter().enumerate() {
                 let holds = self.holds(&watch.condition);
+                let now = self.now;
+                let since = &mut self.live(node).watches[index].holds_since;
+                let since = if holds { *since.get_or_insert(now) } else { since.take().unwrap_or(now) };
+                let is_due = holds && since + nanos(watch.hold_secs) <= now;
                 let live = self.nodes[&node].clone();
-                if live.watches[index].1 {
+                if live.watches[index].paused_at.is_some() {
                     if !holds {
-                        self.live(node).watches[index].1 = false;
+                        self.stop_pausing(node, index);
                         if let Some(part) = self.running_part(node) {
                             self.go_on(part);
                         }
@@ -33,11 +38,11 @@ impl Naive {
                     || live.after != After::Nothing
                     || match &watch.reaction {
                         Reaction::Resume { .. } => {
-                            live.resuming.is_some() || live.watches.iter().any(|of| of.1)
+                            live.resuming.is_some() || live.watches.iter().any(|of| of.paused_at.is_some())
                         }
                         _ => live.resuming == Some(index),
                     };
-                if holds && !blocked {
+                if is_due && !blocked {
                     self.fire(node, index, &watch.reaction);
                     return true;
                 }
@@ -49,14 +54,21 @@ impl Naive {
     pub(super) fn fire(&mut self, node: NodeId, index: usize, reaction: &Reaction) {
         match reaction {
             Reaction::End { how, of, .. } => self.end_policy(node, *how, *of),
-            Reaction::Pause { .. } => {
-                self.live(node).watches[index].1 = true;
+            Reaction::Pause { within_secs } => {
+                let now = self.now;
+                let watch = &mut self.live(node).watches[index];
+                let left = nanos(*within_secs).saturating_sub(watch.spent);
+                if left == 0 {
+                    self.stop_within(node, After::Exit(Flow::Fail("timeout".into(), node)));
+                    return;
+                }
+                (watch.paused_at, watch.until) = (Some(now), Some(now + left));
                 if let Some(part) = self.running_part(node) {
                     self.suspend(part, Wish::Hold);
                 }
             }
             Reaction::Restart { at_most } | Reaction::Resume { at_most, .. } => {
-                let fired = &mut self.live(node).watches[index].0;
+                let fired = &mut self.live(node).watches[index].fired;
                 *fired += 1;
                 if *fired > *at_most {
                     self.stop_within(node, After::Exit(Flow::Fail("exhausted".into(), node)));
@@ -73,6 +85,16 @@ impl Naive {
         }
     }
 
+    /// Adds a pause in force to the time that a watch has paused in all.
+    pub(super) fn stop_pausing(&mut self, node: NodeId, index: usize) {
+        let now = self.now;
+        let watch = &mut self.live(node).watches[index];
+        watch.until = None;
+        if let Some(began) = watch.paused_at.take() {
+            watch.spent += now - began;
+        }
+    }
+
     pub(super) fn running_part(&self, node: NodeId) -> Option<RegionId> {
         let NodeKind::Monitor { watches, body } = self.kind(node) else { return None };
         match self.nodes[&node].resuming.map(|index| &watches[index].reaction) {
@@ -85,7 +107,7 @@ impl Naive {
         let live = self.live(node);
         live.after = after.clone();
         (live.resuming, live.clearing) = (None, false);
-        live.watches.iter_mut().for_each(|watch| watch.1 = false);
+        (0..self.nodes[&node].watches.len()).for_each(|index| self.stop_pausing(node, index));
         for region in self.owned(node) {
             self.stop(region);
         }
@@ -101,6 +123,7 @@ impl Naive {
             After::Restart => {
                 let live = self.live(node);
                 (live.after, live.body_ended) = (After::Nothing, None);
+                live.watches.iter_mut().for_each(|watch| watch.holds_since = None);
                 let NodeKind::Monitor { body, .. } = self.kind(node) else { panic!("no monitor") };
                 self.enter_region(body);
             }
