@@ -62,8 +62,9 @@ pub(crate) fn right(setting: &Setting, request: &str) -> String {
 /// Settings with short times.
 pub(crate) fn brisk(server: &Server) -> Settings {
     Settings {
-        connect_timeout: Duration::from_millis(500),
-        idle_timeout: Duration::from_millis(300),
+        connect_timeout: Duration::from_secs(2),
+        // Longer than a loaded machine lets a thread of the server wait.
+        idle_timeout: Duration::from_secs(1),
         timeout: Duration::from_secs(20),
         retries: 2,
         back_off: Duration::from_millis(1),
