@@ -79,7 +79,7 @@ fn what_lasts_is_not_tried_again() {
 fn a_bad_reply_ends_in_an_error_and_not_in_a_wait() {
     check(vec![Act::BreaksOff { text: "half".to_owned() }], ("half", 0, Err("broke off")));
     check(vec![Act::Nonsense], ("", 0, Err("no JSON")));
-    check(vec![Act::Silent], ("", 0, Err("did not answer within 0.3 s")));
+    check(vec![Act::Silent], ("", 0, Err("did not answer within 1 s")));
     let server = Server::new(vec![Act::Endless { text: "and ".repeat(20) }]);
     let settings = Settings { max_bytes: 20_000, ..brisk(&server) };
     assert_eq!(ask(settings).2, Err(ModelError::TooLong { bytes: 20_000 }));
