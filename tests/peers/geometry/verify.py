@@ -39,7 +39,9 @@ class Robot:
         ]
         self.carried, self.members = set(case["carried"]), set(case["members"])
         self.drives, self.height = case["drives"], case["height"]
-        self.radii = [ball(it.geometry) for it in self.geometry.geometryObjects]
+        self.radii = np.array([ball(it.geometry) for it in self.geometry.geometryObjects])
+        self.one, self.two = np.array(self.pairs, dtype=int).reshape(-1, 2).T
+        self.moves = np.array([self.drives or link in self.carried for link in self.links])
 
     def place(self, base, joints):
         """Poses of the shapes and of the tip in the map, and whether every joint is within its limits."""
@@ -63,19 +65,23 @@ def ball(shape):
     return float(np.linalg.norm(shape.aabb_center)) + shape.aabb_radius
 
 
-def near(one, one_at, one_radius, two, two_at, two_radius):
-    if np.linalg.norm(one_at.translation - two_at.translation) > one_radius + two_radius + GAP:
-        return False
+def touch(one, one_at, two, two_at):
     place = lambda at: coal.Transform3s(at.rotation, at.translation)
-    result = coal.DistanceResult()
-    return coal.distance(one, place(one_at), two, place(two_at), coal.DistanceRequest(), result) <= GAP
+    return coal.distance(one, place(one_at), two, place(two_at), coal.DistanceRequest(), coal.DistanceResult()) <= GAP
+
+
+class Things:
+    """What stands in the room, and the balls about it."""
+
+    def __init__(self, case):
+        self.all = [obstacle(it) for it in case["obstacles"]]
+        self.centres = np.array([at.translation for _, _, at in self.all]).reshape(-1, 3)
+        self.radii = np.array([ball(solid) for _, solid, _ in self.all])
 
 
 def fault(robot, case):
-    things = [(entity, solid, at, ball(solid)) for entity, solid, at in map(obstacle, case["obstacles"])]
+    things = Things(case)
     goal = pose(case["map_from_tip"])
-    floor = coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
-    shapes = [it.geometry for it in robot.geometry.geometryObjects]
     path = case["path"]
     tips = [robot.place(it["base"], it["joints"])[1] for it in path]
     may = next(i for i, tip in enumerate(tips) if np.linalg.norm(tip.translation - goal.translation) < 0.11)
@@ -86,28 +92,35 @@ def fault(robot, case):
         for step in range(steps + 1):
             at = a + (b - a) * (step / steps)
             placed, _, ok = robot.place(at[:3], at[3:])
-            if not ok:
-                return f"leg {leg}: beyond the limits"
-            for i, shape in enumerate(shapes):
-                link = robot.links[i]
-                if not robot.drives and link not in robot.carried:
-                    continue
-                for entity, solid, where, radius in things:
-                    if entity == case["object"] and link in robot.members and leg >= may:
-                        continue
-                    if near(shape, placed[i], robot.radii[i], solid, where, radius):
-                        return f"leg {leg}, {step} of {steps}: {link} and {entity}"
-                if link in robot.carried and placed[i].translation[2] < robot.radii[i] + GAP:
-                    place = coal.Transform3s(placed[i].rotation, placed[i].translation)
-                    result = coal.DistanceResult()
-                    if coal.distance(shape, place, floor, coal.Transform3s(), coal.DistanceRequest(), result) <= GAP:
-                        return f"leg {leg}: {link} and the floor"
-            for i, j in robot.pairs:
-                if near(shapes[i], placed[i], robot.radii[i], shapes[j], placed[j], robot.radii[j]):
-                    return f"leg {leg}, {step} of {steps}: {robot.links[i]} and {robot.links[j]}"
+            found = "beyond the limits" if not ok else hit(robot, things, placed, case["object"] if leg >= may else None)
+            if found:
+                return f"leg {leg}, {step} of {steps}: {found}"
     off = tips[-1].inverse() * goal
     if np.linalg.norm(off.translation) > 1e-6 or np.linalg.norm(pin.log3(off.rotation)) > 1e-6:
         return "the hand does not end at the grasp"
+    return None
+
+
+def hit(robot, things, placed, grasped):
+    """What touches what may not be touched, of the shapes whose balls touch."""
+    shapes = [it.geometry for it in robot.geometry.geometryObjects]
+    centres = np.array([at.translation for at in placed])
+    gaps = np.linalg.norm(centres[:, None] - things.centres, axis=2) - robot.radii[:, None] - things.radii
+    for i, k in np.argwhere((gaps <= GAP) & robot.moves[:, None]):
+        entity, solid, where = things.all[k]
+        if entity == grasped and robot.links[i] in robot.members:
+            continue
+        if touch(shapes[i], placed[i], solid, where):
+            return f"{robot.links[i]} and {entity}"
+    floor = coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
+    for i in np.flatnonzero(centres[:, 2] < robot.radii + GAP):
+        if robot.links[i] in robot.carried and touch(shapes[i], placed[i], floor, pin.SE3.Identity()):
+            return f"{robot.links[i]} and the floor"
+    gaps = np.linalg.norm(centres[robot.one] - centres[robot.two], axis=1) - robot.radii[robot.one] - robot.radii[robot.two]
+    for n in np.flatnonzero(gaps <= GAP):
+        i, j = robot.pairs[n]
+        if touch(shapes[i], placed[i], shapes[j], placed[j]):
+            return f"{robot.links[i]} and {robot.links[j]}"
     return None
 
 
