@@ -48,4 +48,6 @@ pub(crate) enum DecodeForm {
     /// JSON
     #[default]
     Json,
+    /// Text
+    Text,
 }

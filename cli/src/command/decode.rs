@@ -45,6 +45,7 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let mut begun = read(&args.path)?;
     let form = match args.surface {
         DecodeForm::Json => Form::Json,
+        DecodeForm::Text => Form::Text,
     };
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
     let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
@@ -57,20 +58,20 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let taken = acceptor.accept(&begun);
     let rest = begun.split_off(taken);
     if !rest.is_empty() {
-        report.out.text(&refusal(&mut acceptor, &session, &rest));
+        report.out.text(&refusal(&mut acceptor, (&session, form), &rest));
         return Ok(Exit::Findings);
     }
     let tokens = args.tokenizer.as_ref().map(|name| {
         let vocabulary = tokens::vocabulary(name, args.end.as_deref())?;
         tokens::told(&prepared, &vocabulary, &begun, args.budget)
     });
-    report.out.text(&told(&mut acceptor, &session, args.explain));
+    report.out.text(&told(&mut acceptor, (&session, form), args.explain));
     report.out.text(&tokens.transpose()?.unwrap_or_default());
     Ok(Exit::Clean)
 }
 
 /// What may follow.
-fn told(acceptor: &mut Acceptor, session: &Session, explain: bool) -> String {
+fn told(acceptor: &mut Acceptor, (session, form): (&Session, Form), explain: bool) -> String {
     let mut text = format!("taken: {}\n", crate::out::count(acceptor.bytes().len(), "byte"));
     let forced = acceptor.forced();
     if !forced.is_empty() {
@@ -80,10 +81,12 @@ fn told(acceptor: &mut Acceptor, session: &Session, explain: bool) -> String {
     if acceptor.is_accepting() {
         text.push_str("the policy is whole: nothing may follow but the end\n");
     } else if explain {
-        let next = next::next(acceptor);
-        let refused = refused::refused(acceptor, &session.signatures(), &next);
+        let next = next::next(acceptor, form);
         text.push_str(&next.told(&session.signatures(), acceptor));
-        text.push_str(&refused);
+        // Which words of the text form names and types alone would allow is not told.
+        if form == Form::Json {
+            text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
+        }
     } else {
         text.push_str(&format!("may follow: {}\n", quoted(&acceptor.next_bytes())));
     }
@@ -91,7 +94,7 @@ fn told(acceptor: &mut Acceptor, session: &Session, explain: bool) -> String {
 }
 
 /// Where what was begun is refused, and why.
-fn refusal(acceptor: &mut Acceptor, session: &Session, rest: &[u8]) -> String {
+fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Form), rest: &[u8]) -> String {
     let before = acceptor.bytes();
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
     let from = before.len().saturating_sub(40);
@@ -114,7 +117,7 @@ fn refusal(acceptor: &mut Acceptor, session: &Session, rest: &[u8]) -> String {
             text.push_str(&format!("why: {line}\n"));
         }
     }
-    let next = next::next(acceptor);
+    let next = next::next(acceptor, form);
     text.push_str(&next.told(&session.signatures(), acceptor));
     text
 }

@@ -12,6 +12,7 @@ pub(crate) mod errors;
 pub(crate) mod eval;
 pub(crate) mod facts;
 mod flow;
+pub(crate) mod heed;
 mod intent;
 pub(crate) mod mend;
 mod monitor;
@@ -32,6 +33,7 @@ use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::draft::Stand;
 use self::facts::{Facts, Key, Split};
+use self::heed::Heeds;
 use self::mend::{End, Offer};
 use self::symbols::Symbols;
 use self::value::Value;
@@ -109,6 +111,8 @@ pub(crate) struct Prover<'a> {
     pub(crate) hole: Option<StepId>,
     /// The states in which control gets there.
     pub(crate) stands: Vec<Stand>,
+    /// What it asks of the facts.
+    pub(crate) heeds: Heeds,
 }
 
 /// What a proof is for.
@@ -193,6 +197,7 @@ impl<'a> Prover<'a> {
             mood: Mood::Tell,
             hole: None,
             stands: Vec::new(),
+            heeds: None,
         }
     }
 }

@@ -42,8 +42,10 @@ pub(crate) struct Tokens {
     pub(crate) names: Vec<SimpleVob>,
     /// Of those, the ones that can begin it.
     pub(crate) first_names: Vec<SimpleVob>,
-    /// Those that end a name.
+    /// Those that end a name with a quote.
     pub(crate) name_ends: TokTrie,
+    /// Those that end a name with a space.
+    pub(crate) bare_name_ends: TokTrie,
     pub(crate) longest: usize,
     pub(crate) end: u32,
     /// Tokens of the same bytes as one before them, which stands for them in the tries; in the order of their numbers.
@@ -100,10 +102,13 @@ impl Vocabulary {
             bytes.get(..quote)?.iter().all(is_text_byte).then_some((id, bytes.split_at_checked(quote)?))
         });
         let text_tails = Tails::new(ends);
-        let name_ends = set(&|bytes| {
-            let ends = bytes.contains(&b'"');
-            ends && before_quote(bytes).is_some_and(|before| before.iter().all(is_name_byte))
-        });
+        let name_ends = |end: u8| {
+            let ends = set(&|bytes| {
+                let before = bytes.iter().take_while(|byte| is_name_byte(byte)).count();
+                bytes.get(before) == Some(&end)
+            });
+            trie.filter(&ends)
+        };
         let names = |begins: bool| {
             let lengths = 0..=MAX_NAME_CHARS;
             let of_length = lengths.map(|most| {
@@ -115,7 +120,8 @@ impl Vocabulary {
             });
             of_length.collect()
         };
-        let (text_ends, name_ends) = (trie.filter(&text_ends), trie.filter(&name_ends));
+        let text_ends = trie.filter(&text_ends);
+        let (name_ends, bare_name_ends) = (name_ends(b'"'), name_ends(b' '));
         let longest = trie.max_token_len();
         let (first_names, names) = (names(true), names(false));
         let tree = Tree::new(&trie);
@@ -130,6 +136,7 @@ impl Vocabulary {
             names,
             first_names,
             name_ends,
+            bare_name_ends,
             longest,
             end,
             twins,

@@ -14,6 +14,7 @@ use common::peer::{Peer, environment};
 use common::session;
 use common::tokens::{END, tokens};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary};
+use motet_syntax::Form;
 
 /// How many walks each pair of robot and scene gets with each surface.
 const WALKS: u64 = 3;
@@ -22,6 +23,15 @@ const LENGTH: usize = 120;
 
 #[test]
 fn a_mask_is_within_that_of_the_grammar() {
+    compare(Form::Json);
+}
+
+#[test]
+fn a_mask_of_text_is_within_that_of_the_grammar() {
+    compare(Form::Text);
+}
+
+fn compare(form: Form) {
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = environment(&tokens, END);
@@ -29,7 +39,7 @@ fn a_mask_is_within_that_of_the_grammar() {
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
         for modifiers in [Modifiers::Default, Modifiers::Written] {
-            let surface = Surface { modifiers, ..Surface::default() };
+            let surface = Surface { form, modifiers, ..Surface::default() };
             let prepared = Prepared::new(&session, surface);
             let peer = Peer::new(&environment, &session, surface);
             for seed in 0..WALKS {

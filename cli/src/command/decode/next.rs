@@ -2,8 +2,9 @@
 
 use motet_compiler::Signatures;
 use motet_decode::Acceptor;
+use motet_syntax::Form;
 
-use super::place::{Place, describe};
+use super::place::{Place, describe, describe_text};
 use super::quoted;
 
 /// Where so many bytes may follow, one is free in what to write.
@@ -12,7 +13,7 @@ const FREE: usize = 40;
 const MOST: usize = 4000;
 
 /// What may come next.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Next {
     /// Words, in the order of their bytes, with the brackets and quotes before them.
     pub(super) words: Vec<String>,
@@ -20,14 +21,18 @@ pub(super) struct Next {
     free: Vec<&'static str>,
     /// Whether some words were left out.
     is_cut: bool,
+    form: Form,
 }
 
 /// What may come next after the bytes of an acceptor, which are left as they are.
-pub(super) fn next(acceptor: &mut Acceptor) -> Next {
+pub(super) fn next(acceptor: &mut Acceptor, form: Form) -> Next {
     let first = acceptor.next_bytes();
-    let mut next = Next::default();
+    let mut next = Next { words: Vec::new(), free: Vec::new(), is_cut: false, form };
     if first.len() > FREE {
-        next.free.push(if first.contains(&b' ') { "a text" } else { "a name" });
+        let is_text =
+            acceptor.bytes().iter().filter(|byte| **byte == b'"').count() % 2 == 1 && form == Form::Text;
+        let is_text = is_text || (form == Form::Json && first.contains(&b' '));
+        next.free.push(if is_text { "a text" } else { "a name" });
         next.words.extend(first.contains(&b'"').then(|| "\"".to_owned()));
         return next;
     }
@@ -63,15 +68,16 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
     {
         // It closes what stands before.
         next.words.push(text(word));
-    } else if is_mark(byte) && !opens {
+    } else if is_mark(byte, next.form) && !opens {
         next.words.push(text(word));
     } else {
         let follow = acceptor.next_bytes();
         if follow.len() > FREE {
             next.words.push(text(word) + "…");
         } else {
-            let (marks, rest): (Vec<u8>, Vec<u8>) =
-                follow.into_iter().partition(|byte| is_mark(*byte) && !(opens && b"{[\"".contains(byte)));
+            let (marks, rest): (Vec<u8>, Vec<u8>) = follow
+                .into_iter()
+                .partition(|byte| is_mark(*byte, next.form) && !(opens && b"{[\"".contains(byte)));
             if !marks.is_empty() {
                 next.words.push(text(word));
             }
@@ -85,8 +91,11 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
 }
 
 /// What stands between words.
-fn is_mark(byte: u8) -> bool {
-    b"{}[],:\"".contains(&byte)
+fn is_mark(byte: u8, form: Form) -> bool {
+    match form {
+        Form::Json => b"{}[],:\"".contains(&byte),
+        Form::Text => b"{}[](), \"".contains(&byte),
+    }
 }
 
 fn text(word: &[u8]) -> String {
@@ -103,7 +112,11 @@ impl Next {
         }
         let width = self.words.iter().map(|word| word.chars().count()).max().unwrap_or_default().min(24);
         for word in &self.words {
-            let line = format!("  {word:width$}  {}", describe(signatures, &place, word));
+            let said = match self.form {
+                Form::Json => describe(signatures, &place, word),
+                Form::Text => describe_text(signatures, word),
+            };
+            let line = format!("  {word:width$}  {said}");
             text.push_str(line.trim_end());
             text.push('\n');
         }

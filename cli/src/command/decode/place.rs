@@ -118,6 +118,15 @@ pub(super) fn describe(signatures: &Signatures, place: &Place, word: &str) -> St
     structure(word, bare).to_owned()
 }
 
+/// What a word of the text form is, wherever it stands.
+pub(super) fn describe_text(signatures: &Signatures, word: &str) -> String {
+    let bare = word.trim();
+    let at = |kind: &str, key: &str| Place { kind: kind.into(), key: key.into(), ..Place::default() };
+    let places = [at("do", "do"), at("is", "is"), at("get", "get")];
+    let mut said = places.iter().map(|place| describe(signatures, place, bare));
+    said.find(|said| !said.is_empty()).unwrap_or_default()
+}
+
 /// What the words of the surface itself are.
 fn structure(word: &str, bare: &str) -> &'static str {
     match (word, bare) {
@@ -125,6 +134,7 @@ fn structure(word: &str, bare: &str) -> &'static str {
         ("]" | "}", _) => "closes",
         ("\"", _) => "ends the name or the text",
         (_, "do") => "a call",
+        (_, "let") => "a call with a result",
         (_, "end") => "an ending: done, fail or replan",
         (_, "sequence") => "a named group of steps",
         (_, "if") => "steps under a condition",

@@ -46,6 +46,8 @@ typedef struct MotetWorldTexts {
   const char *domain;
   // Whether deadlines and retries have a place; `null` in it is the default.
   bool modifiers;
+  // Whether policies are written in the text form; false is JSON.
+  bool text;
 } MotetWorldTexts;
 
 // Bytes; not ended by a null byte.

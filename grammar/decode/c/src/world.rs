@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use motet_decode::{Modifiers, Prepared, Surface, World};
-use motet_syntax::{FileId, Source, Sources, render};
+use motet_syntax::{FileId, Form, Source, Sources, render};
 
 use crate::border::{free, guarded, handle, shared, slice, string, string_out};
 
@@ -24,6 +24,8 @@ pub struct MotetWorldTexts {
     pub domain: *const c_char,
     /// Whether deadlines and retries have a place; `null` in it is the default.
     pub modifiers: bool,
+    /// Whether policies are written in the text form; false is JSON.
+    pub text: bool,
 }
 
 /// A world that is prepared.
@@ -53,7 +55,8 @@ pub unsafe extern "C" fn motet_world_new(texts: *const MotetWorldTexts) -> *mut 
         };
         let session = world.session().map_err(|error| error.to_string())?;
         let modifiers = if texts.modifiers { Modifiers::Written } else { Modifiers::Default };
-        let prepared = Prepared::new(&session, Surface { modifiers, ..Surface::default() });
+        let form = if texts.text { Form::Text } else { Form::Json };
+        let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
         Ok(handle(MotetWorld { prepared, session }))
     })
 }

@@ -26,8 +26,15 @@ fn taken(string: *mut c_char) -> String {
 
 fn world(robot: &CStr, scene: *const c_char) -> *mut MotetWorld {
     let (robot, none) = (robot.as_ptr(), null());
-    let texts =
-        MotetWorldTexts { robot, declarations: none, scene, state: none, domain: none, modifiers: false };
+    let texts = MotetWorldTexts {
+        robot,
+        declarations: none,
+        scene,
+        state: none,
+        domain: none,
+        modifiers: false,
+        text: false,
+    };
     unsafe { motet_world_new(&raw const texts) }
 }
 

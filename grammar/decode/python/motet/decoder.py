@@ -10,7 +10,7 @@ class Decoder:
     """What may follow, token by token, in a policy of at most `budget` bytes.
 
     A token has at least one byte: with a budget below the number of tokens that a model may write, every policy comes to its
-    end in time. `world` is a `World`, or is opened with `robot`, `scene`, `state`, `domain` and `modifiers` as it takes them.
+    end in time. `world` is a `World`, or is opened with `robot`, `scene`, `state`, `domain`, `modifiers` and `surface` as it takes them.
     `tokenizer` and `end` are as `vocabulary` takes them.
     """
 

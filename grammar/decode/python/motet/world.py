@@ -14,10 +14,12 @@ class World:
 
     `robot` is a name that is built in or a folder with a robot.toml, `scene` a name, a file or a dictionary, `state` a file
     or a dictionary of facts at the start such as `{"holding(mug_1)": True}`, `domain` a file of further declarations.
-    `modifiers` gives deadlines and retries a place. Raises `ValueError` where something of it is wrong.
+    `modifiers` gives deadlines and retries a place, `surface` is "json" or "text". Raises `ValueError` where something of it is wrong.
     """
 
-    def __init__(self, robot=None, scene=None, state=None, domain=None, modifiers=False):
+    def __init__(self, robot=None, scene=None, state=None, domain=None, modifiers=False, surface="json"):
+        if surface not in ("json", "text"):
+            raise ValueError(f"there is no surface `{surface}`: json or text")
         declarations = None
         if robot is not None and Path(robot).is_dir():
             folder = Path(robot)
@@ -32,6 +34,7 @@ class World:
             state=_text(state),
             domain=domain,
             modifiers=modifiers,
+            text=surface == "text",
         )
 
     def check(self, policy):

@@ -3,7 +3,7 @@
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{End, Modifiers, Prepared, Session, Surface, World as Texts};
-use motet_syntax::{FileId, Source, Sources, render};
+use motet_syntax::{FileId, Form, Source, Sources, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -87,7 +87,7 @@ struct World {
 impl World {
     /// Names of what is built in, or texts.
     #[new]
-    #[pyo3(signature = (*, robot = None, declarations = None, scene = None, state = None, domain = None, modifiers = false))]
+    #[pyo3(signature = (*, robot = None, declarations = None, scene = None, state = None, domain = None, modifiers = false, text = false))]
     fn new(
         robot: Option<&str>,
         declarations: Option<&str>,
@@ -95,10 +95,12 @@ impl World {
         state: Option<&str>,
         domain: Option<&str>,
         modifiers: bool,
+        text: bool,
     ) -> PyResult<Self> {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let prepared = Prepared::new(&session, Surface { modifiers, ..Surface::default() });
+        let form = if text { Form::Text } else { Form::Json };
+        let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
         Ok(Self { session, prepared })
     }
 

@@ -23,6 +23,22 @@ pub(crate) struct State {
 /// `lo` and `hi` of a word or a choice at which nobody has looked yet.
 pub(crate) const UNSEEN: u32 = u32::MAX;
 
+impl State {
+    /// Of what may be left out: the state beside it, where it is.
+    pub(crate) fn ahead(&self) -> Option<Id> {
+        if self.lo == UNSEEN { None } else { (self.hi >> 2).checked_sub(1) }
+    }
+
+    pub(crate) fn set_ahead(&mut self, id: Id) {
+        let (known, open) = if self.lo == UNSEEN { (0, 0) } else { (self.lo, self.hi & 3) };
+        (self.lo, self.hi) = (known, open | (id + 1) << 2);
+    }
+
+    pub(crate) fn forget_ahead(&mut self) {
+        self.hi &= 3;
+    }
+}
+
 /// A rule that was called.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Control {
@@ -98,6 +114,8 @@ pub(crate) enum Event {
     AnyText,
     /// Where the next step will stand.
     Hole,
+    /// Another condition follows beside the one before, of which all hold, or any.
+    Joined(Kind),
 }
 
 /// Something that was said, and what was said before.
@@ -128,6 +146,8 @@ pub(crate) struct Arenas {
     pub(crate) said: Vec<Said>,
     pub(crate) names: Vec<Name>,
     pub(crate) lists: Vec<u32>,
+    /// What goes on where something was left out, beside the walk that wrote it.
+    pub(crate) aheads: Vec<State>,
 }
 
 /// How long the arenas were.
@@ -137,6 +157,7 @@ pub(crate) struct Lengths {
     said: usize,
     names: usize,
     lists: usize,
+    pub(super) aheads: usize,
 }
 
 impl Control {
@@ -161,12 +182,24 @@ impl Arenas {
     pub(crate) fn new() -> Self {
         let said = Said { below: 0, event: Event::Close, before: 0, hash: 0 };
         let name = Name { below: 0, start: 0, len: 0, ty: u16::MAX };
-        Self { controls: vec![Control::bottom()], said: vec![said], names: vec![name], lists: Vec::new() }
+        Self {
+            controls: vec![Control::bottom()],
+            said: vec![said],
+            names: vec![name],
+            lists: Vec::new(),
+            aheads: Vec::new(),
+        }
     }
 
     pub(crate) fn lengths(&self) -> Lengths {
-        let Self { controls, said, names, lists, .. } = self;
-        Lengths { controls: controls.len(), said: said.len(), names: names.len(), lists: lists.len() }
+        let Self { controls, said, names, lists, aheads } = self;
+        Lengths {
+            controls: controls.len(),
+            said: said.len(),
+            names: names.len(),
+            lists: lists.len(),
+            aheads: aheads.len(),
+        }
     }
 
     pub(crate) fn cut(&mut self, to: Lengths) {
@@ -174,6 +207,7 @@ impl Arenas {
         self.said.truncate(to.said);
         self.names.truncate(to.names);
         self.lists.truncate(to.lists);
+        self.aheads.truncate(to.aheads);
     }
 
     pub(crate) fn control(&self, id: Id) -> Option<&Control> {
@@ -212,6 +246,12 @@ impl Arenas {
         if let Some(said) = self.said.get_mut(id as usize) {
             said.before = id;
         }
+        id
+    }
+
+    pub(crate) fn push_ahead(&mut self, state: State) -> Id {
+        let id = end(&self.aheads);
+        self.aheads.push(state);
         id
     }
 

@@ -136,7 +136,8 @@ impl Builder<'_> {
             | Kind::Any
             | Kind::Get(_)
             | Kind::Field(_)
-            | Kind::List => fail().kind,
+            | Kind::List
+            | Kind::Group => fail().kind,
         }
     }
 
@@ -215,9 +216,9 @@ impl Builder<'_> {
                 let entry = words.table.get(index)?;
                 match entry.meaning {
                     Meaning::Any => ExprKind::Any,
-                    Meaning::Entity(_) | Meaning::Case(..) | Meaning::Named(_) => {
-                        ExprKind::Plain(entry.name.clone())
-                    }
+                    meaning => ExprKind::Plain(
+                        meaning.name(&self.program.signatures).unwrap_or_else(|| entry.name.clone()),
+                    ),
                 }
             }
             Event::Bound(id) => {
@@ -238,9 +239,12 @@ impl Builder<'_> {
                 self.close();
                 return Some(expr(ExprKind::List(items)));
             }
-            Event::Plain(Plain::Null) | Event::Open(_) | Event::Close | Event::Name(..) | Event::Hole => {
-                return None;
-            }
+            Event::Plain(Plain::Null)
+            | Event::Open(_)
+            | Event::Close
+            | Event::Name(..)
+            | Event::Joined(_)
+            | Event::Hole => return None,
         };
         self.next();
         Some(expr(kind))
@@ -248,6 +252,18 @@ impl Builder<'_> {
 
     /// A condition; one that is not there yet says nothing.
     pub(crate) fn condition(&mut self) -> Expr {
+        let first = self.primary();
+        let Some(Event::Joined(kind)) = self.peek() else { return first };
+        let mut parts = vec![first];
+        while let Some(Event::Joined(_)) = self.peek() {
+            self.next();
+            parts.push(self.primary());
+        }
+        expr(if kind == Kind::Any { ExprKind::AnyOf(parts) } else { ExprKind::All(parts) })
+    }
+
+    /// A condition without those beside it.
+    fn primary(&mut self) -> Expr {
         let Some(Event::Open(kind)) = self.peek() else { return expr(ExprKind::Bool(true)) };
         let kind = match kind {
             Kind::Is(index) => {
@@ -281,6 +297,12 @@ impl Builder<'_> {
                 let name = field.map(|field| field.name.clone()).unwrap_or_default();
                 let of = self.value().unwrap_or_else(|| expr(ExprKind::Any));
                 self.comparison(ExprKind::Field(Box::new(of), named(name)))
+            }
+            Kind::Group => {
+                self.next();
+                let inner = self.condition();
+                self.close();
+                return inner;
             }
             _ => return expr(ExprKind::Bool(true)),
         };

@@ -1,7 +1,8 @@
 //! Which bytes may come next, as far as that is seen without taking one: what tokens are tried by.
 
-use super::walk::Walk;
-use crate::program::Op;
+use super::arena::State;
+use super::walk::{Home, Walk};
+use crate::program::{Ends, Op};
 
 /// A set of bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,8 +28,11 @@ impl Bytes {
 impl Walk {
     /// The bytes that may come next, and perhaps some that may not.
     pub(super) fn seen_bytes(&mut self) -> Bytes {
+        self.seen_bytes_of(self.state(), Home::Last)
+    }
+
+    fn seen_bytes_of(&mut self, state: State, home: Home) -> Bytes {
         let machine = std::sync::Arc::clone(&self.machine);
-        let state = self.state();
         let pos = state.pos as usize;
         let mut bytes = Bytes::NONE;
         match machine.program.op(state.op) {
@@ -39,11 +43,16 @@ impl Walk {
                 ways.filter_map(|(_, way)| way.bytes.get(pos)).for_each(|byte| bytes.add(*byte));
             }
             Op::Word(words) => {
-                if pos == 0 && words.quoted {
+                if pos == 0 && words.ends == Ends::Quoted {
                     bytes.add(b'"');
                     return bytes;
                 }
-                let (mut at, end) = self.range(&state, words);
+                let (mut at, end) = self.range(&state, home, words);
+                if self.whole(&state, words).is_some() {
+                    // No letter follows a name that is over.
+                    bytes = Bytes::OF_NUMBERS;
+                    at += 1;
+                }
                 while at < end {
                     let letter = |walk: &Self, index: u32| {
                         walk.arenas
@@ -56,6 +65,13 @@ impl Walk {
                     // The words are in the order of their bytes.
                     at = super::word::search(at, end, |index| letter(self, index) <= Some(byte));
                 }
+            }
+            Op::Maybe(maybe) => {
+                if let Some(id) = self.ahead(&state, home, maybe) {
+                    let next = self.arenas.aheads.get(id as usize).copied();
+                    bytes = next.map_or(Bytes::ALL, |next| self.seen_bytes_of(next, Home::Ahead(id)));
+                }
+                maybe.bytes.get(pos).into_iter().for_each(|byte| bytes.add(*byte));
             }
             Op::Number(_) => return Bytes::OF_NUMBERS,
             Op::Fork { byte, other, .. } => {

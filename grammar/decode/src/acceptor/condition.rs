@@ -8,11 +8,21 @@ use super::ask::meaning;
 use super::memo::Question;
 use super::walk::Walk;
 use crate::program::{Kind, Meaning};
+use crate::surface::MAX_CONDITION_DEPTH;
 
 /// Each value of an argument that is tried takes a proof of all that is open. Behind the one in question these are `any`, what is
 /// bound, what the step speaks of, and so many others: one that is open here is open when its turn comes, so what is begun
 /// can still be completed.
 const MOST_TRIED: usize = 3;
+
+/// A condition that was written.
+pub(super) struct Last {
+    /// How many conditions stand in one another in it.
+    height: usize,
+    pub(super) is_comparison: bool,
+    /// Whether it stands behind `and` or `or`.
+    is_joined: bool,
+}
 
 impl Walk {
     /// Whether the step of the body, with `more` behind what was said, is no error with some fluent as the condition that
@@ -83,13 +93,99 @@ impl Walk {
     /// Whether a whole condition, of which what was said is the beginning and `more` the rest, refutes nothing.
     fn refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
         let Some((body, fluent, negated, args)) = self.test_of_loop(event, more) else {
-            return self.verify_beside(event, more);
+            return self.waiting_refutes_nothing(event, more);
         };
         match self.test(body, fluent, negated, &args) {
             Test::Holds if self.is_apart(event, more) => true,
             // The body was no error without a test, so it was the back edge.
             Test::Idle if !self.verify(body, &[Event::Close]) => false,
-            Test::Holds | Test::Idle | Test::Open => self.verify(event, more),
+            Test::Holds | Test::Idle => self.verify(event, more),
+            Test::Open => match self.heeds(body, &[Event::Close]) {
+                // What is wrong on the way back stays wrong where nothing that it turns on is tested.
+                (false, heeds) if !self.is_heeded(&heeds, fluent, &args) => false,
+                _ => self.verify(event, more),
+            },
+        }
+    }
+
+    /// The same of what is waited for. Afterwards it holds; to what never asks for it that is all the same.
+    fn waiting_refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
+        if self.is_apart(event, more) {
+            return true;
+        }
+        if let Some((place, before, fluent, args)) = self.test_of_wait(event, more) {
+            let (answer, heeds) = self.heeds(place, &before);
+            if !self.is_heeded(&heeds, fluent, &args) {
+                return answer;
+            }
+        }
+        self.verify(event, more)
+    }
+
+    /// Where a condition is a fluent that is waited for, or that it does not hold: the place behind the beginning of the
+    /// step, as an event and what comes behind it, and the fluent.
+    fn test_of_wait(&self, event: Id, more: &[Event]) -> Option<(Id, Vec<Event>, u16, Vec<Event>)> {
+        let wait = Event::Open(Kind::Wait);
+        let is_said = |event: &Event| {
+            matches!(event, Event::Open(Kind::Not | Kind::Is(_)) | Event::Word(..) | Event::Bound(_))
+        };
+        let (place, before, condition) = match more.split_first() {
+            Some((first, rest)) if *first == wait => (event, vec![wait], rest.to_vec()),
+            _ => {
+                let (mut said, mut at) = (Vec::new(), event);
+                while let Some(here) = self.arenas.said(at).filter(|here| at > 0 && is_said(&here.event)) {
+                    said.push(here.event);
+                    at = here.below;
+                }
+                self.arenas.said(at).filter(|here| at > 0 && here.event == wait)?;
+                said.reverse();
+                said.extend_from_slice(more);
+                (at, Vec::new(), said)
+            }
+        };
+        let mut rest = condition.into_iter().skip_while(|event| *event == Event::Open(Kind::Not));
+        let Some(Event::Open(Kind::Is(fluent))) = rest.next() else { return None };
+        let args: Vec<Event> = rest.filter(|event| *event != Event::Close).collect();
+        args.iter().all(is_said).then_some((place, before, fluent, args))
+    }
+
+    /// Whether `and` or `or` may stand behind the condition that was just written: it stands in nothing, nor beside anything.
+    pub(super) fn may_join(&self, state: &State, outside: u8) -> bool {
+        let last = self.last_condition(state.event);
+        !last.is_joined && usize::from(outside) + last.height < MAX_CONDITION_DEPTH
+    }
+
+    /// What was just written, which ends a condition without `and` or `or` around it.
+    pub(super) fn last_condition(&self, event: Id) -> Last {
+        let (mut at, mut closed, mut events) = (event, 0usize, Vec::new());
+        while let Some(said) = self.arenas.said(at).filter(|_| at > 0) {
+            at = said.below;
+            events.push(said.event);
+            match said.event {
+                Event::Close => closed += 1,
+                Event::Open(_) => closed = closed.saturating_sub(1),
+                _ => {}
+            }
+            if closed == 0 {
+                break;
+            }
+        }
+        let before = self.arenas.said(at).filter(|_| at > 0).map(|said| said.event);
+        let (mut open, mut height) = (Vec::new(), 0);
+        for event in events.iter().rev() {
+            match event {
+                Event::Open(kind) => open.push(matches!(kind, Kind::Not | Kind::Group)),
+                Event::Close => {
+                    open.pop();
+                }
+                _ => {}
+            }
+            height = height.max(open.iter().filter(|counts| **counts).count());
+        }
+        Last {
+            height,
+            is_comparison: matches!(events.last(), Some(Event::Open(Kind::Get(_) | Kind::Field(_)))),
+            is_joined: matches!(before, Some(Event::Joined(_))),
         }
     }
 

@@ -1,5 +1,6 @@
 //! From bytes to tokens: which of a vocabulary may follow.
 
+use motet_syntax::Form;
 use toktrie::{Recognizer, SimpleVob};
 
 use super::bytes::Bytes;
@@ -59,7 +60,11 @@ impl Decoder {
                 if let Some(names) = names.get(most) {
                     set.or(names);
                 }
-                tokens.name_ends.add_bias(&mut Stepper(walk), set, &[]);
+                let ends = match walk.machine.program.surface.form {
+                    Form::Json => &tokens.name_ends,
+                    Form::Text => &tokens.bare_name_ends,
+                };
+                ends.add_bias(&mut Stepper(walk), set, &[]);
             }
             None => walk.mask_few(&tokens.tree, set),
         }
@@ -136,8 +141,9 @@ impl Walk {
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => {
                 // Where a name of the greatest length is taken, one byte is kept to become another.
-                let longest = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize).max();
-                let kept = usize::from(longest == Some(MAX_NAME_CHARS));
+                let bound = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize);
+                let taken = program.taken.iter().map(|name| name.len());
+                let kept = usize::from(bound.chain(taken).any(|len| len == MAX_NAME_CHARS));
                 let most = MAX_NAME_CHARS.saturating_sub(pos + kept);
                 (Free::Name { pos, most }, state.op)
             }

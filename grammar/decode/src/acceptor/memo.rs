@@ -81,6 +81,7 @@ impl Walk {
             | Event::Number(..)
             | Event::Plain(_)
             | Event::AnyText
+            | Event::Joined(_)
             | Event::Hole => event.hash(&mut hasher),
         }
         mix(hasher.finish(), 0)

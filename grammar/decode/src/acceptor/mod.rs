@@ -1,5 +1,6 @@
 //! The acceptor: bytes in, and whether a policy can go on like that.
 
+mod ahead;
 mod apart;
 mod arena;
 mod ask;
@@ -13,13 +14,14 @@ mod number;
 mod open;
 mod parts;
 mod settle;
+mod spell;
 mod walk;
 mod word;
 
 use std::sync::Arc;
 
 use motet_compiler::Session;
-use motet_syntax::{Diagnostic, FileId, Severity, Source};
+use motet_syntax::{Diagnostic, FileId, Form, Severity, Source};
 
 pub use self::mask::Decoder;
 use self::memo::Memo;
@@ -118,8 +120,9 @@ impl Acceptor {
         }
         let mut text = self.walk.bytes.clone();
         text.extend_from_slice(bytes);
-        let text = closed(&String::from_utf8_lossy(&text));
-        let parsed = motet_syntax::read(&Source::new("policy.json", text), FileId(0));
+        let form = self.walk.machine.program.surface.form;
+        let text = closed(&String::from_utf8_lossy(&text), form);
+        let parsed = motet_syntax::read(&Source::new("policy", text), FileId(0));
         let said = self.walk.machine.session.check(&parsed).into_iter();
         said.filter(|said| said.severity == Severity::Error).collect()
     }
@@ -152,8 +155,8 @@ impl Acceptor {
     }
 }
 
-/// A JSON text that breaks off, with its strings, brackets and braces closed.
-fn closed(text: &str) -> String {
+/// A policy that breaks off, with its strings, brackets and braces closed.
+fn closed(text: &str, form: Form) -> String {
     let (mut open, mut in_string, mut escaped) = (Vec::new(), false, false);
     for character in text.chars() {
         match character {
@@ -163,7 +166,9 @@ fn closed(text: &str) -> String {
             _ if in_string => {}
             '{' => open.push('}'),
             '[' => open.push(']'),
-            '}' | ']' => {
+            '(' if form == Form::Text => open.push(')'),
+            ')' if form == Form::Json => {}
+            '}' | ']' | ')' => {
                 open.pop();
             }
             _ => {}
@@ -174,7 +179,7 @@ fn closed(text: &str) -> String {
         closed.push('"');
     }
     // A key or a comma at the end leads nowhere.
-    let kept = closed.trim_end_matches([',', ':']).len();
+    let kept = closed.trim_end_matches([',', ':', ' ']).len();
     closed.truncate(kept);
     closed.extend(open.into_iter().rev());
     closed

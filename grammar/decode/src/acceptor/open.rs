@@ -27,14 +27,17 @@ impl Walk {
         let may_nest = has_room && usize::from(control.depth) < self.machine.program.surface.depth;
         let may_fix = may_nest && usize::from(control.fix) < MAX_FIXPOINTS;
         match guard {
-            Guard::Open => true,
+            Guard::Open | Guard::Rare => true,
+            Guard::Never => false,
             Guard::Below(most) => control.count < most,
             Guard::Close => self.may_close(state, control.slot, flags),
             Guard::Empty => {
                 let block = [Event::Open(Kind::Block), Event::Close];
                 !flags.has(Flags::SHARED) || self.verify_beside(state.event, &block)
             }
-            Guard::Call => has_room && self.can_call_something(state),
+            Guard::Call => has_room && self.can_call_something(state, false),
+            Guard::Let => has_room && self.can_call_something(state, true),
+            Guard::Callable(number) => has_room && self.can_be_called(number, self.spot(state, state.event)),
             Guard::Nest => may_nest,
             Guard::Fix => may_fix,
             Guard::Wait => {
@@ -47,7 +50,8 @@ impl Walk {
             }
             Guard::Done => {
                 let done = [Event::Open(Kind::Done), Event::Close];
-                self.may_be_done(state.event)
+                usize::from(control.count) < MAX_STEPS
+                    && self.may_be_done(state.event)
                     && (!flags.has(Flags::SHARED) || self.verify_beside(state.event, &done))
             }
             Guard::DoneWhen => self.verify(state.event, &[Event::Open(Kind::Done), Event::Close]),
@@ -78,6 +82,23 @@ impl Walk {
                         || self.machine.program.signatures.fluents.iter().any(|fluent| fluent.is_observable)
                 }
             }
+            Guard::Fluent(number) if is_strict => self.condition_holds(state, number, &mut Vec::new()),
+            Guard::Fluent(number) => {
+                let fluent = self.machine.program.signatures.fluents.get(usize::from(number));
+                usize::from(control.conditions) <= MAX_CONDITION_DEPTH
+                    && (flags.has(Flags::GOAL) || fluent.is_some_and(|fluent| fluent.is_observable))
+            }
+            Guard::And => !is_strict && self.may_join(state, control.conditions),
+            Guard::Or => may_be_loose && self.may_join(state, control.conditions),
+            Guard::Paren(levels) => {
+                may_be_loose && usize::from(control.conditions) + usize::from(levels) <= MAX_CONDITION_DEPTH
+            }
+            Guard::NotParen => {
+                let may_be_several = usize::from(control.conditions) < MAX_CONDITION_DEPTH;
+                may_be_loose && (may_be_several || self.machine.program.measures)
+            }
+            Guard::Several => usize::from(control.conditions) <= MAX_CONDITION_DEPTH,
+            Guard::Compared => self.last_condition(state.event).is_comparison,
             Guard::Loose => may_be_loose,
             Guard::NoTest => self.verify(state.event, &[]),
         }
@@ -123,12 +144,16 @@ impl Walk {
         false
     }
 
-    fn can_call_something(&mut self, state: &State) -> bool {
+    /// Whether anything can be called, or anything with a result.
+    fn can_call_something(&mut self, state: &State, has_result: bool) -> bool {
         let spot = self.spot(state, state.event);
         // Policies take a proof of all their steps: they come last.
-        let callables = self.machine.program.callables.iter();
+        let machine = std::sync::Arc::clone(&self.machine);
+        let results = machine.program.signatures.callables.iter().map(|callable| callable.result.is_some());
+        let callables = machine.program.callables.iter().zip(0..).zip(results);
+        let callables = callables.filter(|(_, has)| *has || !has_result).map(|(callable, _)| callable);
         let mut order: Vec<(bool, u16)> =
-            callables.zip(0..).map(|(callable, number)| (callable.primitive.is_none(), number)).collect();
+            callables.map(|(callable, number)| (callable.primitive.is_none(), number)).collect();
         order.sort_unstable();
         order.into_iter().any(|(_, callable)| self.can_be_called(callable, spot))
     }
@@ -170,7 +195,13 @@ impl Walk {
     pub(crate) fn list(&mut self, state: &State, words: &Words) -> (u32, u32) {
         let mut call = match words.role {
             Role::Argument(_) => self.call_so_far(state.event),
-            Role::Callable | Role::Fluent | Role::Of | Role::Alike | Role::Head | Role::Free => None,
+            Role::Callable
+            | Role::Fluent
+            | Role::Of
+            | Role::Alike
+            | Role::Head
+            | Role::Keyword
+            | Role::Free => None,
         };
         let spot = call.as_ref().and_then(|(callable, _, before)| {
             let spot = self.spot(state, *before);
@@ -232,6 +263,10 @@ impl Walk {
                     };
                     wanted.is_none() || own == wanted
                 }
+                Role::Keyword => words.table.get(entry).is_some_and(|entry| {
+                    let to = entry.to.unwrap_or(words.next);
+                    self.fits(entry.name.len(), to, state.control) && self.allows(state, entry.guard)
+                }),
                 Role::Of | Role::Head | Role::Free => true,
             };
             if is_open {

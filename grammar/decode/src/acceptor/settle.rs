@@ -33,6 +33,7 @@ impl Walk {
                 }
                 Op::Literal(_)
                 | Op::Choose(_)
+                | Op::Maybe(_)
                 | Op::Word(_)
                 | Op::Fork { .. }
                 | Op::Text { .. }
@@ -110,6 +111,17 @@ impl Walk {
                     Asks::Until => flags.with(Flags::STRICT),
                 };
                 Control { flags, conditions: 0, ..control }
+            }
+            Act::Bind(ty) => {
+                if let Some(name) = self.arenas.name(state.scope).copied() {
+                    state.event = self.say(state.event, Event::Name(name.start, name.len));
+                    state.scope = self.arenas.bind(Name { ty, ..name });
+                }
+                return;
+            }
+            Act::Join(kind) => {
+                state.event = self.say(state.event, Event::Joined(kind));
+                Control { count: control.count.saturating_add(1), ..control }
             }
             Act::Deeper => Control { conditions: control.conditions.saturating_add(1), ..control },
             Act::Loosen => {

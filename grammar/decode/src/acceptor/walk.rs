@@ -5,12 +5,12 @@ use std::sync::Arc;
 use motet_compiler::Session;
 use rustc_hash::FxHashSet;
 
-use super::arena::{Arenas, Control, Event, Id, Lengths, Name, State, UNSEEN};
+use super::arena::{Arenas, Control, Event, Id, Lengths, State, UNSEEN};
 use super::ask::Asked;
 use super::memo::Memo;
 use super::number::Digits;
-use crate::program::{Guard, Meaning, Naming, Op, OpId, Program};
-use crate::surface::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
+use super::word::Reached;
+use crate::program::{Guard, Meaning, Op, OpId, Program};
 
 /// Bytes that are kept free beside the shortest completion: where a condition has to be one that refutes nothing, the
 /// shortest of all may not do, and it may have to stand under `not`.
@@ -24,6 +24,17 @@ pub(crate) struct Machine {
     /// Callables and entities of which a motion query found that there is no motion.
     pub(crate) infeasible: FxHashSet<(usize, u16)>,
     pub(crate) memo: Memo,
+}
+
+/// Where a state is kept, so that what is found of it can be kept there too.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Home {
+    /// As the last of the walk.
+    Last,
+    /// Beside it, where something was left out.
+    Ahead(Id),
+    /// Nowhere.
+    Nowhere,
 }
 
 /// A walk through the program.
@@ -72,7 +83,7 @@ impl Walk {
 
     /// Takes a byte, where one may follow.
     pub(crate) fn push(&mut self, byte: u8) -> bool {
-        match self.advance(byte) {
+        match self.advance(self.state(), Home::Last, byte) {
             Some(next) => {
                 self.states.push(next);
                 self.bytes.push(byte);
@@ -93,26 +104,13 @@ impl Walk {
         self.arenas.lengths()
     }
 
-    /// Cuts the arenas back to what they were before something was tried; what is known of the last state is kept.
-    pub(crate) fn keep(&mut self, lengths: Lengths) {
-        let state = self.state();
-        let words = matches!(self.machine.program.op(state.op), Op::Word(_)) && state.hi != UNSEEN;
-        let list = if words { self.arenas.lists.get(state.lo as usize..state.hi as usize) } else { None };
-        let list: Vec<u32> = list.unwrap_or_default().to_vec();
-        self.arenas.cut(lengths);
-        if words && (state.hi as usize) > self.arenas.lists.len() {
-            let lo = u32::try_from(self.arenas.lists.len()).unwrap_or(u32::MAX);
-            self.arenas.lists.extend(list);
-            if let Some(top) = self.states.last_mut() {
-                (top.lo, top.hi) = (lo, u32::try_from(self.arenas.lists.len()).unwrap_or(u32::MAX));
-            }
-        }
-    }
-
     /// The byte that must come next, where there is only one.
     pub(crate) fn only_byte(&mut self) -> Option<u8> {
+        self.only_byte_of(self.state(), Home::Last)
+    }
+
+    fn only_byte_of(&mut self, state: State, home: Home) -> Option<u8> {
         let machine = Arc::clone(&self.machine);
-        let state = self.state();
         let pos = state.pos as usize;
         let mut only = None;
         let mut offer = |byte: u8| match only {
@@ -130,7 +128,7 @@ impl Walk {
                     let is_open = if pos > 0 {
                         state.lo & bit != 0
                     } else {
-                        self.is_open(&state, bit, way.bytes.len(), way.to, way.guard)
+                        self.is_open(&state, home, bit, (way.bytes.len(), way.to), way.guard)
                     };
                     if is_open && !way.bytes.get(pos).is_some_and(|byte| offer(*byte)) {
                         return None;
@@ -138,8 +136,7 @@ impl Walk {
                 }
             }
             Op::Word(words) => {
-                let (lo, hi) =
-                    if state.hi == UNSEEN { self.list(&state, words) } else { (state.lo, state.hi) };
+                let (lo, hi) = self.range(&state, home, words);
                 let ends = [lo, hi.checked_sub(1)?];
                 for index in ends {
                     let entry = self.arenas.lists.get(index as usize).copied()?;
@@ -147,6 +144,17 @@ impl Walk {
                         return None;
                     }
                 }
+            }
+            Op::Maybe(maybe) => {
+                let here = self.has_literal(&state, home, maybe);
+                let byte = maybe.bytes.get(pos).copied().filter(|_| here);
+                let Some(ahead) = self.ahead(&state, home, maybe) else { return byte };
+                let next = self.arenas.aheads.get(ahead as usize).copied()?;
+                let other = self.only_byte_of(next, Home::Ahead(ahead))?;
+                if here && byte != Some(other) {
+                    return None;
+                }
+                only = Some(other);
             }
             Op::Fork { .. }
             | Op::Text { .. }
@@ -171,13 +179,12 @@ impl Walk {
         }
     }
 
-    fn advance(&mut self, byte: u8) -> Option<State> {
-        if self.refuses(&self.state(), byte) {
+    pub(super) fn advance(&mut self, mut state: State, mut home: Home, byte: u8) -> Option<State> {
+        if self.refuses(&state, byte) {
             return None;
         }
         let machine = Arc::clone(&self.machine);
         let program = &machine.program;
-        let mut state = self.state();
         // A number ends, and a fork leads on, without a byte of their own.
         loop {
             match program.op(state.op) {
@@ -197,7 +204,7 @@ impl Walk {
                         if way.bytes.get(state.pos as usize) != Some(&byte)
                             || (state.pos > 0 && state.lo & bit == 0)
                             || (state.pos == 0
-                                && !self.is_open(&state, bit, way.bytes.len(), way.to, way.guard))
+                                && !self.is_open(&state, home, bit, (way.bytes.len(), way.to), way.guard))
                         {
                             continue;
                         }
@@ -213,8 +220,13 @@ impl Walk {
                     state.lo = left;
                     return Some(over.map_or(state, |to| self.settle(state, to)));
                 }
-                Op::Word(words) => return self.word(state, words, byte),
+                Op::Word(words) => match self.word(state, home, words, byte) {
+                    Reached::To(next) => return next,
+                    Reached::Behind(next) => (state, home) = (next, Home::Nowhere),
+                },
+                Op::Maybe(maybe) => return self.maybe(state, home, maybe, byte),
                 Op::Fork { byte: sign, then, other } => {
+                    home = Home::Nowhere;
                     let mut ahead = state;
                     (ahead.op, ahead.pos, ahead.lo, ahead.hi) = (*then, 0, UNSEEN, UNSEEN);
                     let is_word = byte == *sign
@@ -246,8 +258,8 @@ impl Walk {
                         return Some(state);
                     }
                     let units = digits.finish(range)?;
-                    state.event = self.say(state.event, Event::Number(units, range.decimals));
-                    state = self.settle(state, state.op + 1);
+                    state.event = self.say(state.event, Event::Number(units, program.decimals(range)));
+                    (state, home) = (self.settle(state, state.op + 1), Home::Nowhere);
                 }
                 Op::Act(_) | Op::Call(_) | Op::Jump(_) | Op::Return | Op::Accept => return None,
             }
@@ -261,84 +273,25 @@ impl Walk {
     }
 
     /// Whether an alternative of a choice is open; what was found is kept with the state.
-    fn is_open(&mut self, state: &State, bit: u32, len: usize, to: OpId, guard: Guard) -> bool {
+    pub(super) fn is_open(
+        &mut self,
+        state: &State,
+        home: Home,
+        bit: u32,
+        (len, to): (usize, OpId),
+        guard: Guard,
+    ) -> bool {
         if state.lo != UNSEEN && state.lo & bit != 0 {
             return state.hi & bit != 0;
         }
         let is_open = self.fits(len, to, state.control) && self.allows(state, guard);
         // The state may be the one of a fork or of a number that has just ended, which is kept nowhere.
-        if let Some(top) = self.states.last_mut().filter(|top| top.op == state.op && top.pos == 0) {
+        if let Some(top) = self.kept(home) {
             let (known, open) = if top.lo == UNSEEN { (0, 0) } else { (top.lo, top.hi) };
             top.lo = known | bit;
             top.hi = if is_open { open | bit } else { open };
         }
         is_open
-    }
-
-    fn text(&mut self, mut state: State, arg: Option<u8>, byte: u8) -> Option<State> {
-        let next = state.op + 1;
-        if byte == b'"' {
-            let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
-            let event = Event::Text(start, len);
-            if arg.is_some() && !self.permits_text(&state, event) {
-                return None;
-            }
-            state.event = self.say(state.event, event);
-            return Some(self.settle(state, next));
-        }
-        let can = is_text_char(char::from(byte))
-            && (state.pos as usize) < MAX_TEXT_CHARS
-            && !(state.pos == 0 && byte == b'$')
-            && self.fits(2, next, state.control);
-        state.pos += 1;
-        can.then_some(state)
-    }
-
-    fn name(&mut self, mut state: State, naming: Naming, byte: u8) -> Option<State> {
-        let next = state.op + 1;
-        let is_new = matches!(naming, Naming::Result(_) | Naming::Item);
-        if byte == b'"' {
-            let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
-            if is_new && self.is_bound(state.scope, start, len, None) {
-                return None;
-            }
-            state.event = self.say(state.event, Event::Name(start, len));
-            if let Naming::Result(ty) = naming {
-                state.scope = self.arenas.bind(Name { below: state.scope, start, len, ty });
-            }
-            return Some(self.settle(state, next));
-        }
-        let is_letter = byte.is_ascii_alphabetic() || byte == b'_';
-        let is_digit = byte.is_ascii_digit() && state.pos > 0;
-        if !(is_letter || is_digit) {
-            return None;
-        }
-        let pos = state.pos as usize;
-        // A name that is taken needs room to become another.
-        let can_grow = pos + 1 < MAX_NAME_CHARS && self.fits(4, next, state.control);
-        if !can_grow {
-            let can_end = pos < MAX_NAME_CHARS && self.fits(2, next, state.control);
-            let (start, len) = self.written(state.pos)?;
-            if !can_end || (is_new && self.is_bound(state.scope, start, len, Some(byte))) {
-                return None;
-            }
-        }
-        state.pos += 1;
-        Some(state)
-    }
-
-    /// The place of the last bytes of the walk.
-    fn written(&self, count: u32) -> Option<(u32, u32)> {
-        let start = u32::try_from(self.bytes.len()).ok()?.checked_sub(count)?;
-        Some((start, count))
-    }
-
-    /// Whether a name, with one more byte behind it, is bound.
-    fn is_bound(&self, scope: Id, start: u32, len: u32, more: Option<u8>) -> bool {
-        let bytes =
-            |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize).unwrap_or_default();
-        let name = || bytes(start, len).iter().copied().chain(more);
-        self.arenas.in_scope(scope).any(|(_, known)| bytes(known.start, known.len).iter().copied().eq(name()))
     }
 }
 

@@ -1,15 +1,23 @@
 //! Words, letter by letter: a list in the order of its bytes, and the range of it that is left.
 
 use super::arena::{Event, Id, Name, State, UNSEEN};
-use super::walk::Walk;
-use crate::program::{Bound, Role, Words};
+use super::walk::{Home, Walk};
+use crate::program::{Bound, Ends, Role, Words};
 
 /// The entry of a list that is a name which was bound: its number, and this.
 pub(crate) const BOUND: u32 = 1 << 31;
 
+/// Where a byte leads in a list of words.
+pub(super) enum Reached {
+    /// There, or nowhere.
+    To(Option<State>),
+    /// The word was over before the byte: it is for what follows there.
+    Behind(State),
+}
+
 impl Walk {
-    pub(super) fn word(&mut self, mut state: State, words: &Words, byte: u8) -> Option<State> {
-        (state.lo, state.hi) = self.range(&state, words);
+    pub(super) fn word(&mut self, mut state: State, home: Home, words: &Words, byte: u8) -> Reached {
+        (state.lo, state.hi) = self.range(&state, home, words);
         let pos = state.pos as usize;
         let at = |walk: &Self, index: u32| {
             walk.arenas.lists.get(index as usize).and_then(|entry| walk.letter(words, *entry, pos))
@@ -18,25 +26,36 @@ impl Walk {
         let first = search(state.lo, state.hi, |index| at(self, index) < Some(byte));
         let last = search(first, state.hi, |index| at(self, index) <= Some(byte));
         if first >= last {
-            return None;
+            let whole = self.whole(&state, words);
+            return whole
+                .map_or(Reached::To(None), |entry| Reached::Behind(self.end_of_word(state, words, entry)));
         }
         (state.lo, state.hi) = (first, last);
         state.pos += 1;
-        let entry = self.arenas.lists.get(first as usize).copied()?;
-        if self.letter(words, entry, pos + 1).is_some() {
-            return Some(state);
+        let Some(entry) = self.arenas.lists.get(first as usize).copied() else { return Reached::To(None) };
+        let goes_on = self.letter(words, entry, pos + 1).is_some();
+        // A name that begins another one may be over, or not.
+        if goes_on || (words.ends == Ends::Bare && last - first > 1) {
+            return Reached::To(Some(state));
         }
-        Some(self.end_of_word(state, words, entry))
+        Reached::To(Some(self.end_of_word(state, words, entry)))
+    }
+
+    /// The word that is over where the state is, of those that end where no letter follows.
+    pub(super) fn whole(&self, state: &State, words: &Words) -> Option<u32> {
+        let is_begun = words.ends == Ends::Bare && state.pos > 0 && state.lo < state.hi;
+        let entry = self.arenas.lists.get(state.lo as usize).copied().filter(|_| is_begun)?;
+        self.letter(words, entry, state.pos as usize).is_none().then_some(entry)
     }
 
     /// The range of the list that is left, which is made where it is not there yet and kept with the state.
-    pub(super) fn range(&mut self, state: &State, words: &Words) -> (u32, u32) {
+    pub(super) fn range(&mut self, state: &State, home: Home, words: &Words) -> (u32, u32) {
         if state.hi != UNSEEN {
             return (state.lo, state.hi);
         }
         let (lo, hi) = self.list(state, words);
-        if let Some(top) = self.states.last_mut().filter(|top| top.op == state.op) {
-            (top.lo, top.hi) = (lo, hi);
+        if let Some(kept) = self.kept(home) {
+            (kept.lo, kept.hi) = (lo, hi);
         }
         (lo, hi)
     }
@@ -52,7 +71,7 @@ impl Walk {
                 words.next
             }
             None => {
-                let says = !matches!(words.role, Role::Callable | Role::Fluent | Role::Head);
+                let says = !matches!(words.role, Role::Callable | Role::Fluent | Role::Head | Role::Keyword);
                 if says {
                     state.event = self.say(state.event, Event::Word(state.op, entry));
                 }
@@ -93,26 +112,28 @@ impl Walk {
 
     /// A byte of an alternative, with the quotes that belong to it; none behind its end.
     pub(crate) fn letter(&self, words: &Words, entry: u32, pos: usize) -> Option<u8> {
-        let pos = if words.quoted {
-            match pos.checked_sub(1) {
-                None => return Some(b'"'),
-                Some(pos) => pos,
-            }
-        } else {
-            pos
+        let pos = match (words.ends, pos.checked_sub(1)) {
+            (Ends::Quoted, None) => return Some(b'"'),
+            (Ends::Quoted, Some(pos)) => pos,
+            _ => pos,
         };
+        let has_quote = matches!(words.ends, Ends::Quoted | Ends::Tail);
         let (name, pos) = match entry.checked_sub(BOUND) {
             None => (words.table.get(entry)?.name.as_bytes(), pos),
             Some(id) => {
                 let name = self.arenas.name(id)?;
-                let Some(pos) = pos.checked_sub(1) else { return Some(b'$') };
+                let pos = match pos.checked_sub(1) {
+                    _ if words.ends == Ends::Bare => pos,
+                    None => return Some(b'$'),
+                    Some(pos) => pos,
+                };
                 let start = name.start as usize;
                 (self.bytes.get(start..start + name.len as usize)?, pos)
             }
         };
         match name.get(pos) {
             Some(byte) => Some(*byte),
-            None => (pos == name.len()).then_some(b'"'),
+            None => (pos == name.len() && has_quote).then_some(b'"'),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Putting operations in a row, and finding the shortest completion of each.
 
-use super::{Act, Alternative, Bound, Guard, Naming, Op, OpId, Words};
+use super::{Act, Alternative, Bound, Entry, Guard, Maybe, Naming, Op, OpId, Role, Words};
 use crate::surface::MAX_NAME_CHARS;
 
 /// A program in the making.
@@ -53,6 +53,16 @@ impl Assembler {
         self.set(at, Op::Choose(made));
     }
 
+    /// What may be left out, at a place that was kept for it.
+    pub(crate) fn maybe(
+        &mut self,
+        at: OpId,
+        (text, then, guard): (&str, OpId, Guard),
+        (other, absent): (OpId, Guard),
+    ) {
+        self.set(at, Op::Maybe(Maybe { bytes: text.as_bytes().into(), then, guard, other, absent }));
+    }
+
     /// By operation, how many bytes the shortest way to the end of its rule takes. A list of words counts with its longest
     /// way, since which of them are open is not known here.
     pub(crate) fn rests(&self) -> Vec<u32> {
@@ -83,12 +93,18 @@ impl Assembler {
                 let ways = alternatives.iter().filter(|way| is_always_open(way.guard));
                 ways.map(|way| len(&way.bytes) + at(way.to)).min().unwrap_or(ENDLESS)
             }
+            Op::Word(words) if words.role == Role::Keyword => keyword(words, rest),
             Op::Word(words) => self.word(words, rest),
+            Op::Maybe(maybe) => {
+                let here = is_always_open(maybe.guard).then(|| len(&maybe.bytes) + at(maybe.then));
+                let there = is_always_open(maybe.absent).then(|| at(maybe.other));
+                here.into_iter().chain(there).min().unwrap_or(ENDLESS)
+            }
             Op::Fork { other, .. } => at(*other),
             Op::Text { .. } => 2 + next,
             Op::Name(naming) => match naming {
-                Naming::Policy | Naming::Group => 2 + next,
-                Naming::Result(_) | Naming::Item => 4 + next,
+                Naming::Policy | Naming::Group => 4 + next,
+                Naming::Result(_) | Naming::Item | Naming::Let => 4 + next,
             },
             Op::Number(range) => width(range.least, range.greatest, range.decimals) + next,
             Op::Act(_) => next,
@@ -118,7 +134,7 @@ impl Assembler {
 fn is_always_open(guard: Guard) -> bool {
     match guard {
         // A rule that is full ends: its last resort is then another.
-        Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is => true,
+        Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is | Guard::Several | Guard::Any => true,
         Guard::Close
         | Guard::Empty
         | Guard::Call
@@ -129,10 +145,35 @@ fn is_always_open(guard: Guard) -> bool {
         | Guard::DoneWhen
         | Guard::React(_)
         | Guard::All
-        | Guard::Any
         | Guard::Not
-        | Guard::NoTest => false,
+        | Guard::NoTest
+        | Guard::Rare
+        | Guard::Never
+        | Guard::Callable(_)
+        | Guard::Let
+        | Guard::Fluent(_)
+        | Guard::And
+        | Guard::Or
+        | Guard::Paren(_)
+        | Guard::NotParen
+        | Guard::Compared => false,
     }
+}
+
+/// The way through a list of keywords that is always open; among conditions, where one has to be found that refutes
+/// nothing, the longest of the fluents, and where there are calls only, the longest of these.
+fn keyword(words: &Words, rest: &[u32]) -> u32 {
+    let way = |entry: &Entry| {
+        let to = rest.get(entry.to.unwrap_or(words.next) as usize).copied().unwrap_or(ENDLESS);
+        len(entry.name.as_bytes()).saturating_add(to)
+    };
+    let entries = words.table.entries.iter();
+    let fluents = entries.clone().filter(|entry| matches!(entry.guard, Guard::Fluent(_)));
+    let longest = |ways: &mut dyn Iterator<Item = u32>| ways.filter(|way| *way < ENDLESS).max();
+    let open = entries.clone().filter(|entry| is_always_open(entry.guard)).map(way).min();
+    let calls = entries.filter(|entry| matches!(entry.guard, Guard::Callable(_)));
+    let calls = || longest(&mut calls.map(way));
+    longest(&mut fluents.map(way)).or(open).or_else(calls).unwrap_or(ENDLESS)
 }
 
 fn len(bytes: &[u8]) -> u32 {

@@ -6,17 +6,23 @@
 //! walk can be held within a number of bytes.
 
 mod assemble;
+mod callable;
+mod compiler;
 mod json;
 mod table;
+mod text;
 
 use std::sync::Arc;
 
+use motet_compiler::Session;
 use motet_compiler::signature::{Signatures, Type};
-use motet_compiler::{Session, draft::Draft, draft::Template};
-
-use motet_syntax::ast::{Clause, ExprKind};
+use motet_syntax::Form;
+use motet_syntax::unit::Unit;
+use rustc_hash::FxHashSet;
+use smol_str::SmolStr;
 
 pub(crate) use self::assemble::Assembler;
+pub(crate) use self::callable::Callable;
 pub(crate) use self::table::{Entry, Meaning, Table};
 use crate::surface::{NumberRange, Surface};
 
@@ -34,9 +40,11 @@ pub(crate) enum Op {
     Word(Words),
     /// If the next byte is this one and the word at `then` has an alternative, that; otherwise `other`.
     Fork { byte: u8, then: OpId, other: OpId },
+    /// These bytes and on at `then`, or nothing and on at `other`, whose first bytes may be the same.
+    Maybe(Maybe),
     /// The characters of a text and the quote behind it. `arg`: of which argument of a call.
     Text { arg: Option<u8> },
-    /// A new name and the quote behind it.
+    /// A new name and what ends it: a quote, in text a space.
     Name(Naming),
     /// A number.
     Number(NumberRange),
@@ -58,6 +66,17 @@ pub(crate) struct Alternative {
     pub(crate) bytes: Box<[u8]>,
     pub(crate) to: OpId,
     pub(crate) guard: Guard,
+}
+
+/// What may be left out.
+#[derive(Clone, Debug)]
+pub(crate) struct Maybe {
+    pub(crate) bytes: Box<[u8]>,
+    pub(crate) then: OpId,
+    pub(crate) guard: Guard,
+    pub(crate) other: OpId,
+    /// When it may be left out.
+    pub(crate) absent: Guard,
 }
 
 /// When an alternative is open.
@@ -97,6 +116,28 @@ pub(crate) enum Guard {
     Loose,
     /// Where a loop needs no test.
     NoTest,
+    /// Always, but it need not lead anywhere.
+    Rare,
+    /// In no policy.
+    Never,
+    /// Where this callable may be called.
+    Callable(u16),
+    /// Where some callable with a result may be called.
+    Let,
+    /// Where this fluent may be asked for.
+    Fluent(u16),
+    /// Where `and` may stand behind a condition.
+    And,
+    /// Where `or` may.
+    Or,
+    /// Where so many conditions more may stand in one another, of which nothing is asked.
+    Paren(u8),
+    /// Where a comparison or several conditions may stand under `not`.
+    NotParen,
+    /// Where several conditions may stand in these parentheses.
+    Several,
+    /// Behind a comparison.
+    Compared,
 }
 
 /// What a new name is for.
@@ -110,6 +151,8 @@ pub(crate) enum Naming {
     Result(u16),
     /// The item of a loop, of the type of the elements of its list.
     Item,
+    /// A result of which the type is not known yet.
+    Let,
 }
 
 /// A list of words: static ones, and the names that the policy has bound.
@@ -119,10 +162,22 @@ pub(crate) struct Words {
     /// Names of this type.
     pub(crate) bound: Bound,
     pub(crate) role: Role,
-    /// Whether the quote before the word is part of it.
-    pub(crate) quoted: bool,
+    pub(crate) ends: Ends,
     /// Where to go on, unless the word says so itself.
     pub(crate) next: OpId,
+}
+
+/// Where a word begins and ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Ends {
+    /// In quotes, both of which are part of it.
+    Quoted,
+    /// The quote behind it is part of it.
+    Tail,
+    /// Where no letter follows.
+    Bare,
+    /// Where it is whole: none begins another.
+    Whole,
 }
 
 /// Which names that the policy has bound are among the words.
@@ -150,6 +205,8 @@ pub(crate) enum Role {
     Alike,
     /// A measure or a field: what it is called says what follows.
     Head,
+    /// What follows: each has a guard of its own, and says nothing by itself.
+    Keyword,
     /// Anything else: each is as good as the other.
     Free,
 }
@@ -183,6 +240,10 @@ pub(crate) enum Act {
     BindItem,
     /// The item of a loop is no longer known.
     Forget,
+    /// The name that was given before the call is bound to what it results in, of this type.
+    Bind(u16),
+    /// Another condition follows, of which all hold, or any.
+    Join(Kind),
 }
 
 /// For what a condition is asked.
@@ -249,25 +310,8 @@ pub(crate) enum Kind {
     Get(u16),
     Field(u16),
     List,
-}
-
-/// A callable, and where its parameters are spelled.
-#[derive(Clone, Debug)]
-pub(crate) struct Callable {
-    /// Its number among the library's primitives; a policy has none.
-    pub(crate) primitive: Option<usize>,
-    /// The operation of each argument that is a word; none of one that is anything else.
-    pub(crate) words: Vec<Option<OpId>>,
-    /// Of a list: what its elements are, where they are words.
-    pub(crate) elements: Vec<Option<OpId>>,
-    /// Of a policy: itself, resolved.
-    pub(crate) template: Option<Template>,
-    /// The resources that it uses, one a bit.
-    pub(crate) uses: u64,
-    /// The fluents that it speaks of, as bits; several may share one.
-    pub(crate) fluents: u64,
-    /// The parameter that its motion is about.
-    pub(crate) target: Option<usize>,
+    /// Conditions in parentheses.
+    Group,
 }
 
 /// A byte program.
@@ -287,12 +331,17 @@ pub(crate) struct Program {
     /// Whether a condition can be about a measure.
     pub(crate) measures: bool,
     pub(crate) surface: Surface,
+    /// What no new name may be.
+    pub(crate) taken: FxHashSet<SmolStr>,
 }
 
 impl Program {
     /// Compiles the program of a session. O(declarations × entities).
     pub(crate) fn new(session: &Session, surface: Surface) -> Self {
-        json::compile(session, surface)
+        match surface.form {
+            Form::Json => json::compile(session, surface),
+            Form::Text => text::compile(session, surface),
+        }
     }
 
     pub(crate) fn op(&self, id: OpId) -> &Op {
@@ -303,35 +352,13 @@ impl Program {
         self.rest.get(id as usize).copied().unwrap_or(0)
     }
 
+    /// How many decimals a number has that is spelled in a range: percents have two less than what they say.
+    pub(crate) fn decimals(&self, range: &NumberRange) -> u8 {
+        let is_percent = range.unit == Some(Unit::Percent) && self.surface.form == Form::Text;
+        range.decimals + if is_percent { 2 } else { 0 }
+    }
+
     pub(crate) fn ty(&self, id: u16) -> Option<&Type> {
         self.types.get(usize::from(id))
     }
-}
-
-impl Callable {
-    /// A callable, but for how its arguments are spelled.
-    pub(crate) fn new(session: &Session, signature: &motet_compiler::signature::Callable) -> Self {
-        let name = &signature.name;
-        let template = if signature.is_policy { Template::new(session, name) } else { None };
-        Self {
-            primitive: if signature.is_policy { None } else { Draft::primitive(session, name) },
-            words: Vec::with_capacity(signature.params.len()),
-            elements: Vec::with_capacity(signature.params.len()),
-            uses: Draft::resources(session, name, template.as_ref()),
-            fluents: Draft::fluents(session, name, template.as_ref()),
-            template,
-            target: target(session, name),
-        }
-    }
-}
-
-/// The parameter that the motion of a primitive is about.
-fn target(session: &Session, name: &str) -> Option<usize> {
-    let decl = session.library().signatures().find(|decl| decl.name.text == name)?;
-    let motion = decl.clauses.iter().find_map(|clause| match clause {
-        Clause::Motion(call) => call.args.first(),
-        _ => None,
-    })?;
-    let ExprKind::Name(of) = &motion.value.kind else { return None };
-    decl.params.iter().position(|param| param.name.text == *of)
 }

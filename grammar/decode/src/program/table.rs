@@ -4,7 +4,7 @@ use motet_compiler::draft::Value;
 use motet_compiler::signature::Signatures;
 use smol_str::SmolStr;
 
-use super::OpId;
+use super::{Guard, OpId};
 use crate::surface::is_text_char;
 
 /// A list of words in the order of the bytes that spell them, the closing quote among them.
@@ -20,6 +20,8 @@ pub(crate) struct Entry {
     pub(crate) meaning: Meaning,
     /// Where to go on; none where the choice says so.
     pub(crate) to: Option<OpId>,
+    /// When it is open, where the list is one of keywords.
+    pub(crate) guard: Guard,
 }
 
 /// What a word means.
@@ -36,6 +38,18 @@ pub(crate) enum Meaning {
 }
 
 impl Meaning {
+    /// What a value, or a kind of failure, is called, however it is spelled.
+    pub(crate) fn name(self, signatures: &Signatures) -> Option<SmolStr> {
+        match self {
+            Self::Entity(index) => signatures.entities.get(usize::from(index)).map(|row| row.0.clone()),
+            Self::Case(of, case) => {
+                signatures.enums.get(usize::from(of))?.cases.get(usize::from(case)).cloned()
+            }
+            Self::Named(index) => signatures.failures.get(usize::from(index)).cloned(),
+            Self::Any => None,
+        }
+    }
+
     /// As an argument; none of what is no value.
     pub(crate) fn value(self) -> Value {
         match self {
@@ -62,7 +76,12 @@ impl Table {
     pub(crate) fn of_kind(signatures: &Signatures, kind: usize) -> Self {
         Self::new(signatures.entities.iter().enumerate().filter_map(|(index, (name, of))| {
             let meaning = Meaning::Entity(u16::try_from(index).ok()?);
-            signatures.is_kind(*of, kind).then(|| Entry { name: name.clone(), meaning, to: None })
+            signatures.is_kind(*of, kind).then(|| Entry {
+                name: name.clone(),
+                meaning,
+                to: None,
+                guard: Guard::Open,
+            })
         }))
     }
 
@@ -71,13 +90,14 @@ impl Table {
         let cases = signatures.enums.get(id).map(|def| def.cases.as_slice()).unwrap_or_default();
         Self::new(cases.iter().enumerate().filter_map(|(index, name)| {
             let meaning = Meaning::Case(u16::try_from(id).ok()?, u16::try_from(index).ok()?);
-            Some(Entry { name: name.clone(), meaning, to: None })
+            Some(Entry { name: name.clone(), meaning, to: None, guard: Guard::Open })
         }))
     }
 
     /// The same and `any`.
     pub(crate) fn with_any(&self) -> Self {
-        let any = Entry { name: SmolStr::new_static("any"), meaning: Meaning::Any, to: None };
+        let name = SmolStr::new_static("any");
+        let any = Entry { name, meaning: Meaning::Any, to: None, guard: Guard::Open };
         let others = self.entries.iter().filter(|entry| entry.name != "any").cloned();
         Self::new(others.chain([any]))
     }

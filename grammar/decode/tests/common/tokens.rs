@@ -1,7 +1,7 @@
 //! A small vocabulary: every byte, and pieces that cross the borders of words, texts and steps.
 
 /// Pieces of policies.
-const PIECES: [&str; 42] = [
+const PIECES: [&str; 70] = [
     "{\"",
     "\":\"",
     "\",\"",
@@ -44,6 +44,34 @@ const PIECES: [&str; 42] = [
     "\"}}]",
     "],\"else\":[]}",
     "\"fail\"",
+    " {",
+    "{ ",
+    " }",
+    " } ",
+    ") ",
+    "(",
+    ", ",
+    ") }",
+    " = ",
+    "let ",
+    " let",
+    "let m = ",
+    " until",
+    " within ",
+    " retry ",
+    "1 s",
+    " s }",
+    "catch any {",
+    " else {",
+    " and ",
+    " or ",
+    "not (",
+    "mug_1)",
+    "mug_1, ",
+    "(mug",
+    "done }",
+    "fail \"",
+    " r",
 ];
 
 /// What ends a sequence: it has no bytes.

@@ -1,6 +1,7 @@
 //! Random walks through the acceptor: what a model without any sense writes.
 
 use motet_decode::{Acceptor, Prepared};
+use motet_syntax::Form;
 
 use super::dice::Dice;
 
@@ -25,7 +26,8 @@ pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -
         let byte = match next.as_slice() {
             [] => return Some(Ended::Stuck(text(&acceptor))),
             [only] => *only,
-            several => choose(several, acceptor.bytes(), steps, dice),
+            several if acceptor.bytes().starts_with(b"{") => choose(several, acceptor.bytes(), steps, dice),
+            several => choose_text(several, acceptor.bytes(), steps, dice),
         };
         acceptor.accept(&[byte]);
     }
@@ -38,7 +40,37 @@ fn text(acceptor: &Acceptor) -> String {
 /// How many steps a policy has.
 #[must_use]
 pub fn steps(policy: &str) -> usize {
-    KINDS.iter().map(|kind| policy.matches(&format!("{{\"{kind}\":")).count()).sum()
+    KINDS.iter().map(|kind| of_kind(policy, kind)).sum()
+}
+
+/// How many steps of a kind it has.
+#[must_use]
+pub fn of_kind(policy: &str, kind: &str) -> usize {
+    if form(policy) == Form::Json {
+        return policy.matches(&format!("{{\"{kind}\":")).count();
+    }
+    let count = |words: &[&str]| words.iter().map(|word| policy.matches(word).count()).sum();
+    match kind {
+        "do" => {
+            let starts = ["{ ", ") ", "} ", " s ", "done ", "\" ", "= "];
+            starts.iter().flat_map(|start| policy.split(start).skip(1)).filter(|rest| is_call(rest)).count()
+        }
+        "wait" => count(&[" wait until "]),
+        "end" => count(&[" done ", " fail ", " replan "]),
+        kind => count(&[&format!(" {kind} ")]),
+    }
+}
+
+/// Whether a name and a parenthesis come next.
+fn is_call(rest: &str) -> bool {
+    let name = rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
+    name > 0 && rest.as_bytes().get(name) == Some(&b'(')
+}
+
+/// The form of a policy.
+#[must_use]
+pub fn form(policy: &str) -> Form {
+    if policy.starts_with('{') { Form::Json } else { Form::Text }
 }
 
 /// The keys that tell what a step is.
@@ -73,6 +105,41 @@ fn choose(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
     }
     if before.ends_with(b"{\"end\":\"") && has(b'd') && dice.chance(80) {
         return b'd';
+    }
+    any(dice)
+}
+
+/// The same of the text form.
+fn choose_text(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
+    let has = |byte: u8| bytes.contains(&byte);
+    let any = |dice: &mut Dice| bytes.get(dice.below(bytes.len())).copied().unwrap_or(b' ');
+    let in_text = before.iter().filter(|byte| **byte == b'"').count() % 2 == 1;
+    if bytes.len() > 40 {
+        // A text or a name: short ones will do.
+        let end = if in_text { b'"' } else { b' ' };
+        return if has(end) && dice.chance(30) { end } else { any(dice) };
+    }
+    if in_text || !before.ends_with(b" ") {
+        return any(dice);
+    }
+    let ends = self::steps(&String::from_utf8_lossy(before)) >= steps;
+    if has(b'}') && !before.ends_with(b"{ ") {
+        let closes = if ends { 90 } else { 5 };
+        if dice.chance(closes) {
+            return b'}';
+        }
+    }
+    if has(b'f') && has(b'd') && has(b'r') {
+        // Where a step begins. Branches are proved most often: they are rare.
+        let rare = dice.chance(80);
+        let from = |wanted: &[u8]| bytes.iter().copied().filter(|byte| wanted.contains(byte)).collect();
+        let others: Vec<u8> = match dice.below(100) {
+            _ if ends => from(b"df"),
+            0..65 => bytes.iter().copied().filter(|byte| !b"efimrstw".contains(byte)).collect(),
+            _ => from(b"eimrstwp"),
+        };
+        let others: Vec<u8> = others.into_iter().filter(|byte| !(rare && *byte == b'p')).collect();
+        return others.get(dice.below(others.len().max(1))).copied().unwrap_or_else(|| any(dice));
     }
     any(dice)
 }

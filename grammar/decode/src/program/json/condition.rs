@@ -5,8 +5,8 @@ use std::sync::Arc;
 use motet_compiler::signature::Type;
 use smol_str::SmolStr;
 
-use super::Compiler;
-use crate::program::{Act, Bound, Entry, Guard, Kind, Meaning, Op, OpId, Role, Table, Words};
+use crate::program::compiler::Compiler;
+use crate::program::{Act, Bound, Ends, Entry, Guard, Kind, Meaning, Op, OpId, Role, Table, Words};
 use crate::surface::{MAX_MEMBERS, NumberRange, Relation, is_text};
 
 impl Compiler<'_> {
@@ -35,6 +35,7 @@ impl Compiler<'_> {
                     name: fluent.name.clone(),
                     meaning: Meaning::Named(number),
                     to: Some(at),
+                    guard: Guard::Open,
                 });
             }
         }
@@ -82,7 +83,7 @@ impl Compiler<'_> {
             }
             if self.comparison(&measure.result, end) {
                 let meaning = Meaning::Named(number);
-                entries.push(Entry { name: measure.name.clone(), meaning, to: Some(at) });
+                entries.push(Entry { name: measure.name.clone(), meaning, to: Some(at), guard: Guard::Open });
             }
         }
         self.measures = !entries.is_empty();
@@ -103,7 +104,7 @@ impl Compiler<'_> {
             self.value(&Type::Entity(field.kind), None, Role::Free);
             if self.comparison(&field.ty, end) {
                 let meaning = Meaning::Named(number);
-                entries.push(Entry { name: field.name.clone(), meaning, to: Some(at) });
+                entries.push(Entry { name: field.name.clone(), meaning, to: Some(at), guard: Guard::Open });
             }
         }
         if !entries.is_empty() {
@@ -117,7 +118,7 @@ impl Compiler<'_> {
     pub(super) fn words(&mut self, entries: Vec<Entry>, role: Role) -> OpId {
         let next = self.asm.here();
         let table = Arc::new(Table::new(entries));
-        self.asm.put(Op::Word(Words { table, bound: Bound::None, role, quoted: false, next }))
+        self.asm.put(Op::Word(Words { table, bound: Bound::None, role, ends: Ends::Tail, next }))
     }
 
     /// `,"is":"less","than":0.5`; false where nothing can be compared with.
@@ -129,10 +130,11 @@ impl Compiler<'_> {
         let entries = relations.iter().enumerate().filter_map(|(index, relation)| {
             let place = Relation::ALL.iter().position(|other| other == relation).unwrap_or(index);
             let meaning = Meaning::Named(u16::try_from(place).ok()?);
-            Some(Entry { name: SmolStr::new_static(relation.word()), meaning, to: None })
+            let name = SmolStr::new_static(relation.word());
+            Some(Entry { name, meaning, to: None, guard: Guard::Open })
         });
         let table = Arc::new(Table::new(entries));
-        self.asm.put(Op::Word(Words { table, bound: Bound::None, role: Role::Free, quoted: false, next }));
+        self.asm.put(Op::Word(Words { table, bound: Bound::None, role: Role::Free, ends: Ends::Tail, next }));
         self.asm.literal(",\"than\":");
         let can = match ty {
             Type::Int | Type::Number | Type::Quantity(_) => {
@@ -153,7 +155,7 @@ impl Compiler<'_> {
                 let can = !table.entries.is_empty();
                 let next = self.asm.here() + 1;
                 let (bound, role) = (Bound::None, Role::Free);
-                self.asm.put(Op::Word(Words { table, bound, role, quoted: true, next }));
+                self.asm.put(Op::Word(Words { table, bound, role, ends: Ends::Quoted, next }));
                 can
             }
             Type::Pose | Type::List(_) => false,

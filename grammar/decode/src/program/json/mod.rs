@@ -6,60 +6,21 @@ mod value;
 
 use std::sync::Arc;
 
-use motet_compiler::signature::{Signatures, Type};
-use motet_compiler::{Session, draft::Draft};
-use rustc_hash::FxHashMap;
+use motet_compiler::Session;
+use motet_compiler::signature::Type;
 
+use super::compiler::Compiler;
 use super::{
-    Act, Asks, Assembler, Bound, Callable, Entry, Guard, Kind, Meaning, Naming, Op, OpId, Plain, Program,
-    Role, Slot, Table, Words,
+    Act, Asks, Bound, Callable, Ends, Entry, Guard, Kind, Meaning, Naming, Op, OpId, Plain, Program, Role,
+    Slot, Table, Words,
 };
 use crate::surface::{MAX_COUNT, MAX_ITEMS, MAX_RETRIES, MAX_STEPS, Modifiers, NumberRange, Surface};
 
 pub(super) fn compile(session: &Session, surface: Surface) -> Program {
     let signatures = session.signatures();
-    let mut compiler = Compiler {
-        asm: Assembler::default(),
-        types: types(&signatures),
-        tables: FxHashMap::default(),
-        callables: Vec::new(),
-        fluents: Vec::new(),
-        measures: false,
-        surface,
-        observes: signatures.fluents.iter().any(|fluent| fluent.is_observable),
-        signatures: &signatures,
-        session,
-    };
+    let mut compiler = Compiler::new(session, &signatures, surface);
     let start = compiler.document();
-    let Compiler { asm, types, callables, fluents, measures, .. } = compiler;
-    let rest = asm.rests();
-    let bits = signatures.fluents.iter().map(|fluent| Draft::fluent(session, &fluent.name));
-    let fluent_bits = bits.collect();
-    let ops = asm.ops;
-    Program { ops, rest, start, types, callables, fluents, fluent_bits, measures, surface, signatures }
-}
-
-/// The types that a name can have.
-fn types(signatures: &Signatures) -> Vec<Type> {
-    let mut types = signatures.bindable();
-    let kinds = (0..signatures.kinds.len()).map(Type::Entity);
-    let others: Vec<Type> = kinds.filter(|ty| !types.contains(ty)).collect();
-    types.extend(others);
-    types
-}
-
-struct Compiler<'a> {
-    asm: Assembler,
-    types: Vec<Type>,
-    tables: FxHashMap<Type, (Arc<Table>, Arc<Table>)>,
-    callables: Vec<Callable>,
-    fluents: Vec<Vec<OpId>>,
-    measures: bool,
-    surface: Surface,
-    /// Whether the robot observes anything that a condition could be about.
-    observes: bool,
-    signatures: &'a Signatures,
-    session: &'a Session,
+    compiler.finish(start)
 }
 
 /// The rules that blocks call.
@@ -253,7 +214,8 @@ impl Compiler<'_> {
         let over = self.asm.put(Op::Jump(0));
         let table = self.table(&Type::Entity(0)).0;
         let rule = self.asm.here();
-        let words = Words { table, bound: Bound::None, role: Role::Alike, quoted: true, next: rule + 1 };
+        let words =
+            Words { table, bound: Bound::None, role: Role::Alike, ends: Ends::Quoted, next: rule + 1 };
         self.asm.put(Op::Word(words));
         self.asm.act(Act::Count);
         let after = self.asm.later();
@@ -263,7 +225,7 @@ impl Compiler<'_> {
         self.asm.choose(after, &[(",", more, Guard::Below(most)), ("]", done, Guard::Open)]);
         self.asm.set(items, Op::Call(rule));
         let (next, table) = (self.asm.here() + 1, Arc::new(Table::default()));
-        let words = Words { table, bound: Bound::Lists, role: Role::Free, quoted: true, next };
+        let words = Words { table, bound: Bound::Lists, role: Role::Free, ends: Ends::Quoted, next };
         let word = self.asm.put(Op::Word(words));
         self.asm.set(over, Op::Jump(next));
         self.asm.set(fork, Op::Fork { byte: b'"', then: word, other: open });
@@ -316,7 +278,7 @@ impl Compiler<'_> {
         let bound = self.bound(&Type::Text);
         let table = Arc::new(Table::default());
         let role = arg.map_or(Role::Free, Role::Argument);
-        let word = self.asm.put(Op::Word(Words { table, bound, role, quoted: false, next }));
+        let word = self.asm.put(Op::Word(Words { table, bound, role, ends: Ends::Tail, next }));
         self.asm.set(fork, Op::Fork { byte: b'$', then: word, other: text });
         self.asm.set(over, Op::Jump(next));
     }
@@ -369,10 +331,11 @@ impl Compiler<'_> {
                 name: callable.name.clone(),
                 meaning: Meaning::Named(number),
                 to: Some(at),
+                guard: Guard::Open,
             });
         }
         let table = Arc::new(Table::new(entries));
-        let words = Words { table, bound: Bound::None, role: Role::Callable, quoted: false, next: after };
+        let words = Words { table, bound: Bound::None, role: Role::Callable, ends: Ends::Tail, next: after };
         self.asm.set(start, Op::Word(words));
         start
     }

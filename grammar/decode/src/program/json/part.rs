@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use smol_str::SmolStr;
 
-use super::{Compiler, Rules};
-use crate::program::{Act, Asks, Bound, Entry, Guard, Kind, Meaning, Op, OpId, Role, Slot, Table, Words};
+use super::Rules;
+use crate::program::compiler::Compiler;
+use crate::program::{
+    Act, Asks, Bound, Ends, Entry, Guard, Kind, Meaning, Op, OpId, Role, Slot, Table, Words,
+};
 use crate::surface::{MAX_COUNT, MAX_MEMBERS, NumberRange};
 
 impl Compiler<'_> {
@@ -97,13 +100,14 @@ impl Compiler<'_> {
             .filter(|(_, name)| *name != "any")
             .filter_map(|(index, name)| {
                 let meaning = Meaning::Named(u16::try_from(index).ok()?);
-                Some(Entry { name: name.clone(), meaning, to: Some(after) })
+                Some(Entry { name: name.clone(), meaning, to: Some(after), guard: Guard::Open })
             })
             .collect();
-        let any = Entry { name: SmolStr::new_static("any"), meaning: Meaning::Any, to: Some(any) };
+        let name = SmolStr::new_static("any");
+        let any = Entry { name, meaning: Meaning::Any, to: Some(any), guard: Guard::Open };
         let word = |entries: Vec<Entry>| {
             let table = Arc::new(Table::new(entries));
-            Op::Word(Words { table, bound: Bound::None, role: Role::Free, quoted: false, next: after })
+            Op::Word(Words { table, bound: Bound::None, role: Role::Free, ends: Ends::Tail, next: after })
         };
         self.asm.set(more_kinds, word(kinds.clone()));
         self.asm.set(start, word(kinds.into_iter().chain([any]).collect()));

@@ -4,39 +4,11 @@ use std::sync::Arc;
 
 use motet_compiler::signature::Type;
 
-use super::Compiler;
-use crate::program::{Act, Bound, Guard, Kind, Op, OpId, Plain, Role, Table, Words};
+use crate::program::compiler::Compiler;
+use crate::program::{Act, Ends, Guard, Kind, Op, OpId, Plain, Role, Table, Words};
 use crate::surface::{MAX_ITEMS, NumberRange};
 
 impl Compiler<'_> {
-    pub(super) fn type_number(&mut self, ty: &Type) -> u16 {
-        let at = self.types.iter().position(|known| known == ty).unwrap_or_else(|| {
-            self.types.push(ty.clone());
-            self.types.len() - 1
-        });
-        u16::try_from(at).unwrap_or(u16::MAX)
-    }
-
-    pub(super) fn bound(&mut self, ty: &Type) -> Bound {
-        let fits = self.types.iter().any(|actual| self.signatures.fits(ty, actual));
-        if fits { Bound::Type(self.type_number(ty)) } else { Bound::None }
-    }
-
-    /// The words of a type, without and with `any`.
-    pub(super) fn table(&mut self, ty: &Type) -> (Arc<Table>, Arc<Table>) {
-        let signatures = self.signatures;
-        let made = self.tables.entry(ty.clone()).or_insert_with(|| {
-            let table = match ty {
-                Type::Entity(kind) => Table::of_kind(signatures, *kind),
-                Type::Enum(id) => Table::of_cases(signatures, *id),
-                _ => Table::default(),
-            };
-            let any = table.with_any();
-            (Arc::new(table), Arc::new(any))
-        });
-        (Arc::clone(&made.0), Arc::clone(&made.1))
-    }
-
     /// A value of a type. Its word, and that of its elements.
     pub(super) fn value(
         &mut self,
@@ -98,6 +70,6 @@ impl Compiler<'_> {
     pub(super) fn word(&mut self, table: Arc<Table>, ty: &Type, role: Role) -> OpId {
         let bound = self.bound(ty);
         let next = self.asm.here() + 1;
-        self.asm.put(Op::Word(Words { table, bound, role, quoted: true, next }))
+        self.asm.put(Op::Word(Words { table, bound, role, ends: Ends::Quoted, next }))
     }
 }

@@ -1,0 +1,126 @@
+//! What the compilers of both surfaces share: types by number, words by type, and the program that is made in the end.
+
+use std::sync::Arc;
+
+use motet_compiler::signature::{Signatures, Type};
+use motet_compiler::{Session, draft::Draft};
+use motet_syntax::Form;
+use motet_syntax::print::identifier;
+use rustc_hash::{FxHashMap, FxHashSet};
+use smol_str::SmolStr;
+
+use super::{Assembler, Bound, Callable, Entry, OpId, Program, Table};
+use crate::export::RESERVED;
+use crate::surface::Surface;
+
+/// A program in the making.
+pub(super) struct Compiler<'a> {
+    pub(super) asm: Assembler,
+    types: Vec<Type>,
+    tables: FxHashMap<Type, (Arc<Table>, Arc<Table>)>,
+    pub(super) callables: Vec<Callable>,
+    pub(super) fluents: Vec<Vec<OpId>>,
+    pub(super) measures: bool,
+    pub(super) surface: Surface,
+    /// Whether the robot observes anything that a condition could be about.
+    pub(super) observes: bool,
+    pub(super) signatures: &'a Signatures,
+    pub(super) session: &'a Session,
+}
+
+impl<'a> Compiler<'a> {
+    pub(super) fn new(session: &'a Session, signatures: &'a Signatures, surface: Surface) -> Self {
+        Self {
+            asm: Assembler::default(),
+            types: types(signatures),
+            tables: FxHashMap::default(),
+            callables: Vec::new(),
+            fluents: Vec::new(),
+            measures: false,
+            surface,
+            observes: signatures.fluents.iter().any(|fluent| fluent.is_observable),
+            signatures,
+            session,
+        }
+    }
+
+    /// The program, which begins at `start`.
+    pub(super) fn finish(self, start: OpId) -> Program {
+        let Self { asm, types, callables, fluents, measures, surface, session, .. } = self;
+        let rest = asm.rests();
+        let signatures = session.signatures();
+        let bits = signatures.fluents.iter().map(|fluent| Draft::fluent(session, &fluent.name));
+        let fluent_bits = bits.collect();
+        let taken = taken(&signatures, surface);
+        let ops = asm.ops;
+        Program {
+            ops,
+            rest,
+            start,
+            types,
+            callables,
+            fluents,
+            fluent_bits,
+            measures,
+            surface,
+            taken,
+            signatures,
+        }
+    }
+
+    pub(super) fn type_number(&mut self, ty: &Type) -> u16 {
+        let at = self.types.iter().position(|known| known == ty).unwrap_or_else(|| {
+            self.types.push(ty.clone());
+            self.types.len() - 1
+        });
+        u16::try_from(at).unwrap_or(u16::MAX)
+    }
+
+    pub(super) fn bound(&mut self, ty: &Type) -> Bound {
+        let fits = self.types.iter().any(|actual| self.signatures.fits(ty, actual));
+        if fits { Bound::Type(self.type_number(ty)) } else { Bound::None }
+    }
+
+    /// The words of a type, without and with `any`.
+    pub(super) fn table(&mut self, ty: &Type) -> (Arc<Table>, Arc<Table>) {
+        let (signatures, form) = (self.signatures, self.surface.form);
+        let made = self.tables.entry(ty.clone()).or_insert_with(|| {
+            let table = match ty {
+                Type::Entity(kind) => Table::of_kind(signatures, *kind),
+                Type::Enum(id) => Table::of_cases(signatures, *id),
+                _ => Table::default(),
+            };
+            let table = match form {
+                Form::Json => table,
+                Form::Text => Table::new(
+                    table
+                        .entries
+                        .into_iter()
+                        .map(|entry| Entry { name: identifier(&entry.name).into(), ..entry }),
+                ),
+            };
+            let any = table.with_any();
+            (Arc::new(table), Arc::new(any))
+        });
+        (Arc::clone(&made.0), Arc::clone(&made.1))
+    }
+}
+
+/// The types that a name can have.
+fn types(signatures: &Signatures) -> Vec<Type> {
+    let mut types = signatures.bindable();
+    let kinds = (0..signatures.kinds.len()).map(Type::Entity);
+    let others: Vec<Type> = kinds.filter(|ty| !types.contains(ty)).collect();
+    types.extend(others);
+    types
+}
+
+/// What a name that a policy gives may not be: in the text form it would mean something else.
+fn taken(signatures: &Signatures, surface: Surface) -> FxHashSet<SmolStr> {
+    if surface.form == Form::Json {
+        return FxHashSet::default();
+    }
+    let words = RESERVED.iter().map(|word| SmolStr::new_static(word));
+    let cases = signatures.enums.iter().flat_map(|def| def.cases.iter().cloned());
+    words.chain(signatures.entities.iter().map(|row| row.0.clone())).chain(cases).collect()
+}
