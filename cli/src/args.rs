@@ -31,7 +31,7 @@ pub(crate) use journal::{Moment, ReplayArgs};
 pub(crate) use model::{Held, ModelArgs};
 pub(crate) use plan::{PlanArgs, PlanForm};
 pub(crate) use prompt::PromptArgs;
-pub(crate) use run::{RunArgs, RunFormat, Speed};
+pub(crate) use run::{RunArgs, RunFormat, SimulatedArgs, Speed};
 
 use std::path::PathBuf;
 

@@ -1,12 +1,10 @@
 //! What is seen: the laws of the simulator's eyes, detections in a scene, and points of an image lifted into the room.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_planner::vision::{
-    Camera, Depth, Grounding, NoPoint, Pointer, ground, lift, point, with_detections,
-};
-use motet_robots::scene::Placement;
+use motet_graph::Pose;
+use motet_planner::vision::{NoPoint, Pointer, ground, lift, point, with_detections};
 use motet_runtime::conformance::perception;
-use motet_runtime::{Detection, Driver, Image, Perception, Time};
+use motet_runtime::{Camera, Depth, Detection, Driver, Image, Perception, Time, View};
 use motet_sim::{Options, Sim};
 use motet_tests::setup;
 
@@ -48,9 +46,8 @@ fn detections_bring_a_scene_up_to_date() {
 
 fn camera() -> Camera {
     // One metre up, looking along the x axis of the room: its z ahead, its x to the right, its y down.
-    let half_turn = std::f64::consts::FRAC_PI_2;
     Camera {
-        pose: Placement { xyz: [0.0, 0.0, 1.0], rpy: [-half_turn, 0.0, -half_turn] },
+        pose: Pose { xyz: [0.0, 0.0, 1.0], quaternion: [-0.5, 0.5, -0.5, 0.5] },
         intrinsics: [100.0, 100.0, 50.0, 40.0],
     }
 }
@@ -125,9 +122,8 @@ fn a_model_is_asked_for_the_point() {
     }
     let image =
         Image { camera: "head".into(), media_type: "image/png".into(), bytes: Vec::new(), at: Time::ZERO };
-    let (depth, camera) = (depth(), camera());
-    let view = Grounding { image: &image, depth: &depth, camera: &camera };
-    let ask = |says| ground(&mut Says(says), view, "drawer", "the handle");
+    let view = View { image, depth: depth(), camera: camera() };
+    let ask = |says| ground(&mut Says(says), &view, "drawer", "the handle");
     assert!(ask(Ok("{\"point\": [50, 40]}")).is_ok());
     assert!(matches!(ask(Ok("{\"point\": [500, 40]}")), Err(NoPoint::Outside { .. })));
     assert!(matches!(ask(Err("time-out")), Err(NoPoint::Silent(_))));

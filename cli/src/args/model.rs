@@ -17,9 +17,15 @@ pub(crate) struct ModelArgs {
     /// How the server takes the grammar that the model is held to; what comes back is checked in any case
     #[arg(long, value_enum, default_value = "none", value_name = "SERVER")]
     pub(crate) dialect: Held,
+    /// Send the grammar as Lark, for a vLLM, SGLang or llama.cpp that runs grammars with llguidance
+    #[arg(long)]
+    pub(crate) lark: bool,
     /// Image of the room that the model is shown, as PNG, JPEG, WebP or GIF; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) image: Vec<PathBuf>,
+    /// Show the model what the robot's camera sees, a fresh picture with every plan, and ask it for the points that `ground` looks for
+    #[arg(long)]
+    pub(crate) camera: bool,
     /// Variable of the environment with the key of the server
     #[arg(long, value_name = "VARIABLE")]
     pub(crate) key_from: Option<String>,

@@ -1,22 +1,24 @@
 //! `motet do`: a request in words, carried out in simulation: planned, checked, run, asked about and planned anew.
 
+mod camera;
 mod eyes;
 mod model;
 mod person;
 mod record;
 mod speaker;
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use motet_compiler::Options;
 use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
-use motet_runtime::Time;
+use motet_runtime::{Driver, Time};
 use motet_sim::Sim;
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 
 use super::run;
-use crate::args::{DoArgs, Format};
+use crate::args::{DoArgs, Format, RunFormat};
 use crate::exit::{Exit, Trouble};
 use crate::out::{Colors, note};
 use crate::report::Report;
@@ -50,8 +52,8 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
         Some(name) => workbench::read_scene(name, &mut Sources::default(), report)?,
         None => scene.clone(),
     };
-    let mut simulator =
-        run::simulator(&robot, &real, args.simulated.seed, args.simulated.faults.as_deref(), report)?;
+    let eye = geometry.as_ref().and_then(|geometry| geometry.eye());
+    let simulator = run::simulator(&robot, &real, eye, &args.simulated, report)?;
     let asked = Rc::new(Asked::read(&args.ask)?);
     let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
     let setting = Setting {
@@ -63,7 +65,7 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
     };
     let mut planner = model::planner(args, colors, recorder.clone())?;
     run::catch_interrupts()?;
-    let outcome = carry_out(args, colors, &setting, &mut *planner, &mut simulator, &asked, recorder)?;
+    let outcome = carry_out(args, colors, &setting, &mut *planner, simulator, &asked, recorder)?;
     Ok(match &outcome {
         Outcome::Done => Exit::Clean,
         Outcome::Stopped => Exit::Interrupted,
@@ -83,16 +85,28 @@ fn carry_out(
     colors: Colors,
     setting: &Setting,
     planner: &mut dyn Planner,
-    simulator: &mut Sim,
+    simulator: Sim,
     asked: &Rc<Asked>,
     recorder: Option<Recorder>,
 ) -> Result<Outcome, Trouble> {
     let mut talk = Conversation::new(setting);
-    let mut eyes = Eyes::new(args, colors, Rc::clone(asked), recorder);
+    let mut world = Rc::new(RefCell::new(simulator));
+    let (mut sight, eyes) = (Rc::clone(&world), Rc::clone(&world));
+    let mut robot = Speaker::new(&mut world, Rc::clone(asked));
+    let mut pointing;
+    let driver: &mut dyn Driver = if args.asking.camera {
+        talk = talk.with_eyes(eyes);
+        let is_shown = args.format == RunFormat::Human;
+        let told = camera::Told { is_shown, recorder: recorder.clone() };
+        pointing = camera::pointing(&args.asking, &mut robot, &mut sight, &setting.scene, told)?;
+        &mut pointing
+    } else {
+        &mut robot
+    };
+    let mut watcher = Eyes::new(args, colors, Rc::clone(asked), recorder);
     let mut person = Asking(Rc::clone(asked));
-    eyes.requested(&args.request);
-    let mut robot = Speaker::new(simulator, Rc::clone(asked));
-    let (outcome, _) = talk.carry_out(&args.request, planner, &mut robot, &mut person, &mut eyes, Time::ZERO);
-    eyes.finish(&outcome)?;
+    watcher.requested(&args.request);
+    let (outcome, _) = talk.carry_out(&args.request, planner, driver, &mut person, &mut watcher, Time::ZERO);
+    watcher.finish(&outcome)?;
     Ok(outcome)
 }

@@ -24,7 +24,7 @@ use motet_runtime::{Driver, Event, Settings, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::{Parsed, Severity};
 
-use crate::args::{Format, RunArgs, RunFormat, Speed};
+use crate::args::{Format, RunArgs, RunFormat, SimulatedArgs, Speed};
 use crate::document;
 use crate::exit::{Exit, Trouble};
 use crate::input::one_document;
@@ -70,7 +70,11 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start(setting.scene.as_ref());
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let guard = setting.session.course().map(Guard::new);
+    let how = match args.simulated.speed {
+        Speed::Max => Guard::new,
+        Speed::Times(_) => Guard::beside,
+    };
+    let guard = setting.session.course().map(how);
     let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
     let journal = match &args.record {
         Some(folder) => {
@@ -144,7 +148,7 @@ pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Spe
     Pace::new(play::view(format, graph, colors), speed)
 }
 
-/// A simulated room, for other commands that run policies.
+/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known.
 ///
 /// # Errors
 ///
@@ -152,10 +156,11 @@ pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Spe
 pub(super) fn simulator(
     robot: &Robot,
     scene: &Scene,
-    seed: u64,
-    faults: Option<&Path>,
+    eye: Option<[f64; 3]>,
+    args: &SimulatedArgs,
     report: &mut Report,
 ) -> Result<Sim, Trouble> {
-    let faults = faults.map(|path| world::faults(path, report)).transpose()?.unwrap_or_default();
-    Ok(Sim::new(robot, scene, Options { seed, faults, ..Options::default() }))
+    let faults = args.faults.as_deref().map(|path| world::faults(path, report)).transpose()?;
+    let faults = faults.unwrap_or_default();
+    Ok(Sim::new(robot, scene, Options { seed: args.seed, faults, eye, ..Options::default() }))
 }

@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use std::io::{Read, Write};
-use std::net::TcpListener;
+use std::net::{TcpListener, TcpStream};
+use std::sync::{Arc, Mutex};
+
+use serde_json::Value;
 
 use crate::support::Place;
 
@@ -50,31 +53,45 @@ fn what_a_server_cannot_take_is_said() {
 
 /// A server that answers one request with a chat message; its address.
 pub(crate) fn server(status: &'static str, message: &'static str) -> String {
+    scripted(status, vec![message.to_owned()]).0
+}
+
+/// A server that answers one request after the other, each with a message; its address, and the bodies of the requests.
+pub(crate) fn scripted(status: &'static str, messages: Vec<String>) -> (String, Arc<Mutex<Vec<Value>>>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = format!("http://{}", listener.local_addr().unwrap());
+    let heard = Arc::new(Mutex::new(Vec::new()));
+    let bodies = Arc::clone(&heard);
     std::thread::spawn(move || {
-        let (mut stream, _) = listener.accept().unwrap();
-        let (mut request, mut buffer) = (Vec::new(), [0; 4096]);
-        loop {
-            let count = stream.read(&mut buffer).unwrap();
-            request.extend_from_slice(&buffer[..count]);
-            let text = String::from_utf8_lossy(&request);
-            let Some((head, body)) = text.split_once("\r\n\r\n") else { continue };
-            let length = head
-                .lines()
-                .find_map(|line| line.to_lowercase().strip_prefix("content-length: ").map(str::to_owned));
-            if count == 0 || length.is_none_or(|length| body.len() >= length.trim().parse().unwrap()) {
-                break;
-            }
+        for message in messages {
+            let (mut stream, _) = listener.accept().unwrap();
+            bodies.lock().unwrap().push(request(&mut stream));
+            let head = format!(
+                "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+                message.len()
+            );
+            stream.write_all(head.as_bytes()).unwrap();
+            stream.write_all(message.as_bytes()).unwrap();
         }
-        let head = format!(
-            "HTTP/1.1 {status}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
-            message.len()
-        );
-        stream.write_all(head.as_bytes()).unwrap();
-        stream.write_all(message.as_bytes()).unwrap();
     });
-    address
+    (address, heard)
+}
+
+/// The body of a request.
+fn request(stream: &mut TcpStream) -> Value {
+    let (mut request, mut buffer) = (Vec::new(), [0; 4096]);
+    loop {
+        let count = stream.read(&mut buffer).unwrap();
+        request.extend_from_slice(&buffer[..count]);
+        let text = String::from_utf8_lossy(&request);
+        let Some((head, body)) = text.split_once("\r\n\r\n") else { continue };
+        let length = head
+            .lines()
+            .find_map(|line| line.to_lowercase().strip_prefix("content-length: ").map(str::to_owned));
+        if count == 0 || length.is_none_or(|length| body.len() >= length.trim().parse().unwrap()) {
+            return serde_json::from_str(body).unwrap_or_default();
+        }
+    }
 }
 
 #[test]

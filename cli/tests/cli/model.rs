@@ -1,9 +1,10 @@
 //! `motet do` with a model on a server, there or not.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
-use crate::grammar::server;
+use crate::grammar::{scripted, server};
 use crate::support::Place;
+use serde_json::{Value, json};
 
 const DO: &str = "do go_to_the_counter --robot hsr --scene kitchen --no-geometry --speed max --ask never";
 
@@ -20,12 +21,56 @@ fn a_reply_is_carried_out_and_kept_and_the_key_is_not() {
     let kept = place.read("kept/talk.jsonl");
     let whats: Vec<String> = kept
         .lines()
-        .map(|line| {
-            serde_json::from_str::<serde_json::Value>(line).unwrap()["what"].as_str().unwrap().to_owned()
-        })
+        .map(|line| serde_json::from_str::<Value>(line).unwrap()["what"].as_str().unwrap().to_owned())
         .collect();
     assert_eq!(whats, ["request", "asked", "taken", "policy", "ended", "outcome"]);
     assert!(!format!("{kept}{}{}", ran.stdout, ran.stderr).contains("very-secret"));
+}
+
+/// What `motet do` does with a policy that asks for a point, and a model's answer to that: its words, its record, and the bodies
+/// of its requests.
+fn pointed(name: &str, answer: &str) -> (Option<i32>, String, Vec<Value>, Vec<Value>) {
+    let policy = "policy touch for hsr {\n    let handle = ground(mug_1, \"the handle\")\n}\n";
+    let says = |text: &str| json!({"choices": [{"message": {"content": text}}]}).to_string();
+    let (url, heard) = scripted("200 OK", vec![says(policy), says(answer)]);
+    let place = Place::new(name);
+    let ran = place.run(&format!("{DO} --planner {url} --model m --camera --record kept"));
+    let kept = place.read("kept/talk.jsonl");
+    let kept = kept.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let heard = heard.lock().unwrap().clone();
+    (ran.code, ran.stderr, kept, heard)
+}
+
+#[test]
+fn a_model_sees_what_the_camera_sees_and_points_at_it() {
+    let (code, stderr, kept, heard) = pointed("model_points", "{\"point\": [320, 240]}");
+    assert_eq!((code, heard.len()), (Some(0), 2), "{stderr}");
+    let picture = |part: &Value| part["image_url"]["url"].as_str().unwrap_or_default().to_owned();
+    let (room, mug) =
+        (picture(&heard[0]["messages"][1]["content"][1]), picture(&heard[1]["messages"][0]["content"][1]));
+    assert!(room.starts_with("data:image/png;base64,") && mug.starts_with("data:image/png;base64,"));
+    assert_ne!(room, mug, "the camera turns to the mug");
+    let point = kept.iter().find(|line| line["what"] == "pointed").unwrap();
+    let at: Vec<f64> = point["xyz"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
+    // The mug stands at (1.98, 0.3), from 0.72 m to 0.82 m.
+    assert!((at[0] - 1.98).hypot(at[1] - 0.3) < 0.05 && (0.71..0.83).contains(&at[2]), "{at:?}");
+    assert!(stderr.contains("the handle of mug_1: at (1.9"), "{stderr}");
+}
+
+#[test]
+fn a_point_that_is_none_is_said_with_the_reason() {
+    for (name, answer, words) in [
+        ("outside", "{\"point\": [700, 20]}", "outside of the image of 640 x 480 pixels"),
+        ("sky", "{\"point\": [5, 5]}", "there is no depth within 3 pixels of (5.0, 5.0)"),
+        ("nan", "{\"point\": [NaN, 20]}", "the answer is no point"),
+        ("words", "I see no handle.", "the answer is no point"),
+    ] {
+        let (code, stderr, kept, _) = pointed(&format!("model_points_{name}"), answer);
+        let why = kept.iter().find(|line| line["what"] == "pointed").map(|line| line["why"].to_string());
+        assert!(why.as_ref().is_some_and(|why| why.contains(words)), "{name}: {why:?}");
+        assert!(stderr.contains(words), "{name}: {stderr}");
+        assert_eq!(code, Some(3), "{name}: {stderr}");
+    }
 }
 
 #[test]
@@ -50,6 +95,8 @@ fn what_cannot_be_used_is_said_before_anything_is_asked() {
         ("--planner localhost", "address"),
         ("--planner http://localhost --image room.txt", "no PNG"),
         ("--planner http://localhost --key-from NO_SUCH_KEY", "NO_SUCH_KEY"),
+        ("--camera", "--planner URL"),
+        ("--planner http://localhost --dialect ollama --lark", "--dialect vllm"),
     ] {
         let ran = place.run(&format!("{DO} {flags}"));
         assert_eq!((ran.code, ran.stderr.contains(words)), (Some(2), true), "{flags}: {}", ran.stderr);

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use motet_geometry::query::{Answer, Budget, Machine, Maps, Query, Room, Witness, World};
+use motet_geometry::query::{Answer, Budget, Machine, Maps, Query, Room, State as Placed, Witness, World};
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
 use motet_robots::urdf::Urdf;
@@ -73,6 +73,18 @@ impl Geometry {
             memo: Mutex::default(),
             maps: Maps::default(),
         }
+    }
+
+    /// Where the card's first camera is of a robot that is ready to look, in the posture `start` where it has one: in the frame
+    /// of the base on the floor, in m. None where the card does not say which link it is.
+    #[must_use]
+    pub fn eye(&self) -> Option<[f64; 3]> {
+        let machine = &self.machine;
+        let frame = machine.card().cameras.values().next()?.frame.as_ref()?;
+        let link = machine.tree().link(frame).ok()?;
+        let joints = machine.posture("start", machine.rest()).unwrap_or_else(|| machine.rest().to_vec());
+        let poses = machine.map_from_links(&Placed { base: [0.0; 3], joints });
+        Some(poses.get(link)?.translation.vector.into())
     }
 
     /// The world at the start, or why it is not known.

@@ -1,12 +1,12 @@
 //! The body of a chat request, in a server's dialect.
 
-use motet_decode::export::{Dialect, Offer, request_constraint};
+use motet_decode::export::{Dialect, Offer, lark_constraint, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
 use motet_runtime::Image as Picture;
 use serde_json::{Map, Value, json};
 
 use crate::image::Image;
-use crate::settings::Settings;
+use crate::settings::{Notation, Settings};
 
 /// The body of a chat that is answered piece by piece, held to a grammar where the server takes one.
 pub(crate) fn chat(
@@ -28,7 +28,11 @@ pub(crate) fn constraint(
     offer: &Offer,
 ) -> Result<Option<Map<String, Value>>, ModelError> {
     let Some(dialect) = settings.dialect else { return Ok(None) };
-    match request_constraint(dialect, offer) {
+    let constraint = match settings.notation {
+        Notation::Usual => request_constraint(dialect, offer),
+        Notation::Lark => lark_constraint(dialect, offer),
+    };
+    match constraint {
         Some(Value::Object(fields)) => Ok(Some(fields)),
         _ => Err(ModelError::Refused { why: "it takes no grammar of this form".to_owned() }),
     }

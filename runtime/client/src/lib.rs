@@ -17,7 +17,7 @@ pub use address::Address;
 pub use image::{Image, ImageError, MAX_IMAGE_BYTES};
 pub use key::Key;
 pub use once::content;
-pub use settings::Settings;
+pub use settings::{Notation, Settings};
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};

@@ -17,6 +17,8 @@ pub struct Settings {
     pub model: String,
     /// How the server takes a grammar; none where it is not told of any.
     pub dialect: Option<Dialect>,
+    /// In which notation it takes it.
+    pub notation: Notation,
     /// The server's key.
     pub key: Option<Key>,
     /// What the model sees of the room, with the first message that is not the system's.
@@ -38,6 +40,16 @@ pub struct Settings {
     pub max_bytes: usize,
 }
 
+/// In which notation a server takes a grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Notation {
+    /// The one that every server of its kind takes: JSON Schema.
+    #[default]
+    Usual,
+    /// Lark, where llguidance runs the grammars.
+    Lark,
+}
+
 impl Settings {
     /// The defaults for a server and a model.
     #[must_use]
@@ -46,6 +58,7 @@ impl Settings {
             address,
             model: model.into(),
             dialect: None,
+            notation: Notation::Usual,
             key: None,
             images: Vec::new(),
             connect_timeout: Duration::from_secs(10),

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use common::server::{Act, Server};
 use common::world::{brisk, session, setting};
-use motet_client::{Address, Client, Image, ImageError, Settings};
+use motet_client::{Address, Client, Image, ImageError, Notation, Settings};
 use motet_decode::Surface;
 use motet_decode::export::{Dialect, Offer};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
@@ -22,7 +22,10 @@ fn ask(settings: Settings) -> (String, usize, Result<Finish, ModelError>) {
     let setting = setting();
     let offer = Offer::new(&session(&setting).signatures(), Surface::default());
     let mut client = Client::new(settings).unwrap();
-    let mut reply = client.ask(&chat(), &offer).unwrap();
+    let mut reply = match client.ask(&chat(), &offer) {
+        Ok(reply) => reply,
+        Err(why) => return (String::new(), 0, Err(why)),
+    };
     let (mut text, mut retries) = (String::new(), 0);
     loop {
         match reply.next(Duration::from_millis(20)) {
@@ -97,6 +100,32 @@ fn a_server_that_is_not_there_is_an_error() {
     let (_, retries, end) = ask(settings);
     assert_eq!(retries, 2);
     assert!(matches!(&end, Err(ModelError::Unreachable { why }) if why.contains("refused")), "{end:?}");
+}
+
+#[test]
+fn lark_goes_where_llguidance_takes_it() {
+    for (dialect, field) in [
+        (Dialect::Vllm, Some("/structured_outputs/grammar")),
+        (Dialect::LlamaCpp, Some("/grammar")),
+        (Dialect::Sglang, Some("/ebnf")),
+        (Dialect::OpenAi, None),
+        (Dialect::Ollama, None),
+    ] {
+        let server = Server::new(vec![Act::says("{}")]);
+        let address = Address::new(&server.url, Some(dialect)).unwrap();
+        let settings =
+            Settings { dialect: Some(dialect), notation: Notation::Lark, address, ..brisk(&server) };
+        let (_, _, end) = ask(settings);
+        let Some(field) = field else {
+            assert!(matches!(&end, Err(ModelError::Refused { .. })), "{dialect:?}: {end:?}");
+            continue;
+        };
+        assert_eq!(end, Ok(Finish::Stop));
+        let body = &server.heard()[0].body;
+        let lark = body.pointer(field).and_then(serde_json::Value::as_str).unwrap();
+        assert!(lark.starts_with("%llguidance"), "{dialect:?}: {lark:.60}");
+        assert_eq!(body.get("response_format"), None);
+    }
 }
 
 #[test]

@@ -8,11 +8,10 @@ use std::time::Duration;
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, planner, right, session, setting};
 use motet_client::Client;
-use motet_graph::Value;
+use motet_graph::{Pose, Value};
 use motet_planner::conversation::{Conversation, Nobody, Outcome};
-use motet_planner::vision::{Camera, Depth, Pointing, Sight, View};
-use motet_robots::scene::Placement;
-use motet_runtime::{Detection, Engine, Image, Perception, RunEnd, StartState, Time};
+use motet_planner::vision::Pointing;
+use motet_runtime::{Camera, Depth, Detection, Engine, Image, Perception, RunEnd, StartState, Time, View};
 use motet_sim::{Faults, Options, Sim};
 use motet_syntax::{FileId, Source};
 
@@ -63,14 +62,21 @@ fn a_fresh_picture_goes_with_every_plan() {
 /// Looks at a wall two metres away.
 struct Wall;
 
-impl Sight for Wall {
-    fn view(&mut self, now: Time) -> Option<View> {
-        let half_turn = std::f64::consts::FRAC_PI_2;
+impl Perception for Wall {
+    fn detections(&mut self, _now: Time) -> Vec<Detection> {
+        Vec::new()
+    }
+
+    fn image(&mut self, now: Time) -> Option<Image> {
+        Some(picture(now))
+    }
+
+    fn view(&mut self, now: Time, _of: &str) -> Option<View> {
         Some(View {
             image: picture(now),
             depth: Depth { width: 100, height: 80, millimetres: vec![2_000; 8_000] },
             camera: Camera {
-                pose: Placement { xyz: [0.0, 0.0, 1.0], rpy: [-half_turn, 0.0, -half_turn] },
+                pose: Pose { xyz: [0.0, 0.0, 1.0], quaternion: [-0.5, 0.5, -0.5, 0.5] },
                 intrinsics: [100.0, 100.0, 50.0, 40.0],
             },
         })

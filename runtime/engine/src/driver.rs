@@ -5,7 +5,9 @@ use crate::event::{DriverEvent, GoalId};
 use crate::query::Query;
 use crate::time::Time;
 use smol_str::SmolStr;
+use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// What moves the robot. The host loop ([`crate::run`]) passes it the engine's effects and feeds the engine with what it
 /// reports.
@@ -74,6 +76,57 @@ pub trait Driver {
             Effect::Unwatch { query } => self.unwatch(now, query),
             Effect::Verify { .. } | Effect::Report(_) | Effect::Finished(_) => {}
         }
+    }
+}
+
+/// A driver that somebody else looks at meanwhile: a simulator with its eyes.
+impl<D: Driver> Driver for Rc<RefCell<D>> {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.borrow_mut().start(now, goal, command);
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        self.borrow_mut().cancel(now, goal);
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.borrow().capabilities()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        self.borrow().base()
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        self.borrow_mut().update(now, goal, command);
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        self.borrow_mut().hold(now, goal);
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        self.borrow_mut().proceed(now, goal);
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        self.borrow_mut().safe_stop(now, goal);
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.borrow_mut().observe(now, query);
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.borrow_mut().watch(now, query);
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.borrow_mut().unwatch(now, query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        self.borrow_mut().advance(until)
     }
 }
 

@@ -12,6 +12,9 @@ use smol_str::SmolStr;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+/// How often it is looked whether a verdict has come that is waited for.
+const VERDICT_EVERY: Time = Time::from_nanos(20_000_000);
+
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Onlooker {
     /// An event is about to be handled.
@@ -82,7 +85,7 @@ pub fn go_on(
     let (first, out) = (events.into(), Vec::new());
     let mut host = Host { driver, onlooker, now: from, first, out, asked, stopped: false };
     loop {
-        host.verify(engine);
+        host.verify();
         if let Some(event) = host.first.pop_front() {
             host.onlooker.event(host.now, &event);
             if let Some(verifier) = host.onlooker.verifier() {
@@ -122,7 +125,9 @@ impl Host<'_> {
     /// The next event. None where nothing will ever happen.
     fn next(&mut self, engine: &Engine) -> Option<Event> {
         let wake = engine.wake_at().unwrap_or(Time::NEVER);
-        let until = wake.min(self.now.after(self.onlooker.at_least_every()));
+        let is_awaited = self.onlooker.verifier().is_some_and(|verifier| verifier.is_busy());
+        let glance = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
+        let until = wake.min(self.now.after(self.onlooker.at_least_every().min(glance)));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);
@@ -136,13 +141,20 @@ impl Host<'_> {
         }
     }
 
-    /// Has the motions verified that were asked for. What comes of it goes before anything that the driver reports.
-    fn verify(&mut self, engine: &Engine) {
-        for (check, motion) in std::mem::take(&mut self.asked) {
-            let verdict = match self.onlooker.verifier() {
-                Some(verifier) => verifier.motion(engine, &motion),
-                None => Verification::Unknown { why: SmolStr::new_static("nobody is there to ask") },
-            };
+    /// Has the motions verified that were asked for. Verdicts go before anything that the driver reports.
+    fn verify(&mut self) {
+        let asked = std::mem::take(&mut self.asked);
+        let Some(verifier) = self.onlooker.verifier() else {
+            for (check, _) in asked {
+                let verdict = Verification::Unknown { why: SmolStr::new_static("nobody is there to ask") };
+                self.first.push_back(Event::Verified { check, verdict });
+            }
+            return;
+        };
+        for (check, motion) in asked {
+            verifier.ask(check, &motion);
+        }
+        while let Some((check, verdict)) = verifier.verdict() {
             self.first.push_back(Event::Verified { check, verdict });
         }
     }

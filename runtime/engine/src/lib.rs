@@ -70,7 +70,7 @@ pub use effect::{Command, Effect, Fault, RunEnd};
 pub use engine::Engine;
 pub use event::{DriverEvent, Event, GoalId, Outcome};
 pub use host::{Control, Onlooker, go_on, run};
-pub use perception::{Detection, Image, Perception};
+pub use perception::{Camera, Depth, Detection, Image, Perception, View};
 pub use query::{Answer, Pattern, Query};
 pub use record::{Cause, Happening, NodeEnding, Record};
 pub use settings::Settings;

@@ -4,6 +4,8 @@
 use crate::time::Time;
 use motet_graph::Pose;
 use smol_str::SmolStr;
+use std::cell::RefCell;
+use std::rc::Rc;
 
 /// One thing that was seen.
 #[derive(Clone, PartialEq, Debug)]
@@ -33,6 +35,37 @@ pub struct Image {
     pub at: Time,
 }
 
+/// A pinhole camera with its pose: x to the right, y down, z ahead, as images are.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Camera {
+    /// Its pose in the frame `map`.
+    pub pose: Pose,
+    /// fx, fy, cx, cy in pixels, counted from the centre of the pixel in the top left corner.
+    pub intrinsics: [f64; 4],
+}
+
+/// A depth image, row by row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Depth {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Along the camera's z axis, in mm; 0 where there is none.
+    pub millimetres: Vec<u16>,
+}
+
+/// A picture with its depth and the camera that took both.
+#[derive(Clone, PartialEq, Debug)]
+pub struct View {
+    /// The picture.
+    pub image: Image,
+    /// Depth of the same view, pixel by pixel.
+    pub depth: Depth,
+    /// Its pose and its intrinsics.
+    pub camera: Camera,
+}
+
 /// The eyes of a robot. A driver that has any implements it beside [`crate::Driver`].
 ///
 /// # Laws
@@ -48,4 +81,24 @@ pub trait Perception {
     fn detections(&mut self, now: Time) -> Vec<Detection>;
     /// A fresh picture; none where there is no camera or it has nothing to show.
     fn image(&mut self, now: Time) -> Option<Image>;
+    /// A fresh picture of an entity with depth, the camera turned towards it; none where no camera measures depth, or where
+    /// none gets to see the entity from here.
+    fn view(&mut self, _now: Time, _of: &str) -> Option<View> {
+        None
+    }
+}
+
+/// Eyes that are also somebody else's.
+impl<P: Perception> Perception for Rc<RefCell<P>> {
+    fn detections(&mut self, now: Time) -> Vec<Detection> {
+        self.borrow_mut().detections(now)
+    }
+
+    fn image(&mut self, now: Time) -> Option<Image> {
+        self.borrow_mut().image(now)
+    }
+
+    fn view(&mut self, now: Time, of: &str) -> Option<View> {
+        self.borrow_mut().view(now, of)
+    }
 }

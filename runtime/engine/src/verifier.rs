@@ -5,7 +5,6 @@
 //! keeps no monitor waiting.
 
 use crate::effect::{Command, Effect};
-use crate::engine::Engine;
 use crate::event::Event;
 use crate::query::Query;
 use crate::truth::Truth;
@@ -90,13 +89,16 @@ impl fmt::Display for Verification {
 }
 
 /// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one that its
-/// onlooker has ([`crate::Onlooker::verifier`]) all events and effects, and asks it.
+/// onlooker has ([`crate::Onlooker::verifier`]) all events and effects, asks it, and takes its verdicts as they come.
 ///
 /// # Laws
 ///
-/// 1. A motion is called infeasible only where that is proven for the world as it is known; what is not known is unknown.
+/// 1. A motion is called infeasible only where that is proven for the world as it was known when it was asked; what is not
+///    known is unknown.
 /// 2. A failure is one that the primitive lists.
 /// 3. Asking changes nothing.
+/// 4. None of its calls keeps a robot waiting: who has to search for long does it on a thread of its own. Where time is
+///    virtual it may search at once, so that a run is the same each time.
 pub trait Verifier {
     /// An event is about to be handled: what follows from it for the world.
     fn event(&mut self, event: &Event);
@@ -104,8 +106,14 @@ pub trait Verifier {
     /// An effect is about to be carried out.
     fn effect(&mut self, effect: &Effect);
 
-    /// Whether a motion has a solution in the world as it is. The engine's state is that of the question.
-    fn motion(&mut self, engine: &Engine, motion: &Motion) -> Verification;
+    /// Asks whether a motion has a solution in the world as it is.
+    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>);
+
+    /// A verdict that was not given yet, if there is one.
+    fn verdict(&mut self) -> Option<(CheckId, Verification)>;
+
+    /// Whether a verdict is still to come.
+    fn is_busy(&self) -> bool;
 }
 
 /// What holds of a fact that no robot observes and of which nothing is believed. `reachable` is the verdict of a motion, and

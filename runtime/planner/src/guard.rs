@@ -1,13 +1,14 @@
 //! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry that the compiler
 //! itself uses.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 
 use motet_compiler::{Course, Prospect};
 use motet_graph::Value;
 use motet_runtime::{
-    Answer, Command, DriverEvent, Effect, Engine, Event, GoalId, Motion, Outcome, Pattern, Query, Time,
+    Answer, CheckId, Command, DriverEvent, Effect, Event, GoalId, Motion, Outcome, Pattern, Query, Time,
     Verification, Verifier,
 };
 
@@ -16,16 +17,120 @@ pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
 /// Checks motions along the way that a run takes.
 #[derive(Debug)]
-pub struct Guard {
+pub struct Guard(How);
+
+#[derive(Debug)]
+enum How {
+    /// In the calls themselves.
+    AtOnce { way: Way, verdicts: VecDeque<(CheckId, Verification)> },
+    /// On a thread of its own, which is told everything in order and ends once nobody tells it any more.
+    Beside { thread: Sender<Told>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
+}
+
+/// What a guard hears of.
+#[derive(Debug)]
+enum Told {
+    Reported(DriverEvent),
+    Began(GoalId, Arc<Command>),
+    Asked(CheckId, Arc<Motion>),
+}
+
+impl Guard {
+    /// For a run that begins where a course does. It searches when it is asked, so that a run in virtual time is the same each
+    /// time.
+    #[must_use]
+    pub const fn new(course: Course) -> Self {
+        let way = Way { course, live: BTreeMap::new() };
+        Self(How::AtOnce { way, verdicts: VecDeque::new() })
+    }
+
+    /// The same on a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what
+    /// follows from a step for the next.
+    #[must_use]
+    pub fn beside(course: Course) -> Self {
+        let (thread, told) = mpsc::channel();
+        let (answers, verdicts) = mpsc::channel();
+        std::thread::spawn(move || {
+            let mut way = Way { course, live: BTreeMap::new() };
+            for one in told {
+                if let Some(verdict) = way.hear(one)
+                    && answers.send(verdict).is_err()
+                {
+                    return;
+                }
+            }
+        });
+        Self(How::Beside { thread, verdicts, awaited: 0 })
+    }
+
+    fn tell(&mut self, told: Told) {
+        match &mut self.0 {
+            How::AtOnce { way, verdicts } => verdicts.extend(way.hear(told)),
+            How::Beside { thread, awaited, .. } => {
+                *awaited += usize::from(matches!(told, Told::Asked(..)));
+                // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
+                let _ = thread.send(told);
+            }
+        }
+    }
+}
+
+impl Verifier for Guard {
+    fn event(&mut self, event: &Event) {
+        if let Event::Driver(event) = event {
+            self.tell(Told::Reported(event.clone()));
+        }
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        if let Effect::Start { goal, command, .. } | Effect::Update { goal, command, .. } = effect {
+            self.tell(Told::Began(*goal, Arc::clone(command)));
+        }
+    }
+
+    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+        self.tell(Told::Asked(check, Arc::clone(motion)));
+    }
+
+    fn verdict(&mut self) -> Option<(CheckId, Verification)> {
+        match &mut self.0 {
+            How::AtOnce { verdicts, .. } => verdicts.pop_front(),
+            How::Beside { verdicts, awaited, .. } => {
+                let verdict = verdicts.try_recv();
+                match verdict {
+                    Ok(_) => *awaited = awaited.saturating_sub(1),
+                    Err(TryRecvError::Empty) => {}
+                    Err(TryRecvError::Disconnected) => *awaited = 0,
+                }
+                verdict.ok()
+            }
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        match &self.0 {
+            How::AtOnce { .. } => false,
+            How::Beside { awaited, .. } => *awaited > 0,
+        }
+    }
+}
+
+/// The way of a run, followed from what is told of it.
+#[derive(Debug)]
+struct Way {
     course: Course,
     live: BTreeMap<GoalId, Arc<Command>>,
 }
 
-impl Guard {
-    /// For a run that begins where a course does.
-    #[must_use]
-    pub const fn new(course: Course) -> Self {
-        Self { course, live: BTreeMap::new() }
+impl Way {
+    /// Takes something in; gives the verdict where that is a question.
+    fn hear(&mut self, told: Told) -> Option<(CheckId, Verification)> {
+        match told {
+            Told::Reported(event) => self.report(&event),
+            Told::Began(goal, command) => self.began(goal, command),
+            Told::Asked(check, motion) => return Some((check, self.motion(&motion))),
+        }
+        None
     }
 
     fn report(&mut self, event: &DriverEvent) {
@@ -58,27 +163,17 @@ impl Guard {
             DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
         }
     }
-}
 
-impl Verifier for Guard {
-    fn event(&mut self, event: &Event) {
-        if let Event::Driver(event) = event {
-            self.report(event);
-        }
-    }
-
-    fn effect(&mut self, effect: &Effect) {
-        let (Effect::Start { goal, command, .. } | Effect::Update { goal, command, .. }) = effect else {
-            return;
-        };
+    fn began(&mut self, goal: GoalId, command: Arc<Command>) {
+        let name = command.primitive.clone();
         // What an updated goal did before was interrupted.
-        if let Some(before) = self.live.insert(*goal, Arc::clone(command)) {
+        if let Some(before) = self.live.insert(goal, command) {
             self.course.stopped(&before.primitive);
         }
-        self.course.began(&command.primitive);
+        self.course.began(&name);
     }
 
-    fn motion(&mut self, _engine: &Engine, motion: &Motion) -> Verification {
+    fn motion(&self, motion: &Motion) -> Verification {
         let Command { primitive, args, .. } = &*motion.command;
         match self.course.motion(primitive, args, &motion.query, &motion.args) {
             Prospect::Feasible => Verification::Feasible,

@@ -3,63 +3,60 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_compiler::{Geometry, Options, Session};
-use motet_geometry::query::Budget;
+mod common;
+
+use common::{hsr, kitchen, session, walled};
+use motet_compiler::{Course, Session};
 use motet_graph::Graph;
 use motet_planner::guard::{Guard, WITHIN};
-use motet_robots::card::{self, Robot};
-use motet_robots::scene::{self, Placement, Scene, Shape};
-use motet_robots::urdf;
+use motet_robots::scene::Scene;
 use motet_runtime::journal::{Entry, Head, Replay, Step};
 use motet_runtime::{
-    Control, Driver, Effect, Engine, Event, Happening, Onlooker, RunEnd, Settings, StartState, Time,
-    Verifier, run, wire,
+    CheckId, Control, Driver, Effect, Engine, Event, Happening, Motion, Onlooker, RunEnd, Settings,
+    StartState, Time, Verification, Verifier, run, wire,
 };
 use motet_sim::{Options as SimOptions, Script, Sim};
-use motet_syntax::{FileId, Source, Sources};
+use motet_syntax::{FileId, Source};
 use std::sync::Arc;
-
-fn hsr() -> Robot {
-    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").unwrap();
-    card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap()
-}
-
-fn kitchen() -> Scene {
-    let (_, text) = scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
-    scene::read(&Source::new("kitchen", *text), FileId(0)).0.unwrap()
-}
-
-/// The kitchen with walls around the table, higher than the robot.
-fn walled() -> Scene {
-    let mut scene = kitchen();
-    let walls = [(2.2, -0.8, 2.7, 0.1), (2.2, 1.8, 2.7, 0.1), (0.9, 0.5, 0.1, 2.7), (3.5, 0.5, 0.1, 2.7)];
-    for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
-        let mut wall = scene.entities["shelf"].clone();
-        wall.id = format!("wall_{at}").into();
-        wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
-        wall.shape = Some(Shape::Box([along, across, 2.0]));
-        scene.entities.insert(wall.id.clone(), wall);
-    }
-    scene
-}
-
-fn session(scene: &Scene) -> Session {
-    let robot = hsr();
-    let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
-    let (session, said) =
-        Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut Sources::default());
-    assert!(said.is_empty(), "{said:?}");
-    session.with_geometry(Arc::new(Geometry::new(&robot, &urdf, scene, None, Budget::default())))
-}
 
 fn compile(session: &Session, policy: &str) -> Graph {
     let compiled = session.compile(&motet_syntax::read(&Source::new("policy", policy), FileId(0)), None);
     compiled.graph.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
 }
 
+/// Time is virtual here, so the run stands still until a verdict has come.
+struct Waiting(Guard);
+
+impl Verifier for Waiting {
+    fn event(&mut self, event: &Event) {
+        self.0.event(event);
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        self.0.effect(effect);
+    }
+
+    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+        self.0.ask(check, motion);
+    }
+
+    fn verdict(&mut self) -> Option<(CheckId, Verification)> {
+        let mut verdict = self.0.verdict();
+        while verdict.is_none() && self.0.is_busy() {
+            std::thread::yield_now();
+            verdict = self.0.verdict();
+        }
+        verdict
+    }
+
+    fn is_busy(&self) -> bool {
+        self.0.is_busy()
+    }
+}
+
 /// Writes a journal, and has somebody who verifies.
 struct Host {
-    guard: Guard,
+    guard: Waiting,
     event: Option<Event>,
     entries: Vec<Entry>,
     told: Vec<String>,
@@ -97,6 +94,11 @@ impl Onlooker for Host {
 
 /// Runs a policy in simulation, sees that a replay of its journal gives the same, and returns what happened.
 fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
+    play_with(scene, policy, Guard::new)
+}
+
+/// The same with a guard of one's choice.
+fn play_with(scene: &Scene, policy: &str, guard: fn(Course) -> Guard) -> (RunEnd, Vec<String>) {
     let session = session(scene);
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
@@ -114,8 +116,8 @@ fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
         capabilities: (&sim.capabilities()).into(),
         ..Head::new(&graph)
     };
-    let guard = Guard::new(session.course().unwrap());
-    let mut host = Host { guard, event: None, entries: Vec::new(), told: Vec::new() };
+    let guard = guard(session.course().unwrap());
+    let mut host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let end = run(&mut engine, &mut sim, &mut host, Time::ZERO);
     let mut replay = Replay::new(&head).unwrap();
     for entry in &host.entries {
@@ -150,4 +152,77 @@ fn what_can_be_done_is_done() {
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
     assert_eq!(told[2..4], ["verify go_to(mug_1)", "feasible"], "{told:#?}");
     assert!(told[4].starts_with("go(") && told.len() == 5, "{told:#?}");
+}
+
+#[test]
+fn on_a_thread_of_its_own_a_guard_comes_to_the_same() {
+    for scene in [walled(), kitchen()] {
+        let (end, told) = play_with(&scene, CHOSEN, Guard::beside);
+        assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
+        assert_eq!(told, play(&scene, CHOSEN).1);
+    }
+}
+
+/// Looks how far time comes while a verdict is awaited.
+struct Patient {
+    host: Host,
+    is_asked: bool,
+    glances: usize,
+}
+
+impl Onlooker for Patient {
+    fn event(&mut self, _now: Time, event: &Event) {
+        if matches!(event, Event::Verified { .. }) {
+            self.is_asked = false;
+        }
+        self.glances += usize::from(self.is_asked && *event == Event::Tick);
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        self.is_asked |= matches!(effect, Effect::Verify { .. });
+        self.host.effect(now, effect);
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        Some(self)
+    }
+}
+
+/// Takes its time: so many glances until the verdict is there.
+impl Verifier for Patient {
+    fn event(&mut self, event: &Event) {
+        self.host.guard.event(event);
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        self.host.guard.effect(effect);
+    }
+
+    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+        self.host.guard.ask(check, motion);
+    }
+
+    fn verdict(&mut self) -> Option<(CheckId, Verification)> {
+        (self.glances >= 5).then(|| self.host.guard.verdict()).flatten()
+    }
+
+    fn is_busy(&self) -> bool {
+        self.is_asked
+    }
+}
+
+#[test]
+fn the_loop_goes_on_while_a_verdict_is_awaited() {
+    let session = session(&kitchen());
+    let mut sim = Sim::new(&hsr(), &kitchen(), SimOptions::default());
+    let settings = Settings { verify_within: Some(WITHIN), ..Settings::default() };
+    let entities = kitchen().entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
+    let start = StartState { entities, ..StartState::default() };
+    let mut engine = Engine::new(compile(&session, CHOSEN), &start).unwrap().with_settings(settings);
+    let guard = Guard::new(session.course().unwrap());
+    let host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
+    let mut patient = Patient { host, is_asked: false, glances: 0 };
+    let end = run(&mut engine, &mut sim, &mut patient, Time::ZERO);
+    assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {:#?}", patient.host.told);
+    assert_eq!(patient.glances, 5, "the world went on meanwhile");
 }

@@ -36,7 +36,7 @@ pub(crate) fn turned(angle: f64) -> f64 {
 
 /// The outline from above.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Outline {
+pub(crate) enum Outline {
     Disc { radius: f64 },
     Rectangle { half: [f64; 2] },
 }
@@ -47,7 +47,7 @@ pub(crate) struct Body {
     /// The reference point of its pose.
     pub(crate) xyz: [f64; 3],
     pub(crate) yaw: f64,
-    outline: Outline,
+    pub(crate) outline: Outline,
     /// From the reference point down to the bottom and up to the top.
     below: f64,
     above: f64,

@@ -1,11 +1,26 @@
-//! The simulator's eyes: what is in view, where it truly is, and no doubt about it. There are no pictures of a world that has
-//! no surfaces.
+//! The simulator's eyes: what is in view, where it truly is, and no doubt about it; and pictures of it.
+//!
+//! The camera is where the options say and turns to wherever it has to, within its view to show where most is to be seen; what is in view is told by distance and bearing
+//! alone, while in a picture what stands in front hides what is behind.
 
+use crate::body::turned;
+use crate::camera::{Lens, encoded, render};
+use crate::perception::Look;
 use crate::sim::Sim;
 use crate::thing::Role;
 use motet_graph::Pose;
-use motet_runtime::{Detection, Image, Perception, Time};
+use motet_runtime::{Detection, Image, Perception, Time, View};
 use smol_str::SmolStr;
+use std::f64::consts::TAU;
+
+/// How far below the horizon the camera looks where it looks about, in rad: at what stands on tables.
+const BELOW: f64 = 0.35;
+/// How far to the side of the middle a thing is well in a picture, in rad; the picture itself goes to 0.7.
+const ASIDE: f64 = 0.55;
+/// By how much the camera turns from one look to the next, in rad.
+const TURN: f64 = 0.2;
+/// How many pieces of furniture are worth as much as one thing that can be taken.
+const FURNITURE: i64 = 4;
 
 impl Perception for Sim {
     fn detections(&mut self, now: Time) -> Vec<Detection> {
@@ -31,7 +46,72 @@ impl Perception for Sim {
         seen.collect()
     }
 
-    fn image(&mut self, _now: Time) -> Option<Image> {
-        None
+    fn image(&mut self, now: Time) -> Option<Image> {
+        let lens = Lens::new(self.eye(), self.world.base.heading + self.gaze(), BELOW);
+        Some(self.shot(&lens, now)?.image)
+    }
+
+    fn view(&mut self, now: Time, of: &str) -> Option<View> {
+        if !self.world.sees(of, Look::Around) {
+            return None;
+        }
+        let body = self.world.thing(of)?.body;
+        let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
+        let lens = Lens::towards(self.eye(), middle, self.world.base.heading);
+        self.shot(&lens, now)
+    }
+}
+
+impl Sim {
+    /// Where the camera is, in the frame `map`.
+    fn eye(&self) -> [f64; 3] {
+        let (base, [x, y, z]) = (self.world.base, self.eye);
+        let (sin, cos) = base.heading.sin_cos();
+        [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
+    }
+
+    /// How far the camera turns from straight ahead, in rad, to have most of what is visible in a picture; of directions that
+    /// show as much, the one nearest to straight ahead.
+    fn gaze(&self) -> f64 {
+        let base = self.world.base;
+        let view = self.world.cameras.first().map_or(0.0, |camera| camera.view_rad.min(TAU));
+        let steps = ((view / 2.0 - ASIDE).max(0.0) / TURN).floor() as i64;
+        let seen: Vec<(f64, i64)> = self
+            .world
+            .things
+            .iter()
+            .filter(|(id, _)| self.world.is_visible(id))
+            .filter_map(|(_, thing)| {
+                let worth = match thing.role {
+                    Role::Object => FURNITURE,
+                    Role::Surface | Role::Container | Role::Person => 1,
+                    Role::Place => return None,
+                };
+                Some((base.bearing_of(thing.body.x(), thing.body.y()), worth))
+            })
+            .collect();
+        let worth = |turn: f64| -> i64 {
+            seen.iter()
+                .filter(|(bearing, _)| turned(bearing - turn).abs() < ASIDE)
+                .map(|(_, worth)| worth)
+                .sum()
+        };
+        let turns = (-steps..=steps).map(|step| step as f64 * TURN);
+        let best = turns
+            .max_by(|one, other| worth(*one).cmp(&worth(*other)).then(other.abs().total_cmp(&one.abs())));
+        best.unwrap_or(0.0)
+    }
+
+    /// A picture as of now; none of a robot without a camera.
+    fn shot(&self, lens: &Lens, now: Time) -> Option<View> {
+        let camera = self.camera.clone()?;
+        let shot = render(&self.world, &self.scene, lens);
+        let image = Image {
+            camera,
+            media_type: SmolStr::new_static("image/png"),
+            bytes: encoded(&shot)?,
+            at: self.now().min(now),
+        };
+        Some(View { image, depth: shot.depth, camera: lens.camera() })
     }
 }

@@ -5,11 +5,12 @@
 //! driver, [`Faults`] what goes wrong.
 //!
 //! Inside: `world`, `thing` and `body` are what is the case, filled from card, scene and state by `build` and `told`;
-//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `deed` and `task` make a
+//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `camera` takes pictures; `deed` and `task` make a
 //! command a run of stages; `faults` and `fate` are what goes wrong; `sim` and `driver` move time.
 
 mod body;
 mod build;
+mod camera;
 mod deed;
 mod driver;
 mod eyes;

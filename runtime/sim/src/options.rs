@@ -22,6 +22,8 @@ pub struct Options {
     /// Facts that hold at the start, by fluent and arguments. The world is made such that they do: what is told to be on
     /// the table is put there. Those of fluents that it does not simulate answer observations of them.
     pub told: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
+    /// Where the camera is: in the frame of the base on the floor, in m. Above its middle where that is not said.
+    pub eye: Option<[f64; 3]>,
 }
 
 /// What people say.

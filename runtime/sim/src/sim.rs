@@ -16,6 +16,8 @@ use std::collections::VecDeque;
 
 /// While something moves, watches are looked at that often, in ns.
 const SAMPLE_NANOS: u64 = 50_000_000;
+/// Where the camera is of a robot of which that is not said: about as high as a person's who sits.
+const EYE: [f64; 3] = [0.0, 0.0, 1.1];
 
 /// A robot in a room. It implements [`motet_runtime::Driver`]; its time is virtual and goes as the host advances it.
 ///
@@ -30,6 +32,10 @@ pub struct Sim {
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
+    /// Where the camera is, in the frame of the base, in m.
+    pub(crate) eye: [f64; 3],
+    /// The name of the first camera.
+    pub(crate) camera: Option<SmolStr>,
     observes: Vec<SmolStr>,
     told: Told,
 }
@@ -49,6 +55,8 @@ impl Sim {
             tasks: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
+            eye: options.eye.unwrap_or(EYE),
+            camera: robot.cameras.keys().next().cloned(),
             observes: robot.observes.clone(),
             told: options.told,
         }

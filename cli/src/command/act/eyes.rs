@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use motet_graph::Graph;
 use motet_planner::builtin::Answered;
-use motet_planner::conversation::{Outcome, Problem, Watcher};
+use motet_planner::conversation::{Outcome, Problem, Verifies, Watcher};
 use motet_runtime::{Control, Effect, Onlooker as _, Refusal, RunEnd, Time};
 use serde_json::json;
 
 use super::model::printable;
 use super::person::Asked;
 use super::record::Recorder;
-use crate::args::{DoArgs, RunFormat};
+use crate::args::{DoArgs, RunFormat, Speed};
 use crate::command::run::{self, Pace};
 use crate::exit::Trouble;
 use crate::out::{Colors, note};
@@ -84,6 +84,13 @@ impl Watcher for Eyes<'_> {
 
     fn at_least_every(&self) -> Time {
         self.pace.as_ref().map_or(Time::NEVER, |pace| pace.at_least_every())
+    }
+
+    fn verifies(&self) -> Verifies {
+        match self.args.simulated.speed {
+            Speed::Max => Verifies::AtOnce,
+            Speed::Times(_) => Verifies::Beside,
+        }
     }
 
     fn request(&mut self, _now: Time) -> Option<String> {

@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write as _};
 use std::time::Duration;
 
-use motet_client::{Address, Client, Image, Settings};
+use motet_client::{Address, Client, Image, Notation, Settings};
 use motet_decode::export::Dialect;
 use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{Ask, Builtin, Planner, Rest, Wait};
@@ -29,12 +29,13 @@ pub(super) fn planner(
 ) -> Result<Box<dyn Planner>, Trouble> {
     let asking = &args.asking;
     if asking.planner == "builtin" {
+        if asking.camera {
+            let why = "nobody looks at what the camera sees: give a model with --planner URL, or leave --camera out";
+            return Err(Trouble::Other(why.to_owned()));
+        }
         return Ok(Box::new(Builtin));
     }
-    let settings = settings(asking)?;
-    let name = settings.address.to_string();
-    let client =
-        Client::new(settings).map_err(|why| Trouble::Other(format!("cannot ask `{name}`: {why}")))?;
+    let client = client(asking)?;
     let screen = Screen {
         recorder,
         is_shown: args.format == RunFormat::Human,
@@ -50,6 +51,17 @@ pub(super) fn planner(
     Ok(if asking.fallback { Box::new(Fallback(planner)) } else { Box::new(planner) })
 }
 
+/// A connection to the server that the flags name.
+///
+/// # Errors
+///
+/// The address, an image or the key cannot be used.
+pub(super) fn client(asking: &ModelArgs) -> Result<Client, Trouble> {
+    let settings = settings(asking)?;
+    let name = settings.address.to_string();
+    Client::new(settings).map_err(|why| Trouble::Other(format!("cannot ask `{name}`: {why}")))
+}
+
 fn settings(args: &ModelArgs) -> Result<Settings, Trouble> {
     let dialect = match args.dialect {
         Held::None => None,
@@ -59,6 +71,12 @@ fn settings(args: &ModelArgs) -> Result<Settings, Trouble> {
         Held::Sglang => Some(Dialect::Sglang),
         Held::Openai => Some(Dialect::OpenAi),
     };
+    let takes_lark = matches!(dialect, Some(Dialect::Vllm | Dialect::Sglang | Dialect::LlamaCpp));
+    if args.lark && !takes_lark {
+        let why = "--lark is for servers that run grammars with llguidance: give --dialect vllm, sglang or llamacpp";
+        return Err(Trouble::Other(why.to_owned()));
+    }
+    let notation = if args.lark { Notation::Lark } else { Notation::Usual };
     let address = Address::new(&args.planner, dialect).map_err(Trouble::Other)?;
     let mut images = Vec::new();
     for path in &args.image {
@@ -70,7 +88,15 @@ fn settings(args: &ModelArgs) -> Result<Settings, Trouble> {
     let key = args.key_from.as_deref().map(grammar::key).transpose()?;
     let timeout = Duration::from_secs(args.timeout);
     let new = Settings::new(address, &args.model);
-    Ok(Settings { dialect, key, images, timeout, idle_timeout: new.idle_timeout.min(timeout), ..new })
+    Ok(Settings {
+        dialect,
+        notation,
+        key,
+        images,
+        timeout,
+        idle_timeout: new.idle_timeout.min(timeout),
+        ..new
+    })
 }
 
 /// A model, and where it finds nothing the planner that needs none.

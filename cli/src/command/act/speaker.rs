@@ -1,4 +1,4 @@
-//! The simulated robot with a person before it: what it asks, it asks them.
+//! A robot with a person before it: what it asks, it asks them.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -6,22 +6,21 @@ use std::rc::Rc;
 use motet_graph::Value;
 use motet_planner::conversation::{Kind, Person as _, Problem};
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
-use motet_sim::Sim;
 
 use super::model::printable;
 use super::person::{Asked, Asking};
 
-/// Answers `ask` itself, and leaves everything else to the simulator.
+/// Answers `ask` itself, and leaves everything else to the robot's driver.
 pub(super) struct Speaker<'a> {
-    sim: &'a mut Sim,
+    driver: &'a mut dyn Driver,
     person: Asking,
     /// What is to be reported of questions, which are answered at once.
     outbox: VecDeque<(Time, DriverEvent)>,
 }
 
 impl<'a> Speaker<'a> {
-    pub(super) fn new(sim: &'a mut Sim, asked: Rc<Asked>) -> Self {
-        Self { sim, person: Asking(asked), outbox: VecDeque::new() }
+    pub(super) fn new(driver: &'a mut dyn Driver, asked: Rc<Asked>) -> Self {
+        Self { driver, person: Asking(asked), outbox: VecDeque::new() }
     }
 }
 
@@ -29,7 +28,7 @@ impl Driver for Speaker<'_> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         let question = match command.arg("question") {
             Some(Value::Text(question)) if command.primitive == "ask" => printable(question),
-            _ => return self.sim.start(now, goal, command),
+            _ => return self.driver.start(now, goal, command),
         };
         let problem =
             Problem { kind: Kind::AmbiguousTask, question, options: Vec::new(), about: None, said: None };
@@ -42,46 +41,46 @@ impl Driver for Speaker<'_> {
     }
 
     fn cancel(&mut self, now: Time, goal: GoalId) {
-        self.sim.cancel(now, goal);
+        self.driver.cancel(now, goal);
     }
 
     fn capabilities(&self) -> Capabilities {
-        self.sim.capabilities()
+        self.driver.capabilities()
     }
 
     fn base(&self) -> Option<[f64; 3]> {
-        Driver::base(self.sim)
+        self.driver.base()
     }
 
     fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
-        self.sim.update(now, goal, command);
+        self.driver.update(now, goal, command);
     }
 
     fn hold(&mut self, now: Time, goal: GoalId) {
-        self.sim.hold(now, goal);
+        self.driver.hold(now, goal);
     }
 
     fn proceed(&mut self, now: Time, goal: GoalId) {
-        self.sim.proceed(now, goal);
+        self.driver.proceed(now, goal);
     }
 
     fn safe_stop(&mut self, now: Time, goal: GoalId) {
-        self.sim.safe_stop(now, goal);
+        self.driver.safe_stop(now, goal);
     }
 
     fn observe(&mut self, now: Time, query: &Query) {
-        self.sim.observe(now, query);
+        self.driver.observe(now, query);
     }
 
     fn watch(&mut self, now: Time, query: &Query) {
-        self.sim.watch(now, query);
+        self.driver.watch(now, query);
     }
 
     fn unwatch(&mut self, now: Time, query: &Query) {
-        self.sim.unwatch(now, query);
+        self.driver.unwatch(now, query);
     }
 
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
-        self.outbox.pop_front().or_else(|| self.sim.advance(until))
+        self.outbox.pop_front().or_else(|| self.driver.advance(until))
     }
 }

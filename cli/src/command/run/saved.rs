@@ -132,6 +132,7 @@ impl SavedSim {
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
             told: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
+            eye: None,
         };
         Ok(Sim::new(&robot, &scene, options))
     }

@@ -60,6 +60,8 @@ impl Choices {
                 .iter()
                 .filter_map(|(fact, value)| Some((told(graph, fact)?, *value)))
                 .collect(),
+            // Nobody looks at pictures of it.
+            eye: None,
         }
     }
 }

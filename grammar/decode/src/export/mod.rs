@@ -29,7 +29,9 @@ pub use grammar::{Expr, Grammar, Rule, RuleId};
 pub use lark::Header;
 pub use limits::warnings;
 pub use offer::Offer;
-pub use request::{Dialect, Prompt, probe_body, request_body, request_constraint, schema_of};
+pub use request::{
+    Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
+};
 pub use shape::{Shape, Shapes};
 pub use word::RESERVED;
 

@@ -3,9 +3,10 @@
 use motet_syntax::Form;
 use serde_json::{Map, Value, json};
 
+use super::lark::Header;
 use super::offer::Offer;
 use super::shape::Shapes;
-use super::{gbnf, grammar, schema};
+use super::{gbnf, grammar, lark, schema};
 
 /// A server's way of taking a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -60,6 +61,19 @@ pub fn request_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
         (Dialect::Ollama, Some(schema)) => json!({"format": schema, "stream": false}),
         (Dialect::OpenAi | Dialect::Ollama, None) => return None,
     })
+}
+
+/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the backend `guidance`, of SGLang
+/// with `llguidance`, and of a server of llama.cpp that was built with it. None for servers that take neither.
+#[must_use]
+pub fn lark_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
+    let lark = || lark::print(&grammar(offer), Header::Llguidance);
+    match dialect {
+        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark()}})),
+        Dialect::LlamaCpp => Some(json!({"grammar": lark()})),
+        Dialect::Sglang => Some(json!({"ebnf": lark()})),
+        Dialect::OpenAi | Dialect::Ollama => None,
+    }
 }
 
 /// The whole body of a chat request.

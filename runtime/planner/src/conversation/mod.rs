@@ -166,6 +166,10 @@ pub trait Watcher {
     fn at_least_every(&self) -> Time {
         Time::NEVER
     }
+    /// When motions are searched for that were left to the run.
+    fn verifies(&self) -> Verifies {
+        Verifies::AtOnce
+    }
     /// A new request that somebody has made meanwhile.
     fn request(&mut self, _now: Time) -> Option<String> {
         None
@@ -180,6 +184,15 @@ pub trait Watcher {
 
 /// Looks on without a word.
 impl Watcher for () {}
+
+/// When motions are searched for that were left to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verifies {
+    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    AtOnce,
+    /// On a thread of its own, while a robot and its monitors go on.
+    Beside,
+}
 
 /// How a conversation about one request ended.
 #[derive(Clone, PartialEq, Debug)]

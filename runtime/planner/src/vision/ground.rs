@@ -2,8 +2,7 @@
 //! camera's pose to a pose in the room.
 
 use motet_graph::Pose;
-use motet_robots::scene::Placement;
-use motet_runtime::Image;
+use motet_runtime::{Camera, Depth, Image, View};
 use thiserror::Error;
 
 /// The longest answer that is read, in bytes: a point takes twenty.
@@ -23,40 +22,12 @@ pub trait Pointer {
     fn ask(&mut self, image: &Image, question: &str) -> Result<String, String>;
 }
 
-/// A pinhole camera with its pose: x to the right, y down, z ahead, as images are.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Camera {
-    /// Its pose in the frame `map`.
-    pub pose: Placement,
-    /// fx, fy, cx, cy in pixels.
-    pub intrinsics: [f64; 4],
-}
-
-/// A depth image, row by row.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Depth {
-    /// Columns.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// Along the camera's z axis, in mm; 0 where there is none.
-    pub millimetres: Vec<u16>,
-}
-
-/// What a point is looked for in.
-#[derive(Clone, Copy, Debug)]
-pub struct Grounding<'a> {
-    /// The image.
-    pub image: &'a Image,
-    /// Depth of the same view.
-    pub depth: &'a Depth,
-    /// The camera.
-    pub camera: &'a Camera,
-}
-
 /// Why there is no point.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum NoPoint {
+    /// No camera sees what is asked about.
+    #[error("no camera sees it")]
+    Unseen,
     /// Nobody answered.
     #[error("no answer: {0}")]
     Silent(String),
@@ -97,8 +68,8 @@ impl NoPoint {
     pub const fn failure(&self) -> &'static str {
         match self {
             Self::Several => "ambiguous",
-            Self::Silent(_) | Self::Unreadable(_) | Self::Outside { .. } => "not_found",
-            Self::NoDepth { .. } | Self::Camera(_) => "not_found",
+            Self::Unseen | Self::Silent(_) | Self::Unreadable(_) => "not_found",
+            Self::Outside { .. } | Self::NoDepth { .. } | Self::Camera(_) => "not_found",
         }
     }
 }
@@ -108,19 +79,14 @@ impl NoPoint {
 /// # Errors
 ///
 /// What is wrong with the answer, the depth or the camera.
-pub fn ground(
-    pointer: &mut dyn Pointer,
-    view: Grounding<'_>,
-    object: &str,
-    used_for: &str,
-) -> Result<Pose, NoPoint> {
+pub fn ground(pointer: &mut dyn Pointer, view: &View, object: &str, used_for: &str) -> Result<Pose, NoPoint> {
     let question = format!(
         "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels from the top \
          left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
         view.depth.width, view.depth.height
     );
-    let reply = pointer.ask(view.image, &question).map_err(NoPoint::Silent)?;
-    lift(point(&reply)?, view.depth, view.camera)
+    let reply = pointer.ask(&view.image, &question).map_err(NoPoint::Silent)?;
+    lift(point(&reply)?, &view.depth, &view.camera)
 }
 
 /// Reads `{"point": [u, v]}`, also with a sentence or a fence around it, as models write it.
@@ -172,9 +138,12 @@ pub fn lift([u, v]: [f64; 2], depth: &Depth, camera: &Camera) -> Result<Pose, No
     if !([fx, fy, cx, cy].iter().all(|number| number.is_finite()) && fx > 0.0 && fy > 0.0) {
         return Err(NoPoint::Camera("its intrinsics are no positive numbers"));
     }
-    if !camera.pose.xyz.iter().chain(&camera.pose.rpy).all(|number| number.is_finite()) {
-        return Err(NoPoint::Camera("its pose is not finite"));
+    let Pose { xyz, quaternion } = camera.pose;
+    let norm = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
+    if !(xyz.iter().all(|number| number.is_finite()) && norm.is_finite() && (norm - 1.0).abs() < 1e-3) {
+        return Err(NoPoint::Camera("its pose is not finite, or turned by no unit quaternion"));
     }
+    let quaternion = quaternion.map(|part| part / norm);
     let is_inside = u >= 0.0 && v >= 0.0 && u < width as f64 && v < height as f64;
     if !is_inside {
         return Err(NoPoint::Outside { u, v, width, height });
@@ -183,12 +152,11 @@ pub fn lift([u, v]: [f64; 2], depth: &Depth, camera: &Camera) -> Result<Pose, No
     // A pixel's centre is half a pixel from its corner on both sides of the division: intrinsics count from centres.
     let (u, v) = (u.floor(), v.floor());
     let in_camera = [(u - cx) / fx * far, (v - cy) / fy * far, far];
-    let rotation = rotation(camera.pose.rpy);
-    let mut xyz = camera.pose.xyz;
-    for (out, row) in xyz.iter_mut().zip(rotation) {
+    let mut lifted = xyz;
+    for (out, row) in lifted.iter_mut().zip(rotation(quaternion)) {
         *out += row.iter().zip(in_camera).map(|(turn, part)| turn * part).sum::<f64>();
     }
-    Ok(Pose { xyz, quaternion: quaternion(camera.pose.rpy) })
+    Ok(Pose { xyz: lifted, quaternion })
 }
 
 /// The depth at a pixel in m, else the median about it.
@@ -212,24 +180,11 @@ fn depth_at(depth: &Depth, u: i64, v: i64) -> Option<f64> {
     near.get(near.len() / 2).copied()
 }
 
-/// The rotation of roll, pitch, yaw about fixed axes, by rows.
-fn rotation([roll, pitch, yaw]: [f64; 3]) -> [[f64; 3]; 3] {
-    let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
+/// The rotation of a unit quaternion, order x, y, z, w, by rows.
+fn rotation([x, y, z, w]: [f64; 4]) -> [[f64; 3]; 3] {
     [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-}
-
-/// The same as a unit quaternion, order x, y, z, w.
-fn quaternion([roll, pitch, yaw]: [f64; 3]) -> [f64; 4] {
-    let ((sr, cr), (sp, cp), (sy, cy)) =
-        ((roll / 2.0).sin_cos(), (pitch / 2.0).sin_cos(), (yaw / 2.0).sin_cos());
-    [
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
     ]
 }

@@ -4,6 +4,6 @@ mod ground;
 mod pointing;
 mod seen;
 
-pub use ground::{Camera, Depth, Grounding, NoPoint, Pointer, ground, lift, point};
-pub use pointing::{Pointing, Sight, View};
+pub use ground::{NoPoint, Pointer, ground, lift, point};
+pub use pointing::{Pointed, Pointing};
 pub use seen::with_detections;

@@ -9,10 +9,12 @@ use std::time::{Duration, Instant};
 
 use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
-use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Image, Outcome, Query, Time};
+use motet_runtime::{
+    Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Perception, Query, Time, View,
+};
 use smol_str::SmolStr;
 
-use super::ground::{Camera, Depth, Grounding, NoPoint, Pointer, ground};
+use super::ground::{NoPoint, Pointer, ground};
 use crate::conversation::called;
 
 /// What is answered here and not by the driver.
@@ -20,29 +22,24 @@ const GROUND: &str = "ground";
 /// How long an answer is waited for until the world goes on.
 const SLICE: Duration = Duration::from_millis(5);
 
-/// A picture with its depth and the camera that took both.
-#[derive(Clone, PartialEq, Debug)]
-pub struct View {
-    /// The picture.
-    pub image: Image,
-    /// Depth of the same view.
-    pub depth: Depth,
-    /// Its pose and its intrinsics.
-    pub camera: Camera,
-}
-
-/// A camera that measures depth.
-pub trait Sight {
-    /// What it sees now; none where it has nothing to show. Looking changes nothing.
-    fn view(&mut self, now: Time) -> Option<View>;
+/// A question for a point that was answered, or not.
+#[derive(Clone, Copy, Debug)]
+pub struct Pointed<'a> {
+    /// The entity.
+    pub object: &'a SmolStr,
+    /// What it is to be used for.
+    pub used_for: &'a SmolStr,
+    /// The pose, or why there is none.
+    pub found: &'a Result<Pose, NoPoint>,
 }
 
 /// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this exception to the
 /// sixth: when an answer comes only its giver knows.
 pub struct Pointing<'d> {
     driver: &'d mut dyn Driver,
-    sight: &'d mut dyn Sight,
+    eyes: &'d mut dyn Perception,
     scene: &'d Scene,
+    listener: Box<dyn FnMut(Pointed<'_>) + 'd>,
     questions: Sender<Question>,
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
     /// By goal.
@@ -67,6 +64,8 @@ struct Question {
 /// A goal that waits for an answer.
 struct Asked {
     number: u64,
+    object: SmolStr,
+    used_for: SmolStr,
     /// When it was asked, by the world and by the clock.
     at: Time,
     clock: Instant,
@@ -85,7 +84,7 @@ impl<'d> Pointing<'d> {
     #[must_use]
     pub fn new(
         driver: &'d mut dyn Driver,
-        sight: &'d mut dyn Sight,
+        eyes: &'d mut dyn Perception,
         scene: &'d Scene,
         mut pointer: Box<dyn Pointer + Send>,
     ) -> Self {
@@ -97,8 +96,7 @@ impl<'d> Pointing<'d> {
                 if !is_wanted.load(Ordering::Relaxed) {
                     continue;
                 }
-                let View { image, depth, camera } = &view;
-                let found = ground(&mut *pointer, Grounding { image, depth, camera }, &object, &used_for);
+                let found = ground(&mut *pointer, &view, &object, &used_for);
                 if replies.send((number, found)).is_err() {
                     return;
                 }
@@ -106,8 +104,9 @@ impl<'d> Pointing<'d> {
         });
         Self {
             driver,
-            sight,
+            eyes,
             scene,
+            listener: Box::new(|_| {}),
             questions,
             answers,
             asked: BTreeMap::new(),
@@ -118,6 +117,12 @@ impl<'d> Pointing<'d> {
         }
     }
 
+    /// Tells somebody what becomes of each question that was waited for.
+    #[must_use]
+    pub fn with_listener(self, listener: impl FnMut(Pointed<'_>) + 'd) -> Self {
+        Self { listener: Box::new(listener), ..self }
+    }
+
     /// Sends a question out; false where there is nothing to ask about.
     fn ask(&mut self, now: Time, goal: GoalId, command: &Command) -> bool {
         let (Some(Value::Entity(object)), Some(Value::Text(used_for))) =
@@ -125,7 +130,10 @@ impl<'d> Pointing<'d> {
         else {
             return false;
         };
-        let Some(view) = self.sight.view(now) else { return false };
+        let Some(view) = self.eyes.view(now, object) else {
+            (self.listener)(Pointed { object, used_for, found: &Err(NoPoint::Unseen) });
+            return false;
+        };
         self.count += 1;
         let is_wanted = Arc::new(AtomicBool::new(true));
         let question = Question {
@@ -135,7 +143,9 @@ impl<'d> Pointing<'d> {
             used_for: used_for.to_string(),
             is_wanted: Arc::clone(&is_wanted),
         };
-        self.asked.insert(goal, Asked { number: self.count, at: now, clock: Instant::now(), is_wanted });
+        let (object, used_for) = (object.clone(), used_for.clone());
+        let (number, clock) = (self.count, Instant::now());
+        self.asked.insert(goal, Asked { number, object, used_for, at: now, clock, is_wanted });
         self.questions.send(question).is_ok()
     }
 
@@ -147,10 +157,9 @@ impl<'d> Pointing<'d> {
     /// Takes an answer in. One that nobody waits for any more is dropped.
     fn take(&mut self, number: u64, found: Result<Pose, NoPoint>) {
         let waiting = self.asked.iter().find(|(_, asked)| asked.number == number);
-        let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, (asked.at, asked.clock))) else {
-            return;
-        };
-        let at = self.now.max(after(asked));
+        let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, asked)) else { return };
+        let at = self.now.max(asked.due());
+        (self.listener)(Pointed { object: &asked.object, used_for: &asked.used_for, found: &found });
         let outcome = match found {
             Ok(pose) => Outcome::Success(Some(Value::Pose(pose))),
             Err(why) => Outcome::Failure(SmolStr::new_static(why.failure())),
@@ -177,9 +186,11 @@ impl<'d> Pointing<'d> {
     }
 }
 
-/// Where the world may be by now: as much later than the question as the clock is.
-fn after((at, clock): (Time, Instant)) -> Time {
-    Time::from_secs(at.secs() + clock.elapsed().as_secs_f64())
+impl Asked {
+    /// Where the world may be by now: as much later than the question as the clock is.
+    fn due(&self) -> Time {
+        Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
+    }
 }
 
 impl Driver for Pointing<'_> {
@@ -222,10 +233,16 @@ impl Driver for Pointing<'_> {
     }
 
     fn hold(&mut self, now: Time, goal: GoalId) {
-        if self.asked.contains_key(&goal) {
-            self.outbox.push_back((now, DriverEvent::NotHeld { goal }));
-        } else if !self.own.contains(&goal) {
-            self.driver.hold(now, goal);
+        if !self.own.contains(&goal) {
+            return self.driver.hold(now, goal);
+        }
+        // An answer that has come already and was not reported yet does not wait either, and this is said before it.
+        let is_end =
+            |event: &DriverEvent| matches!(event, DriverEvent::Ended { goal: of, .. } if *of == goal);
+        let end = self.outbox.iter().position(|(_, event)| is_end(event));
+        if end.is_some() || self.asked.contains_key(&goal) {
+            let place = end.unwrap_or(self.outbox.len());
+            self.outbox.insert(place, (now, DriverEvent::NotHeld { goal }));
         }
     }
 
@@ -257,13 +274,16 @@ impl Driver for Pointing<'_> {
 
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
         loop {
+            if let Some(event) = self.due(until) {
+                return Some(event);
+            }
             while let Ok((number, found)) = self.answers.try_recv() {
                 self.take(number, found);
             }
             if let Some(event) = self.due(until) {
                 return Some(event);
             }
-            let clocks = self.asked.values().map(|asked| after((asked.at, asked.clock)));
+            let clocks = self.asked.values().map(Asked::due);
             let Some(limit) = clocks.min().filter(|limit| *limit < until) else { return self.forward(until) };
             if let Some(event) = self.forward(limit) {
                 return Some(event);

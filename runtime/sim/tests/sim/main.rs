@@ -8,6 +8,7 @@
     reason = "a test fails by panicking, and its data is nested"
 )]
 
+mod camera;
 mod conformance;
 mod driver;
 mod engine;
@@ -31,12 +32,19 @@ struct Bench {
     log: Vec<String>,
 }
 
+fn robot(name: &str) -> card::Robot {
+    let (_, toml, declarations) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+    card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations).0.unwrap()
+}
+
+fn scene(text: &str) -> scene::Scene {
+    let (scene, said) = scene::read(&Source::new("scene.json", text), FileId(0));
+    scene.unwrap_or_else(|| panic!("{said:?}"))
+}
+
 fn sim(robot: &str, room: &str, options: Options) -> Sim {
-    let (_, toml, declarations) = card::embedded().iter().find(|(name, ..)| *name == robot).unwrap();
-    let (robot, _) = card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations);
     let (_, text) = scene::embedded().iter().find(|(name, _)| *name == room).unwrap();
-    let (scene, _) = scene::read(&Source::new("scene.json", *text), FileId(0));
-    Sim::new(&robot.unwrap(), &scene.unwrap(), options)
+    Sim::new(&self::robot(robot), &scene(text), options)
 }
 
 impl Bench {
