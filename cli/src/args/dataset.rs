@@ -26,7 +26,7 @@ pub(crate) struct DatasetArgs {
 /// What else there is to do.
 #[derive(Subcommand, Debug)]
 pub(crate) enum DatasetCommand {
-    /// Find rows whose plan cannot run on its robot, other answers to one input, duplicates, and rooms in several files
+    /// Find rows whose plan cannot run on its robot, other answers to one input, duplicates, and rooms in several files, and images that are missing or not referred to
     Lint(LintArgs),
 }
 
@@ -39,6 +39,9 @@ pub(crate) struct MakeArgs {
     /// As which trainer reads rows
     #[arg(long, value_enum, default_value_t, value_name = "FORM")]
     pub(crate) form: RowForm,
+    /// Give each row a picture of what the robot's camera sees then, in the folder `images`
+    #[arg(long)]
+    pub(crate) images: bool,
     /// Robot: a built-in name, or a folder with a robot.toml; may be repeated
     #[arg(long, value_name = "NAME|FOLDER", default_values = ["hsr", "anymal_z1"])]
     pub(crate) robot: Vec<String>,

@@ -1,5 +1,6 @@
 //! `motet dataset`: instruction–policy pairs for fine-tuning, made and linted.
 
+mod images;
 mod lint;
 mod make;
 

@@ -28,6 +28,23 @@ fn a_dataset_is_made_and_passes_lint() {
 }
 
 #[test]
+fn images_are_beside_the_rows_and_linted_with_them() {
+    let place = Place::new("dataset_images");
+    let making = "dataset --robot hsr --room kitchen --scenes 2 --cases 2 --no-geometry --seed 3 --images";
+    place.run(&format!("{making} --out d --form qwen-vl")).check(0, &["out:images: ", "out: picture"]);
+    let lint = "dataset lint d/train.jsonl --no-geometry";
+    place.run(lint).check(0, &["err:, 0 with something wrong"]);
+    let names = place.read("d/train.jsonl");
+    let (_, rest) = names.split_once("\"image\":[\"images/").unwrap();
+    let (name, _) = rest.split_once('"').unwrap();
+    std::fs::rename(place.path(&format!("d/images/{name}")), place.path("d/images/moved.png")).unwrap();
+    place
+        .run(lint)
+        .check(1, &["out:image: its image `images/", "out:d/images/moved.png: image: no row refers to it"]);
+    place.run(&format!("{making} --out t --form inteliplan")).check(2, &["err:have no images"]);
+}
+
+#[test]
 fn rows_of_others_are_linted_in_the_room_that_is_given() {
     let policy = "policy p for hsr { go(counter) pick(coke) pick(apple) }";
     let place = Place::new("dataset_lint").file(

@@ -1,6 +1,7 @@
 //! Datasets: rooms are varied, cases drawn in them and played, and the turns kept that hold what they promise.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 use motet_geometry::query::Budget;
@@ -11,6 +12,7 @@ use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use crate::case;
 use crate::form::{self, Form};
 use crate::lint;
+use crate::picture::{Picture, Pictures};
 use crate::play::play;
 use crate::random::Draw;
 use crate::row::{About, Row};
@@ -41,6 +43,8 @@ pub struct Order {
     pub effort: Option<Budget>,
     /// In which form the rows will be written: what that cannot say is left out.
     pub form: Form,
+    /// Whether rows have pictures; in InteLiPlan's form none has.
+    pub pictures: Pictures,
 }
 
 /// What came of one varied room.
@@ -48,6 +52,7 @@ pub struct Order {
 pub struct Part {
     rows: Vec<Row>,
     scenes: IndexMap<SmolStr, Scene>,
+    pictures: BTreeMap<SmolStr, Picture>,
     dropped: BTreeMap<&'static str, usize>,
 }
 
@@ -60,8 +65,20 @@ pub struct Dataset {
     pub test: Vec<Row>,
     /// Every room of a row, by name.
     pub scenes: IndexMap<SmolStr, Scene>,
+    /// The picture of each row that has one, by its path: PNGs.
+    pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
     /// How many cases and turns were left out, and why.
     pub dropped: BTreeMap<&'static str, usize>,
+}
+
+impl Order {
+    /// What pictures the rows can have.
+    const fn shown(&self) -> Pictures {
+        match self.form {
+            Form::InteLiPlan => Pictures::None,
+            Form::Trl | Form::LlamaFactory | Form::QwenVl => self.pictures,
+        }
+    }
 }
 
 /// How often a case is drawn anew where a room has nothing for the first.
@@ -91,7 +108,7 @@ pub fn part(order: &Order, number: usize) -> Part {
                 part.leave_out("the room has nothing for it");
                 continue;
             };
-            match play(&case, &stage) {
+            match play(&case, &stage, order.shown()) {
                 Ok(turns) => {
                     for (turn, played) in turns.into_iter().enumerate() {
                         part.turn(order, body, &stage, &name, &case, turn, played);
@@ -126,6 +143,7 @@ impl Part {
             return;
         };
         let is_start = played.scene == stage.scene;
+        let picture = played.picture.map(|picture| (picture.path(room, &body.robot.name), picture));
         let mut row = Row {
             about: About {
                 robot: body.robot.name.to_smolstr(),
@@ -136,6 +154,7 @@ impl Part {
             },
             system: played.system,
             user: played.user,
+            image: picture.as_ref().map(|(path, _)| path.clone()),
             policy,
             request: played.request,
             history: played.history,
@@ -164,6 +183,7 @@ impl Part {
                 .unwrap_or_else(|| format_smolstr!("{room}.{}", self.scenes.len() + 1));
         }
         self.scenes.entry(row.about.scene.clone()).or_insert(played.scene);
+        self.pictures.extend(picture);
         self.rows.push(row);
     }
 }
@@ -175,7 +195,7 @@ pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
     let mut dataset = Dataset::default();
     let is_test = tested(order);
     let mut inputs: FxHashSet<String> = FxHashSet::default();
-    for (part, is_test) in parts.into_iter().zip(is_test) {
+    for (mut part, is_test) in parts.into_iter().zip(is_test) {
         for (why, count) in part.dropped {
             *dataset.dropped.entry(why).or_default() += count;
         }
@@ -188,6 +208,11 @@ pub fn gather(order: &Order, parts: Vec<Part>) -> Dataset {
             }
             if let Some(scene) = part.scenes.get(&row.about.scene) {
                 dataset.scenes.entry(row.about.scene.clone()).or_insert_with(|| scene.clone());
+            }
+            if let Some((path, picture)) =
+                row.image.as_ref().and_then(|path| part.pictures.remove_entry(path))
+            {
+                dataset.pictures.insert(path, picture.0);
             }
             rows.push(row);
         }

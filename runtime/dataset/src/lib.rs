@@ -12,6 +12,7 @@ pub mod form;
 pub mod generate;
 pub mod lint;
 mod mind;
+pub mod picture;
 mod play;
 mod random;
 mod row;

@@ -1,5 +1,5 @@
 //! What is wrong with files of rows: rows that cannot be read, plans that cannot run on their robot, other answers to the
-//! same input, the same row twice, and rooms that are in more than one file.
+//! same input, the same row twice, rooms that are in more than one file, and pictures that are not there.
 
 use indexmap::IndexMap;
 use motet_geometry::query::Budget;
@@ -27,6 +27,8 @@ pub enum Fault {
     Duplicate,
     /// Its room is in another file too.
     Leak,
+    /// A picture is missing, cannot be read, or has no place in the row; or no row refers to it.
+    Image,
 }
 
 impl Fault {
@@ -40,6 +42,7 @@ impl Fault {
             Self::Contradiction => "contradiction",
             Self::Duplicate => "duplicate",
             Self::Leak => "leak",
+            Self::Image => "image",
         }
     }
 }
@@ -49,7 +52,7 @@ impl Fault {
 pub struct Place {
     /// The file's name.
     pub file: String,
-    /// The line, from 1.
+    /// The line, from 1; 0 of a file as a whole.
     pub row: usize,
 }
 
@@ -81,9 +84,16 @@ pub struct Worlds {
     pub effort: Option<Budget>,
 }
 
+/// Looks after the pictures that rows refer to.
+pub trait Shelf {
+    /// What is wrong with a picture that a row of a file refers to by a path.
+    fn fault(&mut self, file: &str, path: &str) -> Option<String>;
+}
+
 /// Looks at the rows of files, one after the other.
 pub struct Linter<'w> {
     worlds: &'w Worlds,
+    shelf: Option<&'w mut dyn Shelf>,
     /// Robot and room of the row before, and the stage of them: rows of one room mostly follow each other.
     stage: Option<((SmolStr, SmolStr), Result<Stage, String>)>,
     /// Inputs, with the answer and where it stands.
@@ -99,11 +109,18 @@ impl<'w> Linter<'w> {
     pub fn new(worlds: &'w Worlds) -> Self {
         Self {
             worlds,
+            shelf: None,
             stage: None,
             inputs: FxHashMap::default(),
             rooms: FxHashMap::default(),
             leaked: FxHashSet::default(),
         }
+    }
+
+    /// Has the pictures of rows looked at, too.
+    #[must_use]
+    pub fn with_shelf(self, shelf: &'w mut dyn Shelf) -> Self {
+        Self { shelf: Some(shelf), ..self }
     }
 
     /// What is wrong with a line of a file, its number from 1; nothing with an empty one.
@@ -139,6 +156,15 @@ impl<'w> Linter<'w> {
         if let Some(other) = self.leak(&row, &at) {
             let message = format!("its room `{}` is in another file too", family(&other.1));
             find(Fault::Leak, message, Some(other.0));
+        }
+        if let Some(places) = row.places.filter(|places| *places != row.images.len()) {
+            let message = format!("it has {} images and {places} places for them", row.images.len());
+            find(Fault::Image, message, None);
+        }
+        if let Some(shelf) = &mut self.shelf {
+            for why in row.images.iter().filter_map(|image| shelf.fault(file, image)) {
+                find(Fault::Image, why, None);
+            }
         }
         match self.fault(&row) {
             Ok(None) => {}

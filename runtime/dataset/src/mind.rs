@@ -1,4 +1,4 @@
-//! A planner that keeps what it was asked and what it answered, and the driver that lets it see the room as it is then.
+//! A planner that keeps what it was asked and what it answered, with the room as it was then.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -12,10 +12,12 @@ use motet_planner::model;
 use motet_planner::prompt;
 use motet_planner::request;
 use motet_robots::scene::{Entity, Scene};
-use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
+use motet_runtime::{Perception as _, Time};
 use motet_sim::Sim;
 use motet_syntax::{FileId, Source, print};
 use smol_str::SmolStr;
+
+use crate::picture::{Picture, Pictures};
 
 /// A turn: a planner is asked, and answers.
 #[derive(Clone, Debug)]
@@ -24,6 +26,8 @@ pub(crate) struct Turn {
     pub(crate) scene: Scene,
     pub(crate) system: String,
     pub(crate) user: String,
+    /// What the camera sees then.
+    pub(crate) picture: Option<Picture>,
     pub(crate) request: String,
     pub(crate) history: String,
     pub(crate) vision: String,
@@ -34,14 +38,14 @@ pub(crate) struct Turn {
 }
 
 /// A simulator that a planner looks at while the conversation drives it.
-#[derive(Clone, Debug)]
-pub(crate) struct Shared(pub(crate) Rc<RefCell<Sim>>);
+pub(crate) type Shared = Rc<RefCell<Sim>>;
 
 /// The planner that needs no model, with a memory of its turns.
 pub(crate) struct Mind {
     /// The room as the robot was told that it is.
     pub(crate) told: Scene,
     pub(crate) sim: Shared,
+    pub(crate) pictures: Pictures,
     pub(crate) turns: Vec<Turn>,
 }
 
@@ -75,6 +79,7 @@ impl Planner for Mind {
             scene: now,
             system,
             user,
+            picture: self.picture(),
             request: ask.request.to_owned(),
             history: history.join("; "),
             vision: vision.join(", "),
@@ -91,9 +96,20 @@ impl Planner for Mind {
 }
 
 impl Mind {
+    fn picture(&self) -> Option<Picture> {
+        match self.pictures {
+            Pictures::None => None,
+            Pictures::EachRow => {
+                let mut sim = self.sim.borrow_mut();
+                let now = sim.now();
+                Some(Picture(sim.image(now)?.bytes.into()))
+            }
+        }
+    }
+
     /// The room as it is known: what is believed of things counts where it is not the case.
     fn scene_now(&self, ask: &Ask<'_>) -> Scene {
-        let sim = self.sim.0.borrow();
+        let sim = self.sim.borrow();
         let mut scene = self.told.clone();
         let base = sim.base();
         scene.robot.base = [base.x, base.y, base.heading];
@@ -181,54 +197,4 @@ fn asking(ask: &Ask<'_>, question: &str) -> String {
         question.chars().map(|letter| if letter == '"' || letter == '\\' { '\'' } else { letter }).collect();
     let robot = print::identifier(&ask.robot.name);
     format!("policy ask_first for {robot} {{\n    let answer = ask(\"{plain}\")\n    replan answer\n}}\n")
-}
-
-impl Driver for Shared {
-    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
-        self.0.borrow_mut().start(now, goal, command);
-    }
-
-    fn cancel(&mut self, now: Time, goal: GoalId) {
-        self.0.borrow_mut().cancel(now, goal);
-    }
-
-    fn capabilities(&self) -> Capabilities {
-        self.0.borrow().capabilities()
-    }
-
-    fn base(&self) -> Option<[f64; 3]> {
-        Driver::base(&*self.0.borrow())
-    }
-
-    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
-        self.0.borrow_mut().update(now, goal, command);
-    }
-
-    fn hold(&mut self, now: Time, goal: GoalId) {
-        self.0.borrow_mut().hold(now, goal);
-    }
-
-    fn proceed(&mut self, now: Time, goal: GoalId) {
-        self.0.borrow_mut().proceed(now, goal);
-    }
-
-    fn safe_stop(&mut self, now: Time, goal: GoalId) {
-        self.0.borrow_mut().safe_stop(now, goal);
-    }
-
-    fn observe(&mut self, now: Time, query: &Query) {
-        self.0.borrow_mut().observe(now, query);
-    }
-
-    fn watch(&mut self, now: Time, query: &Query) {
-        self.0.borrow_mut().watch(now, query);
-    }
-
-    fn unwatch(&mut self, now: Time, query: &Query) {
-        self.0.borrow_mut().unwatch(now, query);
-    }
-
-    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
-        self.0.borrow_mut().advance(until)
-    }
 }

@@ -9,7 +9,8 @@ use motet_runtime::Time;
 use motet_sim::{Options, Sim};
 
 use crate::case::Case;
-use crate::mind::{Mind, Shared, Turn};
+use crate::mind::{Mind, Turn};
+use crate::picture::Pictures;
 use crate::stage::Stage;
 
 /// Answers from a list.
@@ -24,10 +25,11 @@ impl Person for Scripted {
 
 /// Plays a case where the robot was told the room of a stage. Gives its turns, or why it did not go as it was drawn: it came
 /// to another end, its goal does not hold, or something that should go wrong was never asked about.
-pub(crate) fn play(case: &Case, stage: &Stage) -> Result<Vec<Turn>, &'static str> {
-    let options = Options { faults: case.faults.clone(), ..Options::default() };
-    let mut driver = Shared(Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options))));
-    let mut mind = Mind { told: stage.scene.clone(), sim: driver.clone(), turns: Vec::new() };
+pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
+    let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
+    let options = Options { faults: case.faults.clone(), eye, ..Options::default() };
+    let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
+    let mut mind = Mind { told: stage.scene.clone(), sim: driver.clone(), pictures, turns: Vec::new() };
     let setting = Setting {
         robot: stage.robot.clone(),
         scene: stage.scene.clone(),
@@ -48,7 +50,7 @@ pub(crate) fn play(case: &Case, stage: &Stage) -> Result<Vec<Turn>, &'static str
     }
     let (fluent, args, holds) = &case.goal;
     let args: Vec<&str> = args.iter().map(smol_str::SmolStr::as_str).collect();
-    if !case.is_given_up && driver.0.borrow().holds(fluent, &args) != Some(*holds) {
+    if !case.is_given_up && driver.borrow().holds(fluent, &args) != Some(*holds) {
         return Err("what was asked for does not hold at the end");
     }
     Ok(mind.turns)

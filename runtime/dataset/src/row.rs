@@ -30,6 +30,8 @@ pub struct Row {
     pub system: String,
     /// What it is asked.
     pub user: String,
+    /// The picture that it is shown: a path as seen from the folder of the row's file.
+    pub image: Option<SmolStr>,
     /// The policy on the model surface.
     pub policy: String,
     /// The request in its words.

@@ -11,7 +11,8 @@ use std::collections::BTreeSet;
 
 use motet_dataset::form::{self, Form};
 use motet_dataset::generate::{self, Dataset, Order};
-use motet_dataset::lint::{Fault, Finding, Linter, Worlds, family};
+use motet_dataset::lint::{Fault, Finding, Linter, Shelf, Worlds, family};
+use motet_dataset::picture::{self, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
 use motet_geometry::query::Budget;
 use motet_robots::{card, scene, urdf};
@@ -44,6 +45,7 @@ fn order(form: Form) -> Order {
         test: 0.3,
         effort: None,
         form,
+        pictures: Pictures::None,
     }
 }
 
@@ -151,7 +153,7 @@ fn rows_have_the_shapes_that_trainers_read() {
     assert!(qwen["conversations"][0]["value"].as_str().unwrap().starts_with(&row.system));
     let text = of(Form::InteLiPlan)["text"].as_str().unwrap().to_owned();
     assert!(text.contains("<user> ") && text.contains("<robot> "), "{text}");
-    let info: Value = serde_json::from_str(&form::dataset_info(&["train"])).unwrap();
+    let info: Value = serde_json::from_str(&form::dataset_info(&["train"], Pictures::None)).unwrap();
     assert_eq!(info["motet_train"]["formatting"], "sharegpt");
     for form in FORMS {
         let read = form::read(&form::write(row, form)).unwrap();
@@ -276,4 +278,76 @@ fn a_room_in_two_files_is_found_once() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((found[0].fault, found[0].at.row), (Fault::Leak, 2));
     assert_eq!(found[0].other.as_ref().map(|other| other.file.as_str()), Some("train"));
+}
+
+/// Pictures in memory.
+struct Kept<'d>(&'d Dataset);
+
+impl Shelf for Kept<'_> {
+    fn fault(&mut self, _file: &str, path: &str) -> Option<String> {
+        self.0.pictures.get(path).map_or_else(|| Some("missing".to_owned()), |bytes| picture::fault(bytes))
+    }
+}
+
+#[test]
+fn pictures_go_with_rows_in_every_form_that_has_them() {
+    for (form, column) in [(Form::Trl, "images"), (Form::LlamaFactory, "images"), (Form::QwenVl, "image")] {
+        let order = Order { pictures: Pictures::EachRow, bodies: vec![body("hsr")], ..order(form) };
+        let dataset = made(&order);
+        let rows: Vec<&Row> = dataset.train.iter().chain(&dataset.test).collect();
+        let shown: BTreeSet<_> = rows.iter().filter_map(|row| row.image.clone()).collect();
+        assert!(rows.iter().all(|row| row.image.is_some()), "{form:?}");
+        assert!(shown.iter().eq(dataset.pictures.keys()), "{form:?}: each is kept, and no other");
+        let line: Value = serde_json::from_str(&form::write(rows[0], form)).unwrap();
+        assert_eq!(line[column], json!([rows[0].image.as_deref().unwrap()]));
+        let worlds = worlds(&dataset, None);
+        let mut shelf = Kept(&dataset);
+        let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
+        for (number, line) in lines(&dataset.train, form).iter().enumerate() {
+            assert_eq!(linter.line("train", number + 1, line), [], "{form:?}");
+        }
+        let again = made(&order);
+        assert_eq!(dataset.pictures, again.pictures);
+    }
+    let info: Value = serde_json::from_str(&form::dataset_info(&["train"], Pictures::EachRow)).unwrap();
+    assert_eq!(info["motet_train"]["columns"]["images"], "images");
+}
+
+#[test]
+fn pictures_that_are_wrong_are_found() {
+    let mut worlds = worlds(&Dataset::default(), None);
+    worlds.scenes.insert("kitchen".into(), room("kitchen"));
+    let dataset = Dataset {
+        pictures: [
+            ("images/good.gif".into(), b"GIF89a".as_slice().into()),
+            ("images/half.png".into(), b"\x89PNG\r\n\x1a\nand no more".as_slice().into()),
+            ("images/text.png".into(), b"no picture".as_slice().into()),
+        ]
+        .into(),
+        ..Dataset::default()
+    };
+    let row = |content: Value, images: Value| {
+        let policy = "policy p for hsr { say(\"hello\") }";
+        json!({"conversations": [{"from": "human", "value": content}, {"from": "gpt", "value": policy}],
+            "images": images, "motet": {"robot": "hsr", "scene": "kitchen"}})
+        .to_string()
+    };
+    for (images, content, words) in [
+        (json!(["images/gone.png"]), "<image>a", "missing"),
+        (json!(["images/half.png"]), "<image>b", "no whole PNG"),
+        (json!(["images/text.png"]), "<image>c", "no PNG, JPEG, WebP or GIF"),
+        (json!(["images/good.gif"]), "d", "1 images and 0 places"),
+        (json!([]), "<image>e", "0 images and 1 places"),
+        (json!(["images/good.gif"]), "<image>f", ""),
+    ] {
+        let mut shelf = Kept(&dataset);
+        let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
+        let found = linter.line("rows", 1, &row(content.into(), images));
+        let expected = usize::from(!words.is_empty());
+        assert_eq!(found.len(), expected, "{content}: {found:?}");
+        assert!(
+            found.iter().all(|one| one.fault == Fault::Image && one.message.contains(words)),
+            "{found:?}"
+        );
+    }
 }

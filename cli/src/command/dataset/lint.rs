@@ -10,6 +10,7 @@ use motet_syntax::{FileId, Severity, Source, Sources};
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
+use super::images::Images;
 use crate::args::{LintArgs, LintFormat};
 use crate::exit::{Exit, Trouble};
 use crate::input::{Bytes, Flow, Input};
@@ -18,7 +19,7 @@ use crate::report::Report;
 use crate::workbench::read_scene;
 
 /// The file beside rows that has their rooms.
-const ROOMS: &str = "scenes.jsonl";
+pub(super) const ROOMS: &str = "scenes.jsonl";
 
 /// Lints files.
 ///
@@ -27,7 +28,8 @@ const ROOMS: &str = "scenes.jsonl";
 /// A file cannot be read, or a robot or a room cannot be used.
 pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let worlds = worlds(args, report)?;
-    let mut linter = Linter::new(&worlds);
+    let mut shelf = Images::default();
+    let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
     let (mut rows, mut wrong) = (0, BTreeSet::new());
     for path in &args.files {
         let file = path.display().to_string();
@@ -40,8 +42,12 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::GoOn })
         })?;
     }
+    let lost = shelf.lost(&args.files)?;
+    for finding in &lost {
+        report.out.line(&shown(finding, args.format));
+    }
     note(&format!("{}, {} with something wrong", count(rows, "row"), wrong.len()));
-    Ok(if wrong.is_empty() { Exit::Clean } else { Exit::Findings })
+    Ok(if wrong.is_empty() && lost.is_empty() { Exit::Clean } else { Exit::Findings })
 }
 
 fn shown(finding: &Finding, format: LintFormat) -> String {
@@ -49,7 +55,8 @@ fn shown(finding: &Finding, format: LintFormat) -> String {
     match format {
         LintFormat::Human => {
             let other = other.as_ref().map(|other| format!(": {}:{}", other.file, other.row));
-            format!("{}:{}: {}: {message}{}", at.file, at.row, fault.name(), other.unwrap_or_default())
+            let row = if at.row > 0 { format!(":{}", at.row) } else { String::new() };
+            format!("{}{row}: {}: {message}{}", at.file, fault.name(), other.unwrap_or_default())
         }
         LintFormat::Json => {
             let other = other.as_ref().map(|other| json!({"file": other.file, "row": other.row}));
@@ -108,7 +115,10 @@ fn room(line: &str) -> Result<(SmolStr, Scene), String> {
 }
 
 /// The lines of a file with their numbers, from 1; empty ones are passed over.
-fn lines(path: &Path, each: &mut dyn FnMut(usize, &str) -> Result<Flow, Trouble>) -> Result<(), Trouble> {
+pub(super) fn lines(
+    path: &Path,
+    each: &mut dyn FnMut(usize, &str) -> Result<Flow, Trouble>,
+) -> Result<(), Trouble> {
     let input = Input::Lines(path.to_owned());
     input.documents(&mut |document| {
         let number =

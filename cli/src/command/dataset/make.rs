@@ -9,6 +9,7 @@ use std::sync::mpsc;
 use motet_dataset::form::{self, Form};
 use motet_dataset::generate::{self, Dataset, Order, Part};
 use motet_dataset::lint::family;
+use motet_dataset::picture::{FOLDER, Pictures};
 use motet_dataset::{Row, scenery, wordings};
 use motet_robots::scene;
 use motet_syntax::Sources;
@@ -31,6 +32,9 @@ pub(super) fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, Trouble
     let Some(folder) = &args.out else {
         return Err(Trouble::Other("a folder is needed: give --out FOLDER".to_owned()));
     };
+    if args.images && args.form == RowForm::Inteliplan {
+        return Err(Trouble::Other("rows in the form `inteliplan` are texts and have no images".to_owned()));
+    }
     let order = order(args, report)?;
     let dataset = generate::gather(&order, parts(&order));
     fs::create_dir_all(folder).map_err(|source| Trouble::Write { path: folder.clone(), source })?;
@@ -48,7 +52,12 @@ pub(super) fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, Trouble
     }
     write(&folder.join("scenes.jsonl"), scenes(&dataset))?;
     if order.form == Form::LlamaFactory {
-        write(&folder.join("dataset_info.json"), [form::dataset_info(&["train", "test"])].into_iter())?;
+        let info = form::dataset_info(&["train", "test"], order.pictures);
+        write(&folder.join("dataset_info.json"), [info].into_iter())?;
+    }
+    if order.pictures == Pictures::EachRow {
+        pictures(folder, &dataset)?;
+        report.out.line(&format!("{FOLDER}: {}", count(dataset.pictures.len(), "picture")));
     }
     for (why, dropped) in &dataset.dropped {
         note(&format!("left out {dropped}: {why}"));
@@ -96,6 +105,7 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, Trouble> {
             RowForm::QwenVl => Form::QwenVl,
             RowForm::Inteliplan => Form::InteLiPlan,
         },
+        pictures: if args.images { Pictures::EachRow } else { Pictures::None },
     })
 }
 
@@ -127,6 +137,21 @@ fn parts(order: &Order) -> Vec<Part> {
 fn kinds(rows: &[Row]) -> String {
     let later = rows.iter().filter(|row| row.about.turn > 0).count();
     if later == 0 { String::new() } else { format!(", {later} of them after something went wrong") }
+}
+
+/// Writes the pictures of rows.
+fn pictures(folder: &Path, dataset: &Dataset) -> Result<(), Trouble> {
+    let place = folder.join(FOLDER);
+    let cannot = |path: &Path| {
+        let path = path.to_owned();
+        move |source| Trouble::Write { path, source }
+    };
+    fs::create_dir_all(&place).map_err(cannot(&place))?;
+    for (name, bytes) in &dataset.pictures {
+        let path = folder.join(name.as_str());
+        fs::write(&path, bytes).map_err(cannot(&path))?;
+    }
+    Ok(())
 }
 
 fn scenes(dataset: &Dataset) -> impl Iterator<Item = String> + '_ {

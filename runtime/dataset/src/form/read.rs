@@ -4,6 +4,9 @@ use motet_planner::dialect::exchange;
 use serde_json::Value;
 use smol_str::SmolStr;
 
+/// Where a picture stands in a text.
+const TAG: &str = "<image>";
+
 /// A row as it stands in a file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Read {
@@ -11,8 +14,12 @@ pub struct Read {
     pub robot: Option<SmolStr>,
     /// The room, where the row says.
     pub scene: Option<SmolStr>,
-    /// Everything that the model is shown.
+    /// Everything that the model is shown, of pictures where they are.
     pub input: String,
+    /// The paths of its pictures, as seen from the folder of its file.
+    pub images: Vec<String>,
+    /// How many places for pictures its messages have, where they say.
+    pub places: Option<usize>,
     /// What it shall answer.
     pub target: Target,
 }
@@ -69,7 +76,36 @@ pub fn read(line: &str) -> Result<Read, String> {
     if target.text().trim().is_empty() {
         return Err("its answer is empty".to_owned());
     }
-    Ok(Read { robot: about("robot"), scene: about("scene"), input, target })
+    let images = images(&row)?;
+    let places = places(&row, &input);
+    let input = images.iter().fold(input, |input, image| format!("{input}\n{image}"));
+    Ok(Read { robot: about("robot"), scene: about("scene"), input, images, places, target })
+}
+
+/// The pictures that a row names: a path, or a list of them.
+fn images(row: &Value) -> Result<Vec<String>, String> {
+    match row.get("images").or_else(|| row.get("image")) {
+        None | Some(Value::Null) => Ok(Vec::new()),
+        Some(Value::String(path)) => Ok(vec![path.clone()]),
+        Some(Value::Array(paths)) => {
+            let paths = paths.iter().map(|path| path.as_str().map(ToOwned::to_owned));
+            paths.collect::<Option<_>>().ok_or_else(|| "its images are no paths".to_owned())
+        }
+        Some(_) => Err("its images are no paths".to_owned()),
+    }
+}
+
+/// The places for pictures: parts in messages of TRL's form, which puts them there by itself where there are none; else tags.
+fn places(row: &Value, input: &str) -> Option<usize> {
+    let Some(messages) = row.get("messages").and_then(Value::as_array) else {
+        return Some(input.matches(TAG).count());
+    };
+    let parts = messages.iter().filter_map(|message| message.get("content").and_then(Value::as_array));
+    let mut count = None;
+    for part in parts.flatten() {
+        *count.get_or_insert(0) += usize::from(part.get("type").and_then(Value::as_str) == Some("image"));
+    }
+    count
 }
 
 /// The names of things in a chat.
@@ -98,9 +134,10 @@ fn chat(messages: &Value, keys: Keys) -> Result<(String, Target), String> {
         let number = index + 1;
         let of = |key: &str| message.get(key).and_then(Value::as_str);
         let who = of(keys.who).ok_or_else(|| format!("message {number} has no `{}`", keys.who))?;
-        let text = of(keys.text).ok_or_else(|| format!("message {number} has no `{}`", keys.text))?;
+        let text = message.get(keys.text).and_then(content);
+        let text = text.ok_or_else(|| format!("message {number} has no `{}`", keys.text))?;
         if who == keys.system && index == 0 {
-            input.push_str(text);
+            input.push_str(&text);
             input.push('\n');
             continue;
         }
@@ -110,14 +147,14 @@ fn chat(messages: &Value, keys: Keys) -> Result<(String, Target), String> {
             ));
         }
         if who == keys.assistant {
-            answer = Some(text.to_owned());
+            answer = Some(text);
             expects = keys.user;
         } else {
             if let Some(before) = answer.take() {
                 input.push_str(&before);
                 input.push('\n');
             }
-            input.push_str(text);
+            input.push_str(&text);
             input.push('\n');
             expects = keys.assistant;
         }
@@ -134,9 +171,18 @@ fn said(value: &Value) -> Option<String> {
         return Some(text.to_owned());
     }
     let messages = value.as_array()?;
-    let texts: Option<Vec<&str>> =
-        messages.iter().map(|message| message.get("content").and_then(Value::as_str)).collect();
+    let texts: Option<Vec<String>> =
+        messages.iter().map(|message| message.get("content").and_then(content)).collect();
     texts.map(|texts| texts.join("\n"))
+}
+
+/// What a message says: a text, or the texts of its parts.
+fn content(value: &Value) -> Option<String> {
+    if let Some(text) = value.as_str() {
+        return Some(text.to_owned());
+    }
+    let texts = value.as_array()?.iter().filter_map(|part| part.get("text").and_then(Value::as_str));
+    Some(texts.collect::<Vec<_>>().join("\n"))
 }
 
 /// The last exchange of a text in InteLiPlan's dialect, and what is before it.

@@ -1,0 +1,53 @@
+//! Pictures of rows: what the simulated robot's camera sees as a planner is asked.
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use smol_str::{SmolStr, format_smolstr};
+
+/// The folder of pictures, beside the files of rows.
+pub const FOLDER: &str = "images";
+
+/// Whether rows have pictures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Pictures {
+    /// None has.
+    #[default]
+    None,
+    /// Each has one.
+    EachRow,
+}
+
+/// A PNG.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Picture(pub(crate) Arc<[u8]>);
+
+impl Picture {
+    /// Its path as seen from the folder of the rows: of the room, the robot and what it shows, so that the same is stored once.
+    pub(crate) fn path(&self, room: &str, robot: &str) -> SmolStr {
+        // FNV-1a, of 64 bits: the same everywhere.
+        let hash = self.0.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
+        });
+        format_smolstr!("{FOLDER}/{room}_{robot}_{hash:016x}.png")
+    }
+}
+
+/// Why the bytes of a file are no picture that a trainer reads; none where they are. A PNG is decoded, of the other kinds the
+/// first bytes are looked at.
+#[must_use]
+pub fn fault(bytes: &[u8]) -> Option<String> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => decoded(bytes).err().map(|why| format!("it is no whole PNG: {why}")),
+        [0xff, 0xd8, 0xff, ..] | [b'G', b'I', b'F', b'8', ..] => None,
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => None,
+        _ => Some("it is no PNG, JPEG, WebP or GIF".to_owned()),
+    }
+}
+
+fn decoded(bytes: &[u8]) -> Result<(), png::DecodingError> {
+    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
+    let Some(size) = reader.output_buffer_size() else { return Err(png::DecodingError::LimitsExceeded) };
+    reader.next_frame(&mut vec![0; size])?;
+    Ok(())
+}
