@@ -1,57 +1,17 @@
-//! What is known between two policies: what a run believed at its end, and what people said. From it come the scene and the
-//! state that the next policy is checked against, and the start of the next run.
+//! The world as it is known: as a scene, as a state, as the start of a run, and as requests are understood in it.
 
 use indexmap::IndexMap;
-use motet_compiler::{Given, Session, State};
-use motet_graph::{Graph, Value};
+use motet_compiler::{Session, State};
+use motet_graph::Value;
 use motet_robots::scene::Scene;
-use motet_runtime::{Engine, Pattern, Query, Snapshot, StartState, Truth};
+use motet_runtime::{Pattern, Query, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
+use super::{Known, query};
 use crate::request::{Located, Situation};
 
-/// What is known beside a scene.
-#[derive(Clone, Debug, Default)]
-pub struct Known {
-    /// In order: a later fact wins, and one with `any` is meant of every entity.
-    facts: Vec<(Query, Truth)>,
-    some: Vec<Query>,
-    /// What was spoken of, the latest last.
-    pub(super) spoken_of: Vec<SmolStr>,
-}
-
 impl Known {
-    /// Whether nothing is known but what the scene says.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.facts.is_empty()
-    }
-
-    /// Takes over what a run believes. Of what its graph does not speak of, what was known before stays; of what the scene
-    /// says, as a session was `given` it, nothing stays that is no longer believed.
-    pub fn learn(&mut self, engine: &Engine, given: &Session) {
-        self.take(engine.snapshot(), engine.graph(), given);
-    }
-
-    /// The same in the middle of a run, for a policy that is to take over: of what running steps change nothing is known then.
-    pub fn learn_midway(&mut self, engine: &Engine, given: &Session) {
-        self.take(engine.interrupted(), engine.graph(), given);
-    }
-
-    fn take(&mut self, snapshot: Snapshot, graph: &Graph, given: &Session) {
-        let speaks = |query: &Query| match query {
-            Query::Fact { fluent, .. } => graph.fluents.iter().any(|known| known.name == *fluent),
-            Query::Measure { .. } | Query::Field { .. } => true,
-        };
-        self.facts.retain(|(query, _)| !speaks(query));
-        let said = given.given().map(|given| (query(given), Truth::Unknown));
-        self.facts.extend(said.filter(|(query, _)| speaks(query)));
-        self.facts.extend(snapshot.facts);
-        self.some.retain(|query| !speaks(query));
-        self.some.extend(snapshot.some);
-    }
-
     /// Where the objects are, as far as that is known.
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<Located> {
@@ -68,85 +28,6 @@ impl Known {
             })
         });
         places.collect()
-    }
-
-    /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
-    /// where it was: a hand that slipped left it there. The next plan looks before it takes.
-    pub fn presume(&mut self, before: &[Located]) {
-        for known in before {
-            let thing = Pattern::Is(Value::Entity(known.thing.clone()));
-            let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
-                Query::Fact { fluent, args } if fluent == "at" && args.first() == Some(&thing) => {
-                    Some(*truth)
-                }
-                _ => None,
-            });
-            if about.next() != Some(Truth::Unknown) {
-                continue;
-            }
-            let place = Pattern::Is(Value::Entity(known.place.clone()));
-            for fluent in ["on", "in", "at"] {
-                let args = vec![thing.clone(), Pattern::Any];
-                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::False));
-            }
-            for fluent in [known.relation, "at"] {
-                let args = vec![thing.clone(), place.clone()];
-                self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
-            }
-        }
-    }
-
-    /// Takes in what the robot feels of itself: what it holds is nowhere else, and where it stands it stands.
-    pub fn notice(&mut self, felt: &[(Query, Truth)]) {
-        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
-        let stands = |query: &Query| match query {
-            Query::Fact { fluent, args } => fluent == "at" && args.first() == Some(&robot),
-            Query::Measure { .. } | Query::Field { .. } => false,
-        };
-        if felt.iter().any(|(query, _)| stands(query)) {
-            let args = vec![robot.clone(), Pattern::Any];
-            self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::False));
-        }
-        for (query, truth) in felt {
-            let Query::Fact { fluent, args } = query else { continue };
-            // That it is nowhere else was said above.
-            if stands(query) && *truth != Truth::True {
-                continue;
-            }
-            if let ("holding", Truth::True, Some(thing)) = (fluent.as_str(), truth, args.first()) {
-                for place in ["on", "in", "at"] {
-                    let args = vec![thing.clone(), Pattern::Any];
-                    self.facts.push((Query::Fact { fluent: place.into(), args }, Truth::False));
-                }
-            }
-            self.facts.push((query.clone(), *truth));
-        }
-    }
-
-    /// Where the robot stands no longer counts: from there something could not be reached.
-    pub fn doubt_standing(&mut self) {
-        let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
-        let args = vec![robot, Pattern::Any];
-        self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::Unknown));
-    }
-
-    /// Takes in where somebody says that a thing is.
-    pub fn hear(&mut self, said: &Located) {
-        let thing = Pattern::Is(Value::Entity(said.thing.clone()));
-        let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
-            self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));
-        };
-        for fluent in ["on", "in", "at"] {
-            tell(fluent, vec![thing.clone(), Pattern::Any], Truth::False);
-        }
-        let place = Pattern::Is(Value::Entity(said.place.clone()));
-        for fluent in [said.relation, "at"] {
-            tell(fluent, vec![thing.clone(), place.clone()], Truth::True);
-        }
-        for fluent in ["visible", "located", "clear"] {
-            tell(fluent, vec![thing.clone()], Truth::Unknown);
-        }
-        self.spoken_of.push(said.thing.clone());
     }
 
     /// The scene without what is known otherwise, or no longer.
@@ -326,11 +207,6 @@ impl Known {
             ..Situation::new(scene)
         }
     }
-}
-
-fn query(given: Given) -> Query {
-    let args = given.args.into_iter().map(|arg| arg.map_or(Pattern::Any, Pattern::Is));
-    Query::Fact { fluent: given.fluent, args: args.collect() }
 }
 
 /// A fact as a state file has it; none where an argument is no name.

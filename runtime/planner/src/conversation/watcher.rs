@@ -1,0 +1,69 @@
+//! Who is there beside the robot: somebody who answers, and somebody who looks on.
+
+use std::sync::Arc;
+
+use motet_graph::Graph;
+use motet_runtime::{Control, Effect, Event, Refusal, RunEnd, Time};
+
+use super::problem::Problem;
+use crate::builtin::Answered;
+
+/// Answers questions.
+pub trait Person {
+    /// Asks a question. None where nobody answers.
+    fn ask(&mut self, problem: &Problem) -> Option<String>;
+}
+
+/// Nobody is there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nobody;
+
+impl Person for Nobody {
+    fn ask(&mut self, _problem: &Problem) -> Option<String> {
+        None
+    }
+}
+
+/// Looks on, and brings new requests.
+pub trait Watcher {
+    /// A policy is about to run, or to take over.
+    fn planned(&mut self, _answered: &Answered, _graph: &Arc<Graph>) {}
+    /// An event is about to be handled.
+    fn event(&mut self, _now: Time, _event: &Event) {}
+    /// An effect is about to be carried out.
+    fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    /// Time has passed; whether the run goes on. To pace it against a clock, wait here.
+    fn reached(&mut self, _now: Time) -> Control {
+        Control::GoOn
+    }
+    /// The longest span without a call of [`Watcher::reached`].
+    fn at_least_every(&self) -> Time {
+        Time::NEVER
+    }
+    /// When motions are searched for that were left to the run.
+    fn verifies(&self) -> Verifies {
+        Verifies::AtOnce
+    }
+    /// A new request that somebody has made meanwhile.
+    fn request(&mut self, _now: Time) -> Option<String> {
+        None
+    }
+    /// A policy took over, or could not.
+    fn swapped(&mut self, _now: Time, _refusal: Option<&Refusal>) {}
+    /// A run has ended.
+    fn ended(&mut self, _now: Time, _end: &RunEnd) {}
+    /// Something is to be asked, or was answered.
+    fn asked(&mut self, _problem: &Problem, _answer: Option<&str>) {}
+}
+
+/// Looks on without a word.
+impl Watcher for () {}
+
+/// When motions are searched for that were left to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verifies {
+    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    AtOnce,
+    /// On a thread of its own, while a robot and its monitors go on.
+    Beside,
+}
