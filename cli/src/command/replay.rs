@@ -31,7 +31,7 @@ pub(crate) fn run(args: &ReplayArgs, _colors: Colors) -> Result<Exit, Trouble> {
         note(&format!("the last {} bytes are of an entry that was not written to its end", tail.torn_bytes));
     }
     let mut out = Out::default();
-    let state = args.at.map(|_| replay.engine().snapshot());
+    let state = last.map(|_| replay.engine().snapshot());
     if args.json {
         out.line(&player.json(state.as_ref()));
     } else {

@@ -9,6 +9,7 @@ mod pace;
 mod play;
 mod resume;
 mod saved;
+mod saved_guard;
 mod screen;
 mod tree;
 mod view;
@@ -33,6 +34,7 @@ use crate::report::Report;
 use crate::workbench::{Setting, Workbench, wanted_robot};
 use play::Play;
 use saved::Saved;
+use saved_guard::SavedGuard;
 use world::Choices;
 
 pub(crate) use drive::run as drive;
@@ -78,7 +80,12 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
     let journal = match &args.record {
         Some(folder) => {
-            let saved = Saved::simulator(card, setting.scene_text.clone(), &options);
+            let saved = Saved::simulator(
+                card,
+                setting.scene_text.clone(),
+                &options,
+                SavedGuard::of(&args.world, setting),
+            );
             Some(play::journal(folder, &engine, &start, &simulator.capabilities(), &saved)?)
         }
         None => None,

@@ -15,7 +15,7 @@ use std::time::Duration;
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/drivers/echo.py");
 
 /// Whether there is a Python to run drivers with.
-fn has_python() -> bool {
+pub(crate) fn has_python() -> bool {
     let found = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
     if !found {
         println!("skipped: there is no python3");
@@ -24,7 +24,7 @@ fn has_python() -> bool {
 }
 
 /// A driver that greets, and then does what stands in `then` at each further message `m`.
-fn odd(then: &str) -> String {
+pub(crate) fn odd(then: &str) -> String {
     format!(
         "import sys,json,time\n\
          def say(x): print(json.dumps(dict(x, jsonrpc='2.0')), flush=True)\n\

@@ -65,6 +65,36 @@ fn records_replays_and_resumes() {
     place.run("run").check(2, &["err:FILE"]);
     place.run(&format!("run asks.motet {world} --record asks")).check(0, &[]);
     place.run("replay asks --at 100s").check(0, &["out:let answer = \"yes\""]);
+    place.run("replay asks --until 100s").check(0, &["out:let answer = \"yes\"", "out:the same to the byte"]);
+}
+
+#[test]
+fn motions_are_verified_also_after_a_resumption() {
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/inspection_round.motet");
+    let place = Place::new("journal_guard").file("round.motet", std::fs::read(example).unwrap());
+    place.run("run round.motet --robot anymal_z1 --scene lab --speed max --record whole").check(0, &[]);
+    let text = std::fs::read_to_string(journal(&place.path("whole"))).unwrap();
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let begun = lines[..lines.len() / 2].concat();
+    let place = place.file("cut/000000000000.journal", begun);
+    place.run("run --resume cut --speed max").check(0, &["out:✓ inspection_round: done"]);
+    assert_eq!(deeds(&place.path("cut")), deeds(&place.path("whole")));
+    let cut = std::fs::read_to_string(journal(&place.path("cut"))).unwrap();
+    let verdicts =
+        |text: &str| (text.matches("\"feasible\"").count(), text.matches("nobody is there").count());
+    assert_eq!(verdicts(&cut), verdicts(&text));
+    assert!(verdicts(&cut).0 > 0 && verdicts(&cut).1 == 0, "{:?}", verdicts(&cut));
+}
+
+#[test]
+fn an_export_that_fails_leaves_what_was_there() {
+    let place = Place::new("journal_export").file("good.motet", GOOD).file("run.mcap", "kept");
+    place.run("export mcap nowhere -o run.mcap").check(2, &["err:cannot read `nowhere`"]);
+    assert_eq!(place.read("run.mcap"), "kept");
+    assert!(!place.path("run.mcap.partial").exists());
+    place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);
+    place.run("export mcap run -o run.mcap").check(0, &["err:entries to run.mcap"]);
+    assert_ne!(std::fs::read(place.path("run.mcap")).unwrap(), b"kept");
 }
 
 #[test]

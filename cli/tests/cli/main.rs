@@ -2,6 +2,7 @@
 
 mod check;
 mod commands;
+mod crash;
 mod dataset;
 mod decode;
 mod dialog;

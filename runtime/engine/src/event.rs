@@ -79,6 +79,13 @@ pub enum DriverEvent {
         /// Which.
         goal: GoalId,
     },
+    /// How the goal is getting on, in words for people. It changes nothing.
+    Feedback {
+        /// Which.
+        goal: GoalId,
+        /// The words.
+        text: SmolStr,
+    },
     /// Everything that the goal used stands still and is safe: the answer to a safe stop. The goal has ended.
     Stopped {
         /// Which.
@@ -110,7 +117,10 @@ impl DriverEvent {
             Self::Acknowledged { goal } | Self::Refused { goal, .. } | Self::Ended { goal, .. } => {
                 Some(*goal)
             }
-            Self::NotHeld { goal } | Self::Stopped { goal } | Self::Lost { goal } => Some(*goal),
+            Self::NotHeld { goal }
+            | Self::Feedback { goal, .. }
+            | Self::Stopped { goal }
+            | Self::Lost { goal } => Some(*goal),
             Self::DriverLost | Self::Observed { .. } => None,
         }
     }
@@ -134,6 +144,7 @@ impl fmt::Display for DriverEvent {
             Self::Refused { goal, failure } => write!(f, "refused {goal}: {failure}"),
             Self::Ended { goal, outcome } => write!(f, "ended {goal}: {outcome}"),
             Self::NotHeld { goal } => write!(f, "not held {goal}"),
+            Self::Feedback { goal, text } => write!(f, "feedback of {goal}: {text}"),
             Self::Stopped { goal } => write!(f, "stopped {goal}"),
             Self::Lost { goal } => write!(f, "lost {goal}"),
             Self::DriverLost => f.write_str("driver lost"),

@@ -159,7 +159,9 @@ impl Way {
                     self.course.observed(fluent, entity, *holds);
                 }
             }
-            DriverEvent::Observed { .. } | DriverEvent::Acknowledged { .. } => {}
+            DriverEvent::Observed { .. }
+            | DriverEvent::Acknowledged { .. }
+            | DriverEvent::Feedback { .. } => {}
             DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
         }
     }

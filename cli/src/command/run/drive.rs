@@ -8,6 +8,7 @@ use motet_runtime::{Driver, Event, Settings, Time};
 use super::pace::Pace;
 use super::play::{self, Play};
 use super::saved::Saved;
+use super::saved_guard::SavedGuard;
 use super::{compile, form_of, start};
 use crate::args::{DriveArgs, Speed};
 use crate::exit::{Exit, Trouble};
@@ -38,7 +39,11 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     let engine = play::engine(graph, &start, driver.capabilities(), guard.as_ref(), settings())?;
     let journal = match &args.record {
         Some(folder) => {
-            let saved = Saved::process(&args.driver, &driver.welcome().instance);
+            let saved = Saved::process(
+                &args.driver,
+                &driver.welcome().instance,
+                SavedGuard::of(&args.world, setting),
+            );
             Some(play::journal(folder, &engine, &start, &driver.capabilities(), &saved)?)
         }
         None => None,

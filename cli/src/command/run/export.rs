@@ -1,7 +1,8 @@
 //! `motet export mcap`: a journal as an MCAP file, with the simulated world where the run was a simulation.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::BufWriter;
+use std::path::{Path, PathBuf};
 
 use motet_host::mcap::{Body, Exporter, Picture, Solid};
 use motet_robots::scene::{Scene, Shape};
@@ -20,13 +21,30 @@ use crate::out::note;
 ///
 /// The journal cannot be read, or the file not be written.
 pub(crate) fn mcap(args: &McapArgs) -> Result<Exit, Trouble> {
-    let path = &args.output;
-    let file = File::create(path).map_err(|source| Trouble::Write { path: path.clone(), source })?;
+    // An earlier file, which may be the journal itself, is there until the new one is whole.
+    let mut partial = args.output.clone().into_os_string();
+    partial.push(".partial");
+    let partial = PathBuf::from(partial);
+    let written = write(&args.folder, &partial);
+    let renamed = written.and_then(|entries| match fs::rename(&partial, &args.output) {
+        Ok(()) => Ok(entries),
+        Err(source) => Err(Trouble::Write { path: args.output.clone(), source }),
+    });
+    if renamed.is_err() {
+        let _ = fs::remove_file(&partial);
+    }
+    note(&format!("wrote {} entries to {}", renamed?, args.output.display()));
+    Ok(Exit::Clean)
+}
+
+/// Writes a journal as MCAP. Gives how many entries it has.
+fn write(folder: &Path, path: &Path) -> Result<u64, Trouble> {
+    let file = File::create(path).map_err(|source| Trouble::Write { path: path.to_owned(), source })?;
     let wrong = |error: motet_host::mcap::ExportError| Trouble::Other(error.to_string());
     let mut exporter = Exporter::new(BufWriter::new(file)).map_err(wrong)?;
     let mut world = None;
     let (mut result, mut entries) = (Ok(()), 0);
-    let read = motet_host::journal::read(&args.folder, &mut |seq, entry| {
+    let read = motet_host::journal::read(folder, &mut |seq, entry| {
         if result.is_err() {
             return;
         }
@@ -39,8 +57,7 @@ pub(crate) fn mcap(args: &McapArgs) -> Result<Exit, Trouble> {
     });
     read.map_err(journal_trouble)?;
     result.and_then(|()| exporter.finish()).map_err(wrong)?;
-    note(&format!("wrote {entries} entries to {}", path.display()));
-    Ok(Exit::Clean)
+    Ok(entries)
 }
 
 /// The simulated world along a journal.

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use motet_host::journal::Writer;
 use motet_host::remote::protocol::Hello;
-use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace};
-use motet_runtime::{Driver, Event, Time, wire};
+use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace, Step};
+use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
 
 use super::drive;
 use super::pace::Pace;
@@ -36,6 +36,8 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     let view = play::view(args.format, replay.engine().graph(), colors);
     let mut pace = Pace::new(view, args.simulated.speed);
     let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
+    let guard = saved.guard().filter(|_| head.settings.verify_within.is_some());
+    let mut guard = guard.and_then(|guard| guard.make(colors));
     let mut begun = false;
     for (number, entry) in entries.iter().enumerate() {
         let differs = |what: String| Trouble::Other(format!("entry {number} of the journal: {what}"));
@@ -50,6 +52,12 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
         }
         if let Some(world) = &mut world {
             retrace.take(world, entry).map_err(|astray| differs(astray.to_string()))?;
+        }
+        if let Some(guard) = &mut guard {
+            if let Entry::Step(Step { event: Some(event), .. }) = entry {
+                guard.event(&event.clone().into());
+            }
+            replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
         pace.past(replay.now(), replay.effects());
@@ -74,8 +82,9 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     };
     let goals = crate::out::count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
+    let pace = pace.with_guard(guard);
     let driver: Box<dyn Driver> = match (saved, world) {
-        (Saved::Process { address, instance }, _) => {
+        (Saved::Process { address, instance, .. }, _) => {
             let hello = Hello::of(replay.engine().graph());
             let mut driver = drive::connect(&address.into(), hello, from)?;
             let caught_up = driver.catch_up(&ledger, &instance, from);

@@ -10,6 +10,7 @@ use motet_syntax::{FileId, Source};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
+use super::saved_guard::SavedGuard;
 use crate::exit::Trouble;
 use crate::workbench::Card;
 
@@ -25,6 +26,9 @@ pub(super) enum Saved {
         address: SavedAddress,
         /// What it calls itself since it was started.
         instance: String,
+        /// Who checks the motions that are left to the run.
+        #[serde(default)]
+        guard: Option<Box<SavedGuard>>,
     },
 }
 
@@ -54,10 +58,18 @@ pub(super) struct SavedSim {
     kinds: IndexMap<SmolStr, SmolStr>,
     entities: Vec<(SmolStr, SmolStr)>,
     told: Vec<(SmolStr, Vec<SmolStr>, bool)>,
+    /// Who checks the motions that are left to the run.
+    #[serde(default)]
+    guard: Option<Box<SavedGuard>>,
 }
 
 impl Saved {
-    pub(super) fn simulator(robot: &Card, scene: Option<String>, options: &Options) -> Self {
+    pub(super) fn simulator(
+        robot: &Card,
+        scene: Option<String>,
+        options: &Options,
+        guard: Option<SavedGuard>,
+    ) -> Self {
         let (card, declarations) = robot.texts();
         let told = options.told.iter();
         Self::Simulator(Box::new(SavedSim {
@@ -70,15 +82,24 @@ impl Saved {
             kinds: options.kinds.clone(),
             entities: options.entities.clone(),
             told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
+            guard: guard.map(Box::new),
         }))
     }
 
-    pub(super) fn process(address: &Address, instance: &str) -> Self {
+    pub(super) fn process(address: &Address, instance: &str, guard: Option<SavedGuard>) -> Self {
         let address = match address {
             Address::Command(words) => SavedAddress::Command(words.clone()),
             Address::Tcp(socket) => SavedAddress::Tcp(*socket),
         };
-        Self::Process { address, instance: instance.to_owned() }
+        Self::Process { address, instance: instance.to_owned(), guard: guard.map(Box::new) }
+    }
+
+    /// Who checks the motions that are left to the run, as at its beginning.
+    pub(super) fn guard(&self) -> Option<&SavedGuard> {
+        match self {
+            Self::Simulator(saved) => saved.guard.as_deref(),
+            Self::Process { guard, .. } => guard.as_deref(),
+        }
     }
 
     pub(super) fn to_json(&self) -> Result<serde_json::Value, Trouble> {

@@ -34,9 +34,15 @@ impl Bench {
     }
 
     pub(super) fn start(&mut self, command: &Command) -> GoalId {
+        let goal = self.unheard_of();
+        self.driver.start(self.now, goal, command);
+        goal
+    }
+
+    /// A goal that was never started.
+    pub(super) fn unheard_of(&mut self) -> GoalId {
         let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::goals::SLOT_BITS);
         self.goals.insert(goal, Said::default());
-        self.driver.start(self.now, goal, command);
         goal
     }
 
@@ -68,7 +74,7 @@ impl Bench {
 
     /// Whether a goal is acknowledged within a span. It is a breach where there is no answer.
     pub(super) fn runs(&mut self, goal: GoalId, span: Time) -> bool {
-        match self.until(span, |event| of(event) == Some(goal)) {
+        match self.until(span, |event| matters(event, goal)) {
             Some(DriverEvent::Acknowledged { .. }) => true,
             Some(_) => false,
             None => {
@@ -101,7 +107,7 @@ impl Bench {
                 said.stops = said.stops.saturating_sub(1);
                 said.ended = true;
             }
-            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => {}
+            DriverEvent::NotHeld { .. } | DriverEvent::Feedback { .. } | DriverEvent::Lost { .. } => {}
             DriverEvent::DriverLost | DriverEvent::Observed { .. } => {}
         }
         if before.ended && !is_stop {
@@ -122,10 +128,16 @@ pub(super) const fn of(event: &DriverEvent) -> Option<GoalId> {
         | DriverEvent::Refused { goal, .. }
         | DriverEvent::Ended { goal, .. }
         | DriverEvent::NotHeld { goal }
+        | DriverEvent::Feedback { goal, .. }
         | DriverEvent::Stopped { goal }
         | DriverEvent::Lost { goal } => Some(*goal),
         DriverEvent::DriverLost | DriverEvent::Observed { .. } => None,
     }
+}
+
+/// Whether an event says something of a goal that is more than words.
+pub(super) fn matters(event: &DriverEvent, goal: GoalId) -> bool {
+    of(event) == Some(goal) && !matches!(event, DriverEvent::Feedback { .. })
 }
 
 /// Whether an event ends a goal.
@@ -133,7 +145,7 @@ pub(super) fn ends(event: &DriverEvent, goal: GoalId) -> bool {
     let is_end = match event {
         DriverEvent::Ended { .. } | DriverEvent::Stopped { .. } | DriverEvent::Refused { .. } => true,
         DriverEvent::Acknowledged { .. } | DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => false,
-        DriverEvent::DriverLost | DriverEvent::Observed { .. } => false,
+        DriverEvent::Feedback { .. } | DriverEvent::DriverLost | DriverEvent::Observed { .. } => false,
     };
     is_end && of(event) == Some(goal)
 }

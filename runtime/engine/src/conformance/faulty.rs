@@ -24,6 +24,12 @@ pub struct Mischief {
     pub refuses: u32,
     /// A command never reaches the driver within.
     pub deaf: u32,
+    /// A hold never reaches the driver within.
+    pub moves_on: u32,
+    /// Of a goal that is cancelled nothing is reported any more.
+    pub forgets: u32,
+    /// A goal that is updated is interrupted.
+    pub gives_up: u32,
     /// From a command on, nothing is reported any more.
     pub silence: u32,
     /// A report is of a time before the last.
@@ -38,12 +44,13 @@ pub struct Faulty<D> {
     dice: u64,
     is_silent: bool,
     queue: Vec<(Time, DriverEvent)>,
+    forgotten: Vec<GoalId>,
 }
 
 impl<D: Driver> Faulty<D> {
     /// Around a driver.
     pub const fn new(inner: D, mischief: Mischief, seed: u64) -> Self {
-        Self { inner, mischief, dice: seed, is_silent: false, queue: Vec::new() }
+        Self { inner, mischief, dice: seed, is_silent: false, queue: Vec::new(), forgotten: Vec::new() }
     }
 
     /// Whether something happens that does in so many of 1,000 cases.
@@ -67,7 +74,8 @@ impl<D: Driver> Faulty<D> {
 
     /// A report from within.
     fn take(&mut self, at: Time, event: DriverEvent) {
-        if self.is_silent || self.happens(self.mischief.loses) {
+        let is_forgotten = event.goal().is_some_and(|goal| self.forgotten.contains(&goal));
+        if self.is_silent || is_forgotten || self.happens(self.mischief.loses) {
             return;
         }
         let mut at = at;
@@ -99,6 +107,9 @@ impl<D: Driver> Driver for Faulty<D> {
     }
 
     fn cancel(&mut self, now: Time, goal: GoalId) {
+        if self.happens(self.mischief.forgets) {
+            self.forgotten.push(goal);
+        }
         if self.reaches() {
             self.inner.cancel(now, goal);
         }
@@ -109,13 +120,15 @@ impl<D: Driver> Driver for Faulty<D> {
     }
 
     fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
-        if self.reaches() {
+        if self.happens(self.mischief.gives_up) {
+            self.inner.cancel(now, goal);
+        } else if self.reaches() {
             self.inner.update(now, goal, command);
         }
     }
 
     fn hold(&mut self, now: Time, goal: GoalId) {
-        if self.reaches() {
+        if !self.happens(self.mischief.moves_on) && self.reaches() {
             self.inner.hold(now, goal);
         }
     }

@@ -13,10 +13,12 @@ pub enum Law {
     SilentAfterEnd,
     /// A cancelled goal ends soon.
     Cancelled,
-    /// A safe stop is answered, of a goal that has ended too.
+    /// A safe stop is answered, also of a goal that has ended, is held, or was never heard of.
     SafeStop,
     /// A held goal does not end, and goes on when it is told to; or it is said that it cannot be held.
     Held,
+    /// An updated goal goes on under its number, and ends by itself.
+    Updated,
     /// An observation is answered once.
     Observed,
     /// A watch is answered at once, and watching twice is watching once.
@@ -47,6 +49,7 @@ impl Law {
             Self::Cancelled => "a cancelled goal ends soon",
             Self::SafeStop => "a safe stop is always answered",
             Self::Held => "a held goal keeps still until it is told to go on",
+            Self::Updated => "an updated goal goes on under its number, and ends by itself",
             Self::Observed => "an observation is answered once",
             Self::Watched => "a watch is answered at once, and watching twice is watching once",
             Self::Time => "time never runs backwards, nor past what was asked for",

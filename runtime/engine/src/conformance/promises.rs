@@ -91,7 +91,7 @@ impl Onlooker for Promises {
                 self.live.remove(goal);
             }
             DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
-            DriverEvent::Observed { .. } => {}
+            DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => {}
         }
     }
 

@@ -1,10 +1,10 @@
 //! The scenes that a driver is run through.
 
-use super::bench::{Bench, ends, of};
+use super::bench::{Bench, ends, matters};
 use super::law::{Breach, Law};
 use crate::driver::Driver;
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId};
+use crate::event::{DriverEvent, GoalId, Outcome};
 use crate::query::Query;
 use crate::time::Time;
 use std::collections::BTreeSet;
@@ -31,7 +31,18 @@ pub struct Subject<'a> {
 #[must_use]
 pub fn check(subject: &mut Subject<'_>) -> Vec<Breach> {
     type Scene = fn(&mut Bench, &Subject<'_>);
-    let scenes: [Scene; 6] = [to_the_end, cancelled, stopped, held, observed, watched];
+    let scenes: [Scene; 10] = [
+        to_the_end,
+        cancelled,
+        stopped,
+        stopped_unheard_of,
+        held,
+        cancelled_while_held,
+        stopped_while_held,
+        updated,
+        observed,
+        watched,
+    ];
     let mut breaches = BTreeSet::new();
     for scene in scenes {
         let mut bench = Bench::new((subject.fresh)());
@@ -74,13 +85,17 @@ fn stopped(bench: &mut Bench, subject: &Subject<'_>) {
     let goal = bench.start(&subject.command);
     bench.runs(goal, subject.patience);
     for when in ["while it runs", "after its end"] {
-        bench.safe_stop(goal);
-        let is_answer = |event: &DriverEvent| *event == DriverEvent::Stopped { goal };
-        if bench.until(subject.patience, is_answer).is_none() {
-            bench.breach(Law::SafeStop, format!("that of goal {goal} is not, {when}"));
-        }
+        stop(bench, goal, subject, when);
     }
     bench.until(subject.patience, |_| false);
+}
+
+fn stop(bench: &mut Bench, goal: GoalId, subject: &Subject<'_>, when: &str) {
+    bench.safe_stop(goal);
+    let is_answer = |event: &DriverEvent| *event == DriverEvent::Stopped { goal };
+    if bench.until(subject.patience, is_answer).is_none() {
+        bench.breach(Law::SafeStop, format!("that of goal {goal} is not, {when}"));
+    }
 }
 
 /// Held, it keeps still, and then goes on.
@@ -90,12 +105,65 @@ fn held(bench: &mut Bench, subject: &Subject<'_>) {
         return;
     }
     bench.driver.hold(bench.now, goal);
-    match bench.until(subject.patience, |event| of(event) == Some(goal)) {
+    match bench.until(subject.patience, |event| matters(event, goal)) {
         Some(DriverEvent::NotHeld { .. }) => {}
         Some(other) => bench.breach(Law::Held, format!("`{other}` while it is held")),
         None => bench.driver.proceed(bench.now, goal),
     }
     end(bench, goal, subject.patience, Law::Held);
+}
+
+/// A safe stop is answered also of a goal that was never started.
+fn stopped_unheard_of(bench: &mut Bench, subject: &Subject<'_>) {
+    let goal = bench.unheard_of();
+    stop(bench, goal, subject, "of which it has never heard");
+}
+
+/// Cancelled while it is held, it ends.
+fn cancelled_while_held(bench: &mut Bench, subject: &Subject<'_>) {
+    if let Some(goal) = hold(bench, subject) {
+        bench.driver.cancel(bench.now, goal);
+        end(bench, goal, subject.patience, Law::Cancelled);
+    }
+}
+
+/// Stopped safely while it is held, it is said to be.
+fn stopped_while_held(bench: &mut Bench, subject: &Subject<'_>) {
+    if let Some(goal) = hold(bench, subject) {
+        stop(bench, goal, subject, "while it is held");
+        bench.until(subject.patience, |_| false);
+    }
+}
+
+/// Starts a goal and holds it for a moment. None where it does not run.
+fn hold(bench: &mut Bench, subject: &Subject<'_>) -> Option<GoalId> {
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return None;
+    }
+    bench.driver.hold(bench.now, goal);
+    bench.until(subject.moment, |_| false);
+    Some(goal)
+}
+
+/// Given its arguments again, it goes on under its number and ends once, by itself.
+fn updated(bench: &mut Bench, subject: &Subject<'_>) {
+    if !bench.driver.capabilities().update.contains(&subject.command.primitive) {
+        return;
+    }
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return;
+    }
+    bench.driver.update(bench.now, goal, &subject.command);
+    match bench.until(subject.patience, |event| ends(event, goal)) {
+        Some(DriverEvent::Ended { outcome: Outcome::Success(_) | Outcome::Failure(_), .. }) => {}
+        Some(other) => bench.breach(Law::Updated, format!("`{other}` after an update")),
+        None => {
+            bench.breach(Law::Updated, format!("goal {goal} has not ended {} after it", subject.patience));
+        }
+    }
+    bench.until(subject.moment, |_| false);
 }
 
 /// Observed, it is answered once.

@@ -24,14 +24,10 @@ pub struct Ledger {
 pub struct Open {
     /// What it does.
     pub start: Start,
-    /// Whether the driver said that it runs.
-    pub acknowledged: bool,
-    /// Whether it was told to hold.
-    pub held: bool,
-    /// Whether it was told to end early.
-    pub cancelled: bool,
-    /// Whether it was told to stop safely.
-    pub stopping: bool,
+    /// Whether it was given new arguments since.
+    pub updated: bool,
+    /// What was said last of its going on: to hold, to proceed, to end early, to stop safely.
+    pub told: Option<Effect>,
 }
 
 impl Ledger {
@@ -55,16 +51,14 @@ impl Ledger {
 
     fn event(&mut self, event: &DriverEvent) {
         match event {
-            DriverEvent::Acknowledged { goal } => {
-                self.with(*goal, |open| open.acknowledged = true);
-            }
             DriverEvent::Refused { goal, .. }
             | DriverEvent::Ended { goal, .. }
             | DriverEvent::Stopped { goal } => {
                 self.goals.remove(goal);
             }
-            DriverEvent::NotHeld { goal } => self.with(*goal, |open| open.held = false),
+            DriverEvent::NotHeld { goal } => self.with(*goal, |open| open.told = None),
             DriverEvent::Observed { query, .. } => self.observations.retain(|asked| asked != query),
+            DriverEvent::Acknowledged { .. } | DriverEvent::Feedback { .. } => {}
             DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
         }
     }
@@ -72,15 +66,16 @@ impl Ledger {
     fn effect(&mut self, effect: &Effect) {
         match effect {
             Effect::Start(start) => {
-                let (acknowledged, held, cancelled, stopping) = (false, false, false, false);
-                let open = Open { start: start.clone(), acknowledged, held, cancelled, stopping };
+                let open = Open { start: start.clone(), updated: false, told: None };
                 self.goals.insert(start.goal, open);
             }
-            Effect::Update(start) => self.with(start.goal, |open| open.start = start.clone()),
-            Effect::Cancel { goal } => self.with(*goal, |open| open.cancelled = true),
-            Effect::Hold { goal } => self.with(*goal, |open| open.held = true),
-            Effect::Proceed { goal } => self.with(*goal, |open| open.held = false),
-            Effect::SafeStop { goal } => self.with(*goal, |open| open.stopping = true),
+            Effect::Update(start) => {
+                self.with(start.goal, |open| (open.start, open.updated) = (start.clone(), true));
+            }
+            Effect::Cancel { goal }
+            | Effect::Hold { goal }
+            | Effect::Proceed { goal }
+            | Effect::SafeStop { goal } => self.with(*goal, |open| open.told = Some(effect.clone())),
             Effect::Observe { query } => self.observations.push(query.clone()),
             Effect::Watch { query } => {
                 if !self.watches.contains(query) {

@@ -12,6 +12,8 @@ use std::sync::Arc;
 /// A goal that has not ended.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Open {
+    /// The policy that it is a step of.
+    revision: u32,
     pub(super) node: NodeId,
     pub(super) call: String,
     pub(super) path: String,
@@ -55,7 +57,7 @@ impl Memory {
             | DriverEvent::Acknowledged { .. }
             | DriverEvent::NotHeld { .. } => {}
             DriverEvent::Stopped { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
-            DriverEvent::Observed { .. } => {}
+            DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => {}
         }
     }
 
@@ -64,9 +66,10 @@ impl Memory {
         match effect {
             Effect::Start { goal, node, command, .. } => self.started(at, *goal, *node, command),
             Effect::Update { goal, node, command, .. } => {
-                let (call, path) = (self.cut(&command.to_string()), self.path(*node));
+                let (call, path, revision) =
+                    (self.cut(&command.to_string()), self.path(*node), self.revision);
                 if let Some(open) = self.running.get_mut(&goal.number()) {
-                    (open.call, open.path, open.node) = (call, path, *node);
+                    (open.call, open.path, open.node, open.revision) = (call, path, *node, revision);
                 }
             }
             Effect::Report(record) => self.record(record),
@@ -81,6 +84,7 @@ impl Memory {
         let asks = self.limits.questions.contains(&command.primitive);
         let question = command.arg("question").filter(|_| asks).map(|question| self.cut(&plain(question)));
         let open = Open {
+            revision: self.revision,
             node,
             call: self.cut(&command.to_string()),
             path: self.path(node),
@@ -102,8 +106,12 @@ impl Memory {
                     self.ended(record.at, open, *ending, *cause);
                 }
             }
+            // The goal of a step that ended because another policy took over goes on, for a step of that or until it has
+            // been stopped.
+            Happening::Ended { cause: Cause::Swap, .. } => {}
             Happening::Ended { node, ending, cause } => {
-                let live = self.running.iter().find(|(_, open)| open.node == *node).map(|(goal, _)| *goal);
+                let is_its = |open: &Open| open.node == *node && open.revision == record.revision;
+                let live = self.running.iter().find(|(_, open)| is_its(open)).map(|(goal, _)| *goal);
                 if let Some(open) = live.and_then(|goal| self.running.remove(&goal)) {
                     self.ended(record.at, open, *ending, *cause);
                 } else if let NodeEnding::Failure(kind) = ending {
@@ -113,7 +121,7 @@ impl Memory {
             Happening::Kept { node, goal } => {
                 let path = self.path(*node);
                 if let Some(open) = self.running.get_mut(&goal.number()) {
-                    (open.node, open.path) = (*node, path);
+                    (open.node, open.path, open.revision) = (*node, path, record.revision);
                 }
             }
             Happening::Entered { .. } | Happening::Started { .. } | Happening::Guard { .. } => {}
@@ -136,7 +144,13 @@ impl Memory {
         let ended = match ending {
             NodeEnding::Success => HowEnded::Success(open.result.as_ref().map(|value| self.small(value))),
             NodeEnding::Failure(kind) => {
-                HowEnded::Failure { kind: self.kind(kind, open.kind, cause), cause: cause.into() }
+                let kind = if open.revision == self.revision {
+                    self.kind(kind, open.kind, cause)
+                } else {
+                    // Its number means a failure of the policy before.
+                    self.cut(&open.kind.unwrap_or_else(|| own_kind(cause).to_owned()))
+                };
+                HowEnded::Failure { kind, cause: cause.into() }
             }
             NodeEnding::Interrupted => HowEnded::Interrupted(cause.into()),
         };
@@ -203,8 +217,7 @@ impl Memory {
     fn kind(&self, kind: FailureId, said: Option<String>, cause: Cause) -> String {
         let graph = self.graph.as_ref();
         let named = graph.and_then(|graph| graph.failures.get(kind.index())).map(ToString::to_string);
-        let own = if cause == Cause::Exhausted { "exhausted" } else { "failed" };
-        self.cut(&named.or(said).unwrap_or_else(|| own.to_owned()))
+        self.cut(&named.or(said).unwrap_or_else(|| own_kind(cause).to_owned()))
     }
 
     /// A value whose text is within the limit; another one as a text that is cut.
@@ -214,6 +227,17 @@ impl Memory {
             return wire;
         }
         crate::wire::Value::Text(self.cut(&value.to_string()))
+    }
+}
+
+/// The failure that the engine itself gives a step.
+const fn own_kind(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Exhausted => "exhausted",
+        Cause::Deadline | Cause::Lost => "timeout",
+        Cause::Completed | Cause::Failed | Cause::Refused | Cause::Monitor | Cause::SiblingFailed => "failed",
+        Cause::ParentEnded | Cause::Person | Cause::Driver | Cause::Swap => "failed",
+        Cause::GuardRefuted | Cause::BadValue => "failed",
     }
 }
 

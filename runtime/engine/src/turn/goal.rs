@@ -54,6 +54,7 @@ impl Turn<'_> {
                     self.cancel(node, Wish::Suspend);
                 }
             }
+            DriverEvent::Feedback { .. } => {}
             DriverEvent::Observed { query, answer } => self.observed(query, answer),
         }
     }

@@ -75,6 +75,13 @@ pub enum DriverEvent {
         /// Which.
         goal: u64,
     },
+    /// How the goal is getting on, for people.
+    Feedback {
+        /// Which.
+        goal: u64,
+        /// In words.
+        text: String,
+    },
     /// Everything that the goal used stands still.
     Stopped {
         /// Which.
@@ -171,6 +178,9 @@ impl From<&m::DriverEvent> for DriverEvent {
                 Self::Ended { goal: goal.number(), outcome: outcome.into() }
             }
             m::DriverEvent::NotHeld { goal } => Self::NotHeld { goal: goal.number() },
+            m::DriverEvent::Feedback { goal, text } => {
+                Self::Feedback { goal: goal.number(), text: text.to_string() }
+            }
             m::DriverEvent::Stopped { goal } => Self::Stopped { goal: goal.number() },
             m::DriverEvent::Lost { goal } => Self::Lost { goal: goal.number() },
             m::DriverEvent::DriverLost => Self::DriverLost,
@@ -191,6 +201,7 @@ impl From<DriverEvent> for m::DriverEvent {
             }
             DriverEvent::Ended { goal, outcome } => Self::Ended { goal: id(goal), outcome: outcome.into() },
             DriverEvent::NotHeld { goal } => Self::NotHeld { goal: id(goal) },
+            DriverEvent::Feedback { goal, text } => Self::Feedback { goal: id(goal), text: text.into() },
             DriverEvent::Stopped { goal } => Self::Stopped { goal: id(goal) },
             DriverEvent::Lost { goal } => Self::Lost { goal: id(goal) },
             DriverEvent::DriverLost => Self::DriverLost,

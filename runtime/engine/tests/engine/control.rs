@@ -6,6 +6,7 @@ use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::vocabulary as v;
 use motet_graph::arbitrary::{Call, Step};
 use motet_graph::{Condition, Ending, Fact, FactArg, Term, Value};
+use motet_runtime::{Effect, Engine, Event, Fault, RunEnd, Settings, StartState, Time};
 
 fn held(object: &str) -> Condition {
     Condition::Fact(v::fact(v::HOLDING, vec![v::entity(object)]))
@@ -239,4 +240,16 @@ fn a_fact_with_any_is_known_by_its_witness() {
             (4.5, Tick),
         ]
     );
+}
+
+#[test]
+fn more_transitions_at_one_instant_than_its_budget_end_a_run() {
+    let nested = (0..10).fold(Step::say("deep"), |step, _| Step::Sequence(vec![step]));
+    let engine = Engine::new(motet_graph::arbitrary::graph(&[nested]), &StartState::default()).unwrap();
+    let mut engine = engine.with_settings(Settings { step_budget: 3, ..Settings::default() });
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let fault = RunEnd::Fault(Fault::StepBudget { steps: 3 });
+    assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == fault), "{out:?}");
+    assert!(engine.is_over());
 }

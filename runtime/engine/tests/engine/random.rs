@@ -4,7 +4,7 @@
 use crate::verify::with_motions;
 use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
 use motet_graph::arbitrary::{Step, graph, steps};
-use motet_graph::{Graph, NodeId, PrimitiveId, Type, Value};
+use motet_graph::{Graph, NodeId, NodeKind, PrimitiveId, Type, Value};
 use motet_runtime::{
     Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, Outcome,
     Prepared, Primitives, Query, RunEnd, Settings, StartState, Time, Verification,
@@ -102,6 +102,8 @@ struct Ledger {
     checks: Vec<CheckId>,
     ever_asked: BTreeSet<CheckId>,
     entered: BTreeSet<(u32, NodeId)>,
+    /// Goals whose end was not reported.
+    unended: BTreeSet<GoalId>,
     revision: u32,
     counts: Counts,
     end: Option<RunEnd>,
@@ -118,6 +120,7 @@ impl Ledger {
             match effect {
                 Effect::Start { goal, node, command, .. } => {
                     assert!(self.ever.insert(*goal), "a goal id is used twice");
+                    self.unended.insert(*goal);
                     let uses: Vec<String> = command.uses.iter().map(ToString::to_string).collect();
                     let node = (self.revision, *node);
                     for other in self.live.values() {
@@ -178,7 +181,8 @@ impl Ledger {
                     Happening::Started { node, .. } | Happening::Updated { node, .. } => {
                         assert!(self.entered.contains(&(record.revision, *node)), "a step that does not run");
                     }
-                    Happening::GoalEnded { node, .. } => {
+                    Happening::GoalEnded { node, goal, .. } => {
+                        assert!(self.unended.remove(goal), "a goal ends twice");
                         let here = self.entered.contains(&(record.revision, *node));
                         assert!(
                             here || record.revision < self.revision,
@@ -204,6 +208,7 @@ impl Ledger {
                         assert!(self.live.is_empty(), "over with live goals");
                         assert!(self.watched.is_empty(), "over with watches");
                         assert!(self.entered.is_empty(), "over with running steps");
+                        assert!(self.unended.is_empty(), "over with goals whose end was not reported");
                     }
                     self.end = Some((**end).clone());
                 }
@@ -477,14 +482,24 @@ fn bound_values_fit(graphs: &[&Graph], log: &[Effect]) -> bool {
     })
 }
 
-/// Whether a run may end like that. The engine's own failures are `timeout`, `failed` and `exhausted`; of the contracts those
-/// that primitives and needs list.
+/// The failures that a policy may end in: the engine's own, and those that the contracts of what it calls list.
+fn listed(graph: &Graph) -> BTreeSet<&str> {
+    let mut listed = BTreeSet::from(["timeout", "failed", "exhausted"]);
+    for node in &graph.nodes {
+        let NodeKind::Call(call) = &node.kind else { continue };
+        let fails = graph.primitives[call.primitive.index()].fails.iter();
+        let needs = call.needs.iter().map(|need| &need.failure);
+        listed.extend(fails.chain(needs).map(|id| graph.failures[id.index()].as_str()));
+    }
+    listed
+}
+
+/// Whether a run may end like that.
 fn is_expected(end: &RunEnd, graph: &Graph, strict: bool) -> bool {
     match end {
         RunEnd::Done { .. } | RunEnd::Replan { .. } | RunEnd::Interrupted => true,
         RunEnd::Failed { node, kind, .. } => {
-            let listed = ["timeout", "failed", "exhausted", "unreachable", "not_found"];
-            node.index() < graph.nodes.len() && (!strict || listed.contains(&kind.as_str()))
+            node.index() < graph.nodes.len() && (!strict || listed(graph).contains(kind.as_str()))
         }
         RunEnd::Fault(fault) => matches!(fault, Fault::NotStopped { .. }),
     }

@@ -3,7 +3,9 @@
 use crate::ready::{Run, goal, run, success};
 use motet_graph::arbitrary::{Step, graph};
 use motet_runtime::memory::{Limits, Memory, Remembered};
-use motet_runtime::{Answer, Outcome, Time};
+use motet_runtime::{
+    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Prepared, StartState, Time,
+};
 use std::sync::Arc;
 
 /// A memory that was fed with a run.
@@ -108,4 +110,49 @@ fn views_are_data_too() {
     let whole = memory.whole(&run.engine.snapshot());
     let text = serde_json::to_string(&whole).unwrap();
     assert_eq!(serde_json::from_str::<motet_runtime::memory::Whole>(&text).unwrap(), whole);
+}
+
+/// What is remembered where a policy takes over from `go(table)` while that runs, and then the goal of that ends.
+fn taken_over(next: &[Step], outcome: Outcome) -> Vec<String> {
+    let mut memory = Memory::new(Limits::default());
+    let mut engine = Engine::new(graph(&[Step::go("table")]), &StartState::default()).unwrap();
+    memory.policy(Time::ZERO, 0, Arc::new(engine.graph().clone()));
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let goal = out.iter().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let goal: GoalId = goal.unwrap();
+    let mut at = Time::ZERO;
+    let mut learn = |memory: &mut Memory, out: &mut Vec<Effect>| {
+        out.drain(..).for_each(|effect| memory.effect(at, &effect));
+        at = at.after(Time::from_secs(1.0));
+        at
+    };
+    let now = learn(&mut memory, &mut out);
+    engine.handle(now, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
+    let prepared = Prepared::new(graph(next), &engine.running()).unwrap();
+    memory.policy(now, 1, prepared.graph().clone());
+    engine.swap(now, prepared, &mut out).unwrap();
+    let now = learn(&mut memory, &mut out);
+    let event = Event::Driver(DriverEvent::Ended { goal, outcome });
+    memory.event(now, &event);
+    engine.handle(now, event, &mut out);
+    learn(&mut memory, &mut out);
+    lines(&memory)
+}
+
+#[test]
+fn what_goes_on_for_another_policy_is_told_once_with_its_end() {
+    let done = || Outcome::Success(None);
+    let kept = taken_over(&[Step::go("table"), Step::say("on")], done());
+    assert_eq!(kept, ["new policy `sketch`", "go(to: table): done"]);
+    // One that is cancelled and comes to its end all the same has done what it was for.
+    let late = taken_over(&[Step::detect("mug")], done());
+    assert_eq!(late, ["new policy `sketch`", "go(to: table): done"]);
+    let cancelled = taken_over(&[Step::detect("mug")], Outcome::Interrupted);
+    assert_eq!(cancelled, ["new policy `sketch`", "go(to: table): interrupted (a new policy)"]);
+    let failed = taken_over(&[Step::detect("mug")], Outcome::Failure("unreachable".into()));
+    assert_eq!(failed, ["new policy `sketch`", "go(to: table): failed with unreachable (failed)"]);
 }

@@ -74,6 +74,7 @@ fn driver_event() -> impl Strategy<Value = DriverEvent> {
             .prop_map(|(goal, kind)| DriverEvent::Refused { goal, failure: kind.into() }),
         (goal(), outcome).prop_map(|(goal, outcome)| DriverEvent::Ended { goal, outcome }),
         goal().prop_map(|goal| DriverEvent::NotHeld { goal }),
+        (goal(), ".{0,8}").prop_map(|(goal, text)| DriverEvent::Feedback { goal, text: text.into() }),
         goal().prop_map(|goal| DriverEvent::Stopped { goal }),
         goal().prop_map(|goal| DriverEvent::Lost { goal }),
         Just(DriverEvent::DriverLost),

@@ -89,7 +89,11 @@ impl Address {
         match self {
             Self::Command(words) => {
                 let (program, args) = words.split_first().ok_or(Breakage::Closed)?;
-                let child = Command::new(program)
+                let mut command = Command::new(program);
+                // Ctrl-C at a terminal is meant for the host, which then asks the driver to stop.
+                #[cfg(unix)]
+                std::os::unix::process::CommandExt::process_group(&mut command, 0);
+                let child = command
                     .args(args)
                     .stdin(Stdio::piped())
                     .stdout(Stdio::piped())

@@ -204,8 +204,9 @@ impl RemoteDriver {
 
 impl Drop for RemoteDriver {
     fn drop(&mut self) {
-        if let Some(link) = &self.link {
+        if let Some(link) = &mut self.link {
             let _ = link.say(say(self.next_id, &Call::Bye(Nothing {})));
+            link.end(self.patience.farewell);
         }
     }
 }

@@ -6,8 +6,8 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::process::Child;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::thread;
-use std::time::Duration;
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
 /// Why a driver is no longer spoken with.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -59,6 +59,7 @@ pub(super) enum Peer {
 pub(super) struct Link {
     heard: Receiver<Result<String, Breakage>>,
     said: SyncSender<String>,
+    speaker: JoinHandle<()>,
     peer: Peer,
 }
 
@@ -71,8 +72,8 @@ impl Link {
         let (tell, heard) = sync_channel(MAX_WAITING);
         let (said, lines) = sync_channel(MAX_WAITING);
         thread::spawn(move || listen(reader, &tell));
-        thread::spawn(move || speak(writer, &lines));
-        Self { heard, said, peer }
+        let speaker = thread::spawn(move || speak(writer, &lines));
+        Self { heard, said, speaker, peer }
     }
 
     pub(super) fn of_child(mut child: Child) -> Result<Self, Breakage> {
@@ -99,27 +100,49 @@ impl Link {
     }
 }
 
+/// How long a driver that is spoken with no more has to end by itself.
+const MOMENT: Duration = Duration::from_millis(200);
+
 impl Drop for Link {
-    /// A process gets a moment to end by itself: its standard input is closed with the link.
+    /// A process gets a moment to end by itself.
     fn drop(&mut self) {
+        self.end(MOMENT);
+    }
+}
+
+impl Link {
+    /// Says what still waits to be said, closes the connection, and gives a process so long to end by itself. With its
+    /// connection closed it has no other way to learn that nobody is there any more.
+    pub(super) fn end(&mut self, within: Duration) {
+        let due = Instant::now() + within;
+        let (closed, _) = sync_channel(1);
+        // The speaking thread says what waits; then it ends, and with it the standard input of a process.
+        drop(std::mem::replace(&mut self.said, closed));
+        wait_for(due, || self.speaker.is_finished());
         match &mut self.peer {
             Peer::Process(child) => {
-                let (closed, _) = sync_channel(1);
-                // What still waits is said; then the writing thread ends and closes the standard input.
-                drop(std::mem::replace(&mut self.said, closed));
-                for _ in 0..20 {
-                    if matches!(child.try_wait(), Ok(Some(_))) {
-                        return;
-                    }
-                    thread::sleep(Duration::from_millis(10));
+                if !wait_for(due, || matches!(child.try_wait(), Ok(Some(_)))) {
+                    let _ = child.kill();
+                    let _ = child.wait();
                 }
-                let _ = child.kill();
-                let _ = child.wait();
             }
             Peer::Socket(stream) => {
-                let _ = stream.shutdown(Shutdown::Read);
+                let _ = stream.shutdown(Shutdown::Both);
             }
         }
+    }
+}
+
+/// Whether something came true in time.
+fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
+    loop {
+        if is_true() {
+            return true;
+        }
+        if Instant::now() >= due {
+            return false;
+        }
+        thread::sleep(Duration::from_millis(5));
     }
 }
 

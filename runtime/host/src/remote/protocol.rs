@@ -1,5 +1,6 @@
 //! What host and driver say to each other. Values, queries, commands and outcomes are the wire forms of `motet-runtime`.
 
+use super::settings::MAX_DEPTH;
 use motet_runtime::wire::{Answer, Capabilities, Command, Outcome, Query};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -254,6 +255,9 @@ pub fn say(id: u64, call: &Call) -> String {
 /// Why it is no message of this protocol.
 pub fn hear(line: &str) -> Result<Heard, String> {
     let message: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
+    if depth(&message) > MAX_DEPTH {
+        return Err(format!("it is nested more than {MAX_DEPTH} deep"));
+    }
     let Value::Object(mut message) = message else { return Err("it is no JSON object".to_owned()) };
     if message.remove("jsonrpc") != Some(json!("2.0")) {
         return Err("it does not say `\"jsonrpc\": \"2.0\"`".to_owned());
@@ -273,6 +277,15 @@ pub fn hear(line: &str) -> Result<Heard, String> {
             .map_err(|error| format!("its error is none: {error}")),
         (Some(_), Some(_)) => Err("it has both a result and an error".to_owned()),
         (None, None) => Err("it has neither a result nor an error".to_owned()),
+    }
+}
+
+/// How deep a message is nested. A parsed one is not nested deeper than the parser goes.
+fn depth(value: &Value) -> usize {
+    match value {
+        Value::Array(values) => 1 + values.iter().map(depth).max().unwrap_or(0),
+        Value::Object(fields) => 1 + fields.values().map(depth).max().unwrap_or(0),
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => 0,
     }
 }
 

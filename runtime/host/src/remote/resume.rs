@@ -3,13 +3,15 @@
 use super::driver::RemoteDriver;
 use super::link::Breakage;
 use super::protocol::State;
-use motet_runtime::journal::Ledger;
+use motet_runtime::journal::{Ledger, Open};
 use motet_runtime::{Driver, DriverEvent, Effect, Event, GoalId, Time, wire};
 use std::collections::BTreeMap;
 
 impl RemoteDriver {
-    /// Asks what became of the goals that are open by the journal, says again what may not have been heard, and gives the
-    /// events with which the engine goes on. `instance` is the driver's that the run began with.
+    /// Asks what became of the goals that are open by the journal, says again what it was told of those that have not ended,
+    /// and gives the events with which the engine goes on. `instance` is the driver's that the run began with.
+    ///
+    /// Commands can be said twice, and what was written down last before a crash may never have been said.
     ///
     /// A goal of which the driver has never heard was not started, if it is the same driver and the start was the last thing
     /// that was written down: then it is started now. Any other one is lost, and the engine has it stopped safely.
@@ -30,7 +32,10 @@ impl RemoteDriver {
                 .iter()
                 .any(|effect| matches!(effect, wire::Effect::Start(start) if start.goal == *number));
             match states.get(number) {
-                Some(State::Running) => events.push(DriverEvent::Acknowledged { goal }),
+                Some(State::Running) => {
+                    events.push(DriverEvent::Acknowledged { goal });
+                    self.say_again(now, open);
+                }
                 Some(State::Ended(outcome)) => {
                     events.push(DriverEvent::Ended { goal, outcome: outcome.clone().into() });
                 }
@@ -41,6 +46,10 @@ impl RemoteDriver {
                 Some(State::Unknown) if is_same && just_started => {
                     self.start(now, goal, &open.start.command.clone().into());
                 }
+                // Whoever is asked again for a safe stop brings it about, also for what was started by another.
+                Some(State::Unknown) | None if matches!(open.told, Some(wire::Effect::SafeStop { .. })) => {
+                    self.say_again(now, open);
+                }
                 Some(State::Unknown) | None => events.push(DriverEvent::Lost { goal }),
             }
         }
@@ -50,18 +59,16 @@ impl RemoteDriver {
         for query in &ledger.observations {
             self.observe(now, &query.clone().into());
         }
-        for effect in &ledger.uncertain {
-            match effect {
-                wire::Effect::Update(_)
-                | wire::Effect::Cancel { .. }
-                | wire::Effect::Hold { .. }
-                | wire::Effect::Proceed { .. }
-                | wire::Effect::SafeStop { .. } => self.carry_out(now, &Effect::from(effect.clone())),
-                wire::Effect::Start(_) | wire::Effect::Report(_) | wire::Effect::Finished(_) => {}
-                wire::Effect::Verify(_) => {}
-                wire::Effect::Observe { .. } | wire::Effect::Watch { .. } | wire::Effect::Unwatch { .. } => {}
-            }
-        }
         Ok(events.into_iter().map(Event::Driver).collect())
+    }
+
+    fn say_again(&mut self, now: Time, open: &Open) {
+        if open.updated {
+            let goal = GoalId::from_number(open.start.goal);
+            self.update(now, goal, &open.start.command.clone().into());
+        }
+        if let Some(told) = &open.told {
+            self.carry_out(now, &Effect::from(told.clone()));
+        }
     }
 }

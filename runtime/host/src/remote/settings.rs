@@ -6,6 +6,10 @@ use std::time::Duration;
 pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
 /// The most lines that wait to be heard, and the most that wait to be said.
 pub(crate) const MAX_WAITING: usize = 1_024;
+/// How deep a message of a driver may be nested: what a journal holds of it can be read again.
+pub(crate) const MAX_DEPTH: usize = 32;
+/// The most characters of a feedback that are kept.
+pub(crate) const MAX_FEEDBACK: usize = 1_000;
 /// How often a start is said before its goal counts as lost.
 pub(crate) const SAYINGS: u32 = 2;
 
@@ -22,10 +26,13 @@ pub struct Patience {
     pub silence: Duration,
     /// How often it is started or called again after it was gone.
     pub restarts: u32,
+    /// How long a process may take to bring what moves to a stop and to end, after it was told that the host goes. Then it is
+    /// killed.
+    pub farewell: Duration,
 }
 
 impl Default for Patience {
-    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3 restarts.
+    /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3 restarts, 5 s to end.
     fn default() -> Self {
         Self {
             greeting: Duration::from_secs(10),
@@ -33,6 +40,7 @@ impl Default for Patience {
             heartbeat: Duration::from_secs(1),
             silence: Duration::from_secs(5),
             restarts: 3,
+            farewell: Duration::from_secs(5),
         }
     }
 }

@@ -61,6 +61,15 @@ fn what_breaks_a_law_is_named() {
         ),
         ("late", Mischief { delays: 1_000, late, ..Mischief::default() }, &[Law::Observed]),
         ("backwards", Mischief { backwards: 1_000, ..Mischief::default() }, &[Law::Time]),
+        ("moves on", Mischief { moves_on: 1_000, ..Mischief::default() }, &[Law::Held]),
+        ("forgets", Mischief { forgets: 1_000, ..Mischief::default() }, &[Law::Cancelled]),
+        ("gives up", Mischief { gives_up: 1_000, ..Mischief::default() }, &[Law::Updated]),
+        // Some reports of a goal come after that of its end.
+        (
+            "out of order",
+            Mischief { delays: 500, late: Time::from_secs(60.0), ..Mischief::default() },
+            &[Law::SilentAfterEnd],
+        ),
         // To refuse is no breach.
         ("refuses", Mischief { refuses: 1_000, ..Mischief::default() }, &[]),
         ("nothing", Mischief::default(), &[]),

@@ -4,10 +4,11 @@ use super::super::link::Breakage;
 use super::super::protocol::{
     Answered, Asked, Call, Goal, Heard, Nothing, REFUSED, RefusedData, Report, Wrong, hear,
 };
-use super::super::settings::SAYINGS;
+use super::super::settings::{MAX_FEEDBACK, SAYINGS};
 use super::{RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, GoalId};
 use serde_json::Value;
+use smol_str::SmolStr;
 use std::time::{Duration, Instant};
 
 /// The most lines that are heard before what they say is handed on.
@@ -61,7 +62,9 @@ impl RemoteDriver {
                 self.report(DriverEvent::Observed { query, answer });
             }
             Report::Feedback(feedback) => {
-                (self.note)(&format!("goal {}: {}", id(feedback.goal), feedback.text));
+                let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
+                (self.note)(&format!("goal {}: {text}", id(feedback.goal)));
+                self.report(DriverEvent::Feedback { goal: id(feedback.goal), text });
             }
         }
     }
