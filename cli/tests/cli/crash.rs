@@ -1,6 +1,6 @@
 //! Drivers in another process and a host that end at bad moments.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use crate::drive::{has_python, odd};
 use crate::support::Place;
