@@ -11,6 +11,7 @@
 pub mod collision;
 pub mod inverse;
 pub mod kinematics;
+mod lanes;
 pub mod query;
 mod trigonometry;
 

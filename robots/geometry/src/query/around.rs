@@ -3,6 +3,7 @@
 
 use nalgebra::Vector3;
 
+use super::quick::{Pieces, Quick};
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
@@ -17,6 +18,7 @@ pub(super) struct Around<'r, 'w> {
     /// The middle of the places where the base can be, and how far from it, in m.
     place: [f64; 2],
     far: f64,
+    pub(super) quick: Quick,
 }
 
 /// What counts of a part of the robot.
@@ -54,7 +56,14 @@ impl<'w> Room<'w> {
             solid: thing.solid,
             reach: thing.reach,
         });
-        Around { room: self, limbs: self.limbs(), things: things.collect(), place, far }
+        Around {
+            room: self,
+            limbs: self.limbs(),
+            things: things.collect(),
+            place,
+            far,
+            quick: Quick::default(),
+        }
     }
 
     /// What the robot can touch on its way between two places of its base.
@@ -97,10 +106,24 @@ impl Around<'_, '_> {
     /// The first touch in a state, with [`GAP`] between everything.
     pub(super) fn touch(&self, state: &State, allowed: Allowed) -> Option<Touch> {
         if self.holds(state) {
+            self.first_touch(&[state], allowed)
+        } else {
+            self.room.along(state, state).first_touch(&[state], allowed)
+        }
+    }
+
+    /// The same, pair by pair.
+    pub(super) fn touch_exactly(&self, state: &State, allowed: Allowed) -> Option<Touch> {
+        if self.holds(state) {
             self.touch_here(state, allowed)
         } else {
             self.room.along(state, state).touch_here(state, allowed)
         }
+    }
+
+    /// The origin of the neighbourhood.
+    pub(super) fn place(&self) -> [f64; 2] {
+        self.place
     }
 
     fn touch_here(&self, state: &State, allowed: Allowed) -> Option<Touch> {
@@ -183,7 +206,8 @@ impl Around<'_, '_> {
 
     /// Whether a way is free. What touches is noted.
     pub(super) fn is_free(&self, way: &[State], allowed: Allowed, met: &mut Tally) -> bool {
-        let touch = way.iter().find_map(|state| self.touch(state, allowed)).or_else(|| {
+        let states: Vec<&State> = way.iter().collect();
+        let touch = self.first_touch(&states, allowed).or_else(|| {
             way.windows(2).rev().find_map(|pair| match pair {
                 [one, other] => self.between(one, other, allowed).err(),
                 _ => None,
@@ -196,37 +220,54 @@ impl Around<'_, '_> {
 impl Around<'_, '_> {
     /// Whether a straight way is free where nothing turns on it, so that what each part sweeps over is convex and one distance tells all.
     pub(super) fn swept(&self, from: &State, to: &State, allowed: Allowed) -> Result<(), Touch> {
+        let near = self.near_on([from, to], Pieces::WHOLE, allowed, None);
+        if near.as_ref().is_some_and(Vec::is_empty) {
+            return Ok(());
+        }
         let room = self.room;
         let placed = |state| room.body.placed(&room.machine.map_from_links(state));
         let (placed, last) = (placed(from), placed(to));
         let solids: Vec<(Solid, Vector3<f64>)> =
             placed.iter().zip(&last).map(|(one, other)| (*one, other.centre - one.centre)).collect();
-        for ((limb, (solid, shift)), part) in self.limbs.iter().zip(&solids).zip(0..) {
-            if !limb.counts {
-                continue;
-            }
-            for near in self.things.iter().filter(|near| !limb.may_touch(near.entity, allowed)) {
-                if solid.swept_distance_to(shift, limb.reach, &near.solid, near.reach, GAP) <= GAP {
-                    return Err(room.told(part, Other::Thing(near.index)));
+        let look = |part: usize, other: Other| match self.touches_swept(&solids, part, other) {
+            Some(other) => Err(room.told(part, other)),
+            None => Ok(()),
+        };
+        if let Some(near) = near {
+            return near.into_iter().try_for_each(|near| look(near.part, near.other));
+        }
+        for (limb, part) in self.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts) {
+            for (near, at) in self.things.iter().zip(0..) {
+                if !limb.may_touch(near.entity, allowed) {
+                    look(part, Other::Thing(at))?;
                 }
             }
-            if limb.is_carried && above_floor(solid) + shift.z.min(0.0) <= GAP {
-                return Err(room.told(part, Other::Floor));
+            if limb.is_carried {
+                look(part, Other::Floor)?;
             }
         }
-        for [one, other] in room.body.pairs() {
-            let (a, b) =
-                (solids.get(*one).zip(self.limbs.get(*one)), solids.get(*other).zip(self.limbs.get(*other)));
-            let Some((((solid, shift), limb), ((beyond, moved), far))) = a.zip(b) else { continue };
-            // What goes along stays as far away as it is.
-            let shift = shift - moved;
-            if shift.norm_squared() > 0.0
-                && solid.swept_distance_to(&shift, limb.reach, beyond, far.reach, GAP) <= GAP
-            {
-                return Err(room.told(*one, Other::Part(*other)));
+        room.body.pairs().iter().try_for_each(|[one, other]| look(*one, Other::Part(*other)))
+    }
+
+    /// What a part touches while it moves straight, if it does: a thing as the room knows it.
+    fn touches_swept(&self, solids: &[(Solid, Vector3<f64>)], part: usize, other: Other) -> Option<Other> {
+        let ((solid, shift), limb) = solids.get(part).zip(self.limbs.get(part))?;
+        match other {
+            Other::Thing(at) => {
+                let near = self.things.get(at)?;
+                let metres = solid.swept_distance_to(shift, limb.reach, &near.solid, near.reach, GAP);
+                (metres <= GAP).then_some(Other::Thing(near.index))
+            }
+            Other::Floor => (above_floor(solid) + shift.z.min(0.0) <= GAP).then_some(other),
+            Other::Part(at) => {
+                let ((beyond, moved), far) = solids.get(at).zip(self.limbs.get(at))?;
+                // What goes along stays as far away as it is.
+                let shift = shift - moved;
+                let is_touched = shift.norm_squared() > 0.0
+                    && solid.swept_distance_to(&shift, limb.reach, beyond, far.reach, GAP) <= GAP;
+                is_touched.then_some(other)
             }
         }
-        Ok(())
     }
 }
 

@@ -7,6 +7,23 @@ use super::state::State;
 use super::touch::Allowed;
 use super::travel::plane;
 
+/// Clearances within which something is looked for first, in m.
+const NEARBY: [f64; 3] = [0.01, 0.04, 0.16];
+
+impl<'w> Room<'w> {
+    /// All that may be within `metres` of the robot in some states.
+    fn all_around(&self, states: &[State], metres: f64) -> Around<'_, 'w> {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for state in states {
+            for ((low, high), at) in low.iter_mut().zip(&mut high).zip(plane(state)) {
+                (*low, *high) = (low.min(at), high.max(at));
+            }
+        }
+        let [wide, deep] = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
+        self.around([low[0] + wide, low[1] + deep], libm::hypot(wide, deep) + metres + 1e-6)
+    }
+}
+
 impl Room<'_> {
     /// Room to spare along a path.
     pub(super) fn margins(&self, path: &[State], allowed: Allowed) -> Margins {
@@ -19,11 +36,20 @@ impl Around<'_, '_> {
     /// Room to spare along a path, at its way-points and half-way between them.
     pub(super) fn margins(&self, path: &[State], allowed: Allowed) -> Margins {
         // The last states are where it is tightest, most often: after them little is looked at closely.
-        let mut clearance = path.last().map_or(1.0, |last| self.clearance_at(last, allowed, 1.0));
+        let mut clearance = path.last().map_or(1.0, |last| self.clearance_of(last, allowed));
+        let mut states: Vec<State> = Vec::with_capacity(2 * path.len());
         for pair in path.windows(2).rev() {
             let [one, other] = pair else { continue };
-            clearance = self.clearance_at(&one.towards(other, 0.5), allowed, clearance);
-            clearance = self.clearance_at(one, allowed, clearance);
+            states.extend([one.towards(other, 0.5), one.clone()]);
+        }
+        for states in states.chunks(8) {
+            let around = self.room.all_around(states, clearance);
+            let is_near = around.within(states, allowed, clearance);
+            for (state, is_near) in states.iter().zip(is_near) {
+                if is_near {
+                    clearance = around.clearance(state, allowed, clearance);
+                }
+            }
         }
         let variables = self.room.machine.tree().variables().iter();
         // An open hand is at its limit by intent.
@@ -36,5 +62,18 @@ impl Around<'_, '_> {
             moved.map(|(((_, after), known), _)| known.room(*after))
         });
         Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
+    }
+
+    /// The clearance of a state, looked for nearby first.
+    fn clearance_of(&self, state: &State, allowed: Allowed) -> f64 {
+        for metres in NEARBY {
+            if self.within(std::slice::from_ref(state), allowed, metres) == [true] {
+                let found = self.clearance_at(state, allowed, metres);
+                if found < metres {
+                    return found;
+                }
+            }
+        }
+        self.clearance_at(state, allowed, 1.0)
     }
 }

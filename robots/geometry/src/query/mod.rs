@@ -26,6 +26,7 @@ mod palm;
 mod pull;
 mod push;
 mod put;
+mod quick;
 mod reach;
 mod room;
 mod seek;

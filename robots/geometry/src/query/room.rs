@@ -14,6 +14,7 @@ use super::things::{Thing, Things};
 use super::touch::{Allowed, Touch};
 use super::world::World;
 use crate::collision::{Body, Part, Solid};
+use crate::lanes::Figure;
 
 /// How far everything stays from everything else, in m.
 pub const GAP: f64 = 0.002;
@@ -39,6 +40,8 @@ pub struct Room<'w> {
     pub(super) homes: OnceLock<Vec<u32>>,
     /// What the robot touches where it is.
     at_start: OnceLock<Option<Touch>>,
+    /// The robot for a quick look, and for each variable whether it moves it; made when it is first asked for.
+    pub(super) figure: OnceLock<Option<(Figure, Vec<bool>)>>,
     /// Index of the container that is about to open or close, whose moving parts are not among the things.
     pub(super) opening: Option<usize>,
     /// Entities with a mesh for a shape.
@@ -101,6 +104,7 @@ impl<'w> Room<'w> {
             escapes: OnceLock::new(),
             homes: OnceLock::new(),
             at_start: OnceLock::new(),
+            figure: OnceLock::new(),
             opening: None,
             unseen,
         }
@@ -108,7 +112,10 @@ impl<'w> Room<'w> {
 
     /// What the robot touches where it is.
     pub(super) fn at_start(&self) -> Option<&Touch> {
-        self.at_start.get_or_init(|| self.touch(&self.world.robot, Allowed::default())).as_ref()
+        let robot = &self.world.robot;
+        // Parts that never move against each other are looked at here alone.
+        let find = || self.along(robot, robot).touch_exactly(robot, Allowed::default());
+        self.at_start.get_or_init(find).as_ref()
     }
 
     /// The room with all that is otherwise made when it is first asked for.

@@ -1,6 +1,8 @@
 //! The search for a way of the hand to one of some poses: the poses in the order in which they are given, for each one
 //! candidate for the base and the arm after the other.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
@@ -21,6 +23,8 @@ pub(super) const LAST: f64 = 0.65;
 const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
+/// States that are looked at at a time for what they touch.
+const BATCH: usize = 8;
 
 /// Where the hand is wanted.
 pub(super) struct Sought<'a, 'r, 'w> {
@@ -35,6 +39,67 @@ pub(super) struct Sought<'a, 'r, 'w> {
     pub(super) around: &'a Around<'r, 'w>,
     /// From a pose of the tip back to where the last straight line to it begins, in m in the map: the best first.
     pub(super) backs: &'a dyn Fn(&Isometry3<f64>) -> Vec<Vector3<f64>>,
+}
+
+/// A state with the tip at a pose.
+struct Candidate {
+    /// Index of the pose.
+    at: usize,
+    tip: Isometry3<f64>,
+    state: State,
+}
+
+/// What was tried of a budget, and what was met.
+struct Search<'a, 'r, 'w> {
+    sought: &'a Sought<'a, 'r, 'w>,
+    budget: Budget,
+    tried: usize,
+    poses: &'a mut Tally,
+    ways: &'a mut Tally,
+    /// Free states to which no simple way leads.
+    left: Vec<Candidate>,
+}
+
+/// A pose by its index, with the way to it; or the answer where there is none.
+type Found = Result<(usize, Vec<State>), Answer>;
+
+impl Search<'_, '_, '_> {
+    /// Tries candidates one after the other; what ends the search.
+    fn tries(&mut self, batch: &mut Vec<Candidate>) -> ControlFlow<Found> {
+        let states: Vec<&State> = batch.iter().map(|candidate| &candidate.state).collect();
+        let touches = self.sought.around.touches(&states, self.sought.allowed);
+        for (candidate, touch) in batch.drain(..).zip(touches) {
+            if let Some(touch) = touch {
+                self.poses.add(&touch);
+                continue;
+            }
+            self.tried += 1;
+            let Candidate { at, tip, state } = &candidate;
+            if let Some(path) = self.sought.way_to(tip, state, Unfolding::Simple, self.ways) {
+                return ControlFlow::Break(Ok((*at, path)));
+            }
+            if self.left.len() < SEARCHED {
+                self.left.push(candidate);
+            }
+            // Where nothing simple does for some, a search may.
+            if self.tried == SIMPLE
+                && let Some(found) = self.searched()
+            {
+                return ControlFlow::Break(Ok(found));
+            }
+            if self.tried >= self.budget.paths {
+                return ControlFlow::Break(self.searched().ok_or(Answer::Unknown(Unknown::Budget)));
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// A way that a search finds to one of the states that are left.
+    fn searched(&mut self) -> Option<(usize, Vec<State>)> {
+        self.left.drain(..).find_map(|Candidate { at, tip, state }| {
+            Some((at, self.sought.way_to(&tip, &state, Unfolding::Searched, self.ways)?))
+        })
+    }
 }
 
 /// What is known of the hand alone in a pose.
@@ -59,13 +124,10 @@ impl Room<'_> {
         let mut tips: Vec<(usize, Isometry3<f64>, Alone)> =
             sought.tips.iter().enumerate().map(|(at, tip)| (at, *tip, Alone::Unknown)).collect();
         let (mut hands, mut poses, mut ways) = (Tally::default(), Tally::default(), Tally::default());
-        let (mut tried, mut is_cut_off) = (0, false);
-        let mut left: Vec<(usize, Isometry3<f64>, State)> = Vec::new();
-        let searched = |left: &mut Vec<(usize, Isometry3<f64>, State)>, ways: &mut Tally| {
-            left.drain(..).find_map(|(at, tip, state)| {
-                Some((at, sought.way_to(&tip, &state, Unfolding::Searched, ways)?))
-            })
-        };
+        let mut is_cut_off = false;
+        let mut search =
+            Search { sought, budget, tried: 0, poses: &mut poses, ways: &mut ways, left: vec![] };
+        let mut batch: Vec<Candidate> = Vec::with_capacity(BATCH);
         let places_base = matches!(sought.hand.solver, Solver::Lift(_));
         let [few, many] = SHARED;
         let shared = if places_base { few } else { many };
@@ -85,25 +147,11 @@ impl Room<'_> {
                         is_cut_off = true;
                         continue;
                     }
-                    if let Some(touch) = sought.around.touch(&state, sought.allowed) {
-                        poses.add(&touch);
-                        continue;
-                    }
-                    tried += 1;
-                    if let Some(path) = sought.way_to(tip, &state, Unfolding::Simple, &mut ways) {
-                        return Ok((*at, path));
-                    }
-                    if left.len() < SEARCHED {
-                        left.push((*at, *tip, state));
-                    }
-                    // Where nothing simple does for some, a search may.
-                    if tried == SIMPLE
-                        && let Some(found) = searched(&mut left, &mut ways)
+                    batch.push(Candidate { at: *at, tip: *tip, state });
+                    if batch.len() == BATCH
+                        && let ControlFlow::Break(found) = search.tries(&mut batch)
                     {
-                        return Ok(found);
-                    }
-                    if tried >= budget.paths {
-                        return searched(&mut left, &mut ways).ok_or(Answer::Unknown(Unknown::Budget));
+                        return found;
                     }
                 }
             }
@@ -113,9 +161,13 @@ impl Room<'_> {
             }
             round += 1;
         }
-        if let Some(found) = searched(&mut left, &mut ways) {
+        if let ControlFlow::Break(found) = search.tries(&mut batch) {
+            return found;
+        }
+        if let Some(found) = search.searched() {
             return Ok(found);
         }
+        let tried = search.tried;
         if tips.is_empty() {
             let reason = Reason::NoFreePose { by: hands.most() };
             let certified = sought.is_all && !sought.tips.is_empty();
@@ -134,7 +186,7 @@ impl Room<'_> {
 }
 
 impl Sought<'_, '_, '_> {
-    /// A way from where the robot is to a state with the tip at a pose.
+    /// A way from where the robot is to a free state with the tip at a pose.
     fn way_to(
         &self,
         tip: &Isometry3<f64>,
@@ -145,7 +197,12 @@ impl Sought<'_, '_, '_> {
         (self.backs)(tip).into_iter().find_map(|back| {
             let line = self.around.room.line(self.hand, state, tip, &back)?;
             let inwards = line.first()?.inwards(&tip.translation.vector);
-            self.around.route_along(&line, inwards, self.allowed, unfolding, met)
+            let inner: Vec<&State> = line.get(1..line.len() - 1)?.iter().collect();
+            if let Some(touch) = self.around.first_touch(&inner, self.allowed) {
+                met.add(&touch);
+                return None;
+            }
+            self.around.route_to(&line, inwards, self.allowed, unfolding, met)
         })
     }
 }

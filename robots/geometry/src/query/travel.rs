@@ -59,7 +59,7 @@ pub(super) fn exhausted(found: bool, poses: &Tally, ways: &Tally) -> Answer {
 }
 
 impl Room<'_> {
-    /// A way from where the robot is to the beginning of a line, as [`Around::route`] finds one, and then along the line.
+    /// A way from where the robot is to the beginning of a line, as [`Around::route_to`] finds one, and then along the line.
     pub(super) fn route_along(
         &self,
         line: &[State],
@@ -163,6 +163,7 @@ impl Room<'_> {
     /// Makes what is otherwise made when it is first asked for.
     pub(super) fn prepare(&self) {
         self.at_start();
+        self.figure();
         if let Some(map) = self.map() {
             self.homes(map);
         }
@@ -215,7 +216,7 @@ impl Room<'_> {
 }
 
 impl Around<'_, '_> {
-    /// A way from where the robot is to the beginning of a line, as [`Around::route`] finds one, and then along the line.
+    /// A way from where the robot is to the beginning of a line, as [`Around::route_to`] finds one, and then along the line.
     pub(super) fn route_along(
         &self,
         line: &[State],
@@ -224,63 +225,86 @@ impl Around<'_, '_> {
         unfolding: Unfolding,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
-        let (first, rest) = line.split_first()?;
-        // Before the line nothing may touch.
-        if !self.is_free(std::slice::from_ref(first), Allowed::default(), met)
-            || !self.is_free(line, allowed, met)
-        {
+        if let Some(touch) = self.first_touch(&line.iter().collect::<Vec<_>>(), allowed) {
+            met.add(&touch);
             return None;
         }
-        let mut path = self.route(first, inwards, unfolding, met)?;
-        let turns = path.last()?.base[2] - first.base[2];
-        path.extend(rest.iter().map(|state| state.turned(turns)));
-        Some(path)
+        self.route_to(line, inwards, allowed, unfolding, met)
     }
 
-    /// A way from where the robot is to a state, both included; the state is free. `inwards` is the direction in the plane in
-    /// which the robot comes to it; of length 1.
-    pub(super) fn route(
+    /// The same with a line of states that touch nothing but what is allowed. `inwards` is the direction in the plane in which the robot
+    /// comes to the first; of length 1.
+    pub(super) fn route_to(
         &self,
-        to: &State,
+        line: &[State],
         inwards: [f64; 2],
+        allowed: Allowed,
         unfolding: Unfolding,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
-        let room = self.room;
-        let start = &room.world.robot;
-        let none = Allowed::default();
-        let backs = if room.machine.drives() { &BACK[..] } else { &[0.0] };
-        for back in backs {
-            let [x, y, yaw] = to.base;
-            let outside = to.at([x - inwards[0] * back, y - inwards[1] * back, yaw]);
-            let folded = State { base: outside.base, joints: start.joints.clone() };
-            let is_drivable = room.is_drivable(&folded);
-            if *back > 0.0
-                && let Err(touch) = self
-                    .touch(&outside, none)
-                    .map_or(Ok(()), Err)
-                    .and_then(|()| self.between(&outside, to, none))
-            {
-                met.add(&touch);
-                continue;
-            }
-            if !is_drivable {
-                continue;
-            }
-            let unfolded = match unfolding {
-                Unfolding::Simple => self.unfold(&folded, &outside, met),
-                Unfolding::Searched => self.connect(&folded, &outside),
-            };
-            let Some(unfolded) = unfolded else { continue };
-            let Some(mut path) = room.drive(&folded) else { continue };
-            let last = path.last().map_or([0.0; 3], |state| state.base);
-            let shifted = unfolded.into_iter().skip(1).chain((*back > 0.0).then(|| to.clone()));
+        let (first, rest) = line.split_first()?;
+        let backs = if self.room.machine.drives() { &BACK[..] } else { &[0.0] };
+        let outside = |back: &f64| {
+            let [x, y, yaw] = first.base;
+            first.at([x - inwards[0] * back, y - inwards[1] * back, yaw])
+        };
+        // Before the line nothing may touch.
+        let outsides: Vec<State> = std::iter::once(&0.0).chain(backs).map(outside).collect();
+        let touches = self.touches(&outsides.iter().collect::<Vec<_>>(), Allowed::default());
+        let mut touches = touches.into_iter();
+        let way = |pair: &[State]| match pair {
+            [one, other] => self.between(one, other, allowed).err(),
+            _ => None,
+        };
+        if let Some(touch) = touches.next().flatten().or_else(|| line.windows(2).rev().find_map(way)) {
+            met.add(&touch);
+            return None;
+        }
+        let outsides = outsides.into_iter().skip(1).zip(touches).zip(backs);
+        for ((outside, touch), back) in outsides {
+            let Some(mut path) = self.route(&outside, touch, first, unfolding, met) else { continue };
+            let shifted = (*back > 0.0).then_some(first).into_iter().chain(rest);
             // The way may end some full turns from where it was asked to.
-            let turns = last[2] - folded.base[2];
+            let turns = path.last()?.base[2] - first.base[2];
             path.extend(shifted.map(|state| state.turned(turns)));
             return Some(path);
         }
         None
+    }
+
+    /// A way from where the robot is to a state, both included, from which a straight way without a turn leads to another one that is
+    /// free. `touch` is what the state touches.
+    fn route(
+        &self,
+        outside: &State,
+        touch: Option<Touch>,
+        to: &State,
+        unfolding: Unfolding,
+        met: &mut Tally,
+    ) -> Option<Vec<State>> {
+        let room = self.room;
+        let folded = State { base: outside.base, joints: room.world.robot.joints.clone() };
+        let is_drivable = room.is_drivable(&folded);
+        let free = touch.map_or(Ok(()), Err);
+        if let Err(touch) = free.and_then(|()| match outside.base == to.base {
+            true => Ok(()),
+            false => self.between(outside, to, Allowed::default()),
+        }) {
+            met.add(&touch);
+            return None;
+        }
+        if !is_drivable {
+            return None;
+        }
+        let unfolded = match unfolding {
+            Unfolding::Simple => self.unfold(&folded, outside, met),
+            Unfolding::Searched => self.connect(&folded, outside),
+        }?;
+        let mut path = room.drive(&folded)?;
+        let last = path.last().map_or([0.0; 3], |state| state.base);
+        let turns = last[2] - folded.base[2];
+        path.extend(unfolded.into_iter().skip(1).map(|state| state.turned(turns)));
+        Some(path)
     }
 
     /// The arm from one configuration to another with the base still: straight, by way of a raised lift, or by way of a
@@ -289,7 +313,7 @@ impl Around<'_, '_> {
         let none = Allowed::default();
         let mut is_free = |way: &[&State]| {
             let inner = way.get(1..way.len().saturating_sub(1)).unwrap_or_default();
-            let touch = inner.iter().find_map(|state| self.touch(state, none)).or_else(|| {
+            let touch = self.first_touch(inner, none).or_else(|| {
                 way.windows(2).find_map(|pair| match pair {
                     [one, other] => self.between(one, other, none).err(),
                     _ => None,

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::around::{Around, above_floor};
 use super::excursion::Excursion;
+use super::quick::{Near, Pieces};
 use super::room::GAP;
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
@@ -16,6 +17,8 @@ use crate::kinematics::Lever;
 
 /// How often a way is halved before it counts as not free.
 const DEPTH: u32 = 10;
+/// As often halved, legs are no longer looked at eight at a time.
+const QUICK: u32 = 9;
 
 impl Around<'_, '_> {
     /// Whether the straight way between two free states is free throughout.
@@ -37,8 +40,11 @@ impl Around<'_, '_> {
         }
         let mut way = Way::new(self, from, to);
         // What is left to look at; the widest first finds a touch soonest.
-        let mut open = VecDeque::from([Leg { middle: 0.5, half: 0.5, depth: 0, pairs: None }]);
+        let mut open = VecDeque::new();
         let mut pairs: Vec<Pair> = Vec::new();
+        if !self.quickly([from, to], allowed, &mut open, &mut pairs)? {
+            open.push_back(Leg { middle: 0.5, half: 0.5, depth: 0, pairs: None });
+        }
         while let Some(leg) = open.pop_front() {
             way.go_to(leg.middle, leg.half);
             let first = pairs.len();
@@ -55,6 +61,54 @@ impl Around<'_, '_> {
                 let (half, depth, left) = (leg.half / 2.0, leg.depth + 1, Some([first, pairs.len()]));
                 open.push_back(Leg { middle: leg.middle - half, half, depth, pairs: left });
                 open.push_back(Leg { middle: leg.middle + half, half, depth, pairs: left });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Around<'_, '_> {
+    /// Looks at a way eight legs at a time: those on which something is near are left open, with the pairs that are. Whether it could
+    /// be looked at in this way at all.
+    fn quickly(
+        &self,
+        way: [&State; 2],
+        allowed: Allowed,
+        open: &mut VecDeque<Leg>,
+        pairs: &mut Vec<Pair>,
+    ) -> Result<bool, Touch> {
+        let mut left: VecDeque<(Pieces, u32, Option<Vec<Near>>)> = VecDeque::from([(Pieces::WHOLE, 3, None)]);
+        while let Some((pieces, depth, known)) = left.pop_front() {
+            let Some(near) = self.near_on(way, pieces, allowed, known.as_deref()) else { return Ok(false) };
+            self.still(way, pieces, &near)?;
+            for lane in 0..8 {
+                let mut own = near.iter().filter(|near| near.lanes >> lane & 1 == 1).peekable();
+                if own.peek().is_none() {
+                    continue;
+                }
+                let (middle, half) = pieces.piece(lane);
+                if depth < QUICK {
+                    left.push_back((Pieces { middle, half }, depth + 3, Some(own.copied().collect())));
+                } else {
+                    let first = pairs.len();
+                    pairs.extend(own.map(|near| Pair::new(near.part, near.other)));
+                    open.push_back(Leg { middle, half, depth, pairs: Some([first, pairs.len()]) });
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    /// Of the pairs that look as if they touch in the middle of a leg, whether one does.
+    fn still(&self, [from, to]: [&State; 2], pieces: Pieces, near: &[Near]) -> Result<(), Touch> {
+        for lane in 0..8 {
+            let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1).peekable();
+            if near.peek().is_none() {
+                continue;
+            }
+            let poses = self.room.machine.map_from_links(&from.towards(to, pieces.piece(lane).0));
+            if let Some(touch) = near.find_map(|near| self.touch_of(near, &poses)) {
+                return Err(touch);
             }
         }
         Ok(())

@@ -1,0 +1,58 @@
+//! A thing in a neighbourhood as the smallest box along its own directions.
+
+use nalgebra::Vector3;
+
+use super::FAR;
+use crate::collision::{Shape, Solid};
+
+/// A box that holds a thing, in m from the origin of a neighbourhood.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slab {
+    /// Index of the entity in the scene.
+    pub(crate) entity: usize,
+    pub(super) centre: [f32; 3],
+    pub(super) axes: [[f32; 3]; 3],
+    pub(super) half: [f32; 3],
+    /// Corners of the box around it along the directions of the map.
+    pub(super) low: [f32; 3],
+    pub(super) high: [f32; 3],
+}
+
+impl Slab {
+    /// The box of a solid; `None` for what has no end.
+    pub(crate) fn new(entity: usize, solid: &Solid, [x, y]: [f64; 2]) -> Option<Self> {
+        let half = sides(&solid.shape)?;
+        let centre = solid.centre - Vector3::new(x, y, 0.0);
+        // What is large or far is rounded more, by as much as that is of 3 m.
+        let size = centre.norm() + half.norm();
+        let half = half.add_scalar(size / FAR * 1e-6);
+        let extent = solid
+            .axes
+            .iter()
+            .zip(half.iter())
+            .fold(Vector3::zeros(), |sum: Vector3<f64>, (axis, half)| sum + axis.abs() * *half);
+        let (low, high) = (centre - extent, centre + extent);
+        Some(Self {
+            entity,
+            centre: single(&centre),
+            axes: [0, 1, 2].map(|at: usize| solid.axes.get(at).map_or([0.0; 3], single)),
+            half: single(&half),
+            low: single(&low.add_scalar(-1e-5)),
+            high: single(&high.add_scalar(1e-5)),
+        })
+    }
+}
+
+/// Half of the sides of the box that holds a shape.
+pub(super) fn sides(shape: &Shape) -> Option<Vector3<f64>> {
+    Some(match *shape {
+        Shape::Box(half) => half,
+        Shape::Cylinder { radius, half } => Vector3::new(radius, radius, half),
+        Shape::Capsule { radius, half } => Vector3::new(radius, radius, half + radius),
+        Shape::HalfSpace => return None,
+    })
+}
+
+pub(super) fn single(vector: &Vector3<f64>) -> [f32; 3] {
+    [vector.x as f32, vector.y as f32, vector.z as f32]
+}

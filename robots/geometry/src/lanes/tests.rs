@@ -1,0 +1,196 @@
+//! What is told eight at a time is the same on every processor, and agrees with what `f64` says of each alone.
+
+use nalgebra::Isometry3;
+use pulp::Arch;
+
+use super::{Against, Eight, Figure, Look, Met, Slab};
+use crate::collision::{Body, Shape, Solid};
+use crate::kinematics::{Tree, planar, spread};
+use motet_robots::{card, urdf};
+use motet_syntax::{FileId, Source};
+
+struct Robot {
+    tree: Tree,
+    body: Body,
+    figure: Figure,
+    rest: Vec<f64>,
+}
+
+fn robot(name: &str) -> Robot {
+    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    let tree = Tree::new(&urdf);
+    let body = Body::new(&urdf, &tree, &[]);
+    let rest = tree.neutral();
+    let rig = tree.rig(&rest, |at| !is_leg(&tree, at)).unwrap();
+    let figure = Figure::new(&rig, &Isometry3::translation(0.0, 0.0, 0.3), &body).unwrap();
+    Robot { tree, body, figure, rest }
+}
+
+/// Legs turn farther than is accurate, and stand still.
+fn is_leg(tree: &Tree, at: usize) -> bool {
+    ["HAA", "HFE", "KFE"].iter().any(|end| tree.variables()[at].name.ends_with(end))
+}
+
+impl Robot {
+    fn joints(&self, index: usize) -> Vec<f64> {
+        let mut joints = spread(self.tree.variables(), index);
+        for (at, value) in joints.iter_mut().enumerate() {
+            if is_leg(&self.tree, at) {
+                *value = self.rest[at];
+            }
+        }
+        joints
+    }
+
+    fn placed(&self, base: [f64; 3], joints: &[f64]) -> Vec<Solid> {
+        let map_from_root = planar(base[0], base[1], base[2]) * Isometry3::translation(0.0, 0.0, 0.3);
+        let poses: Vec<_> =
+            self.tree.root_from_links(joints).iter().map(|pose| map_from_root * pose).collect();
+        self.body.placed(&poses)
+    }
+}
+
+fn base(index: usize) -> [f64; 3] {
+    let part = |step: f64| (index as f64 * step).fract() * 2.0 - 1.0;
+    [part(0.618) * 2.0, part(0.755) * 2.0, part(0.57) * 3.1]
+}
+
+fn things() -> Vec<Solid> {
+    let thing = |index: usize| {
+        let [x, y, yaw] = base(index * 7 + 3);
+        let pose = Isometry3::new([x, y, 0.1 * (index % 14) as f64].into(), [yaw * 0.3, 0.2, yaw].into());
+        let shape = match index % 3 {
+            0 => Shape::Box([0.3, 0.05, 0.2].into()),
+            1 => Shape::Cylinder { radius: 0.2, half: 0.1 },
+            _ => Shape::Capsule { radius: 0.1, half: 0.2 },
+        };
+        Solid::new(&pose, shape)
+    };
+    (0..12).map(thing).collect()
+}
+
+fn met(robot: &Robot, eight: &Eight, slabs: &[Slab], gap: f32, arch: Arch) -> Vec<Met> {
+    let counts = |_: usize, _: Option<usize>| true;
+    Look { figure: &robot.figure, eight, slabs, gap, is_own: true, pairs: None, counts }.met_on(arch)
+}
+
+const GAP: f32 = 0.01;
+
+#[test]
+fn what_is_near_is_met() {
+    let things = things();
+    let slabs: Vec<Slab> = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    for name in ["hsr", "anymal_z1", "panda"] {
+        let robot = robot(name);
+        let (mut told, mut near) = (0, 0);
+        for block in 0..8 {
+            let mut eight = robot.figure.eight();
+            let states: Vec<_> =
+                (0..8).map(|lane| (base(block * 8 + lane), robot.joints(block * 8 + lane))).collect();
+            for (lane, (base, joints)) in states.iter().enumerate() {
+                assert!(robot.figure.set(&mut eight, lane, *base, joints));
+            }
+            let met = met(&robot, &eight, &slabs, GAP, Arch::new());
+            let is_met = |part: usize, is: &dyn Fn(Against) -> bool, lane: usize| {
+                met.iter()
+                    .any(|met| met.pair.part == part && is(met.pair.against) && met.lanes >> lane & 1 == 1)
+            };
+            told += met.iter().map(|met| met.lanes.count_ones()).sum::<u32>();
+            for (lane, (base, joints)) in states.iter().enumerate() {
+                let placed = robot.placed(*base, joints);
+                for (part, solid) in placed.iter().enumerate() {
+                    for (at, thing) in things.iter().enumerate() {
+                        let is_near = !solid.is_farther(thing, f64::from(GAP));
+                        near += u32::from(is_near);
+                        assert!(!is_near || is_met(part, &|it| it == Against::Slab(at), lane), "{name}");
+                    }
+                    let above = solid.centre.z - solid.extent(&nalgebra::Vector3::z());
+                    let is_near = above <= f64::from(GAP);
+                    near += u32::from(is_near);
+                    assert!(!is_near || is_met(part, &|it| it == Against::Floor, lane), "{name}");
+                }
+                let still = robot.placed(*base, &robot.joints(0));
+                for [one, other] in robot.body.pairs() {
+                    let distance = placed[*one].distance(&placed[*other]);
+                    // What never moves is not looked at.
+                    if (distance - still[*one].distance(&still[*other])).abs() < 1e-9 {
+                        continue;
+                    }
+                    let is_near = distance <= f64::from(GAP);
+                    near += u32::from(is_near);
+                    let is = |it| matches!(it, Against::Part(at, _) if at == *other);
+                    assert!(!is_near || is_met(*one, &is, lane), "{name}: {one} {other} {distance}");
+                }
+            }
+        }
+        // Boxes around cylinders and capsules take some more, and not many.
+        assert!(near > 50 && told < 2 * near, "{name}: {near} near, {told} told");
+    }
+}
+
+#[test]
+fn every_processor_tells_the_same() {
+    let slabs: Vec<Slab> = things().iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    for name in ["hsr", "anymal_z1", "panda"] {
+        let robot = robot(name);
+        for block in 0..24 {
+            let mut eight = robot.figure.eight();
+            for lane in 0..8 {
+                let at = block * 8 + lane;
+                robot.figure.set(&mut eight, lane, base(at), &robot.joints(at));
+            }
+            if block % 2 == 1 {
+                robot.figure.spread(&mut eight, [0.02, 0.01, 0.03], |at| 0.01 * (at % 4) as f64);
+            }
+            let told = [Arch::Scalar, Arch::new()].map(|arch| met(&robot, &eight, &slabs, GAP, arch));
+            assert_eq!(told[0], told[1], "{name}");
+            assert!(!told[0].is_empty());
+        }
+    }
+}
+
+/// No point of a part goes farther than is said.
+#[test]
+fn parts_stay_within_how_far_they_go() {
+    for name in ["hsr", "anymal_z1", "panda"] {
+        let robot = robot(name);
+        for block in 0..12 {
+            let (from, to) = (robot.joints(block), robot.joints(block + 1));
+            let (start, change) = (base(block), [0.05, -0.03, 0.1]);
+            let share = 0.05;
+            let mut eight = robot.figure.eight();
+            for lane in 0..8 {
+                assert!(robot.figure.set(&mut eight, lane, start, &from));
+            }
+            robot
+                .figure
+                .spread(&mut eight, change.map(|value| value * share), |at| (to[at] - from[at]) * share);
+            let goes = super::pose::goes_in_map(&robot.figure, &eight);
+            let at = |part: f64| {
+                let joints: Vec<f64> =
+                    from.iter().zip(&to).map(|(a, b)| a + (b - a) * share * part).collect();
+                let base = [0, 1, 2].map(|axis| start[axis] + change[axis] * share * part);
+                robot.placed(base, &joints)
+            };
+            let first = at(0.0);
+            for part in [-1.0, -0.5, 0.5, 1.0] {
+                for ((one, other), goes) in first.iter().zip(at(part)).zip(&goes) {
+                    for axis in one.axes.iter().zip(other.axes).map(|(a, b)| [*a, b]) {
+                        for sign in [-1.0, 1.0] {
+                            let end = |solid: &Solid, axis: nalgebra::Vector3<f64>| {
+                                let half = match solid.shape {
+                                    Shape::Capsule { .. } => solid.reach() * axis.dot(&solid.axes[2]).abs(),
+                                    _ => solid.extent(&axis),
+                                };
+                                solid.centre + axis * (half * sign)
+                            };
+                            let [a, b] = axis;
+                            let far = (end(one, a) - end(&other, b)).norm();
+                            assert!(far <= f64::from(*goes) + 1e-5, "{name}: {far} {goes}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
