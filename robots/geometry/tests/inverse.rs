@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use motet_geometry::inverse::manifold::Manifold;
-use motet_geometry::inverse::{LiftArm, ParallelArm, Tolerance, numeric};
+use motet_geometry::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
 use motet_geometry::kinematics::{Chain, Tree, planar};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
@@ -76,6 +76,7 @@ fn closed_forms_are_seen_in_the_axes() {
     assert!(ParallelArm::detect(&z1()).is_some() && LiftArm::detect(&z1()).is_none());
     assert!(ParallelArm::detect(&ur()).is_some());
     assert!(ParallelArm::detect(&panda()).is_none() && LiftArm::detect(&panda()).is_none());
+    assert!(SevenArm::detect(&panda()).is_some() && SevenArm::detect(&z1()).is_none());
 }
 
 /// Each solution is within the limits and at the pose, and one is `values`.
@@ -96,6 +97,21 @@ fn contains(arm: &ParallelArm, values: &[f64]) -> Result<(), TestCaseError> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn the_panda_reaches_what_it_reaches(parts in prop::array::uniform7(0.0..=1.0_f64)) {
+        let arm = SevenArm::detect(&panda()).unwrap();
+        let values = spread(arm.chain(), &parts);
+        let wanted = arm.chain().base_from_tip(&values);
+        let found = arm.solve(&wanted, values[6]);
+        for solution in &found {
+            prop_assert!(arm.chain().allows(solution));
+            prop_assert!(Tolerance::EXACT.covers(&arm.chain().base_from_tip(solution), &wanted));
+        }
+        let far = |solution: &[f64; 7]| solution.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let nearest = found.iter().map(far).fold(f64::INFINITY, f64::min);
+        prop_assert!(nearest < 1e-4, "{nearest} from {values:?} in {} solutions", found.len());
+    }
 
     #[test]
     fn the_hsr_reaches_what_it_reaches(

@@ -29,7 +29,6 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             "--robot" => settings.robots.push(value()?.clone()),
             "--rooms" => settings.rooms = number(value()?)?,
             "--seed" => settings.seed = number(value()?)?,
-            "--quick2" => {}
             "--quick" => settings.is_quick = true,
             "--witnesses" => settings.witnesses = Some(value()?.into()),
             "--targets" => settings.targets = Some(value()?.into()),

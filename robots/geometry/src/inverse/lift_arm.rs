@@ -114,15 +114,22 @@ impl LiftArm {
         let left = carried.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
         let mut found = Vec::new();
         for angles in wrist(&self.wrist, &left) {
-            let mut options =
+            let options = || {
                 wrist_joints.iter().zip(wrist_variables).zip(angles).map(|((joint, variable), q)| {
-                    within(variable, (q - joint.driver.offset) / joint.driver.multiplier).collect::<Vec<_>>()
-                });
+                    within(variable, (q - joint.driver.offset) / joint.driver.multiplier)
+                })
+            };
+            if options().any(|mut found| found.next().is_none()) {
+                continue;
+            }
+            let mut options = options();
             let (one, two, three) = (options.next(), options.next(), options.next());
+            let (two, three): (Vec<f64>, Vec<f64>) =
+                (two.into_iter().flatten().collect(), three.into_iter().flatten().collect());
             for a in one.into_iter().flatten() {
-                for b in two.iter().flatten().copied() {
-                    for c in three.iter().flatten().copied() {
-                        found.push(Placed { base, values: [lift, shoulder, a, b, c] });
+                for b in &two {
+                    for c in &three {
+                        found.push(Placed { base, values: [lift, shoulder, a, *b, *c] });
                     }
                 }
             }
@@ -195,7 +202,7 @@ impl LiftArm {
 
 /// The angles about three axes, each square to the next, that make up a rotation: two ways, in a fixed order. Where the
 /// outer axes coincide only their sum counts, and the first angle is 0.
-fn wrist(axes: &[Vector3<f64>; 3], rotation: &UnitQuaternion<f64>) -> Vec<[f64; 3]> {
+pub(super) fn wrist(axes: &[Vector3<f64>; 3], rotation: &UnitQuaternion<f64>) -> Vec<[f64; 3]> {
     let [one, two, three] = axes;
     let pointing = rotation * three;
     let Some(middles) = component(two, three, one, one.dot(&pointing)) else { return vec![] };

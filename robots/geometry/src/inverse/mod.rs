@@ -2,7 +2,8 @@
 //!
 //! Which arm has a closed form is read off the axes of its joints, never off names: [`LiftArm`] for a lift, a shoulder
 //! and a wrist whose three axes meet in a point, on a base that drives in any direction; [`ParallelArm`] for six turning
-//! joints of which the inner three are parallel. [`numeric`] takes any chain. What is returned is within the limits, and
+//! joints of which the inner three are parallel; [`SevenArm`] for a shoulder, an elbow and a wrist as of the Franka arms. [`numeric`]
+//! takes any chain. What is returned is within the limits, and
 //! forward kinematics confirms it.
 
 mod lanes;
@@ -11,10 +12,12 @@ pub mod manifold;
 pub mod numeric;
 mod parallel_arm;
 mod screw;
+mod seven_arm;
 mod subproblem;
 
 pub use lift_arm::{LiftArm, Placed};
 pub use parallel_arm::ParallelArm;
+pub use seven_arm::SevenArm;
 
 use nalgebra::Isometry3;
 

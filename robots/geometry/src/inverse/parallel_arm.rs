@@ -94,6 +94,11 @@ impl ParallelArm {
         let [to_two, to_three, to_four, to_centre] = &self.offsets;
         let centre = base_from_tip * nalgebra::Point3::from(self.centre_in_tip);
         let from_first = centre.coords - self.first;
+        // Most of what is asked for is out of reach, and that is quickly seen.
+        let reach: f64 = self.offsets.iter().map(Vector3::norm).sum();
+        if from_first.norm() > reach + 1e-6 {
+            return vec![];
+        }
         let turned_by = base_from_tip.rotation * self.base_from_tip.inverse();
         let along = h.dot(&(to_two + to_three + to_four + to_centre));
         let mut found = Vec::new();
@@ -126,8 +131,19 @@ impl ParallelArm {
 
     /// All values within the limits that stand for the same positions.
     fn values(&self, positions: &[f64; 6], each: &mut impl FnMut([f64; 6])) {
-        let options = self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
-        let options: Vec<Vec<f64>> = options
+        let joints = || self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
+        let mut only = [0.0; 6];
+        let mut is_only = true;
+        for (slot, ((joint, variable), q)) in only.iter_mut().zip(joints()) {
+            let mut found = within(variable, (q - joint.driver.offset) / joint.driver.multiplier % TAU);
+            let Some(value) = found.next() else { return };
+            *slot = value;
+            is_only &= found.next().is_none();
+        }
+        if is_only {
+            return each(only);
+        }
+        let options: Vec<Vec<f64>> = joints()
             .map(|((joint, variable), q)| {
                 let value = (q - joint.driver.offset) / joint.driver.multiplier;
                 within(variable, value % TAU).collect()

@@ -20,6 +20,19 @@ impl Tree {
         poses
     }
 
+    /// The pose of one link in the root's frame. O(links between it and the root).
+    #[must_use]
+    pub fn root_from_link(&self, configuration: &[f64], link: usize) -> Isometry3<f64> {
+        let mut pose = Isometry3::identity();
+        let mut at = link;
+        while let Some(step) = self.placed_by.get(at).copied().flatten().and_then(|step| self.steps.get(step))
+        {
+            pose = step.pose(configuration) * pose;
+            at = step.parent;
+        }
+        pose
+    }
+
     /// The pose of link `tip` in the frame of link `base`; both by index. O(links between them and the root).
     #[must_use]
     pub fn pose(&self, configuration: &[f64], base: usize, tip: usize) -> Isometry3<f64> {

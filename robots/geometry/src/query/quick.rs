@@ -208,19 +208,20 @@ impl Around<'_, '_> {
             return states.iter().map(|state| self.touch_exactly(state, allowed)).collect();
         };
         let touch = |(state, lane): (&&State, u8)| {
-            let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1).peekable();
-            near.peek()?;
-            let poses = self.room.machine.map_from_links(state);
-            near.find_map(|near| self.touch_of(near, &poses))
+            let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
+            near.find_map(|near| self.touch_of(near, state))
         };
         states.iter().zip(0..).map(touch).collect()
     }
 
-    /// Whether a pair touches with the links at some poses.
-    pub(super) fn touch_of(&self, near: &Near, poses: &[nalgebra::Isometry3<f64>]) -> Option<Touch> {
+    /// Whether a pair touches in a state.
+    pub(super) fn touch_of(&self, near: &Near, state: &State) -> Option<Touch> {
+        let machine = self.room.machine;
         let solid = |part: usize| {
             let own = self.room.body.parts().get(part)?;
-            Some((own.solid.moved(poses.get(own.link)?), self.limbs.get(part)?))
+            let pose =
+                machine.map_from_root(state.base) * machine.tree().root_from_link(&state.joints, own.link);
+            Some((own.solid.moved(&pose), self.limbs.get(part)?))
         };
         let (one, limb) = solid(near.part)?;
         let (is_touched, other) = match near.other {

@@ -86,7 +86,11 @@ impl Room<'_> {
             // In steps, so that what differs by rounding alone keeps its order.
             Side::Side | Side::Front => libm::round(hold.approach.dot(&ahead) / far * 20.0) / 20.0,
         };
-        holds.sort_by(|one, other| worth(other).total_cmp(&worth(one)));
+        let mut ranked: Vec<(f64, Hold)> = holds.iter().map(|hold| (worth(hold), *hold)).collect();
+        ranked.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+        for (slot, (_, hold)) in holds.iter_mut().zip(ranked) {
+            *slot = hold;
+        }
     }
 }
 

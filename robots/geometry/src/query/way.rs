@@ -106,8 +106,8 @@ impl Around<'_, '_> {
             if near.peek().is_none() {
                 continue;
             }
-            let poses = self.room.machine.map_from_links(&from.towards(to, pieces.piece(lane).0));
-            if let Some(touch) = near.find_map(|near| self.touch_of(near, &poses)) {
+            let state = from.towards(to, pieces.piece(lane).0);
+            if let Some(touch) = near.find_map(|near| self.touch_of(near, &state)) {
                 return Err(touch);
             }
         }
