@@ -13,8 +13,6 @@ use crate::kinematics::{planar, spread};
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
 
-/// The root of x² = x + 1.
-const LINE: f64 = 1.618_033_988_749_895;
 /// The root of x³ = x + 1.
 pub(super) const PLANE: f64 = 1.324_717_957_244_746;
 /// The root of x⁴ = x + 1.
@@ -41,12 +39,6 @@ impl Room<'_> {
         let base_from_tip = self.map_from_base(base).inverse() * map_from_tip;
         let values: Vec<Vec<f64>> = match &hand.solver {
             Solver::Parallel(arm) => arm.solve(&base_from_tip).into_iter().map(Into::into).collect(),
-            Solver::Seven(arm) => {
-                let limits = arm.chain().variables.last().and_then(|variable| variable.limits);
-                let (lower, upper) = limits.unwrap_or((-PI, PI));
-                let last = lower + part(at, 1, LINE) * (upper - lower);
-                arm.solve(&base_from_tip, last).into_iter().map(Into::into).collect()
-            }
             Solver::Lift(_) => vec![],
             Solver::Steps(chain) => {
                 // From where the arm is first.

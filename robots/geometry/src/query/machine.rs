@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 
 use super::state::State;
 use crate::collision::{Body, Shape, Solid};
-use crate::inverse::{LiftArm, ParallelArm, SevenArm};
+use crate::inverse::{LiftArm, ParallelArm};
 use crate::kinematics::{Chain, Lever, Tree, planar};
 
 /// How far in front of the palm a thing is held, in m.
@@ -63,8 +63,6 @@ pub enum Solver {
     Lift(LiftArm),
     /// Six joints of which three are parallel.
     Parallel(ParallelArm),
-    /// Seven joints with a shoulder, an elbow and a wrist.
-    Seven(SevenArm),
     /// Any other chain, in steps.
     Steps(Chain),
 }
@@ -76,7 +74,6 @@ impl Solver {
         match self {
             Self::Lift(arm) => arm.chain(),
             Self::Parallel(arm) => arm.chain(),
-            Self::Seven(arm) => arm.chain(),
             Self::Steps(chain) => chain,
         }
     }
@@ -138,8 +135,7 @@ impl Machine {
         let lift =
             LiftArm::detect(&chain).filter(|_| drives_anywhere).map(|arm| Solver::Lift(arm.raised(height)));
         let parallel = || ParallelArm::detect(&chain).map(Solver::Parallel);
-        let seven = || SevenArm::detect(&chain).map(Solver::Seven);
-        let solver = lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Solver::Steps(chain.clone()));
+        let solver = lift.or_else(parallel).unwrap_or_else(|| Solver::Steps(chain.clone()));
         let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
         let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
         let links = 0..self.levers.len();

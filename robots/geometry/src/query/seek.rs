@@ -14,8 +14,8 @@ use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, Unfolding, exhausted};
 
-/// So many poses have the candidates of a budget each; more share them. Where neither the base is placed by the arm's own solver nor
-/// all solutions are along one joint, most candidates have no solution at all.
+/// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
+/// most candidates have no solution at all.
 const SHARED: [usize; 2] = [8, 32];
 /// How far the base comes from where it stands in the end while the hand reaches, in m.
 pub(super) const LAST: f64 = 0.65;
@@ -130,8 +130,7 @@ impl Room<'_> {
         let mut batch: Vec<Candidate> = Vec::with_capacity(BATCH);
         let places_base = matches!(sought.hand.solver, Solver::Lift(_));
         let [few, many] = SHARED;
-        let is_sure = matches!(sought.hand.solver, Solver::Lift(_) | Solver::Seven(_));
-        let shared = if is_sure { few } else { many };
+        let shared = if places_base { few } else { many };
         let mut rounds = budget.candidates;
         let mut round = 0;
         while round < rounds {
@@ -181,9 +180,7 @@ impl Room<'_> {
     pub(super) fn farthest(&self, hand: &Hand) -> f64 {
         match &hand.solver {
             Solver::Lift(arm) => arm.reach(),
-            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => {
-                hand.card.reach_m + self.machine.card().base.radius_m
-            }
+            Solver::Parallel(_) | Solver::Steps(_) => hand.card.reach_m + self.machine.card().base.radius_m,
         }
     }
 }
