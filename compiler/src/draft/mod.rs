@@ -6,7 +6,6 @@
 //! only the end of a policy can tell is asked of a step that is closed for the time being: see [`Draft::permits_step`].
 
 mod fluents;
-mod heeds;
 mod template;
 
 use motet_syntax::ast::{self, Policy, Step};
@@ -14,7 +13,6 @@ use motet_syntax::{Diagnostic, FileId, Form, Severity, Span};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
-pub use self::heeds::Heeds;
 pub use self::template::Template;
 use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Program, StepId, Term};
 use crate::prove::Prover;
@@ -174,14 +172,6 @@ impl Draft {
         id.is_some() && !outcome.refuted
     }
 
-    /// The same, and what the proof asked for.
-    pub fn heeds_step(&mut self, session: &Session, step: &Step) -> (bool, Heeds) {
-        let start = self.start();
-        let (id, outcome) = self.prove(session, step, Looks::Around);
-        self.back_to(&start);
-        (id.is_some() && !outcome.refuted, Heeds(outcome.heeded.unwrap_or_default()))
-    }
-
     /// Whether the policy may end behind its last step: its goal is not refuted there.
     pub fn permits_end(&mut self, session: &Session) -> bool {
         self.leave();
@@ -309,8 +299,7 @@ impl Draft {
             .flatten()
             .and_then(|(index, _)| u32::try_from(index).ok())
             .map(StepId);
-        let heeds = (looks == Looks::Around).then(Default::default);
-        let mut outcome = proof.step((id, hole), heeds, (&*program, library, world));
+        let mut outcome = proof.step((id, hole), (&*program, library, world));
         outcome.refuted |= is_wrong;
         (Some(id), outcome)
     }
@@ -321,6 +310,4 @@ impl Draft {
 enum Looks {
     Away,
     Inside,
-    /// It notes what it asks for.
-    Around,
 }

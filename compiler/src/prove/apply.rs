@@ -145,7 +145,6 @@ impl Prover<'_> {
                     return (Entities::new(), Some(Sure::Unknown));
                 };
                 for pattern in aliases {
-                    self.heed(fact.fluent, pattern);
                     rest = rest.join(self.facts.get(fact.fluent, pattern));
                     self.facts.entries(fact.fluent, pattern, |key, value| {
                         let entity = Entity(key.arg(place));
@@ -164,7 +163,6 @@ impl Prover<'_> {
 
     /// A pattern, and the same of all that the symbols in it may be; none where those are too many to look at.
     fn aliases(&self, fluent: Fluent, pattern: Key) -> Option<SmallVec<[Key; 4]>> {
-        self.heed(fluent, pattern);
         let mut found: SmallVec<[Key; 4]> = SmallVec::from_slice(&[pattern]);
         if self.symbols.is_empty() || self.facts.entry(fluent, pattern).is_some() {
             return Some(found);
@@ -261,8 +259,6 @@ impl Prover<'_> {
     fn echo(&mut self, fluent: Fluent, key: Key, value: Value, cause: Cause) {
         let library = self.library;
         let Some(def) = library.fluent(fluent) else { return };
-        // From one fact to others.
-        self.heed(fluent, Key::ALL);
         let mut targets: Vec<(Key, Value)> = Vec::new();
         let mut feels = |other: Key, known: Value| {
             if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {

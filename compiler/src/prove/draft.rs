@@ -1,15 +1,12 @@
 //! A proof that goes on step by step: what it holds between two steps, and the states in which a place of a policy is
 //! reached. Fed by [`crate::draft`].
 
-use std::cell::RefCell;
-
 use motet_syntax::{Code, Diagnostic, Severity, Span};
 use rustc_hash::FxHashMap;
 
 use super::apply::Lasting;
 use super::eval::Frame;
 use super::facts::{ANY, Facts, Key, Split};
-use super::heed::{Heeded, Heeds};
 use super::symbols::Symbols;
 use super::value::Value;
 use super::{Mood, Proof, Prover, Verdict, Volatile, Watched};
@@ -75,8 +72,6 @@ pub(crate) struct Outcome {
     pub(crate) refuted: bool,
     /// The states in which control reached the hole.
     pub(crate) stands: Vec<Stand>,
-    /// What it asked of the facts, where that was wanted.
-    pub(crate) heeded: Option<Heeded>,
 }
 
 /// The program, and what it is proved from.
@@ -113,26 +108,16 @@ impl Parts {
     }
 
     /// Proves one step of the body, and looks on the way at the hole in it.
-    pub(crate) fn step(
-        &mut self,
-        (step, hole): (StepId, Option<StepId>),
-        heeds: Heeds,
-        given: Given<'_>,
-    ) -> Outcome {
+    pub(crate) fn step(&mut self, (step, hole): (StepId, Option<StepId>), given: Given<'_>) -> Outcome {
         let (program, library, world) = given;
         self.symbols.extend(program, library, world);
         if !self.live {
-            return Outcome { heeded: heeds.map(RefCell::into_inner), ..Outcome::default() };
+            return Outcome::default();
         }
         self.with(given, |prover| {
             prover.hole = hole;
-            prover.heeds = heeds;
             prover.step(step);
-            Outcome {
-                refuted: prover.is_refuted(),
-                stands: std::mem::take(&mut prover.stands),
-                heeded: prover.heeds.take().map(RefCell::into_inner),
-            }
+            Outcome { refuted: prover.is_refuted(), stands: std::mem::take(&mut prover.stands) }
         })
     }
 
@@ -181,7 +166,6 @@ impl Parts {
             mood: Mood::Judge,
             hole: None,
             stands: Vec::new(),
-            heeds: None,
         };
         let answer = run(&mut prover);
         let Prover { symbols, facts, lasting, watched, volatile, splits, aliased, live, .. } = prover;

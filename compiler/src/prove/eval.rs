@@ -61,7 +61,6 @@ impl Prover<'_> {
 
     /// What is known of a single fact, symbols seen through.
     pub(crate) fn read(&self, fluent: Fluent, key: Key) -> Value {
-        self.heed(fluent, key);
         if self.symbols.is_empty() || self.facts.entry(fluent, key).is_some() {
             return self.facts.get(fluent, key);
         }

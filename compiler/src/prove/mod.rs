@@ -12,7 +12,6 @@ pub(crate) mod errors;
 pub(crate) mod eval;
 pub(crate) mod facts;
 mod flow;
-pub(crate) mod heed;
 mod intent;
 pub(crate) mod mend;
 mod monitor;
@@ -33,7 +32,6 @@ use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
 use self::draft::Stand;
 use self::facts::{Facts, Key, Split};
-use self::heed::Heeds;
 use self::mend::{End, Offer};
 use self::symbols::Symbols;
 use self::value::Value;
@@ -111,8 +109,6 @@ pub(crate) struct Prover<'a> {
     pub(crate) hole: Option<StepId>,
     /// The states in which control gets there.
     pub(crate) stands: Vec<Stand>,
-    /// What it asks of the facts.
-    pub(crate) heeds: Heeds,
 }
 
 /// What a proof is for.
@@ -197,7 +193,6 @@ impl<'a> Prover<'a> {
             mood: Mood::Tell,
             hole: None,
             stands: Vec::new(),
-            heeds: None,
         }
     }
 }

@@ -55,7 +55,6 @@ impl Prover<'_> {
                     }
                     Some(first) if first.same_set(value) => {}
                     Some(first) => {
-                        self.heed(atom.0, atom.1);
                         if (first.is_true() && value.is_false()) || (first.is_false() && value.is_true()) {
                             self.conflict(id, atom, first, value);
                         }

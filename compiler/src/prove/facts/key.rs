@@ -62,11 +62,6 @@ impl Key {
         (agree && one & !two != 0 && two & !one != 0).then_some(Self(shared))
     }
 
-    /// Whether some fact is one of both.
-    pub(crate) fn overlaps(self, other: Self) -> bool {
-        (self.0 ^ other.0) & !self.any() & !other.any() == 0
-    }
-
     /// Whether every fact of `other` is one of this pattern.
     pub(crate) fn covers(self, other: Self) -> bool {
         (self.0 ^ other.0) & !self.any() == 0

@@ -1,10 +1,8 @@
 //! What the checker says of a place of a walk. Two drafts follow the walk: one stands where the next step will stand and
 //! is asked of calls, the other is asked whether steps that are closed for the time being are errors.
 
-use std::sync::Arc;
-
 use motet_compiler::Session;
-use motet_compiler::draft::{Draft, Heeds, Test, Value};
+use motet_compiler::draft::{Draft, Test, Value};
 use motet_compiler::signature::Type;
 
 use super::arena::{Event, Id};
@@ -22,16 +20,11 @@ pub(crate) struct Asked {
     judge: Follower,
     /// The hash of what was said up to where the first of them stands.
     stands: Option<u64>,
-    /// By question: whether a step is no error, and what the proof of it asked for; the latest last.
-    heeds: Vec<(u64, bool, Arc<Heeds>)>,
 }
 
 /// Where a call takes a proof of all that runs at once, so many values of each argument behind the one in question are
 /// tried. A value that is open here is open when its turn comes, so what is begun can still be completed.
 const MOST_SHARED: usize = 3;
-
-/// The proofs of which it is kept what they asked for.
-const MOST_HEEDS: usize = 8;
 
 /// An argument that is tried.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -70,44 +63,6 @@ impl Walk {
         })
     }
 
-    /// The same, and what the proof asked for.
-    pub(super) fn heeds(&mut self, event: Id, more: &[Event]) -> (bool, Arc<Heeds>) {
-        let key = self.key(Question::Verify, event, more.iter().copied());
-        if let Some((_, answer, heeds)) = self.asked.heeds.iter().find(|(known, ..)| *known == key) {
-            return (*answer, Arc::clone(heeds));
-        }
-        let before = self.arenas.said(event).map_or(0, |said| said.before);
-        let mut events = self.arenas.between(before, event);
-        events.extend_from_slice(more);
-        let told = Told { machine: &self.machine, arenas: &self.arenas, bytes: &self.bytes };
-        let step = told.step(&events);
-        let draft = self.asked.judge.follow(&told, before);
-        let (answer, heeds) = match (draft, step) {
-            (Some(draft), Some(step)) => draft.heeds_step(&self.machine.session, &step),
-            (Some(_), None) => (true, Heeds::default()),
-            (None, _) => (false, Heeds::default()),
-        };
-        self.machine.memo.put(key, answer);
-        let heeds = Arc::new(heeds);
-        if self.asked.heeds.len() >= MOST_HEEDS {
-            self.asked.heeds.remove(0);
-        }
-        self.asked.heeds.push((key, answer, Arc::clone(&heeds)));
-        (answer, heeds)
-    }
-
-    /// Whether a proof asked for what a fluent says of these arguments.
-    pub(super) fn is_heeded(&self, heeds: &Heeds, fluent: u16, args: &[Event]) -> bool {
-        let name =
-            self.machine.program.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name);
-        let values = args.iter().map(|event| {
-            let meaning = meaning(&self.machine.program, *event).filter(|meaning| *meaning != Meaning::Any);
-            meaning.map(Meaning::value)
-        });
-        let values: Vec<Option<Value>> = values.collect();
-        name.is_none_or(|name| heeds.has(&self.machine.session, name, &values))
-    }
-
     /// Whether what stands beside the place behind `event` is no error either, with `more` at the place.
     pub(crate) fn verify_beside(&mut self, event: Id, more: &[Event]) -> bool {
         self.is_apart(event, more) || self.verify(event, more)
@@ -143,7 +98,7 @@ impl Walk {
         });
         // A name may be one of several entities.
         let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
-        let machine = Arc::clone(&self.machine);
+        let machine = std::sync::Arc::clone(&self.machine);
         let Some(name) =
             machine.program.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name)
         else {
@@ -183,7 +138,7 @@ impl Walk {
     }
 
     fn completes_anew(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> bool {
-        let machine = Arc::clone(&self.machine);
+        let machine = std::sync::Arc::clone(&self.machine);
         let index = usize::from(callable);
         let (Some(made), Some(signature)) =
             (machine.program.callables.get(index), machine.program.signatures.callables.get(index))

@@ -93,60 +93,14 @@ impl Walk {
     /// Whether a whole condition, of which what was said is the beginning and `more` the rest, refutes nothing.
     fn refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
         let Some((body, fluent, negated, args)) = self.test_of_loop(event, more) else {
-            return self.waiting_refutes_nothing(event, more);
+            return self.verify_beside(event, more);
         };
         match self.test(body, fluent, negated, &args) {
             Test::Holds if self.is_apart(event, more) => true,
             // The body was no error without a test, so it was the back edge.
             Test::Idle if !self.verify(body, &[Event::Close]) => false,
-            Test::Holds | Test::Idle => self.verify(event, more),
-            Test::Open => match self.heeds(body, &[Event::Close]) {
-                // What is wrong on the way back stays wrong where nothing that it turns on is tested.
-                (false, heeds) if !self.is_heeded(&heeds, fluent, &args) => false,
-                _ => self.verify(event, more),
-            },
+            Test::Holds | Test::Idle | Test::Open => self.verify(event, more),
         }
-    }
-
-    /// The same of what is waited for. Afterwards it holds; to what never asks for it that is all the same.
-    fn waiting_refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
-        if self.is_apart(event, more) {
-            return true;
-        }
-        if let Some((place, before, fluent, args)) = self.test_of_wait(event, more) {
-            let (answer, heeds) = self.heeds(place, &before);
-            if !self.is_heeded(&heeds, fluent, &args) {
-                return answer;
-            }
-        }
-        self.verify(event, more)
-    }
-
-    /// Where a condition is a fluent that is waited for, or that it does not hold: the place behind the beginning of the
-    /// step, as an event and what comes behind it, and the fluent.
-    fn test_of_wait(&self, event: Id, more: &[Event]) -> Option<(Id, Vec<Event>, u16, Vec<Event>)> {
-        let wait = Event::Open(Kind::Wait);
-        let is_said = |event: &Event| {
-            matches!(event, Event::Open(Kind::Not | Kind::Is(_)) | Event::Word(..) | Event::Bound(_))
-        };
-        let (place, before, condition) = match more.split_first() {
-            Some((first, rest)) if *first == wait => (event, vec![wait], rest.to_vec()),
-            _ => {
-                let (mut said, mut at) = (Vec::new(), event);
-                while let Some(here) = self.arenas.said(at).filter(|here| at > 0 && is_said(&here.event)) {
-                    said.push(here.event);
-                    at = here.below;
-                }
-                self.arenas.said(at).filter(|here| at > 0 && here.event == wait)?;
-                said.reverse();
-                said.extend_from_slice(more);
-                (at, Vec::new(), said)
-            }
-        };
-        let mut rest = condition.into_iter().skip_while(|event| *event == Event::Open(Kind::Not));
-        let Some(Event::Open(Kind::Is(fluent))) = rest.next() else { return None };
-        let args: Vec<Event> = rest.filter(|event| *event != Event::Close).collect();
-        args.iter().all(is_said).then_some((place, before, fluent, args))
     }
 
     /// Whether `and` or `or` may stand behind the condition that was just written: it stands in nothing, nor beside anything.
