@@ -22,13 +22,21 @@ pub(crate) fn read(document: &Document) -> (Source, Parsed) {
     match &document.bytes {
         Bytes::All(bytes) => {
             let (source, said) = decode(&document.name, bytes, DOCUMENT);
+            let source = in_its_file(source, document);
             let parsed = if said.is_empty() { motet_syntax::read(&source, DOCUMENT) } else { nothing(said) };
             (source, parsed)
         }
         Bytes::TooMany(bytes) => {
             let mistake = TooLarge { span: Span::new(DOCUMENT, 0, 0), bytes: *bytes };
-            (Source::new(document.name.as_str(), ""), nothing(vec![mistake.into()]))
+            (in_its_file(Source::new(document.name.as_str(), ""), document), nothing(vec![mistake.into()]))
         }
+    }
+}
+
+fn in_its_file(source: Source, document: &Document) -> Source {
+    match &document.line_of {
+        Some((file, line)) => source.as_line(file.as_str(), *line),
+        None => source,
     }
 }
 

@@ -38,6 +38,8 @@ pub(crate) enum Input {
 pub(crate) struct Document {
     /// The name by which diagnostics call it: a path, `-`, or `file.jsonl:LINE`.
     pub(crate) name: String,
+    /// The file of which it is one line, and which, from 1.
+    pub(crate) line_of: Option<(String, usize)>,
     /// Its file, where it is all of that file.
     pub(crate) path: Option<PathBuf>,
     /// Its bytes, or how many they are where those are too many.
@@ -105,11 +107,12 @@ impl Input {
             Self::Stdin => {
                 let bytes = bytes::read(std::io::stdin().lock(), None)
                     .map_err(|source| Trouble::Read { path: PathBuf::from("-"), source })?;
-                each(Document { name: "-".to_owned(), path: None, bytes })
+                each(Document { name: "-".to_owned(), line_of: None, path: None, bytes })
             }
             Self::File(path) => {
                 let bytes = read_file(path)?;
-                each(Document { name: path.display().to_string(), path: Some(path.clone()), bytes })
+                let name = path.display().to_string();
+                each(Document { name, line_of: None, path: Some(path.clone()), bytes })
             }
             Self::Lines(path) => {
                 let fail = |source| Trouble::Read { path: path.clone(), source };
@@ -120,8 +123,9 @@ impl Input {
                     if matches!(&bytes, Bytes::All(line) if line.trim_ascii().is_empty()) {
                         continue;
                     }
-                    let name = format!("{}:{number}", path.display());
-                    if each(Document { name, path: None, bytes })? == Flow::Stop {
+                    let file = path.display().to_string();
+                    let (name, line_of) = (format!("{file}:{number}"), Some((file, number)));
+                    if each(Document { name, line_of, path: None, bytes })? == Flow::Stop {
                         return Ok(Flow::Stop);
                     }
                 }

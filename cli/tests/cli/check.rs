@@ -16,6 +16,16 @@ fn place(name: &str) -> Place {
         .file("state.json", r#"{"holding(mug_1)": true, "free(hand)": false}"#)
         .file("open.json", r#"{"open(drawer_1)": true}"#)
         .file("odd_state.json", r#"{"holding(": true}"#)
+        .file("full_hand.json", r#"{"holding(mug_1)": true, "free(hand)": true}"#)
+        .file("two_held.json", r#"{"holding(mug_1)": true, "holding(coke)": true}"#)
+        .file("all_held.json", r#"{"holding(any)": true}"#)
+        .file("derived.json", r#"{"reachable(mug_1)": true}"#)
+        .file(
+            "odd_kind.json",
+            "{\"motet_scene\": 1, \"entities\": [\n  {\"id\": \"mug_1\", \"kind\": \"Surfase\"}]}",
+        )
+        .file("plain.json", "{\"motet_scene\": 1, \"entities\": [\n  {\"id\": \"b\", \"kind\": \"Object\"}]}")
+        .file("b.motet", "entity b: Object\n")
         .file("domain.motet", "kind Block: Object\nfluent stacked(a: Block)\n")
         .file("odd_domain.motet", "fluent (")
         .file("robot/readme.md", "no card")
@@ -61,6 +71,28 @@ fn ends_with_the_right_code() {
         ("check good.motet --scene absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
         ("check good.motet --state absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
         (format!("check good.motet {scene} --state odd_state.json"), 2, &["out:M0224"]),
+        (format!("check good.motet {scene} --state full_hand.json"), 2, &["out:M0225", "out:cannot be free"]),
+        (format!("check good.motet {scene} --state two_held.json"), 2, &["out:M0225", "out:has one hand"]),
+        (
+            format!("check good.motet {scene} --state all_held.json"),
+            2,
+            &["out:M0225", "out:name what is held"],
+        ),
+        (
+            format!("check good.motet {scene} --state derived.json"),
+            2,
+            &["out:M0224", "out:follows from a motion"],
+        ),
+        (
+            "check good.motet --scene odd_kind.json".to_owned(),
+            2,
+            &["out:M0221", "out:odd_kind.json:2:", "out:did you mean `Surface`?"],
+        ),
+        (
+            "check good.motet --scene plain.json --domain b.motet".to_owned(),
+            2,
+            &["out:M0222", "out:plain.json:2:"],
+        ),
         (format!("check good.motet {scene} --domain odd_domain.motet"), 2, &["out:odd_domain.motet"]),
         ("check absent.motet".to_owned(), 2, &["err:cannot read `absent.motet`: there is no such file"]),
         ("check".to_owned(), 2, &["err:Usage"]),
@@ -148,6 +180,12 @@ fn merges_the_sources_of_a_batch() {
     };
     assert_eq!(place_of("bad.motet")["region"]["startLine"], 2);
     assert_eq!(place_of("worse.motet")["region"]["startLine"], 4);
+    // Tools open the file, not a line of it.
+    let line = &place_of("lines.jsonl")["region"];
+    assert_eq!(line["startLine"], 3);
+    assert!(line["byteOffset"].is_null());
+    let ran = place.run("check lines.jsonl --scene kitchen --format github");
+    ran.check(1, &["out:::error file=lines.jsonl,line=3,endLine=3,col="]);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The small commands from outside: `robots`, `explain`, `schema`, `completions`.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use crate::support::Place;
 use serde_json::Value;
 
@@ -87,4 +89,72 @@ fn writes_a_first_card_and_checks_it() {
     let card = place.read("sloppy/robot.toml").replace("base = \"base\"", "base = \"bass\"");
     let place = place.file("sloppy/robot.toml", card);
     place.run("robots check sloppy").check(1, &["out:M0427", "out:did you mean `base`?"]);
+}
+
+/// The HSR's card under another roof, with one line replaced, and whether its own declarations lie beside it.
+fn own_card(name: &str, from: &str, to: &str, declarations: Option<&str>) -> Place {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../robots/models/hsr");
+    let read = |file: &str| std::fs::read_to_string(format!("{folder}/{file}")).unwrap();
+    let card = read("robot.toml");
+    assert_eq!(card.matches(from).count(), 1, "`{from}` stands once in the card");
+    let place = Place::new(name).file("rb/robot.toml", card.replacen(from, to, 1));
+    let place = place.file("rb/robot.urdf", read("robot.urdf")).file("p.motet", "policy p { go(user) }\n");
+    match declarations {
+        Some(text) => place.file("rb/primitives.motet", text),
+        None => place,
+    }
+}
+
+#[test]
+fn a_card_is_compared_with_what_is_declared() {
+    for (index, (from, to, said)) in [
+        ("\"holding\",", "\"holdin\",", "M0406|rb/robot.toml:|did you mean `holding`?"),
+        ("pick = {}", "pik = {}", "M0407|rb/robot.toml:|did you mean `pick`?"),
+        ("pick = {}", "fetch = {}", "M0407|rb/robot.toml:|`fetch` is a policy"),
+        ("turn.by", "turn.angle", "M0408|rb/robot.toml:|it has `by`"),
+        (
+            "{ least = \"-360 deg\", greatest = \"360 deg\" }",
+            "{ least = \"-1 m\", greatest = \"1 m\" }",
+            "M0409|rb/robot.toml:|write both bounds in rad",
+        ),
+        ("voice = []\n", "", "M0410|rb/robot.toml:|there is no resource `voice`"),
+        (
+            "initially = [\"standing(robot)\"]",
+            "initially = [\"standing(robot\"]",
+            "M0446|rb/robot.toml:|is not a fact",
+        ),
+        (
+            "initially = [\"standing(robot)\"]",
+            "initially = [\"standin(robot)\"]",
+            "M0446|rb/robot.toml:|did you mean `standing`?",
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let place = own_card(&format!("own_card_{index}"), from, to, None);
+        for line in ["robots check rb", "check p.motet --robot rb"] {
+            let code = if line.starts_with("robots") { 1 } else { 2 };
+            let ran = place.run(line);
+            ran.check(code, &[]);
+            for text in said.split('|') {
+                assert!(ran.stdout.contains(text), "{line}: {text:?} of {said}: {ran:#?}");
+            }
+            assert!(!ran.stdout.contains(":1:1]"), "{ran:#?}");
+        }
+    }
+}
+
+#[test]
+fn the_declarations_beside_a_card_are_read_with_it() {
+    for (name, text, code) in
+        [("own_broken", "action wave( {\n", "M01"), ("own_unknown", "action wave()\n    uses wing\n", "M02")]
+    {
+        let place = own_card(name, "say = {}", "say = {}\nwave = {}", Some(text));
+        let ran = place.run("robots check rb");
+        ran.check(1, &["out:rb/primitives.motet:", &format!("out:{code}")]);
+    }
+    let place =
+        own_card("own_good", "say = {}", "say = {}\nwave = {}", Some("action wave()\n    uses arm\n"));
+    place.run("robots check rb").check(0, &["out:no errors"]);
 }

@@ -45,10 +45,11 @@ impl Library {
             .collect();
         builder.layer(&standard);
         if let Some(robot) = robot.filter(|robot| !robot.declarations.is_empty()) {
-            let name = format!("{}/primitives.motet", robot.name);
+            let name = robot.places.declarations.as_str();
             let file = builder.read(Source::new(name, robot.declarations.as_str()), sources);
             builder.layer(&[file]);
         }
+        builder.declarations.close_robot();
         builder
     }
 }
@@ -87,6 +88,9 @@ impl LibraryBuilder {
             library.policies.push(policy.item.clone());
         }
         contract::initially(&mut library, &declarations, robot.as_ref(), &entities, &mut diagnostics);
+        if let Some(robot) = &robot {
+            diagnostics.extend(super::card::check(&library, &declarations, robot));
+        }
         (library, diagnostics)
     }
 }

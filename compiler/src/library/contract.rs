@@ -9,6 +9,7 @@ use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use super::build::resolver;
+use super::card;
 use super::layer::Declarations;
 use super::model::{EffectDef, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
 use crate::ir::{Base, Kind, Primitive, TIMEOUT, Term, Ty};
@@ -60,8 +61,11 @@ pub(super) fn primitives(
                 continue;
             }
             // A layer above may replace what a contract below speaks of: what no longer fits goes with it.
-            if decl.layer == declarations.top() || declarations.top() == 0 {
-                diagnostics.extend(mistakes);
+            let is_alone = declarations.top() == declarations.robot_top();
+            match robot.filter(|_| decl.layer == 0) {
+                Some(robot) => diagnostics.extend(card::unfit(robot, &def.name, &mistakes, is_alone)),
+                None if decl.layer == declarations.top() => diagnostics.extend(mistakes),
+                None => {}
             }
             if decl.layer != declarations.top() {
                 continue;
@@ -92,13 +96,18 @@ pub(super) fn initially(
 ) {
     let mut resolver = resolver(library, entities);
     let mut facts = Vec::new();
-    let card: Vec<Expr> = robot
-        .map(|robot| {
-            robot.initially.iter().filter_map(|text| motet_syntax::text::condition(text).ok()).collect()
-        })
-        .unwrap_or_default();
-    let declared = declarations.initially.iter().flat_map(|decl| &decl.facts);
-    for expr in card.iter().chain(declared) {
+    if let Some(robot) = robot {
+        for (text, expr, span) in card::facts(robot, diagnostics) {
+            let (value, inner) = strip_not(&expr);
+            if let Some(fact) = literal(&mut resolver, inner) {
+                facts.push((fact, value, span));
+            }
+            // Places in the entry's own text are none in the card.
+            let why = std::mem::take(&mut resolver.diagnostics).into_iter().next();
+            diagnostics.extend(why.map(|why| card::not_at_first(text, (why.message, why.help), span)));
+        }
+    }
+    for expr in declarations.initially.iter().flat_map(|decl| &decl.facts) {
         let (value, inner) = strip_not(expr);
         if let Some(fact) = literal(&mut resolver, inner) {
             facts.push((fact, value, expr.span));

@@ -36,6 +36,8 @@ pub(super) struct Declarations {
     pub(super) initially: Vec<Arc<InitiallyDecl>>,
     pub(super) closed_world: bool,
     layers: usize,
+    /// The newest layer that is the robot's own or below it.
+    robot_top: usize,
 }
 
 impl Declarations {
@@ -67,6 +69,16 @@ impl Declarations {
                 Item::ClosedWorld(_) => self.closed_world = true,
             }
         }
+    }
+
+    /// Says that the robot's own declarations are all there: what comes now lies above them.
+    pub(super) fn close_robot(&mut self) {
+        self.robot_top = self.top();
+    }
+
+    /// The number of the newest layer that is the robot's own or below it.
+    pub(super) fn robot_top(&self) -> usize {
+        self.robot_top
     }
 
     /// The number of the newest layer.

@@ -2,7 +2,9 @@
 //! read by every stage.
 
 mod build;
+mod card;
 mod contract;
+pub(crate) mod errors;
 mod layer;
 pub(crate) mod model;
 mod robot;

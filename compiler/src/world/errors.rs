@@ -1,5 +1,6 @@
 //! A scene or a state that does not fit the library (M022x, M032x).
 
+use motet_syntax::{Related, Span};
 use smol_str::SmolStr;
 
 motet_syntax::mistakes! {
@@ -24,4 +25,10 @@ motet_syntax::mistakes! {
     NotAFact("M0224", Error) { text: String, why: String }
     message(m) { format!("`{}` is not a fact: {}", m.text, m.why) }
     help(_m) { Some("write a fluent with its arguments, such as \"on(mug_1, table)\": true".to_owned()) }
+
+    /// A state whose facts cannot all be so: what is held and what the hands are free for.
+    Contradiction("M0225", Error) { what: String, mend: String, other: Option<Span> }
+    message(m) { m.what.clone() }
+    help(m) { Some(m.mend.clone()) }
+    related(m) { m.other.iter().map(|other| Related::new("and this here", *other)).collect() }
 }

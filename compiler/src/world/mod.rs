@@ -3,6 +3,7 @@
 
 mod entities;
 mod errors;
+mod hands;
 mod seed;
 mod state;
 

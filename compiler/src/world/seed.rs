@@ -1,7 +1,7 @@
 //! What a scene says, as entities and facts (section 8 of the language page).
 
 use motet_robots::scene::{Entity as Thing, Scene, normal};
-use motet_syntax::{Diagnostic, Span};
+use motet_syntax::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
@@ -17,7 +17,6 @@ pub(super) fn entities(
     entities: &mut Entities,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let span = Span::default();
     for thing in scene.entities.values() {
         let kind = match library.names.kinds.get(&thing.kind) {
             Some(kind) => *kind,
@@ -26,19 +25,19 @@ pub(super) fn entities(
             None => {
                 let near = near(&thing.kind, library.kinds.iter().map(|def| def.name.as_str()));
                 let (kind, entity) = (thing.kind.clone(), thing.id.clone());
-                diagnostics.push(UnknownKind { span, kind, entity, near }.into());
+                diagnostics.push(UnknownKind { span: thing.written.kind, kind, entity, near }.into());
                 library.kind_named("Entity")
             }
         };
         if entities.len() >= MAX_ENTITIES {
-            diagnostics.push(TooManyEntities { span, limit: MAX_ENTITIES }.into());
+            diagnostics.push(TooManyEntities { span: thing.written.id, limit: MAX_ENTITIES }.into());
             return;
         }
         let known = entities.find(&thing.id);
         // `user` and `start` may be placed by the scene; the robot is its own.
         let placeable = known.is_none_or(|(entity, _)| entity == USER || entity == START);
         if entities.add(thing.id.clone(), kind).is_none() && !placeable {
-            diagnostics.push(TakenName { span, entity: thing.id.clone() }.into());
+            diagnostics.push(TakenName { span: thing.written.id, entity: thing.id.clone() }.into());
         }
     }
 }

@@ -3,8 +3,8 @@
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, Form, Span};
 
-use super::World;
 use super::errors::NotAFact;
+use super::{World, hands};
 use crate::ir::Term;
 use crate::library::Library;
 use crate::resolve::expr::Resolver;
@@ -22,6 +22,7 @@ impl State {
     pub(super) fn tell(&self, library: &Library, world: &mut World) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         let entities = world.entities().clone();
+        let mut said = Vec::new();
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with("free"));
         for (text, (value, span)) in &self.facts {
             let parsed = match motet_syntax::text::condition(text) {
@@ -46,6 +47,10 @@ impl State {
             };
             let why = resolver.diagnostics.first().map(|mistake| mistake.message.clone());
             match (fact, why) {
+                (Some(fact), None) if library.fluent(fact.fluent).is_some_and(|def| def.derived) => {
+                    let why = "it follows from a motion, and is never given".to_owned();
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why }.into());
+                }
                 (Some(fact), None) => {
                     let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
                     if let (true, true, false, [Some(Term::Entity(held))]) =
@@ -53,6 +58,7 @@ impl State {
                     {
                         super::seed::held(library, world, *held);
                     }
+                    said.push((fact.clone(), *value, *span));
                     match value {
                         Some(value) => world.tell(fact, *value),
                         None => world.forget(&fact),
@@ -64,6 +70,7 @@ impl State {
                 }
             }
         }
+        diagnostics.extend(hands::contradiction(library, world, &said));
         diagnostics
     }
 }

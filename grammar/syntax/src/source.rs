@@ -63,6 +63,8 @@ pub struct Source {
     pub name: Arc<str>,
     /// The whole text.
     pub text: Arc<str>,
+    /// Where it is one line of a larger file: that file's name, and which line, from 1.
+    line_of: Option<(Arc<str>, usize)>,
     /// Byte offset of the first byte of each line, once a place is asked for: most documents have no mistake.
     lines: OnceLock<Arc<[u32]>>,
 }
@@ -71,7 +73,29 @@ impl Source {
     /// A source with the given name and text.
     #[must_use]
     pub fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
-        Self { name: name.into(), text: text.into(), lines: OnceLock::new() }
+        Self { name: name.into(), text: text.into(), line_of: None, lines: OnceLock::new() }
+    }
+
+    /// The same source as line `line`, from 1, of the file `file`: what tools are told of is that file.
+    #[must_use]
+    pub fn as_line(mut self, file: impl Into<Arc<str>>, line: usize) -> Self {
+        self.line_of = Some((file.into(), line));
+        self
+    }
+
+    /// The file that holds it, and how many of that file's lines come before it.
+    #[must_use]
+    pub fn file(&self) -> (&str, usize) {
+        match &self.line_of {
+            Some((file, line)) => (file, line.saturating_sub(1)),
+            None => (&self.name, 0),
+        }
+    }
+
+    /// Whether it is a line of a larger file.
+    #[must_use]
+    pub fn is_line(&self) -> bool {
+        self.line_of.is_some()
     }
 
     /// Line and column, both from 1, of a byte offset; the column counts characters.

@@ -3,6 +3,8 @@
 use indexmap::IndexMap;
 use smol_str::SmolStr;
 
+use super::places::Places;
+
 /// A robot.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Robot {
@@ -37,6 +39,8 @@ pub struct Robot {
     pub initially: Vec<String>,
     /// Text of the card's `primitives.motet`: signatures that differ from the standard ones; empty where there is none.
     pub declarations: String,
+    /// Where the card says what declarations give a meaning to.
+    pub places: Places,
 }
 
 /// How a robot drives.

@@ -92,15 +92,20 @@ impl Numbers {
         0.0
     }
 
+    /// The dimension of the first unit that an interval is written with. What is wrong with it is said elsewhere.
+    pub(super) fn written(&mut self, at: &wire::Range) -> Option<Dimension> {
+        let before = self.found.len();
+        let mut unit = |at| self.any("", at).and_then(|(_, unit)| unit);
+        let unit = unit(&at.least).or_else(|| unit(&at.greatest));
+        self.found.truncate(before);
+        unit.map(Unit::dimension)
+    }
+
     /// An interval of a known dimension, or of any.
     pub(super) fn range(&mut self, key: &str, at: &wire::Range, dimension: Option<Dimension>) -> Range {
         let before = self.found.len();
-        let mut unit = |at| self.any(key, at).and_then(|(_, unit)| unit);
         // Of an interval of any dimension the first unit that is written decides; a bare number goes with it.
-        let dimension = dimension.unwrap_or_else(|| {
-            unit(&at.least).or_else(|| unit(&at.greatest)).map_or(Dimension::NONE, Unit::dimension)
-        });
-        self.found.truncate(before);
+        let dimension = dimension.or_else(|| self.written(at)).unwrap_or(Dimension::NONE);
         let least = self.of(&format!("{key}.least"), &at.least, dimension, Sign::Any);
         let greatest = self.of(&format!("{key}.greatest"), &at.greatest, dimension, Sign::Any);
         if self.found.len() == before && least > greatest {

@@ -8,6 +8,7 @@ use toml::de::DeTable;
 
 use super::errors::{BadName, ListedTwice, NotToml, TakenNumber};
 use super::model::{Base, Camera, Drive, Hand, Range, Robot};
+use super::places::{self, Bound, Places};
 use super::quantity::{Numbers, Sign};
 use super::shape;
 use super::wire::{self, At};
@@ -29,7 +30,8 @@ pub fn read(toml: &Source, file: FileId, declarations: Option<&str>) -> (Option<
         Err(problem) => return (None, vec![not_toml(&problem, file)]),
     };
     let mut reader = Reader { numbers: Numbers { file, found: Vec::new() } };
-    let robot = reader.robot(&card, declarations.unwrap_or_default());
+    let mut robot = reader.robot(&card, declarations.unwrap_or_default());
+    robot.places = reader.places(&card, &document, &toml.name);
     let found = sorted(reader.numbers.found);
     let wrong = found.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
     ((!wrong).then_some(robot), found)
@@ -81,6 +83,7 @@ impl Reader {
             numbers,
             initially: card.initially.iter().map(|fact| fact.get().clone()).collect(),
             declarations: declarations.to_owned(),
+            places: Places::default(),
         }
     }
 
@@ -159,6 +162,25 @@ impl Reader {
             primitives.insert(SmolStr::new(name), bounds.collect());
         }
         primitives
+    }
+
+    /// Where the card says what only the compiler can judge.
+    fn places(&mut self, card: &wire::Card, document: &toml::Spanned<DeTable<'_>>, name: &str) -> Places {
+        let mut found = Places { declarations: places::beside(name, card.name.get()), ..Places::default() };
+        for name in &card.observes {
+            found.observes.entry(name.get().into()).or_insert_with(|| self.numbers.span(name));
+        }
+        for (primitive, (span, params)) in places::primitives(document, self.numbers.file) {
+            let bounds = card.primitives.get(primitive.as_str()).map(At::get);
+            for (param, span) in params {
+                let bound = bounds.and_then(|bounds| bounds.get(param.as_str())).map(At::get);
+                let dimension = bound.and_then(|bound| self.numbers.written(bound));
+                found.bounds.insert((primitive.clone(), param), Bound { span, dimension });
+            }
+            found.primitives.insert(primitive, span);
+        }
+        found.initially = card.initially.iter().map(|fact| self.numbers.span(fact)).collect();
+        found
     }
 
     /// The numbers that every robot has, and those of the card.

@@ -5,7 +5,7 @@ use motet_syntax::json::Spanned;
 use smol_str::SmolStr;
 
 use super::errors::{EmptyName, FieldTwice, TooWideAngle};
-use super::model::{Entity, Placement, Shape, Travel, View};
+use super::model::{Entity, Placement, Shape, Travel, View, Written};
 use super::number::{Numbers, Quantity};
 use super::wire;
 
@@ -35,6 +35,7 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Ent
         locked: wire.locked,
         travel: wire.travel.0.as_ref().and_then(|it| travel(it, numbers)),
         fields: fields(wire, numbers),
+        written: Written { id: wire.id.span, kind: wire.kind.span },
     }
 }
 

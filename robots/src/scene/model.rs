@@ -2,6 +2,7 @@
 //! entity named by `on`, `in`, `holding` exists, supports have no cycle.
 
 use indexmap::IndexMap;
+use motet_syntax::Span;
 use smol_str::SmolStr;
 
 /// A scene. Lengths in metres, angles in radians, poses in the frame `map`, z up.
@@ -63,6 +64,23 @@ pub struct Entity {
     pub travel: Option<Travel>,
     /// Other fields that its kind declares, in SI units.
     pub fields: IndexMap<SmolStr, f64>,
+    /// Where the scene's file says so.
+    pub written: Written,
+}
+
+/// Where an entity was read. That is no part of what it is, so any two are equal.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Written {
+    /// Its id.
+    pub id: Span,
+    /// Its kind.
+    pub kind: Span,
+}
+
+impl PartialEq for Written {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Entity {
@@ -86,6 +104,7 @@ impl Entity {
             locked: None,
             travel: None,
             fields: IndexMap::new(),
+            written: Written::default(),
         }
     }
 }

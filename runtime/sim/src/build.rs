@@ -137,6 +137,7 @@ fn bare(id: &str, kind: &str, pose: Option<Placement>) -> Entity {
         locked: None,
         travel: None,
         fields: IndexMap::new(),
+        written: Default::default(),
     }
 }
 

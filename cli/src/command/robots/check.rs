@@ -1,5 +1,6 @@
-//! `motet robots check`: whether a card and its URDF are sound and fit each other, and what they come to.
+//! `motet robots check`: whether a card, its declarations and its URDF are sound and fit each other, and what they come to.
 
+use motet_compiler::{Options, Session};
 use motet_geometry::inverse::{LiftArm, ParallelArm};
 use motet_geometry::kinematics::Chain;
 use motet_geometry::query::{Allowed, Machine, Room, World};
@@ -21,9 +22,13 @@ use crate::workbench::Card;
 pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
     let card = Card::find(name)?;
     let mut sources = Sources::default();
-    let found = card
-        .read(&mut sources, report)
-        .and_then(|robot| card.body(&robot, &mut sources, report).map(|urdf| (robot, urdf)));
+    let found = card.read(&mut sources, report).and_then(|robot| {
+        // Both are looked at, so that all there is to mend is told at once.
+        let (_, said) = Session::new(Some(&robot), &[], None, None, Options::default(), &mut sources);
+        let declared = report.usable("robot card", &said, &sources);
+        let urdf = card.body(&robot, &mut sources, report)?;
+        declared.map(|()| (robot, urdf))
+    });
     match found {
         Ok((robot, urdf)) => {
             let lines = urdf.map_or_else(|| vec![NO_BODY.to_owned()], |urdf| told(&robot, &urdf));

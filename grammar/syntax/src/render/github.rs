@@ -1,6 +1,6 @@
 //! Diagnostics as workflow commands of GitHub Actions, one a line.
 
-use super::{end_line_column, file_name, line_column};
+use super::{region, tool_file};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Sources;
 
@@ -14,9 +14,8 @@ pub fn github(diagnostics: &[Diagnostic], sources: &Sources) -> String {
             Severity::Warning => "warning",
             Severity::Error => "error",
         };
-        let file = property(file_name(sources, diagnostic.span));
-        let (line, column) = line_column(sources, diagnostic.span);
-        let (end_line, end_column) = end_line_column(sources, diagnostic.span);
+        let file = property(tool_file(sources, diagnostic.span));
+        let [(line, column), (end_line, end_column)] = region(sources, diagnostic.span);
         let message = match &diagnostic.help {
             Some(help) => data(&format!("{}\n{help}", diagnostic.message)),
             None => data(&diagnostic.message),

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::{end_line_column, file_name, line_column};
+use super::tool_file;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::source::{Sources, Span};
+use crate::source::{Source, Sources, Span};
 
 /// What there is to read about a code.
 #[derive(Clone, Copy, Debug)]
@@ -119,7 +119,7 @@ fn location(span: Span, path: &str, sources: &Sources) -> Value {
 /// The file as a relative or absolute URI reference.
 fn artifact(span: Span, sources: &Sources) -> Value {
     let mut uri = String::new();
-    for byte in file_name(sources, span).bytes() {
+    for byte in tool_file(sources, span).bytes() {
         match byte {
             b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'_' | b'-' | b'~' => {
                 uri.push(byte.into())
@@ -132,14 +132,19 @@ fn artifact(span: Span, sources: &Sources) -> Value {
 }
 
 fn region(span: Span, sources: &Sources) -> Value {
-    let ((line, column), (end_line, end_column)) =
-        (line_column(sources, span), end_line_column(sources, span));
-    json!({
+    let [(line, column), (end_line, end_column)] = super::region(sources, span);
+    let mut region = json!({
         "startLine": line,
         "startColumn": column,
         "endLine": end_line,
         "endColumn": end_column,
-        "byteOffset": span.start,
-        "byteLength": span.end.saturating_sub(span.start),
-    })
+    });
+    // Of a line of a file it is not known how many bytes come before it.
+    if let (Some(region), false) =
+        (region.as_object_mut(), super::source(sources, span).is_some_and(Source::is_line))
+    {
+        region.insert("byteOffset".into(), span.start.into());
+        region.insert("byteLength".into(), span.end.saturating_sub(span.start).into());
+    }
+    region
 }
