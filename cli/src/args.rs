@@ -286,6 +286,8 @@ pub(crate) enum SchemaOf {
     Driver,
     /// What stands in a line of a journal (docs/journal.md)
     Journal,
+    /// What `motet run --faults` takes (docs/runtime.md)
+    Faults,
 }
 
 /// `motet completions`

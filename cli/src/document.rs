@@ -40,6 +40,12 @@ fn in_its_file(source: Source, document: &Document) -> Source {
     }
 }
 
+/// Whether text stands beside the policy: in a rewritten document it would be missing.
+#[must_use]
+pub(crate) fn is_reply(parsed: &Parsed) -> bool {
+    parsed.diagnostics.iter().any(|said| said.code.0 == "M0116")
+}
+
 /// What is read of a document that is no text.
 fn nothing(diagnostics: Vec<Diagnostic>) -> Parsed {
     Parsed { file: File::default(), form: Form::Text, text: Default::default(), diagnostics }

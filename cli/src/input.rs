@@ -54,7 +54,7 @@ pub(crate) struct Inputs {
     /// The sum of their sizes where known, for a progress bar.
     pub(crate) size: u64,
     /// Scenes and other JSON files in folders that are no policies.
-    pub(crate) skipped: usize,
+    pub(crate) skipped: Vec<PathBuf>,
 }
 
 /// Finds the inputs that paths stand for.
@@ -63,7 +63,7 @@ pub(crate) struct Inputs {
 ///
 /// A path that does not exist or cannot be listed.
 pub(crate) fn collect(paths: &[PathBuf]) -> Result<Inputs, Trouble> {
-    let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: 0 };
+    let mut found = Inputs { inputs: Vec::new(), size: 0, skipped: Vec::new() };
     for path in paths {
         if path.as_os_str() == "-" {
             found.inputs.push(Input::Stdin);

@@ -80,8 +80,42 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
+/// The most characters of a text that came from another process, as people are shown it.
+const MAX_TOLD_CHARS: usize = 500;
+
+/// A text that came from elsewhere, as one line for a terminal: what would steer the terminal or turn the line around is
+/// escaped (`\u{1b}`), and of a long one only the beginning is left.
+#[must_use]
+pub(crate) fn plain(text: &str) -> String {
+    let steers = |letter: char| {
+        letter.is_control()
+            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    let mut told = String::new();
+    for (index, letter) in text.chars().enumerate() {
+        if index == MAX_TOLD_CHARS {
+            told.push('…');
+            break;
+        }
+        if steers(letter) { told.extend(letter.escape_default()) } else { told.push(letter) }
+    }
+    told
+}
+
 /// `1 error`, `2 errors`.
 #[must_use]
 pub(crate) fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_TOLD_CHARS, plain};
+
+    #[test]
+    fn what_steers_a_terminal_is_escaped_and_long_texts_are_cut() {
+        assert_eq!(plain("gripper 40 °C, ok"), "gripper 40 °C, ok");
+        assert_eq!(plain("a\u{1b}[2Jb\u{9b}c\nd\u{202e}e"), r"a\u{1b}[2Jb\u{9b}c\nd\u{202e}e");
+        assert_eq!(plain(&"x".repeat(900_000)).chars().count(), MAX_TOLD_CHARS + 1);
+    }
 }

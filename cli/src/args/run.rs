@@ -49,14 +49,23 @@ pub(crate) struct RunArgs {
 #[derive(Args, Debug)]
 pub(crate) struct SimulatedArgs {
     /// How much faster than real time: a factor, or `max` for as fast as it can be computed
-    #[arg(long, default_value = "1", value_name = "max|FACTOR")]
+    #[arg(long, default_value = "1", value_name = "max|FACTOR", allow_negative_numbers = true)]
     pub(crate) speed: Speed,
     /// Seed of everything random in the simulated world
-    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    #[arg(long, default_value_t = 0, value_name = "NUMBER", value_parser = seed, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Faults to inject: a JSON file
     #[arg(long, value_name = "FILE")]
     pub(crate) faults: Option<PathBuf>,
+}
+
+/// Reads a seed.
+///
+/// # Errors
+///
+/// What to write, for clap to print.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| format!("write a whole number from 0 to {}, such as 7", u64::MAX))
 }
 
 /// How a run is shown.

@@ -1,5 +1,7 @@
 //! `motet check`: what is wrong with policies, before a robot moves.
 
+use std::path::PathBuf;
+
 use motet_compiler::fix::fix;
 
 use crate::args::CheckArgs;
@@ -45,7 +47,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, Trouble> {
         }
     }
     drop(progress);
-    tally.tell(&bench, inputs.skipped);
+    tally.tell(&bench, &inputs.skipped);
     if args.fix {
         note(&format!("made {} fix{}", tally.fixed, if tally.fixed == 1 { "" } else { "es" }));
     }
@@ -61,6 +63,8 @@ struct Tally {
     fixed: usize,
     /// Documents of which only a line could be rewritten.
     lines: usize,
+    /// Documents with text beside the policy, which a rewrite would lose.
+    replies: usize,
     /// Motions whose geometry nobody looked at.
     motions: usize,
     /// Documents that were checked against no robot.
@@ -84,7 +88,9 @@ impl Tally {
         }
         let (source, parsed) = document::read(&found);
         let is_text = matches!(&found.bytes, Bytes::All(bytes) if std::str::from_utf8(bytes).is_ok());
-        if is_text {
+        let is_reply = document::is_reply(&parsed);
+        self.replies += usize::from(is_reply);
+        if is_text && !is_reply {
             let setting = bench.setting(&parsed.file, report)?;
             let fixed = fix(&setting.session, &source, DOCUMENT, MOST_FIXES);
             self.fixed += fixed.applied.len();
@@ -142,14 +148,24 @@ impl Tally {
         Ok(())
     }
 
-    fn tell(&self, bench: &Workbench, skipped: usize) {
-        if skipped > 0 {
-            let files = if skipped == 1 {
+    fn tell(&self, bench: &Workbench, skipped: &[PathBuf]) {
+        if self.documents == 0 {
+            note("warning: there was nothing to check: no .motet file, no policy in JSON");
+        }
+        if !skipped.is_empty() {
+            let files = if skipped.len() == 1 {
                 "1 JSON file that is no policy".to_owned()
             } else {
-                format!("{skipped} JSON files that are no policies")
+                format!("{} JSON files that are no policies", skipped.len())
             };
-            note(&format!("note: skipped {files}"));
+            let named = skipped.iter().take(3).map(|path| format!("`{}`", path.display()));
+            let rest = if skipped.len() > 3 { ", …" } else { "" };
+            note(&format!("note: skipped {files}: {}{rest}", named.collect::<Vec<_>>().join(", ")));
+        }
+        if self.replies > 0 {
+            note(
+                "note: text beside a policy (M0116) is left as it is, and the policy with it: take the text out for --fix",
+            );
         }
         if self.lines > 0 {
             note(

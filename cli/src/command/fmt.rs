@@ -8,7 +8,7 @@ use crate::args::{FmtArgs, Form as To, KnownArgs, WorldArgs};
 use crate::document;
 use crate::exit::{Exit, Trouble};
 use crate::form;
-use crate::input::{self, Document, Flow, Input};
+use crate::input::{self, Bytes, Document, Flow, Input};
 use crate::out::{Colors, count, note};
 use crate::report::Report;
 use crate::workbench::Workbench;
@@ -49,7 +49,7 @@ fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, Trouble> {
         }
     }
     tally.tell(args);
-    let is_clean = tally.failed == 0 && !(args.check && tally.changed > 0);
+    let is_clean = tally.failed + tally.replies == 0 && !(args.check && tally.changed > 0);
     Ok(if is_clean { Exit::Clean } else { Exit::Findings })
 }
 
@@ -65,6 +65,8 @@ struct Tally {
     changed: usize,
     unchanged: usize,
     failed: usize,
+    /// Files with text beside the policy, which formatting would lose.
+    replies: usize,
     lines: usize,
 }
 
@@ -120,10 +122,15 @@ impl Tally {
             return Ok(());
         }
         let (source, parsed) = document::read(found);
-        if is_broken(&parsed) {
+        let is_reply = document::is_reply(&parsed);
+        if is_broken(&parsed) || is_reply {
             let sources = bench.setting(&parsed.file, report)?.sources(source);
             report.say(&parsed.diagnostics, &sources);
-            self.failed += 1;
+            self.failed += usize::from(!is_reply);
+            self.replies += usize::from(is_reply);
+            if let (true, None, Bytes::All(bytes)) = (is_reply, &found.path, &found.bytes) {
+                report.out.text(&String::from_utf8_lossy(bytes));
+            }
             return Ok(());
         }
         let text = print::format(&source).unwrap_or_else(|_| source.text.to_string());
@@ -158,6 +165,9 @@ impl Tally {
             parts.push(format!("{} unchanged", self.unchanged));
             if self.failed > 0 {
                 parts.push(format!("{} with errors left alone", self.failed));
+            }
+            if self.replies > 0 {
+                parts.push(format!("{} with text beside the policy left alone", self.replies));
             }
             note(&parts.join(", "));
         }

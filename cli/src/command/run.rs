@@ -4,7 +4,9 @@ mod branch;
 mod drive;
 mod events;
 mod export;
+mod faults;
 mod lines;
+mod made_up;
 mod pace;
 mod play;
 mod resume;
@@ -35,6 +37,7 @@ use crate::workbench::{Setting, Workbench, wanted_robot};
 use play::Play;
 use saved::Saved;
 use saved_guard::SavedGuard;
+use view::Clock;
 use world::Choices;
 
 pub(crate) use drive::run as drive;
@@ -67,6 +70,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let (Some(robot), Some(card)) = (&setting.robot, &setting.card) else {
         return Err(no_robot(wanted_robot(&parsed.file)));
     };
+    choices.fit(&setting.session.signatures())?;
     let files: Vec<_> = setting.domains.iter().chain([&parsed.file]).collect();
     let options = choices.options(&graph, &files);
     let start = start(setting.scene.as_ref());
@@ -90,7 +94,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
         }
         None => None,
     };
-    let view = play::view(args.format, engine.graph(), colors);
+    let view = play::view(args.format, engine.graph(), colors, Clock::Simulated);
     let pace = Pace::new(view, args.simulated.speed).with_guard(guard);
     let play = Play { engine, driver: &mut simulator, journal, from: Time::ZERO, events: vec![Event::Begin] };
     Ok(play::exit(&play.run(pace)?))
@@ -152,7 +156,7 @@ fn no_robot(wanted: Option<String>) -> Trouble {
 
 /// What shows and paces the run of a graph, for other commands that run policies.
 pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Speed) -> Pace {
-    Pace::new(play::view(format, graph, colors), speed)
+    Pace::new(play::view(format, graph, colors, Clock::Simulated), speed)
 }
 
 /// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known.
@@ -168,6 +172,6 @@ pub(super) fn simulator(
     report: &mut Report,
 ) -> Result<Sim, Trouble> {
     let faults = args.faults.as_deref().map(|path| world::faults(path, report)).transpose()?;
-    let faults = faults.unwrap_or_default();
+    let faults = faults.map(|(faults, _)| faults).unwrap_or_default();
     Ok(Sim::new(robot, scene, Options { seed: args.seed, faults, eye, ..Options::default() }))
 }

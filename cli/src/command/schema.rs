@@ -18,6 +18,7 @@ pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
         SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
         SchemaOf::Driver => motet_host::remote::protocol::schema(),
         SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::Entry),
+        SchemaOf::Faults => schemars::schema_for!(motet_sim::Faults),
     };
     let text = serde_json::to_string_pretty(&schema)
         .map_err(|error| Trouble::Other(format!("the schema cannot be written: {error}")))?;

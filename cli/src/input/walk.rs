@@ -15,7 +15,7 @@ pub(super) fn folder(path: &Path, found: &mut Inputs) -> Result<(), Trouble> {
     let mut files = Vec::new();
     for entry in WalkBuilder::new(path).require_git(false).build() {
         let entry = entry.map_err(|error| Trouble::Read {
-            path: path.to_owned(),
+            path: at_fault(&error).unwrap_or(path).to_owned(),
             source: error
                 .into_io_error()
                 .unwrap_or_else(|| std::io::Error::other("the folder cannot be listed")),
@@ -26,7 +26,7 @@ pub(super) fn folder(path: &Path, found: &mut Inputs) -> Result<(), Trouble> {
             continue;
         }
         if has_extension(file, "json") && !may_be_policy(file)? {
-            found.skipped += 1;
+            found.skipped.push(file.to_owned());
             continue;
         }
         found.size += entry.metadata().map_or(0, |metadata| metadata.len());
@@ -41,8 +41,30 @@ pub(super) fn folder(path: &Path, found: &mut Inputs) -> Result<(), Trouble> {
 /// (broken JSON, say) is taken for one.
 fn may_be_policy(path: &Path) -> Result<bool, Trouble> {
     let Bytes::All(bytes) = read_file(path)? else { return Ok(true) };
-    Ok(match serde_json::from_slice::<BTreeMap<String, IgnoredAny>>(&bytes) {
-        Ok(members) => ["motet", "policy", "steps"].iter().any(|key| members.contains_key(*key)),
-        Err(error) => !error.is_data(),
+    let has = |members: &Members, keys: &[&str]| keys.iter().any(|key| members.contains_key(*key));
+    Ok(match serde_json::from_slice::<Members>(&bytes) {
+        Ok(members) => has(&members, &["motet", "policy", "steps", "achieves", "do"]),
+        // Steps without the policy around them.
+        Err(error) if error.is_data() => serde_json::from_slice::<Vec<Members>>(&bytes).is_ok_and(|items| {
+            items.iter().any(|item| has(item, &["do", "sequence", "monitor", "parallel"]))
+        }),
+        Err(_) => true,
     })
+}
+
+/// The members of an object; what they hold is not read.
+type Members = BTreeMap<String, IgnoredAny>;
+
+/// The file or folder that an error of a walk is about.
+fn at_fault(error: &ignore::Error) -> Option<&Path> {
+    match error {
+        ignore::Error::WithPath { path, .. } => Some(path),
+        ignore::Error::WithDepth { err, .. } | ignore::Error::WithLineNumber { err, .. } => at_fault(err),
+        ignore::Error::Partial(errors) => errors.iter().find_map(at_fault),
+        ignore::Error::Loop { child, .. } => Some(child),
+        ignore::Error::Io(_)
+        | ignore::Error::Glob { .. }
+        | ignore::Error::UnrecognizedFileType(_)
+        | ignore::Error::InvalidDefinition => None,
+    }
 }

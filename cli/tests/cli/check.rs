@@ -244,3 +244,24 @@ fn tells_a_model_what_to_write() {
     ran.check(1, &[]);
     assert_eq!(ran.stdout, "Step 1: there is no primitive or policy `goo`. Write `go`.\n");
 }
+
+#[test]
+fn says_what_of_a_folder_it_did_not_check() {
+    let place = Place::new("check_folders")
+        .file("empty/readme.md", "nothing")
+        .file("near/steps.json", r#"[{"do": "go", "to": "user"}]"#)
+        .file("near/step.json", r#"{"do": "go", "to": "user"}"#)
+        .file("near/room.json", r#"{"motet_scene": 1, "entities": []}"#);
+    place
+        .run("check empty")
+        .check(0, &["err:warning: there was nothing to check", "err:checked 0 documents"]);
+    place.run("check near").check(
+        1,
+        &[
+            "out:near/steps.json",
+            "out:near/step.json",
+            "err:checked 2 documents",
+            "err:no policy: `near/room.json`",
+        ],
+    );
+}

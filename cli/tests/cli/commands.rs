@@ -59,7 +59,13 @@ fn answers() {
 #[test]
 fn describes_the_formats() {
     let place = Place::new("schemas");
-    for (of, key) in [("policy", "steps"), ("scene", "entities"), ("robot", "name"), ("diagnostic", "code")] {
+    for (of, key) in [
+        ("policy", "steps"),
+        ("scene", "entities"),
+        ("faults", "calls"),
+        ("robot", "name"),
+        ("diagnostic", "code"),
+    ] {
         let schema: Value =
             serde_json::from_str(&place.run(&format!("schema {of}")).check(0, &[]).stdout).unwrap();
         assert!(schema["$schema"].is_string(), "{of}");

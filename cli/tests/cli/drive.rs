@@ -97,6 +97,47 @@ fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
 }
 
 #[test]
+fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
+    if !has_python() {
+        return;
+    }
+    let place =
+        Place::new("drive_rude").file("away.motet", "policy away for hsr {\n    go(kitchen_table)\n}\n");
+    let start = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n";
+    let ends = |kind: &str| {
+        format!(
+            "{start}        say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': 'a\\x1b[2Jb'}}}})\n        \
+             say({{'method': 'ended', 'params': {{'goal': m['params']['goal'], 'outcome': {{'failure': {kind}}}}}}})\n"
+        )
+    };
+    for (name, kind, texts) in [
+        (
+            "own",
+            "'too_hot'",
+            &["out:▶ go(kitchen_table)", "out:go(kitchen_table)  too_hot", "out:failed with `too_hot`"][..],
+        ),
+        ("long", "'x' * 900000", &["out:failed with `failed`", "err:is no name, so it is `failed`: xxx"]),
+        (
+            "steers",
+            "'a\\x1b]0;b'",
+            &["out:failed with `failed`", "err:is no name, so it is `failed`: a\\u{1b}]0;b"],
+        ),
+    ] {
+        println!("{name}");
+        let driver = place.path(name);
+        std::fs::write(&driver, odd(&ends(kind))).unwrap();
+        let driver = format!("python3 '{}'", driver.display());
+        let args =
+            ["drive", "away.motet", "--robot", "hsr", "--scene", "kitchen", "--driver", driver.as_str()];
+        let ran = place.run_args(&args.map(str::to_owned));
+        ran.check(3, texts).check(3, &["err:a\\u{1b}[2Jb"]);
+        let shown = format!("{}{}", ran.stdout, ran.stderr);
+        assert!(!shown.contains('\u{1b}') && shown.len() < 10_000, "{ran:#?}");
+        assert!(!ran.stdout.contains("simulated"), "{ran:#?}");
+    }
+}
+
+#[test]
 fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     if !has_python() {
         return;

@@ -94,3 +94,21 @@ fn compiles() {
         place.run(line).check(code, texts);
     }
 }
+
+#[test]
+fn leaves_a_reply_with_text_beside_the_policy_alone() {
+    let reply = format!("Here it is:\n\n```motet\n{}```\nGood luck!\n", GOOD.replace("    go", "  go"));
+    let place = Place::new("fmt_reply").file("reply.motet", &reply);
+    place.run("fmt reply.motet").check(1, &["out:M0116", "err:1 with text beside the policy left alone"]);
+    place.run("fmt --check reply.motet").check(1, &["err:left alone"]);
+    assert_eq!(place.run_with("fmt -", reply.as_bytes(), &[]).check(1, &["err:M0116"]).stdout, reply);
+    assert_eq!(place.read("reply.motet"), reply);
+    // What it prints elsewhere is the policy.
+    place.run("fmt reply.motet --to text").check(0, &["out:policy tidy for hsr {\n    go", "err:M0116"]);
+    let wrong = reply.replace("pick(mug)", "pik(mug)");
+    let place = Place::new("fix_reply").file("reply.motet", &wrong);
+    place
+        .run("check --fix reply.motet --scene kitchen")
+        .check(1, &["out:M0201", "err:left as it is", "err:made 0 fixes"]);
+    assert_eq!(place.read("reply.motet"), wrong);
+}

@@ -18,6 +18,18 @@ fn place(name: &str) -> Place {
         )
         .file("answers.json", r#"["the red one"]"#)
         .file("faults.json", r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
+        .file(
+            "far_faults.json",
+            "{\"calls\": [\n  {\"primitive\": \"pik\", \"then\": \"hangs\"},\n  \
+             {\"primitive\": \"pick\", \"nth\": 1, \"then\": {\"fails\": \"sliped\"}}],\n \
+             \"world\": [{\"at\": 1, \"what\": {\"slips\": \"mug_9\"}}]}",
+        )
+        .file(
+            "watch.motet",
+            "policy watch for hsr {\n    monitor when distance(user) < 0.1 m for 200 ms then pause \
+             during { say(\"x\") }\n}\n",
+        )
+        .file("retries.motet", GOOD.replace("pick(mug)", "pick(mug) retry 1"))
         .file("odd_faults.json", r#"{"calls": [{"primitve": "pick"}]}"#)
         .file("odd_answers.json", r#"{"answers": 3}"#)
 }
@@ -45,6 +57,22 @@ fn ends_with_the_right_code() {
             3,
             &["out:failed with `slipped`", "out:pick(mug"],
         ),
+        (
+            format!("run good.motet {max} --faults far_faults.json"),
+            2,
+            &[
+                "err:far_faults.json:2:17: there is no primitive `pik`: did you mean `pick`?",
+                "err:there is no failure `sliped`: did you mean `slipped`?",
+                "err:far_faults.json:4:",
+                "err:there is no entity `mug_9`",
+            ],
+        ),
+        (
+            format!("run retries.motet {max} --faults faults.json"),
+            0,
+            &["out:retry 1  slipped\n", "out:attempt 2 of 2", "out:of simulated time"],
+        ),
+        (format!("run watch.motet {max}"), 0, &["out:monitor distance(user) < 0.1 for 0.2 s"]),
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
@@ -57,6 +85,8 @@ fn ends_with_the_right_code() {
         ),
         (format!("run good.motet {max} --answers odd_answers.json"), 2, &["out:odd_answers.json"]),
         ("run good.motet --speed fast".to_owned(), 2, &["err:write `max`, or a factor"]),
+        ("run good.motet --speed -1".to_owned(), 2, &["err:write `max`, or a factor"]),
+        ("run good.motet --seed x".to_owned(), 2, &["err:write a whole number from 0"]),
         ("run good.motet --speed 0".to_owned(), 2, &["err:write `max`, or a factor"]),
         ("run absent.motet".to_owned(), 2, &["err:no such file"]),
         ("run .".to_owned(), 2, &["err:folder"]),

@@ -9,10 +9,11 @@ use super::pace::Pace;
 use super::play::{self, Play};
 use super::saved::Saved;
 use super::saved_guard::SavedGuard;
+use super::view::Clock;
 use super::{compile, form_of, start};
 use crate::args::{DriveArgs, Speed};
 use crate::exit::{Exit, Trouble};
-use crate::out::{Colors, note};
+use crate::out::{Colors, note, plain};
 use crate::report::Report;
 use crate::workbench::Workbench;
 
@@ -48,7 +49,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
         }
         None => None,
     };
-    let view = play::view(args.format, engine.graph(), colors);
+    let view = play::view(args.format, engine.graph(), colors, Clock::Wall);
     // The driver's time is the wall clock's; the pace has nothing to wait for.
     let pace = Pace::new(view, Speed::Times(1.0)).with_guard(guard);
     let play = Play { engine, driver: &mut driver, journal, from: Time::ZERO, events: vec![Event::Begin] };
@@ -67,7 +68,7 @@ fn settings() -> Settings {
 ///
 /// It cannot be reached, or does not speak the protocol.
 pub(super) fn connect(address: &Address, hello: Hello, from: Time) -> Result<RemoteDriver, Trouble> {
-    let say = |text: &str| note(&format!("driver: {text}"));
+    let say = |text: &str| note(&format!("driver: {}", plain(text)));
     RemoteDriver::connect(address.clone(), hello, Patience::default(), from, Box::new(say))
-        .map_err(|breakage| Trouble::Other(format!("{breakage} ({address})")))
+        .map_err(|breakage| Trouble::Other(format!("{} ({address})", plain(&breakage.to_string()))))
 }

@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, Value};
-use motet_runtime::{Cause, Command, Effect, GoalId, Happening, NodeEnding, Record, RunEnd, Time, Truth};
+use motet_runtime::{
+    Cause, Command, Effect, Event, GoalId, Happening, NodeEnding, Record, RunEnd, Time, Truth,
+};
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
+use super::made_up::MadeUp;
 use super::tree;
 use super::view::View;
 use crate::out::Out;
@@ -16,11 +19,12 @@ use crate::out::Out;
 pub(super) struct Events {
     graph: Arc<Graph>,
     out: Out,
+    made_up: MadeUp,
 }
 
 impl Events {
     pub(super) fn new(graph: Arc<Graph>) -> Self {
-        Self { graph, out: Out::default() }
+        Self { graph, out: Out::default(), made_up: MadeUp::default() }
     }
 
     fn write(&mut self, now: Time, event: &str, node: Option<NodeId>, more: serde_json::Value) {
@@ -40,20 +44,29 @@ impl Events {
         self.out.line(&serde_json::Value::Object(line).to_string());
     }
 
+    fn ended(&mut self, ending: NodeEnding, cause: Cause) -> serde_json::Value {
+        let failure = match ending {
+            NodeEnding::Failure(kind) => Some(self.made_up.name(&self.graph, kind)),
+            NodeEnding::Success | NodeEnding::Interrupted => None,
+        };
+        ended(failure, ending, cause)
+    }
+
     fn record(&mut self, record: &Record) {
         let at = record.at;
         let graph = Arc::clone(&self.graph);
         match &record.what {
             Happening::Entered { node } => self.write(at, "entered", Some(*node), json!({})),
             Happening::Ended { node, ending, cause } => {
-                self.write(at, "ended", Some(*node), ended(&graph, *ending, *cause));
+                let more = self.ended(*ending, *cause);
+                self.write(at, "ended", Some(*node), more);
             }
             Happening::Started { node, goal, attempt } => {
                 let more = json!({"goal": goal.to_string(), "attempt": attempt});
                 self.write(at, "started", Some(*node), more);
             }
             Happening::GoalEnded { node, goal, ending, cause } => {
-                let mut more = ended(&graph, *ending, *cause);
+                let mut more = self.ended(*ending, *cause);
                 if let serde_json::Value::Object(more) = &mut more {
                     more.insert("goal".to_owned(), json!(goal.to_string()));
                 }
@@ -98,6 +111,10 @@ impl Events {
 }
 
 impl View for Events {
+    fn event(&mut self, event: &Event) {
+        self.made_up.hear(event);
+    }
+
     fn effect(&mut self, now: Time, effect: &Effect) {
         match effect {
             Effect::Start { goal, node, command, deadline } => {
@@ -169,7 +186,7 @@ fn commanded(goal: GoalId, command: &Command, deadline: Time) -> serde_json::Val
     })
 }
 
-fn ended(graph: &Graph, ending: NodeEnding, cause: Cause) -> serde_json::Value {
+fn ended(failure: Option<String>, ending: NodeEnding, cause: Cause) -> serde_json::Value {
     let cause = match cause {
         Cause::Completed => "completed",
         Cause::Failed => "failed",
@@ -188,8 +205,8 @@ fn ended(graph: &Graph, ending: NodeEnding, cause: Cause) -> serde_json::Value {
     };
     match ending {
         NodeEnding::Success => json!({"ending": "success", "cause": cause}),
-        NodeEnding::Failure(kind) => {
-            json!({"ending": "failure", "failure": Names(graph).failure(kind), "cause": cause})
+        NodeEnding::Failure(_) => {
+            json!({"ending": "failure", "failure": failure, "cause": cause})
         }
         NodeEnding::Interrupted => json!({"ending": "interrupted", "cause": cause}),
     }

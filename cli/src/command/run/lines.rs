@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind};
-use motet_runtime::{Effect, Happening, NodeEnding, Record, RunEnd, Time, Verification};
+use motet_runtime::{Effect, Event, Happening, NodeEnding, Record, RunEnd, Time, Verification};
 
 use super::tree::{Row, Tree};
-use super::view::{self, View, duration, mark, paint};
+use super::view::{self, Clock, View, duration, mark, paint};
 use crate::out::Out;
 
 /// Writes a line whenever a step begins or ends.
@@ -15,11 +15,12 @@ pub(super) struct Lines {
     tree: Tree,
     out: Out,
     is_colored: bool,
+    clock: Clock,
 }
 
 impl Lines {
-    pub(super) fn new(graph: Arc<Graph>, is_colored: bool) -> Self {
-        Self { tree: Tree::new(Arc::clone(&graph)), graph, out: Out::default(), is_colored }
+    pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
+        Self { tree: Tree::new(Arc::clone(&graph)), graph, out: Out::default(), is_colored, clock }
     }
 
     fn record(&mut self, record: &Record) {
@@ -66,6 +67,10 @@ impl Lines {
 }
 
 impl View for Lines {
+    fn event(&mut self, event: &Event) {
+        self.tree.hear(event);
+    }
+
     fn effect(&mut self, _now: Time, effect: &Effect) {
         if let Effect::Report(record) = effect {
             self.record(record);
@@ -85,7 +90,7 @@ impl View for Lines {
     }
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
-        let summary = view::summary(&self.graph, &self.tree, now, end, self.is_colored);
+        let summary = view::summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
         self.out.line(&format!("\n{summary}"));
     }
 }

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use motet_planner::guard::Guard;
-use motet_runtime::{Control, Effect, Onlooker, RunEnd, Time, Verifier};
+use motet_runtime::{Control, Effect, Event, Onlooker, RunEnd, Time, Verifier};
 
 use super::view::View;
 use crate::args::Speed;
@@ -81,6 +81,10 @@ impl Pace {
 }
 
 impl Onlooker for Pace {
+    fn event(&mut self, _now: Time, event: &Event) {
+        self.view.event(event);
+    }
+
     fn effect(&mut self, now: Time, effect: &Effect) {
         self.now = now;
         if self.begun.is_none() {

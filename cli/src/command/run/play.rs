@@ -13,7 +13,7 @@ use motet_runtime::{Capabilities, Driver, Engine, Event, RunEnd, Settings, Start
 
 use super::pace::{Pace, catch_interrupts};
 use super::saved::Saved;
-use super::view::View;
+use super::view::{Clock, View};
 use super::{events, lines, screen};
 use crate::args::RunFormat;
 use crate::exit::{Exit, Trouble};
@@ -87,13 +87,15 @@ pub(super) fn journal(
     Writer::create(folder, head).map_err(journal_trouble)
 }
 
-/// The view in a format.
-pub(super) fn view(format: RunFormat, graph: &Graph, colors: Colors) -> Box<dyn View> {
+/// The view in a format, of a run by that clock.
+pub(super) fn view(format: RunFormat, graph: &Graph, colors: Colors, clock: Clock) -> Box<dyn View> {
     let graph = Arc::new(graph.clone());
     match format {
         RunFormat::Json => Box::new(events::Events::new(graph)),
-        RunFormat::Human if io::stdout().is_terminal() => Box::new(screen::Screen::new(graph, colors.stdout)),
-        RunFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout)),
+        RunFormat::Human if io::stdout().is_terminal() => {
+            Box::new(screen::Screen::new(graph, colors.stdout, clock))
+        }
+        RunFormat::Human => Box::new(lines::Lines::new(graph, colors.stdout, clock)),
     }
 }
 

@@ -11,6 +11,7 @@ use super::drive;
 use super::pace::Pace;
 use super::play::{self, Play, journal_trouble};
 use super::saved::Saved;
+use super::view::Clock;
 use crate::args::RunArgs;
 use crate::exit::{Exit, Trouble};
 use crate::out::{Colors, note};
@@ -33,7 +34,11 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
         Saved::Simulator(saved) => Some(saved.make()?),
         Saved::Process { .. } => None,
     };
-    let view = play::view(args.format, replay.engine().graph(), colors);
+    let clock = match &saved {
+        Saved::Simulator(_) => Clock::Simulated,
+        Saved::Process { .. } => Clock::Wall,
+    };
+    let view = play::view(args.format, replay.engine().graph(), colors, clock);
     let mut pace = Pace::new(view, args.simulated.speed);
     let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
     let guard = saved.guard().filter(|_| head.settings.verify_within.is_some());

@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use motet_graph::Graph;
-use motet_runtime::{Effect, RunEnd, Time};
+use motet_runtime::{Effect, Event, RunEnd, Time};
 
 use super::tree::{Row, Status, Tree};
-use super::view::{self, View, duration, mark, paint};
+use super::view::{self, Clock, View, duration, mark, paint};
 use crate::out::Out;
 
 /// The least time between two drawings.
@@ -19,15 +19,16 @@ pub(super) struct Screen {
     tree: Tree,
     out: Out,
     is_colored: bool,
+    clock: Clock,
     /// How many lines stand above the cursor.
     drawn: usize,
     last: Option<Instant>,
 }
 
 impl Screen {
-    pub(super) fn new(graph: Arc<Graph>, is_colored: bool) -> Self {
+    pub(super) fn new(graph: Arc<Graph>, is_colored: bool, clock: Clock) -> Self {
         let tree = Tree::new(Arc::clone(&graph));
-        Self { graph, tree, out: Out::default(), is_colored, drawn: 0, last: None }
+        Self { graph, tree, out: Out::default(), is_colored, clock, drawn: 0, last: None }
     }
 
     fn draw(&mut self, now: Time) {
@@ -93,6 +94,10 @@ fn window(rows: &[Row], height: usize) -> std::ops::Range<usize> {
 }
 
 impl View for Screen {
+    fn event(&mut self, event: &Event) {
+        self.tree.hear(event);
+    }
+
     fn effect(&mut self, now: Time, effect: &Effect) {
         if let Effect::Report(record) = effect {
             self.tree.take(record);
@@ -118,7 +123,7 @@ impl View for Screen {
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
         self.draw(now);
-        let summary = view::summary(&self.graph, &self.tree, now, end, self.is_colored);
+        let summary = view::summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
         self.out.line(&format!("\n{summary}"));
     }
 }

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT};
-use motet_runtime::{Happening, NodeEnding, Record, Time, Verification};
+use motet_runtime::{Event, Happening, NodeEnding, Record, Time, Verification};
 
 use super::branch::{Open, branches};
+use super::made_up::MadeUp;
+use crate::out::plain;
 
 /// What has become of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -52,13 +54,21 @@ pub(super) struct Tree {
     /// Calls that succeeded and failed, every run of a loop counted.
     pub(super) done: usize,
     pub(super) failed: usize,
+    made_up: MadeUp,
 }
 
 impl Tree {
     /// The plan of a graph. O(nodes); no recursion, since sub-policies may nest deep.
     pub(super) fn new(graph: Arc<Graph>) -> Self {
         let places = vec![None; graph.nodes.len()];
-        let mut tree = Self { graph: Arc::clone(&graph), rows: Vec::new(), places, done: 0, failed: 0 };
+        let mut tree = Self {
+            graph: Arc::clone(&graph),
+            rows: Vec::new(),
+            places,
+            done: 0,
+            failed: 0,
+            made_up: MadeUp::default(),
+        };
         let mut open = vec![Open::Region(ROOT, 0)];
         while let Some(next) = open.pop() {
             match next {
@@ -72,7 +82,7 @@ impl Tree {
                     if tree.places.get(id.index()).is_none_or(|place| place.is_some()) {
                         continue;
                     }
-                    tree.push(Some(id), depth, Names(&graph).brief(&node.kind));
+                    tree.push(Some(id), depth, plain(&label(&graph, &node.kind)));
                     open.extend(node.next.map(|next| Open::Node(next, depth)));
                     let mut parts = Vec::new();
                     branches(&graph, &node.kind, depth, &mut parts);
@@ -109,16 +119,13 @@ impl Tree {
                 (*node, Some(String::new()))
             }
             Happening::Started { node, attempt, .. } => {
-                (*node, (*attempt > 1).then(|| format!("attempt {attempt}")))
+                (*node, (*attempt > 1).then(|| format!("attempt {attempt}{}", of_all(&graph, *node))))
             }
             Happening::Ended { node, ending, .. } => {
                 self.end(*node, *ending, record.at);
-                (*node, why(&graph, *ending))
+                (*node, self.why(*ending))
             }
-            Happening::GoalEnded { node, ending, .. } => {
-                let again = if matches!(ending, NodeEnding::Failure(_)) { ", once more" } else { "" };
-                (*node, why(&graph, *ending).map(|why| why + again))
-            }
+            Happening::GoalEnded { node, ending, .. } => (*node, self.why(*ending)),
             Happening::Guard { node, need, truth } => {
                 let need = needed(&graph, *node, *need);
                 (
@@ -158,9 +165,22 @@ impl Tree {
         if let (Some(place), Some(note)) = (self.place(node), note)
             && let Some(row) = self.rows.get_mut(place)
         {
-            row.note = note;
+            row.note = plain(&note);
         }
         Some(node)
+    }
+
+    /// Hears an event before the engine handles it.
+    pub(super) fn hear(&mut self, event: &Event) {
+        self.made_up.hear(event);
+    }
+
+    fn why(&mut self, ending: NodeEnding) -> Option<String> {
+        match ending {
+            NodeEnding::Success => None,
+            NodeEnding::Failure(kind) => Some(self.made_up.name(&self.graph, kind)),
+            NodeEnding::Interrupted => Some("interrupted".to_owned()),
+        }
     }
 
     /// A step begins, and so what is within it is all to be done (again).
@@ -193,11 +213,31 @@ impl Tree {
     }
 }
 
-fn why(graph: &Graph, ending: NodeEnding) -> Option<String> {
-    match ending {
-        NodeEnding::Success => None,
-        NodeEnding::Failure(kind) => Some(Names(graph).failure(kind).to_owned()),
-        NodeEnding::Interrupted => Some("interrupted".to_owned()),
+/// A step in one line, with how often it is tried again and how long what it watches must hold.
+fn label(graph: &Graph, kind: &NodeKind) -> String {
+    let names = Names(graph);
+    if let NodeKind::Monitor { watches, .. } = kind {
+        let watched = watches.iter().map(|watch| {
+            let hold = watch.hold_secs;
+            let hold = if hold > 0.0 { format!(" for {hold} s") } else { String::new() };
+            format!("{}{hold}", names.condition(&watch.condition))
+        });
+        return format!("monitor {}", watched.collect::<Vec<_>>().join("; "));
+    }
+    let brief = names.brief(kind);
+    if let NodeKind::Call(call) = kind
+        && call.retries > 0
+    {
+        return format!("{brief} retry {}", call.retries);
+    }
+    brief
+}
+
+/// ` of 3`, as often as a call is tried in all.
+fn of_all(graph: &Graph, node: NodeId) -> String {
+    match graph.nodes.get(node.index()).map(|node| &node.kind) {
+        Some(NodeKind::Call(call)) => format!(" of {}", u64::from(call.retries) + 1),
+        Some(_) | None => String::new(),
     }
 }
 

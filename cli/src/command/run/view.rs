@@ -2,12 +2,24 @@
 
 use motet_graph::Graph;
 use motet_graph::draw::Names;
-use motet_runtime::{Effect, RunEnd, Time};
+use motet_runtime::{Effect, Event, RunEnd, Time};
 
 use super::tree::{Status, Tree};
+use crate::out::plain;
+
+/// By which clock a run goes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Clock {
+    /// The simulated world's, which may be fast.
+    Simulated,
+    /// The wall clock.
+    Wall,
+}
 
 /// Shows a run.
 pub(super) trait View {
+    /// An event is about to be handled.
+    fn event(&mut self, _event: &Event) {}
     /// An effect is about to be carried out.
     fn effect(&mut self, now: Time, effect: &Effect);
     /// An effect was carried out before the process began; a view that shows a state takes it in without a word.
@@ -54,15 +66,21 @@ pub(super) fn duration(span: Time) -> String {
 }
 
 /// The last words: outcome, reason, duration, steps.
-pub(super) fn summary(graph: &Graph, tree: &Tree, now: Time, end: &RunEnd, is_colored: bool) -> String {
+pub(super) fn summary(
+    graph: &Graph,
+    tree: &Tree,
+    (now, clock): (Time, Clock),
+    end: &RunEnd,
+    is_colored: bool,
+) -> String {
     let (status, what, why) = match end {
         RunEnd::Done { why } => (Status::Done, "done".to_owned(), why.clone()),
         RunEnd::Failed { kind, why, node } => {
             let place = graph.nodes.get(node.index());
             let at = place.map_or_else(String::new, |node| {
-                format!(" in `{}` ({})", Names(graph).brief(&node.kind), node.path)
+                format!(" in `{}` ({})", plain(&Names(graph).brief(&node.kind)), node.path)
             });
-            (Status::Failed, format!("failed with `{kind}`{at}"), why.clone())
+            (Status::Failed, format!("failed with `{}`{at}", plain(kind)), why.clone())
         }
         RunEnd::Replan { why } => (Status::Failed, "asks for a new plan".to_owned(), why.clone()),
         RunEnd::Interrupted => (Status::Interrupted, "interrupted".to_owned(), None),
@@ -70,9 +88,13 @@ pub(super) fn summary(graph: &Graph, tree: &Tree, now: Time, end: &RunEnd, is_co
     };
     let mut text = paint(&format!("{} {}: {what}", mark(status), graph.policy), status, is_colored);
     if let Some(why) = why {
-        text.push_str(&format!("\n  why: {why}"));
+        text.push_str(&format!("\n  why: {}", plain(&why)));
     }
     let steps = crate::out::count(tree.done, "step");
-    text.push_str(&format!("\n  {} of simulated time, {steps} done, {} failed", duration(now), tree.failed));
+    let clock = match clock {
+        Clock::Simulated => " of simulated time",
+        Clock::Wall => "",
+    };
+    text.push_str(&format!("\n  {}{clock}, {steps} done, {} failed", duration(now), tree.failed));
     text
 }

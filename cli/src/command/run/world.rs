@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
 use motet_sim::{Faults, Options, Script};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::json;
-use motet_syntax::{FileId, Sources};
+use motet_syntax::{FileId, Source, Sources};
 use serde::de::DeserializeOwned;
 use smol_str::SmolStr;
 
@@ -20,6 +21,8 @@ use crate::report::Report;
 #[derive(Debug)]
 pub(super) struct Choices {
     faults: Faults,
+    /// The file of faults, where there is one.
+    source: Option<Source>,
     answers: Vec<Option<String>>,
     seed: u64,
 }
@@ -31,15 +34,27 @@ impl Choices {
     ///
     /// One of them cannot be read or has a mistake.
     pub(super) fn read(args: &RunArgs, report: &mut Report) -> Result<Self, Trouble> {
-        let faults = match &args.simulated.faults {
-            Some(path) => faults(path, report)?,
-            None => Faults::default(),
+        let (faults, source) = match &args.simulated.faults {
+            Some(path) => {
+                let (faults, source) = faults(path, report)?;
+                (faults, Some(source))
+            }
+            None => (Faults::default(), None),
         };
         let answers = match &args.answers {
             Some(path) => read(path, "file of answers", report)?.0,
             None => Vec::new(),
         };
-        Ok(Self { faults, answers, seed: args.simulated.seed })
+        Ok(Self { faults, source, answers, seed: args.simulated.seed })
+    }
+
+    /// Whether what the faults name is there.
+    ///
+    /// # Errors
+    ///
+    /// What is not, with its places.
+    pub(super) fn fit(&self, known: &Signatures) -> Result<(), Trouble> {
+        self.source.as_ref().map_or(Ok(()), |source| fit(source, known))
     }
 
     /// The choices about the simulated world. `files` are the document and the domains, whose entities have a place in it
@@ -67,10 +82,18 @@ impl Choices {
 }
 
 /// Reads faults.
-pub(super) fn faults(path: &Path, report: &mut Report) -> Result<Faults, Trouble> {
-    let (_, text) = read::<Faults>(path, "file of faults", report)?;
+pub(super) fn faults(path: &Path, report: &mut Report) -> Result<(Faults, Source), Trouble> {
+    let (_, source) = read::<Faults>(path, "file of faults", report)?;
     // The shape is right; what is left is whether numbers are in range.
-    Faults::from_json(&text).map_err(|error| Trouble::Other(format!("`{}`: {error}", path.display())))
+    let faults = Faults::from_json(&source.text);
+    let faults = faults.map_err(|error| Trouble::Other(format!("`{}`: {error}", path.display())))?;
+    Ok((faults, source))
+}
+
+/// Whether what a file of faults names is there.
+fn fit(source: &Source, known: &Signatures) -> Result<(), Trouble> {
+    let wrong = super::faults::wrong(source, known);
+    if wrong.is_empty() { Ok(()) } else { Err(Trouble::Other(wrong.join("\n"))) }
 }
 
 /// Reads a JSON file that is not about a policy; its diagnostics go to the report.
@@ -78,7 +101,7 @@ fn read<T: DeserializeOwned>(
     path: &Path,
     what: &'static str,
     report: &mut Report,
-) -> Result<(T, String), Trouble> {
+) -> Result<(T, Source), Trouble> {
     let mut sources = Sources::default();
     let (source, mut said) = document::decode(&path.display().to_string(), &read_small(path)?, FileId(0));
     sources.add(source.clone());
@@ -86,7 +109,7 @@ fn read<T: DeserializeOwned>(
     said.extend(more);
     report.usable(what, &said, &sources)?;
     let value = value.ok_or(Trouble::Diagnosed(what))?;
-    Ok((value, source.text.to_string()))
+    Ok((value, source))
 }
 
 /// The entities that a file declares, with their kind.

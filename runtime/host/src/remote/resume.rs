@@ -37,10 +37,11 @@ impl RemoteDriver {
                     self.say_again(now, open);
                 }
                 Some(State::Ended(outcome)) => {
-                    events.push(DriverEvent::Ended { goal, outcome: outcome.clone().into() });
+                    let outcome = self.named(outcome.clone()).into();
+                    events.push(DriverEvent::Ended { goal, outcome });
                 }
                 Some(State::Refused(failure)) => {
-                    events.push(DriverEvent::Refused { goal, failure: failure.as_str().into() });
+                    events.push(DriverEvent::Refused { goal, failure: self.kind(failure) });
                 }
                 Some(State::Stopped) => events.push(DriverEvent::Stopped { goal }),
                 Some(State::Unknown) if is_same && just_started => {

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 /// The longest line in bytes that a driver may say.
 pub(crate) const MAX_LINE_BYTES: usize = 1024 * 1024;
+/// The longest failure kind in bytes that a driver may name. Another one, or one that is no name, counts as `failed`.
+pub(crate) const MAX_KIND_BYTES: usize = 64;
 /// The most lines that wait to be heard, and the most that wait to be said.
 pub(crate) const MAX_WAITING: usize = 1_024;
 /// How deep a message of a driver may be nested: what a journal holds of it can be read again.

@@ -4,8 +4,9 @@ use super::super::link::Breakage;
 use super::super::protocol::{
     Answered, Asked, Call, Goal, Heard, Nothing, REFUSED, RefusedData, Report, Wrong, hear,
 };
-use super::super::settings::{MAX_FEEDBACK, SAYINGS};
+use super::super::settings::{MAX_FEEDBACK, MAX_KIND_BYTES, SAYINGS};
 use super::{RemoteDriver, Waiting, failed, nonsense};
+use motet_runtime::wire::Outcome;
 use motet_runtime::{Answer, DriverEvent, GoalId};
 use serde_json::Value;
 use smol_str::SmolStr;
@@ -49,7 +50,8 @@ impl RemoteDriver {
         let id = GoalId::from_number;
         match report {
             Report::Ended(ended) => {
-                self.report(DriverEvent::Ended { goal: id(ended.goal), outcome: ended.outcome.into() });
+                let outcome = self.named(ended.outcome).into();
+                self.report(DriverEvent::Ended { goal: id(ended.goal), outcome });
             }
             Report::NotHeld(Goal { goal }) => self.report(DriverEvent::NotHeld { goal: id(goal) }),
             Report::Stopped(Goal { goal }) => {
@@ -69,6 +71,28 @@ impl RemoteDriver {
         }
     }
 
+    /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`, and is told
+    /// to people.
+    pub(in super::super) fn kind(&mut self, named: &str) -> SmolStr {
+        let mut letters = named.chars();
+        let is_name = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+            && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+        if is_name && named.len() <= MAX_KIND_BYTES {
+            return named.into();
+        }
+        let beginning: String = named.chars().take(MAX_KIND_BYTES).collect();
+        (self.note)(&format!("what the driver calls a failure is no name, so it is `failed`: {beginning}"));
+        failed()
+    }
+
+    /// An outcome whose failure has a name.
+    pub(in super::super) fn named(&mut self, outcome: Outcome) -> Outcome {
+        match outcome {
+            Outcome::Failure(kind) => Outcome::Failure(self.kind(&kind).to_string()),
+            Outcome::Success(_) | Outcome::Interrupted => outcome,
+        }
+    }
+
     fn answered(&mut self, call: Call, answer: Result<Value, Wrong>, line: &str) {
         match (call, answer) {
             (Call::Start(start), Ok(_)) => {
@@ -79,7 +103,7 @@ impl RemoteDriver {
                 if wrong.code != REFUSED {
                     (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
                 }
-                let failure = data.map_or_else(failed, |data| data.failure.into());
+                let failure = data.map_or_else(failed, |data| self.kind(&data.failure));
                 self.report(DriverEvent::Refused { goal: GoalId::from_number(start.goal), failure });
             }
             (Call::Observe(asked) | Call::Watch(asked), Ok(value)) => {
