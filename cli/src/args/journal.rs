@@ -12,13 +12,13 @@ use super::duration::duration;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     motet replay run/                 does the engine do the same again?\n  \
-    motet replay run/ --until 40      only up to entry 40\n  \
+    motet replay run/ --until 40      up to entry 40, and the state there\n  \
     motet replay run/ --at 12.5s      the state 12.5 s into the run")]
 pub(crate) struct ReplayArgs {
     /// The folder of the journal
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
-    /// Stop after an entry, by its number or by time
+    /// Stop after an entry, by its number or by time, and show the state there
     #[arg(long, value_name = "NUMBER|TIME")]
     pub(crate) until: Option<Moment>,
     /// Show the engine's state after an entry, by its number or by time, and stop there

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use motet_planner::guard::Guard;
+use motet_compiler::Course;
 use motet_syntax::ast::File;
 use serde::{Deserialize, Serialize};
 
@@ -41,11 +41,11 @@ impl SavedGuard {
         })
     }
 
-    /// Somebody who checks motions from the beginning of the run on; none, with a word, where the files have gone or say
+    /// The world at the beginning of the run, for somebody who checks motions in it; none, with a word, where the files have gone or say
     /// something else now.
-    pub(super) fn make(&self, colors: Colors) -> Option<Guard> {
+    pub(super) fn make(&self, colors: Colors) -> Option<Course> {
         match self.read(colors) {
-            Ok(Some(guard)) => Some(guard),
+            Ok(Some(course)) => Some(course),
             Ok(None) => {
                 note("the scene is another now than when the run began: motions are left to the driver");
                 None
@@ -57,7 +57,7 @@ impl SavedGuard {
         }
     }
 
-    fn read(&self, colors: Colors) -> Result<Option<Guard>, Trouble> {
+    fn read(&self, colors: Colors) -> Result<Option<Course>, Trouble> {
         let known = KnownArgs {
             robot: Some(self.robot.clone()),
             scene: Some(self.scene.clone()),
@@ -69,6 +69,6 @@ impl SavedGuard {
         let mut bench = Workbench::open(&args, &mut report)?;
         let setting = bench.setting(&File::default(), &mut report)?;
         let same = setting.scene_text == self.scene_text;
-        Ok(setting.session.course().filter(|_| same).map(Guard::new))
+        Ok(setting.session.course().filter(|_| same))
     }
 }
