@@ -6,8 +6,8 @@ use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
 use motet_graph::arbitrary::{Step, graph, steps};
 use motet_graph::{Graph, NodeId, NodeKind, PrimitiveId, Type, Value};
 use motet_runtime::{
-    Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, Outcome,
-    Prepared, Primitives, Query, RunEnd, Settings, StartState, Time, Verification,
+    Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, NodeEnding,
+    Outcome, Prepared, Primitives, Query, RunEnd, Settings, StartState, Time, Verification,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -102,8 +102,8 @@ struct Ledger {
     checks: Vec<CheckId>,
     ever_asked: BTreeSet<CheckId>,
     entered: BTreeSet<(u32, NodeId)>,
-    /// Goals whose end was not reported.
-    unended: BTreeSet<GoalId>,
+    /// Goals whose end was not reported, with their steps. That of a success is the end of its step.
+    unended: BTreeMap<GoalId, (u32, NodeId)>,
     revision: u32,
     counts: Counts,
     end: Option<RunEnd>,
@@ -120,7 +120,7 @@ impl Ledger {
             match effect {
                 Effect::Start { goal, node, command, .. } => {
                     assert!(self.ever.insert(*goal), "a goal id is used twice");
-                    self.unended.insert(*goal);
+                    self.unended.insert(*goal, (self.revision, *node));
                     let uses: Vec<String> = command.uses.iter().map(ToString::to_string).collect();
                     let node = (self.revision, *node);
                     for other in self.live.values() {
@@ -142,6 +142,7 @@ impl Ledger {
                     assert!(state.acknowledged && !state.cancelled, "an update out of place");
                     assert_eq!(state.primitive, command.primitive.as_str());
                     state.node = (self.revision, *node);
+                    self.unended.insert(*goal, state.node);
                     self.counts.updated += 1;
                 }
                 Effect::Hold { goal } => {
@@ -175,14 +176,17 @@ impl Ledger {
                     Happening::Entered { node } => {
                         assert!(self.entered.insert((record.revision, *node)), "entered twice")
                     }
-                    Happening::Ended { node, .. } => {
+                    Happening::Ended { node, ending, .. } => {
+                        if *ending == NodeEnding::Success {
+                            self.unended.retain(|_, of| *of != (record.revision, *node));
+                        }
                         assert!(self.entered.remove(&(record.revision, *node)), "ended without an entry")
                     }
                     Happening::Started { node, .. } | Happening::Updated { node, .. } => {
                         assert!(self.entered.contains(&(record.revision, *node)), "a step that does not run");
                     }
                     Happening::GoalEnded { node, goal, .. } => {
-                        assert!(self.unended.remove(goal), "a goal ends twice");
+                        assert!(self.unended.remove(goal).is_some(), "a goal ends twice");
                         let here = self.entered.contains(&(record.revision, *node));
                         assert!(
                             here || record.revision < self.revision,
@@ -193,6 +197,7 @@ impl Ledger {
                         let state = self.live.get_mut(goal).expect("a goal that is not live goes on");
                         assert!(!state.cancelled, "a cancelled goal goes on");
                         state.node = (record.revision, *node);
+                        self.unended.insert(*goal, state.node);
                         self.counts.kept += 1;
                     }
                     Happening::Swapped { .. } => {
