@@ -19,7 +19,6 @@ fn place(name: &str) -> Place {
         .file("full_hand.json", r#"{"holding(mug_1)": true, "free(hand)": true}"#)
         .file("two_held.json", r#"{"holding(mug_1)": true, "holding(coke)": true}"#)
         .file("all_held.json", r#"{"holding(any)": true}"#)
-        .file("derived.json", r#"{"reachable(mug_1)": true}"#)
         .file(
             "odd_kind.json",
             "{\"motet_scene\": 1, \"entities\": [\n  {\"id\": \"mug_1\", \"kind\": \"Surfase\"}]}",
@@ -77,11 +76,6 @@ fn ends_with_the_right_code() {
             format!("check good.motet {scene} --state all_held.json"),
             2,
             &["out:M0225", "out:name what is held"],
-        ),
-        (
-            format!("check good.motet {scene} --state derived.json"),
-            2,
-            &["out:M0224", "out:follows from a motion"],
         ),
         (
             "check good.motet --scene odd_kind.json".to_owned(),

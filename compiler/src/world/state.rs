@@ -47,10 +47,6 @@ impl State {
             };
             let why = resolver.diagnostics.first().map(|mistake| mistake.message.clone());
             match (fact, why) {
-                (Some(fact), None) if library.fluent(fact.fluent).is_some_and(|def| def.derived) => {
-                    let why = "it follows from a motion, and is never given".to_owned();
-                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why }.into());
-                }
                 (Some(fact), None) => {
                     let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
                     if let (true, true, false, [Some(Term::Entity(held))]) =
