@@ -33,6 +33,31 @@ fn every_robot_in_every_scene() {
 }
 
 #[test]
+fn every_standard_policy_can_be_called_on_the_robots_that_walk_and_drive() {
+    let calls = [
+        ("wake_up() start_pose()", "fetch(\"red mug\")"),
+        ("wake_up()", "put_away(mug_1, counter)"),
+        ("wake_up()", "put_in_drawer(mug_1, drawer_1)"),
+        ("wake_up()", "clear_away(\"mug\", kitchen_table, counter)"),
+        ("wake_up() start_pose() let m = search(\"red mug\", kitchen_table) pick(m) lift()", "hand_over(m)"),
+    ];
+    let scene = setup::scene("kitchen");
+    for name in ["hsr", "anymal_z1"] {
+        let (session, _) = setup::session(Some(&setup::robot(name)), Some(&scene), &mut Sources::default());
+        for (before, call) in calls {
+            let before = if name == "hsr" { before.replace("wake_up()", "") } else { before.to_owned() };
+            let text = format!("policy p for {name} {{ {before} {call} }}");
+            let parsed =
+                motet_syntax::read(&motet_syntax::Source::new("p", text.as_str()), Default::default());
+            let said = session.check(&parsed);
+            let errors: Vec<_> =
+                said.iter().filter(|said| said.severity == motet_syntax::Severity::Error).collect();
+            assert!(errors.is_empty(), "{text}: {errors:#?}");
+        }
+    }
+}
+
+#[test]
 fn a_session_elsewhere_is_a_new_one() {
     let (robot, kitchen, lab) = (setup::robot("hsr"), setup::scene("kitchen"), setup::scene("lab"));
     let (base, _) = setup::session(Some(&robot), Some(&kitchen), &mut Sources::default());

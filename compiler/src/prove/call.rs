@@ -153,11 +153,16 @@ impl Prover<'_> {
         span: Span,
     ) -> Verdicts {
         let mut verdicts = Verdicts::new();
+        // What it needs of a thing that it cannot be given at all is beside the point.
+        let mut is_misgiven = false;
         for need in def.needs.iter().take(count) {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = Frame { each: culprit, ..frame };
-                self.refuted(id, def, need, frame, span);
+                if !is_misgiven {
+                    self.refuted(id, def, need, frame, span);
+                }
+                is_misgiven |= self.is_misgiven(&need.condition, frame);
                 Verdict::Refuted
             } else if value.open.is_some() {
                 Verdict::Deferred

@@ -1,5 +1,6 @@
 //! The story of a refutation: which fact, made false by which step, and what would make it true.
 
+use motet_syntax::ast::CompareOp;
 use motet_syntax::{Diagnostic, Mistake, Span};
 use smol_str::{SmolStr, format_smolstr};
 
@@ -28,6 +29,8 @@ pub(crate) struct Blame {
     maker: Option<String>,
     /// On which way: " where `open(drawer)` holds".
     way: String,
+    /// What to do, where no step could mend it.
+    advice: Option<&'static str>,
 }
 
 impl Blame {
@@ -70,7 +73,15 @@ impl Prover<'_> {
                 let wanted = self.show(condition, truth, frame);
                 let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
                 let (fact, way) = (Some((fact.fluent, truth)), self.way(cause));
-                return Blame { wanted, cause, fact, subject, numbers: None, maker, way };
+                return Blame { wanted, cause, fact, subject, maker, way, ..Blame::default() };
+            }
+            Condition::Compare(CompareOp::Unequal, left, _)
+                if truth && self.is_misgiven(condition, frame) =>
+            {
+                let wanted = format!("something other than `{}`", self.term_text(left, frame));
+                let numbers = Some("and that is what it is given".to_owned());
+                let advice = Some("name something else, or leave this step out");
+                return Blame { wanted, cause: Cause::START, numbers, advice, ..Blame::default() };
             }
             Condition::Compare(_, left, right) => {
                 let numbers = self.numbers(left, right, frame);
@@ -89,6 +100,13 @@ impl Prover<'_> {
         }
         let wanted = self.show(condition, truth, frame);
         Blame { wanted, ..Blame::default() }
+    }
+
+    /// Whether a condition asks for another thing than the one that it is given: no step before could mend that.
+    pub(crate) fn is_misgiven(&self, condition: &Condition, frame: Frame<'_>) -> bool {
+        let Condition::Compare(CompareOp::Unequal, left, right) = condition else { return false };
+        let entity = |term| self.argument(term, frame);
+        entity(left).is_some_and(|one| entity(right) == Some(one))
     }
 
     /// The field or measure behind a number.
@@ -144,6 +162,9 @@ impl Prover<'_> {
 
     /// Which primitives make the fact that is missing.
     pub(crate) fn remedy(&self, blame: &Blame) -> Option<String> {
+        if let Some(advice) = blame.advice {
+            return Some(advice.to_owned());
+        }
         let (fluent, truth) = blame.fact?;
         let makers = self.library.primitives.iter().filter(|def| def.provided);
         let makers = makers.filter(|def| {
