@@ -13,7 +13,7 @@ use motet_geometry::query::Budget;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
-use motet_syntax::{FileId, Parsed, Source, Sources, suggest};
+use motet_syntax::{FileId, Parsed, Source, Sources};
 
 use crate::args::WorldArgs;
 use crate::exit::Trouble;
@@ -205,14 +205,4 @@ fn next_id(sources: &Sources) -> FileId {
 #[must_use]
 pub(crate) fn wanted_robot(document: &File) -> Option<String> {
     document.policies().find_map(|policy| policy.robot.as_ref()).map(|name| name.text.to_string())
-}
-
-/// What to say where a document names a robot that is not built in, and none was given.
-#[must_use]
-pub(crate) fn stranger(name: &str) -> String {
-    let near = suggest::closest(name, robot_names()).map_or_else(
-        || "give its card with --robot FOLDER".to_owned(),
-        |near| format!("did you mean `{near}`?"),
-    );
-    format!("warning: there is no robot `{name}`, so nothing was checked against its card: {near}")
 }

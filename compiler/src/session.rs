@@ -9,12 +9,13 @@ use motet_syntax::ast::{File, Item, Policy};
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Sources, Span};
 use smol_str::SmolStr;
 
-use crate::check::errors::{NoPolicy, OtherRobot};
+use crate::check::errors::{NoPolicy, OtherRobot, UnknownRobot};
 use crate::fix::Finding;
 use crate::ir::{Program, StepKind, Term};
 use crate::library::{Library, LibraryBuilder};
 use crate::place::{Access, Course, Geometry, Placed};
 use crate::prove::Proof;
+use crate::resolve::near::{list, near};
 use crate::signature::Signatures;
 use crate::world::{State, World};
 
@@ -313,12 +314,21 @@ fn has_errors(findings: &[Finding]) -> bool {
     findings.iter().any(|found| is_error(&found.diagnostic))
 }
 
-/// What is wrong where a policy is written for another robot than the library's.
+/// What is wrong where a policy is written for another robot than the library's, or for one that is neither given nor built
+/// in.
 pub(crate) fn other_robot(policy: &Policy, library: &Library) -> Option<Diagnostic> {
     let robot = policy.robot.as_ref()?;
-    let is_other = !library.robot.is_empty() && robot.text != library.robot;
-    let (written, given) = (robot.text.clone(), library.robot.clone());
-    is_other.then(|| OtherRobot { span: robot.span, written, given }.into())
+    let (span, name) = (robot.span, robot.text.clone());
+    if !library.robot.is_empty() {
+        let given = library.robot.clone();
+        return (name != given).then(|| OtherRobot { span, written: name, given }.into());
+    }
+    let known = || motet_robots::card::embedded().iter().map(|(known, ..)| *known);
+    let is_unknown = known().all(|known| name != known);
+    is_unknown.then(|| {
+        let (near, known) = (near(&name, known()), list(known().map(SmolStr::new_static)));
+        UnknownRobot { span, name, near, known }.into()
+    })
 }
 
 /// Gives a finding its path, and moves one inside an inlined policy of another file to the call.

@@ -182,6 +182,7 @@ impl Settler<'_> {
             | ExprKind::Text(_)
             | ExprKind::Name(_)
             | ExprKind::Plain(_)
+            | ExprKind::Wrong(_)
             | ExprKind::Any
             | ExprKind::List(_)
             | ExprKind::Field(..)
@@ -213,6 +214,7 @@ impl Settler<'_> {
             | ExprKind::Quantity(..)
             | ExprKind::Text(_)
             | ExprKind::Name(_)
+            | ExprKind::Wrong(_)
             | ExprKind::Any => {}
             ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
                 self.condition(expr)

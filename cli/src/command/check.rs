@@ -11,7 +11,7 @@ use crate::input::{self, Bytes, Document, Flow};
 use crate::out::{Colors, count, note};
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::workbench::{DOCUMENT, Workbench, stranger, wanted_robot};
+use crate::workbench::{DOCUMENT, Workbench, wanted_robot};
 
 /// The most fixes that are made to one document.
 const MOST_FIXES: usize = 100;
@@ -69,8 +69,6 @@ struct Tally {
     motions: usize,
     /// Documents that were checked against no robot.
     without_robot: usize,
-    /// Robots that documents name and that are not built in.
-    strangers: Vec<String>,
 }
 
 impl Tally {
@@ -120,11 +118,7 @@ impl Tally {
         let setting = bench.setting(&parsed.file, report)?;
         let runnable = parsed.file.runnable();
         if setting.robot.is_none() && parsed.file.runnable().next().is_some() {
-            match wanted_robot(&parsed.file) {
-                Some(name) if !self.strangers.contains(&name) => self.strangers.push(name),
-                Some(_) => {}
-                None => self.without_robot += 1,
-            }
+            self.without_robot += usize::from(wanted_robot(&parsed.file).is_none());
         }
         // A document that is one policy is checked by compiling it, which also tells of its motions.
         let said = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
@@ -171,9 +165,6 @@ impl Tally {
             note(
                 "note: a .jsonl file keeps a policy a line and is left as it is: --fix rewrites whole files",
             );
-        }
-        for name in &self.strangers {
-            note(&stranger(name));
         }
         if self.without_robot > 0 {
             note(

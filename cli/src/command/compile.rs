@@ -12,7 +12,7 @@ use crate::form;
 use crate::input::one_document;
 use crate::out::{Colors, note};
 use crate::report::Report;
-use crate::workbench::{Workbench, stranger, wanted_robot};
+use crate::workbench::Workbench;
 
 /// Runs the command.
 ///
@@ -32,9 +32,6 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let (source, parsed) = document::read(&one_document(&args.file)?);
     let mut bench = Workbench::open(&args.world, report)?;
     let setting = bench.setting(&parsed.file, report)?;
-    if let (None, Some(name)) = (&setting.robot, wanted_robot(&parsed.file)) {
-        note(&stranger(&name));
-    }
     let policy = args.policy.as_deref();
     let compiled = setting.session.compile(&parsed, policy);
     report.say(&compiled.diagnostics, &setting.sources(source));

@@ -9,9 +9,13 @@ use crate::resolve::near::{list, near};
 use crate::world::World;
 
 pub(super) fn check(program: &Program, library: &Library, world: &World, diagnostics: &mut Vec<Diagnostic>) {
-    for binding in &program.bindings {
+    for (index, binding) in program.bindings.iter().enumerate() {
         if binding.uses == 0 && binding.name != "_" && !binding.name.starts_with('_') {
-            diagnostics.push(Unused { span: binding.span, name: binding.name.clone() }.into());
+            let of_each = program
+                .steps
+                .iter()
+                .any(|step| matches!(&step.kind, StepKind::Each { item, .. } if item.index() == index));
+            diagnostics.push(Unused { span: binding.span, name: binding.name.clone(), of_each }.into());
         }
     }
     if !world.has_scene() {

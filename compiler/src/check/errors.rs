@@ -1,6 +1,6 @@
 //! The robot's limits (M04xx), resources (M07xx), bounds (M08xx), and style (M09xx).
 
-use motet_syntax::{About, Related, Span};
+use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
 fn called(callee: &SmolStr) -> Option<About> {
@@ -38,6 +38,20 @@ motet_syntax::mistakes! {
     message(m) { format!("`{}` cannot do `{}`", m.robot, m.primitive) }
     help(m) { Some(format!("`motet robots show {}` lists what it can do", m.robot)) }
 
+    /// The policy is written for a robot that nobody knows.
+    UnknownRobot("M0447", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
+    message(m) { format!("there is no robot `{}`", m.name) }
+    help(m) {
+        Some(match &m.near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the robots are {}; the card of another is given with `--robot FOLDER`", m.known),
+        })
+    }
+    fix(m) {
+        let text = m.near.as_ref()?.to_string();
+        Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span: m.span, text }] })
+    }
+
     /// A monitor, a wait or a loop on something that the robot cannot observe.
     NotObservable("M0403", Error) { what: SmolStr, robot: SmolStr }
     message(m) { format!("`{}` cannot observe `{}`", m.robot, m.what) }
@@ -46,11 +60,17 @@ motet_syntax::mistakes! {
     /// An argument beyond what the robot can do.
     BeyondRange("M0404", Error) {
         param: SmolStr, callee: SmolStr, robot: SmolStr, least: String, greatest: String, actual: String,
+        degrees: Option<String>,
     }
     message(m) {
         format!("`{}` of `{}` is {}; `{}` takes {} to {}", m.param, m.callee, m.actual, m.robot, m.least, m.greatest)
     }
-    help(m) { Some(format!("write a value from {} to {}", m.least, m.greatest)) }
+    help(m) {
+        Some(match &m.degrees {
+            Some(degrees) => format!("a number alone is in radians: did you mean `\"{degrees}\"`?"),
+            None => format!("write a value from {} to {}", m.least, m.greatest),
+        })
+    }
 
     /// Two things that run at once use one resource.
     ResourceConflict("M0701", Error) { resource: SmolStr, one: SmolStr, other: SmolStr, first: Span }
@@ -69,9 +89,15 @@ motet_syntax::mistakes! {
     help(_m) { Some("add a step, or leave it out".to_owned()) }
 
     /// A binding that nothing uses.
-    Unused("M0901", Warning) { name: SmolStr }
+    Unused("M0901", Warning) { name: SmolStr, of_each: bool }
     message(m) { format!("`{}` is never used", m.name) }
-    help(m) { Some(format!("use `{}`, or call the step without binding it", m.name)) }
+    help(m) {
+        Some(if m.of_each {
+            format!("use `{0}` in the steps, or call it `_{0}`", m.name)
+        } else {
+            format!("use `{}`, or call the step without binding it", m.name)
+        })
+    }
 
     /// A description that fits several entities of the scene.
     Ambiguous("M0903", Warning) { callee: SmolStr, text: SmolStr, found: String }

@@ -1,5 +1,6 @@
 //! What this very robot can do and observe.
 
+use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
 
 use super::errors::{BeyondRange, NotObservable, NotProvided};
@@ -38,7 +39,8 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
         let (primitive, robot) = (def.name.clone(), library.robot.clone());
         diagnostics.push(NotProvided { span, primitive, robot }.into());
     }
-    for ((arg, at), param) in call.args.iter().zip(&call.spans).zip(&def.params) {
+    let written = call.args.iter().zip(&call.spans).zip(&call.units);
+    for (((arg, at), unit), param) in written.zip(&def.params) {
         let value = match arg {
             Term::Number(value) => *value,
             Term::Int(value) => *value as f64,
@@ -52,9 +54,10 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
                     param: param.name.clone(),
                     callee: def.name.clone(),
                     robot: library.robot.clone(),
-                    least: quantity(least, param.ty),
-                    greatest: quantity(greatest, param.ty),
-                    actual: quantity(value, param.ty),
+                    least: quantity(least, param.ty, *unit),
+                    greatest: quantity(greatest, param.ty, *unit),
+                    actual: quantity(value, param.ty, *unit),
+                    degrees: degrees(value, (least, greatest), param.ty, *unit),
                 }
                 .into(),
             );
@@ -62,14 +65,21 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
     }
 }
 
-/// A number with the SI unit of its type.
-fn quantity(value: f64, ty: Ty) -> String {
-    match ty.base {
-        Base::Quantity(dimension) if !dimension.si_symbol().is_empty() => {
-            format!("{value} {}", dimension.si_symbol())
-        }
-        _ => value.to_string(),
-    }
+/// A number in the unit in which it is written, else in the SI unit of its type.
+fn quantity(value: f64, ty: Ty, unit: Option<Unit>) -> String {
+    let si = match ty.base {
+        Base::Quantity(dimension) => Unit::si(dimension),
+        _ => None,
+    };
+    unit.or(si).map_or_else(|| value.to_string(), |unit| unit.show(value))
+}
+
+/// A bare number of more than a full turn as it was meant, in degrees, where that is within the range.
+fn degrees(value: f64, (least, greatest): (f64, f64), ty: Ty, unit: Option<Unit>) -> Option<String> {
+    let is_bare = unit.is_none() && ty.base == Base::Quantity(Dimension::ANGLE);
+    let meant = Unit::Degree.to_si(value);
+    (is_bare && value.abs() > std::f64::consts::TAU && (least..=greatest).contains(&meant))
+        .then(|| Unit::Degree.show(meant))
 }
 
 /// A fluent that only effects can tell is no trouble in an `if`; one that nothing can tell is.

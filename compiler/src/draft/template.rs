@@ -196,6 +196,7 @@ impl Writer<'_> {
                 args: call.args.iter().map(|arg| self.term(arg)).collect(),
                 binds: call.binds.map(|id| self.binding(id)),
                 spans: call.spans.clone(),
+                units: call.units.clone(),
                 ..*call
             }),
             StepKind::Sequence { name, body } => {

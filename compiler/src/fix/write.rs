@@ -196,9 +196,10 @@ impl Writer<'_> {
     }
 
     /// A name in place of another as the form has it: in JSON with the quotes and the `$` of what it replaces, in text in
-    /// back-quotes where it needs them. A quantity, which is no name, stays.
+    /// back-quotes where it needs them. A number or a quantity, which is no name, stays.
     pub(super) fn in_form(&self, code: Code, fix: &mut Fix) {
-        for edit in fix.edits.iter_mut().filter(|_| code.0 != "M0302") {
+        let is_number = matches!(code.0, "M0302" | "M0310");
+        for edit in fix.edits.iter_mut().filter(|_| !is_number) {
             let old = self.parsed.text.get(edit.span.range()).unwrap_or_default();
             edit.text = match old.strip_prefix('"') {
                 None => print::identifier(&edit.text),

@@ -2,6 +2,7 @@
 
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
+use motet_syntax::unit::Unit;
 use smol_str::SmolStr;
 
 use super::{BindingId, Condition, Failure, Primitive, StepId, Term, Ty};
@@ -226,6 +227,8 @@ pub(crate) struct Call {
     pub(crate) args: Vec<Term>,
     /// Where each argument stands; of a default, the call.
     pub(crate) spans: Vec<Span>,
+    /// In which unit each argument is written, where it is a quantity.
+    pub(crate) units: Vec<Option<Unit>>,
     /// Where the result goes.
     pub(crate) binds: Option<BindingId>,
     /// The deadline where one is written.

@@ -46,6 +46,7 @@ impl Ty {
     /// `Int`
     pub(crate) const INT: Self = Self::plain(Base::Int);
     /// `Duration`
+    pub(crate) const RATIO: Self = Self::plain(Base::Quantity(Dimension::NONE));
     pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
 
     /// A type that is no list.

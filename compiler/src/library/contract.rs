@@ -56,8 +56,8 @@ pub(super) fn primitives(
         let def = primitive(&mut resolver, &decl.item, robot);
         let mistakes = resolver.diagnostics;
         if !mistakes.is_empty() {
-            // A robot need not have what a primitive needs that it does not provide.
-            if !def.provided {
+            // A robot need not have what a primitive needs that it does not provide; what a domain declares is looked at always.
+            if !def.provided && decl.layer <= declarations.robot_top() {
                 continue;
             }
             // A layer above may replace what a contract below speaks of: what no longer fits goes with it.

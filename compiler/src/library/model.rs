@@ -221,6 +221,14 @@ impl Library {
         None
     }
 
+    /// The fields of a kind and of those above it, its own first.
+    pub(crate) fn fields_of(&self, kind: Kind) -> impl Iterator<Item = &SmolStr> {
+        let kinds = std::iter::successors(self.kinds.get(kind.index()), |def| {
+            def.parent.and_then(|parent| self.kinds.get(parent.index()))
+        });
+        kinds.flat_map(|def| def.fields.keys())
+    }
+
     /// Whether a value of type `actual` may stand where `expected` is asked for. There is no conversion, but a whole
     /// number is a number and a subkind is its parent.
     #[must_use]

@@ -37,6 +37,8 @@ enum Sure {
     Sometimes,
     /// Only observation can tell.
     Unknown,
+    /// An argument was reported as wrong: it may be about anything, and nothing is known of that.
+    Misread,
 }
 
 /// Entities that a contract speaks of: few, as a rule.
@@ -69,8 +71,7 @@ impl Prover<'_> {
         let fluent = effect.fact.fluent;
         match self.key(&effect.fact, frame) {
             Some(key) => changes.push(Change { fluent, key, truth: effect.value, sure }),
-            // An argument that was reported as wrong may be anything.
-            None => changes.push(Change { fluent, key: Key::ALL, truth: effect.value, sure: Sure::Unknown }),
+            None => changes.push(Change { fluent, key: Key::ALL, truth: effect.value, sure: Sure::Misread }),
         }
     }
 
@@ -206,6 +207,7 @@ impl Prover<'_> {
                 Sure::Always => self.write(change, cause, |_| new),
                 Sure::Sometimes => self.write(change, cause, |old| old.join(new)),
                 Sure::Unknown => self.write(change, cause, |old| old.maybe(new, cause)),
+                Sure::Misread => self.write(change, cause, |_| Value::open(cause)),
             }
         }
     }
@@ -216,7 +218,7 @@ impl Prover<'_> {
         for change in changes {
             match change.sure {
                 Sure::Sometimes => self.write(change, cause, |old| old.join(open)),
-                Sure::Always | Sure::Unknown => self.write(change, cause, |_| open),
+                Sure::Always | Sure::Unknown | Sure::Misread => self.write(change, cause, |_| open),
             }
         }
     }

@@ -1,8 +1,11 @@
 //! Arithmetic, checked for dimension, and what does not fit together.
 
 use motet_syntax::Span;
-use motet_syntax::ast::{ArithOp, Expr};
-use motet_syntax::unit::Dimension;
+use motet_syntax::ast::{ArithOp, Expr, ExprKind};
+use motet_syntax::suggest::one_of;
+use motet_syntax::text::errors::UnknownUnit;
+use motet_syntax::unit::{Dimension, Unit};
+use smol_str::SmolStr;
 
 use super::errors::WrongDimension;
 use super::expr::Resolver;
@@ -66,6 +69,42 @@ impl Resolver<'_> {
             }
             Ty { base: Base::Text, lists: 0 } => Some("`\"red mug\"`".to_owned()),
             Ty { base: Base::Int, lists: 0 } => Some("`3`".to_owned()),
+            _ => None,
+        }
+    }
+
+    /// What to write in place of a value of another type, where the value says so.
+    pub(super) fn instead(&self, term: &Term, ty: Ty, expr: &Expr, wanted: Ty) -> Option<String> {
+        let is_known = |name: &str| self.scope.find(name).is_some() || self.entities.find(name).is_some();
+        match (&expr.kind, wanted) {
+            (ExprKind::Text(text), Ty { base: Base::Entity(_), lists: 0 }) if is_known(text) => {
+                Some(format!("`{text}` without quotes"))
+            }
+            (ExprKind::Plain(text), Ty { base: Base::Quantity(dimension), lists: 0 }) => {
+                let number = text.trim().trim_end_matches(|c: char| !c.is_ascii_digit());
+                number.parse::<f64>().ok()?;
+                let unit = text.trim().get(number.len()..)?.trim();
+                let unit = match UnknownUnit::meant(unit).filter(|meant| meant.dimension() == dimension) {
+                    Some(meant) => meant,
+                    None if unit.is_empty() && dimension == Dimension::ANGLE => Unit::Degree,
+                    None if unit.is_empty() => Unit::si(dimension)?,
+                    None => return None,
+                };
+                Some(format!("`\"{number} {}\"`", unit.symbol()))
+            }
+            (ExprKind::Name(name) | ExprKind::Plain(name), wanted)
+                if wanted.element().is_some_and(|element| self.library.fits(element, ty)) =>
+            {
+                Some(match expr.kind {
+                    ExprKind::Plain(_) => format!("`[\"{name}\"]`"),
+                    _ => format!("`[{name}]`"),
+                })
+            }
+            (_, Ty { base: Base::Entity(kind), lists: 0 }) if matches!(term, Term::Entity(_)) => {
+                let fitting = self.entities.iter().filter(|(.., of)| self.library.is_kind(*of, kind));
+                let fitting: Vec<SmolStr> = fitting.map(|(_, name, _)| name.clone()).take(4).collect();
+                (1..=3).contains(&fitting.len()).then(|| one_of(fitting.iter().map(SmolStr::as_str)))
+            }
             _ => None,
         }
     }

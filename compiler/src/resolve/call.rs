@@ -95,6 +95,7 @@ impl Steps<'_> {
         let given = self.match_arguments(call, &def.name, &formals);
         let mut args = Vec::with_capacity(given.len());
         let mut spans = Vec::with_capacity(given.len());
+        let mut units = Vec::with_capacity(given.len());
         let mut description = None;
         for ((arg, param), formal) in given.into_iter().zip(&def.params).zip(&formals) {
             let (term, at) = match arg {
@@ -109,6 +110,7 @@ impl Steps<'_> {
             }
             args.push(term);
             spans.push(at);
+            units.push(arg.and_then(Expr::unit));
         }
         let within_secs = call.within.as_ref().and_then(|within| self.resolver.seconds(within, "a deadline"));
         let retries =
@@ -134,7 +136,7 @@ impl Steps<'_> {
             (None, None) => None,
         };
         let retries = retries.unwrap_or(0);
-        self.fill(id, StepKind::Call(ir::Call { primitive, args, spans, binds, within_secs, retries }))
+        self.fill(id, StepKind::Call(ir::Call { primitive, args, spans, units, binds, within_secs, retries }))
     }
 
     fn inline(&mut self, call: &Do, policy: &Policy, span: Span, place: Place) -> Option<StepId> {

@@ -30,6 +30,7 @@ impl Resolver<'_> {
             ExprKind::Number(_) | ExprKind::Quantity(..) => self.no_condition(expr, "a number"),
             ExprKind::Text(_) | ExprKind::Plain(_) => self.no_condition(expr, "a text"),
             ExprKind::List(_) => self.no_condition(expr, "a list"),
+            ExprKind::Wrong(_) => Condition::Unknown,
             ExprKind::Any => self.no_condition(expr, "`any`"),
             ExprKind::Field(..) | ExprKind::Arith(..) => self.no_condition(expr, "a value"),
         }
@@ -69,6 +70,15 @@ impl Resolver<'_> {
                 alike && matches!(op, CompareOp::Equal | CompareOp::Unequal)
             }
         };
+        if joined && !computed(&a, &b) {
+            for (term, ty, expr) in [(&a, left_ty, left), (&b, right_ty, right)] {
+                if let (Term::Number(value), Ty::RATIO) = (term, ty)
+                    && self.ratio(*value, expr, "a ratio") == Term::Unknown
+                {
+                    return Condition::Unknown;
+                }
+            }
+        }
         if !joined {
             self.mismatch(op.symbol(), left_ty, right_ty, whole.span);
             return Condition::Unknown;

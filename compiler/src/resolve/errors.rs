@@ -27,6 +27,7 @@ motet_syntax::mistakes! {
     /// A name that is no binding, parameter, entity, case or resource.
     UnknownName("M0202", Error) {
         name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool, about: Option<About>,
+        call: Option<String>,
     }
     message(m) {
         if m.wanted.is_empty() {
@@ -36,6 +37,13 @@ motet_syntax::mistakes! {
         }
     }
     help(m) {
+        let is_itself = m.near.as_ref().and_then(|near| near.strip_prefix('$')) == Some(m.name.as_str());
+        if is_itself {
+            return Some(format!("`{0}` is bound before: write `${0}`", m.name));
+        }
+        if let Some(call) = &m.call {
+            return Some(format!("write `{call}`"));
+        }
         write(m.near.as_ref()).or_else(|| {
             if !m.scene {
                 Some("no scene is given: entities come from `--scene`, or from `entity` in a domain".to_owned())
@@ -44,20 +52,25 @@ motet_syntax::mistakes! {
             }
         })
     }
-    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    fix(m) { m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near)) }
     about(m) { m.about.clone() }
 
     /// `$x` where nothing of that name is bound.
-    UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr> }
+    UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr>, is_text: bool }
     message(m) { format!("nothing is bound to `{}` here", m.name) }
     help(m) {
-        let is_entity = m.near.as_ref() == Some(&m.name);
-        let entity = is_entity.then(|| format!("`{}` is an entity: write it without `$`", m.name));
-        entity
-            .or_else(|| write(m.near.as_ref()))
-            .or_else(|| Some("a binding is visible from its step to the end of the block it stands in".to_owned()))
+        Some(match &m.near {
+            Some(near) if *near == m.name => format!("`{}` is an entity: write it without `$`", m.name),
+            Some(near) => format!("did you mean `${near}`?"),
+            None if m.is_text => format!("a text that begins with `$` is written with two: `$${}`", m.name),
+            None => "a binding is visible from its step to the end of the block it stands in".to_owned(),
+        })
     }
-    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+    fix(m) {
+        let near = m.near.as_ref()?;
+        let sigil = if *near == m.name { "" } else { "$" };
+        Some(Fix { title: format!("write `{sigil}{near}`"), edits: vec![Edit { span: m.span, text: near.to_string() }] })
+    }
 
     /// An argument for a parameter that does not exist.
     UnknownParameter("M0204", Error) { name: SmolStr, callee: SmolStr, near: Option<SmolStr>, known: String }
@@ -79,11 +92,16 @@ motet_syntax::mistakes! {
     help(m) { Some(format!("give one of them another name than `{}`", m.name)) }
     related(m) { vec![Related::new("first declared here", m.first)] }
 
-    /// A binding takes a name that is already bound.
-    Shadows("M0206", Error) { name: SmolStr, first: Span }
-    message(m) { format!("`{}` is already bound", m.name) }
-    help(m) { Some(format!("a name is bound once: choose another than `{}`", m.name)) }
-    related(m) { vec![Related::new("bound here", m.first)] }
+    /// A binding takes a name that is already bound, or that of an entity.
+    Shadows("M0206", Error) { name: SmolStr, first: Option<Span> }
+    message(m) {
+        match m.first {
+            Some(_) => format!("`{}` is already bound", m.name),
+            None => format!("`{}` is an entity, which a binding may not hide", m.name),
+        }
+    }
+    help(m) { Some(format!("a name means one thing: choose another than `{}`", m.name)) }
+    related(m) { m.first.map(|first| Related::new("bound here", first)).into_iter().collect() }
 
     /// A policy that calls itself.
     Recursion("M0207", Error) { name: SmolStr }
@@ -109,9 +127,13 @@ motet_syntax::mistakes! {
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// A field that the entity's kind does not have.
-    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr> }
+    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }
     message(m) { format!("{} has no field `{}`", m.of, m.name) }
-    help(m) { write(m.near.as_ref()) }
+    help(m) {
+        write(m.near.as_ref()).or_else(|| {
+            Some(if m.known.is_empty() { "it has none".to_owned() } else { format!("its fields are {}", m.known) })
+        })
+    }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// Inlining makes the policy too large.
@@ -139,16 +161,23 @@ motet_syntax::mistakes! {
     help(m) { write(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
 
     /// A value of one type where another is asked for.
-    WrongType("M0301", Error) { expected: String, actual: String, place: String, example: Option<String> }
+    WrongType("M0301", Error) {
+        expected: String, actual: String, place: String, example: Option<String>, instead: Option<String>,
+    }
     message(m) { format!("{} takes {}, not {}", m.place, m.expected, m.actual) }
     help(m) {
+        if let Some(instead) = &m.instead {
+            return Some(format!("write {instead}"));
+        }
         let such = m.example.as_ref().map(|example| format!(", such as {example}")).unwrap_or_default();
         Some(format!("write {} here{such}", m.expected))
     }
 
     /// A quantity without a unit, in text.
-    MissingUnit("M0302", Error) { value: String, unit: &'static str, ty: String, others: String }
-    message(m) { format!("`{}` needs a unit: {} is asked for", m.value, article(&m.ty)) }
+    MissingUnit("M0302", Error) {
+        written: String, value: String, unit: &'static str, ty: String, others: String,
+    }
+    message(m) { format!("`{}` needs a unit: {} is asked for", m.written, article(&m.ty)) }
     help(m) { Some(format!("write `{} {}`; the units are {}", m.value, m.unit, m.others)) }
     fix(m) { replace(m.span, &format!("{} {}", m.value, m.unit)) }
 
@@ -198,9 +227,17 @@ motet_syntax::mistakes! {
     help(_m) { Some("write a number here: only so the longest duration of the policy is known".to_owned()) }
 
     /// A number outside what makes sense.
-    OutOfRange("M0310", Error) { place: String, least: String, greatest: String, actual: String }
+    OutOfRange("M0310", Error) {
+        place: String, least: String, greatest: String, actual: String, meant: Option<(String, String)>,
+    }
     message(m) { format!("{} is {}, and must be from {} to {}", m.place, m.actual, m.least, m.greatest) }
-    help(m) { Some(format!("write a number from {} to {}", m.least, m.greatest)) }
+    help(m) {
+        Some(match &m.meant {
+            None => format!("write a number from {} to {}", m.least, m.greatest),
+            Some((write, meant)) => format!("did you mean `{meant}`? write `{write}`"),
+        })
+    }
+    fix(m) { m.meant.as_ref().and_then(|(write, _)| replace(m.span, write)) }
 
     /// `any` where one value is asked for.
     MisplacedAny("M0311", Error) { }

@@ -6,7 +6,9 @@ use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{About, Diagnostic, Form, Span};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::{MisplacedAny, MissingUnit, NotACondition, UnknownField, UnknownFluent, WrongType};
+use super::errors::{
+    MisplacedAny, MissingUnit, NotACondition, OutOfRange, UnknownField, UnknownFluent, WrongType,
+};
 use super::near::{article, list, near};
 use super::scope::Scope;
 use crate::ir::{Base, Binding, ROBOT, Term, Ty};
@@ -70,16 +72,21 @@ impl<'a> Resolver<'a> {
     pub(crate) fn term_of(&mut self, expr: &Expr, wanted: Wanted<'_>) -> Term {
         let (term, ty) = self.term(expr, Some(wanted));
         if self.library.fits(wanted.ty, ty) {
-            // A whole number where a number is asked for.
-            return match (term, wanted.ty.base) {
-                (Term::Int(value), Base::Number) => Term::Number(value as f64),
+            return match (term, wanted.ty) {
+                // A whole number where a number is asked for.
+                (Term::Int(value), Ty { base: Base::Number, .. }) => Term::Number(value as f64),
+                (Term::Number(value), ty) if ty == Ty::RATIO => {
+                    self.ratio(value, expr, &wanted.place.to_string())
+                }
                 (term, _) => term,
             };
         }
         let actual = self.describe(&term, ty);
         let expected = article(&self.library.type_name(wanted.ty));
         let example = self.example(wanted.ty);
-        self.say(WrongType { span: expr.span, expected, actual, place: wanted.place.to_string(), example });
+        let instead = self.instead(&term, ty, expr, wanted.ty);
+        let place = wanted.place.to_string();
+        self.say(WrongType { span: expr.span, expected, actual, place, example, instead });
         Term::Unknown
     }
 
@@ -93,8 +100,9 @@ impl<'a> Resolver<'a> {
             }
             ExprKind::Text(text) => (Term::Text(text.clone()), Ty::TEXT),
             ExprKind::Name(name) => self.name(name, expr.span, wanted),
-            ExprKind::Binding(name) => self.binding(name, expr.span),
+            ExprKind::Binding(name) => self.binding(name, expr.span, wanted),
             ExprKind::Plain(text) => self.plain(text, expr.span, wanted),
+            ExprKind::Wrong(_) => (Term::Unknown, Ty::UNKNOWN),
             ExprKind::Any => {
                 self.say(MisplacedAny { span: expr.span });
                 (Term::Unknown, Ty::UNKNOWN)
@@ -110,6 +118,29 @@ impl<'a> Resolver<'a> {
         }
     }
 
+    /// A ratio that is written down: from nothing to all.
+    pub(super) fn ratio(&mut self, value: f64, expr: &Expr, place: &str) -> Term {
+        if (0.0..=1.0).contains(&value) {
+            return Term::Number(value);
+        }
+        let written = |part: f64| match &expr.kind {
+            ExprKind::Number(_) => part.to_string(),
+            _ => format!("{} %", percent(part)),
+        };
+        // A bare number of more than all was meant in percent.
+        let is_percent = matches!(expr.kind, ExprKind::Number(_)) && (2.0..=100.0).contains(&value);
+        let meant = is_percent.then(|| ((value / 100.0).to_string(), format!("{value} %")));
+        self.say(OutOfRange {
+            span: expr.span,
+            place: place.to_owned(),
+            least: written(0.0),
+            greatest: written(1.0),
+            actual: written(value),
+            meant,
+        });
+        Term::Unknown
+    }
+
     fn number(&mut self, value: f64, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
         if let Some(Wanted { ty: Ty { base: Base::Quantity(dimension), lists: 0 }, .. }) = wanted {
             if self.form == Form::Text {
@@ -120,10 +151,12 @@ impl<'a> Resolver<'a> {
                     _ => dimension.si_symbol(),
                 };
                 if !unit.is_empty() {
-                    let value = if dimension == Dimension::NONE { value * 100.0 } else { value };
+                    // As a ratio where it can be one, else it was meant in percent.
+                    let is_ratio = dimension == Dimension::NONE && (0.0..=1.0).contains(&value);
+                    let (written, value) = (value.to_string(), if is_ratio { percent(value) } else { value });
                     let others = list(Unit::symbols_of(dimension).map(SmolStr::new));
                     let ty = dimension.type_name().unwrap_or("quantity").to_owned();
-                    self.say(MissingUnit { span, value: value.to_string(), unit, ty, others });
+                    self.say(MissingUnit { span, written, value: value.to_string(), unit, ty, others });
                     return (Term::Unknown, Ty::UNKNOWN);
                 }
             }
@@ -188,7 +221,8 @@ impl<'a> Resolver<'a> {
         let Some(kind) = ty.kind() else {
             if ty.base != Base::Unknown {
                 let of = library.type_name(ty);
-                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near: None });
+                let known = String::new();
+                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near: None, known });
             }
             return (Term::Unknown, Ty::UNKNOWN);
         };
@@ -200,11 +234,20 @@ impl<'a> Resolver<'a> {
                     library.kinds.iter().flat_map(|def| def.fields.keys()).chain(robot.into_iter().flatten());
                 let near = near(&name.text, fields.map(SmolStr::as_str));
                 let of = format_smolstr!("`{}`", library.type_name(ty)).to_string();
-                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near });
+                let known = match term {
+                    Term::Entity(ROBOT) => list(library.numbers.keys().cloned()),
+                    _ => list(library.fields_of(kind).cloned()),
+                };
+                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near, known });
                 (Term::Unknown, Ty::UNKNOWN)
             }
         }
     }
+}
+
+/// A ratio in percent, without the noise of binary fractions.
+fn percent(ratio: f64) -> f64 {
+    (ratio * 1e11).round() / 1e9
 }
 
 /// A quantity in a JSON string: "20 cm", "80%".

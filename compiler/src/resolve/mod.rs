@@ -12,7 +12,8 @@ pub(crate) mod near;
 pub(crate) mod scope;
 mod step;
 
-use motet_syntax::ast::{Expr, Policy};
+use motet_syntax::ast::{Expr, ExprKind, Policy};
+use motet_syntax::unit::Unit;
 use motet_syntax::{Diagnostic, Form};
 
 use self::expr::{Place, Resolver, Wanted};
@@ -111,14 +112,17 @@ impl Resolver<'_> {
         match self.term_of(expr, wanted) {
             Term::Number(value) if value.is_finite() && (0.0..=MAX_SECONDS).contains(&value) => Some(value),
             Term::Number(value) => {
-                let (least, greatest) = ("0 s".to_owned(), format!("{MAX_SECONDS} s"));
-                let actual = format!("{value} s");
+                // In the unit in which it is written.
+                let unit = expr.unit().unwrap_or(Unit::Second);
+                let (least, greatest) = (unit.show(0.0), unit.show(MAX_SECONDS));
+                let actual = unit.show(value);
                 self.say(errors::OutOfRange {
                     span: expr.span,
                     place: place.to_owned(),
                     least,
                     greatest,
                     actual,
+                    meant: None,
                 });
                 None
             }
@@ -139,13 +143,27 @@ impl Resolver<'_> {
     /// A count that is known beforehand.
     pub(crate) fn count(&mut self, expr: &Expr, place: &'static str, least: u32) -> Option<u32> {
         let wanted = Wanted { ty: Ty::INT, place: Place::Named(place) };
+        let beyond = |actual: String| errors::OutOfRange {
+            span: expr.span,
+            place: place.to_owned(),
+            least: least.to_string(),
+            greatest: MAX_COUNT.to_string(),
+            actual,
+            meant: None,
+        };
+        // A whole number that no integer holds.
+        if let ExprKind::Number(value) = expr.kind
+            && value.fract() == 0.0
+            && value.abs() > f64::from(MAX_COUNT)
+        {
+            self.say(beyond(value.to_string()));
+            return None;
+        }
         match self.term_of(expr, wanted) {
             Term::Int(value) => {
                 let count = u32::try_from(value).ok().filter(|count| (least..=MAX_COUNT).contains(count));
                 if count.is_none() {
-                    let (least, greatest) = (least.to_string(), MAX_COUNT.to_string());
-                    let (place, actual) = (place.to_owned(), value.to_string());
-                    self.say(errors::OutOfRange { span: expr.span, place, least, greatest, actual });
+                    self.say(beyond(value.to_string()));
                 }
                 count
             }

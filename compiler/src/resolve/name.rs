@@ -1,7 +1,7 @@
 //! What a name means: a binding, an entity, a case; and what is said of one that means nothing.
 
 use motet_syntax::Span;
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{UnknownBinding, UnknownCase, UnknownName};
 use super::expr::{Resolver, Wanted, parse_quantity};
@@ -24,7 +24,7 @@ impl Resolver<'_> {
         if let Some((id, case)) = self.library.names.cases.get(name) {
             return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
         }
-        self.unknown_name(name, span, wanted);
+        self.unknown_name(name, span, wanted, Written::Bare);
         (Term::Unknown, Ty::UNKNOWN)
     }
 
@@ -49,14 +49,14 @@ impl Resolver<'_> {
             Ty { base: Base::Entity(_), .. } => match self.entities.find(text) {
                 Some((entity, kind)) => (Term::Entity(entity), Ty::plain(Base::Entity(kind))),
                 None => {
-                    self.unknown_name(text, span, wanted);
+                    self.unknown_name(text, span, wanted, Written::Quoted);
                     (Term::Unknown, Ty::UNKNOWN)
                 }
             },
             Ty { base: Base::Enum(id), .. } => match self.case_of(id, text) {
                 Some(case) => case,
                 None => {
-                    self.unknown_name(text, span, wanted);
+                    self.unknown_name(text, span, wanted, Written::Quoted);
                     (Term::Unknown, Ty::UNKNOWN)
                 }
             },
@@ -85,13 +85,14 @@ impl Resolver<'_> {
         Some(found)
     }
 
-    pub(super) fn binding(&mut self, name: &SmolStr, span: Span) -> (Term, Ty) {
+    pub(super) fn binding(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) -> (Term, Ty) {
         if let Some(found) = self.in_scope(name) {
             return found;
         }
         let same = self.entities.find(name).map(|_| name.clone());
         let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
-        self.say(UnknownBinding { span, name: name.clone(), near });
+        let is_text = wanted.is_some_and(|wanted| wanted.ty == Ty::TEXT);
+        self.say(UnknownBinding { span, name: name.clone(), near, is_text });
         (Term::Unknown, Ty::UNKNOWN)
     }
 
@@ -101,8 +102,9 @@ impl Resolver<'_> {
         Some((Term::Case(id, u16::try_from(case).ok()?), Ty::plain(Base::Enum(id))))
     }
 
-    pub(super) fn unknown_name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>) {
+    fn unknown_name(&mut self, name: &SmolStr, span: Span, wanted: Option<Wanted<'_>>, written: Written) {
         let name = name.clone();
+        let call = self.call_of(&name).filter(|_| written == Written::Bare);
         let library = self.library;
         let about = wanted.and_then(|wanted| wanted.place.about());
         match wanted.map(|wanted| wanted.ty.base) {
@@ -122,7 +124,7 @@ impl Resolver<'_> {
                     self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
                 let names =
                     self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
-                let near = near(&name, names);
+                let near = near(&name, names).map(|near| self.spelled(near, written));
                 let known = if fitting.len() <= 12 {
                     list(fitting.iter().map(|row| row.1.clone()))
                 } else {
@@ -130,11 +132,12 @@ impl Resolver<'_> {
                 };
                 let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
                 let scene = self.has_scene;
-                self.say(UnknownName { span, name, near, wanted, known, scene, about });
+                self.say(UnknownName { span, name, near, wanted, known, scene, about, call });
             }
             Some(_) | None => {
                 let names = self.scope.names().map(SmolStr::as_str);
-                let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())));
+                let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())))
+                    .map(|near| self.spelled(near, written));
                 let scene = self.has_scene;
                 self.say(UnknownName {
                     span,
@@ -144,8 +147,36 @@ impl Resolver<'_> {
                     known: String::new(),
                     scene,
                     about,
+                    call,
                 });
             }
         }
     }
+
+    /// A known name as it would be written: a binding in a string of the JSON form with its `$`.
+    fn spelled(&self, name: SmolStr, written: Written) -> SmolStr {
+        match written {
+            Written::Quoted if self.scope.find(&name).is_some() => format_smolstr!("${name}"),
+            Written::Quoted | Written::Bare => name,
+        }
+    }
+
+    /// How the fluent or the measure with a name is called.
+    fn call_of(&self, name: &str) -> Option<String> {
+        let names = &self.library.names;
+        let fluent = names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| &def.params);
+        let measure =
+            || names.measures.get(name).and_then(|id| self.library.measure(*id)).map(|def| &def.params);
+        let params: Vec<&str> = fluent.or_else(measure)?.iter().map(|(param, _)| param.as_str()).collect();
+        Some(format!("{name}({})", params.join(", ")))
+    }
+}
+
+/// How a name stands in the document.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Written {
+    /// As it is.
+    Bare,
+    /// As a string of the JSON form.
+    Quoted,
 }

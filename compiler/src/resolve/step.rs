@@ -106,7 +106,10 @@ impl<'a> Steps<'a> {
 
     /// Makes a binding visible to the end of the block.
     pub(super) fn name(&mut self, name: &SmolStr, id: BindingId, ty: Ty, span: Span) {
-        if let Some(first) = self.resolver.scope.find(name).map(|entry| entry.span) {
+        let first = self.resolver.scope.find(name).map(|entry| entry.span);
+        // What a policy of the library calls its own is read there before any entity, and is for nobody else to see.
+        let hides = self.inline.is_none() && self.resolver.entities.find(name).is_some();
+        if first.is_some() || hides {
             self.resolver.say(Shadows { span, name: name.clone(), first });
         }
         self.resolver.scope.push(name.clone(), Term::Binding(id), ty, span);
@@ -188,6 +191,7 @@ impl<'a> Steps<'a> {
                         actual,
                         place,
                         example: None,
+                        instead: None,
                     });
                 }
                 (Term::Unknown, Ty::UNKNOWN)

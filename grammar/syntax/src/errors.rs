@@ -52,10 +52,11 @@ impl Mistake for TooDeep {
         format!("this is nested more than {} levels deep", self.limit)
     }
     fn help(&self) -> Option<String> {
-        let depth = MAX_NESTING;
-        Some(format!(
-            "steps, conditions and brackets nest at most {depth} deep: move the inner part to a sub-policy"
-        ))
+        let (what, depth) = match self.limit {
+            MAX_NESTING => ("steps, conditions and brackets", MAX_NESTING),
+            limit => ("brackets", limit),
+        };
+        Some(format!("{what} nest at most {depth} deep: move the inner part to a sub-policy"))
     }
 }
 
@@ -174,6 +175,17 @@ impl Mistake for NotUtf8 {
 pub struct IgnoredProse {
     /// The first line of it.
     pub span: Span,
+    /// What it is.
+    pub what: Ignored,
+}
+
+/// What is ignored of a reply.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ignored {
+    /// Words.
+    Prose,
+    /// A policy beside the one that is read.
+    Policy,
 }
 
 impl Mistake for IgnoredProse {
@@ -183,7 +195,10 @@ impl Mistake for IgnoredProse {
         self.span
     }
     fn message(&self) -> String {
-        "text that is no part of the policy is ignored".into()
+        match self.what {
+            Ignored::Prose => "text that is no part of the policy is ignored".into(),
+            Ignored::Policy => "a second policy is ignored: one is read".into(),
+        }
     }
     fn help(&self) -> Option<String> {
         Some("reply with the policy alone".into())

@@ -168,6 +168,7 @@ impl Walk {
             | ExprKind::Name(_)
             | ExprKind::Binding(_)
             | ExprKind::Plain(_)
+            | ExprKind::Wrong(_)
             | ExprKind::Any => {}
             ExprKind::List(members) => self.members(members),
             ExprKind::Call(call) => {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::errors::{Ignored, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::reply::{self, Reply};
 use crate::source::{FileId, Form, Source, Span};
 use crate::{json, text};
@@ -70,9 +70,11 @@ fn located(document: &str, file: FileId) -> Parsed {
         Reply::Whole => whole(document, file),
         Reply::Part(found) => {
             let mut parsed = whole(&reply::blanked(document, &found), file);
-            let ignored =
-                found.ignored.iter().map(|(start, end)| IgnoredProse { span: Span::new(file, *start, *end) });
-            parsed.diagnostics.extend(ignored.map(Diagnostic::from));
+            let prose = found.ignored.iter().map(|place| (place, Ignored::Prose));
+            let ignored = prose.chain(found.others.iter().map(|place| (place, Ignored::Policy)));
+            parsed.diagnostics.extend(ignored.map(|((start, end), what)| {
+                Diagnostic::from(IgnoredProse { span: Span::new(file, *start, *end), what })
+            }));
             parsed.diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
             parsed
         }

@@ -1,7 +1,7 @@
 //! A language model's reply as it comes: finds the one document in a Markdown fence or between prose. What is around it
 //! is blanked out rather than cut off before it, so that every place stays right. Feeds [`crate::read()`].
 
-use crate::text::token::{Token, TokenKind, tokens};
+use crate::text::token::{Token, TokenKind, Tokens, tokens};
 
 /// The document of a reply.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -12,6 +12,8 @@ pub(crate) struct Found {
     pub(crate) end: usize,
     /// First lines of what is ignored around it, trimmed.
     pub(crate) ignored: Vec<(usize, usize)>,
+    /// First lines of other policies beside it, trimmed.
+    pub(crate) others: Vec<(usize, usize)>,
 }
 
 /// What a text is.
@@ -57,7 +59,12 @@ pub(crate) fn locate(text: &str) -> Reply {
         .find(|fence| fence.is_policy(text))
         .or_else(|| fences.iter().find(|fence| fence.is_marked));
     if let Some(fence) = best.or(fences.first()) {
-        return part(text, fence.start, fence.end, fence.outer_start, fence.outer_end);
+        let mut reply = part(text, fence.start, fence.end, fence.outer_start, fence.outer_end);
+        if let Reply::Part(found) = &mut reply {
+            let others = fences.iter().filter(|other| other.start != fence.start && other.is_policy(text));
+            found.others = others.filter_map(|other| first_line(text, other.start, other.end)).collect();
+        }
+        return reply;
     }
     if let Some((start, end)) = bare(text) {
         return part(text, start, end, start, end);
@@ -87,43 +94,82 @@ fn after_object(text: &str, start: usize) -> Reply {
     if is_prose { part(text, start, end, start, end) } else { Reply::Whole }
 }
 
-/// A text that begins with a declaration: prose without braces may follow the last one.
+/// A text that begins with a declaration: prose may follow the last one.
 fn after_policy(text: &str, start: usize) -> Reply {
-    if text.trim_ascii_end().ends_with('}') {
-        return Reply::Whole;
+    match declarations_end(text, start) {
+        Some((end, true)) => part(text, start, end, start, end),
+        Some((_, false)) | None => Reply::Whole,
     }
-    let closing =
-        tokens(text, start).filter(|token| token.kind == TokenKind::Mark && token.text == "}").last();
-    let Some(end) = closing.map(|token| token.end()) else { return Reply::Whole };
-    let mut rest = tokens(text, end);
-    let (first, second) = (rest.next(), rest.next());
-    let Some(first) = first else { return Reply::Whole };
-    let is_fence = text.get(first.start..).is_some_and(|rest| rest.starts_with("```"));
-    let is_prose = first.kind == TokenKind::Word
+}
+
+/// One past the brace that closes the last of the declarations that begin at `start`, and whether prose follows it; `None`
+/// where no brace closes any.
+fn declarations_end(text: &str, start: usize) -> Option<(usize, bool)> {
+    let mut rest = tokens(text, start);
+    let (mut depth, mut end) = (0_usize, None);
+    while let Some(token) = rest.next() {
+        match (token.kind, token.text) {
+            (TokenKind::Mark, "{") => depth += 1,
+            (TokenKind::Mark, "}") => {
+                // One that closes nothing is not of the declarations.
+                let Some(left) = depth.checked_sub(1) else { break };
+                depth = left;
+                if depth == 0 {
+                    end = Some(token.end());
+                    if is_prose(text, rest.clone()) {
+                        return Some((token.end(), true));
+                    }
+                }
+            }
+            (_, _) => {}
+        }
+    }
+    end.map(|end| (end, false))
+}
+
+/// Whether what follows a declaration is prose or the end of a fence, and not a declaration that is misspelt.
+fn is_prose(text: &str, mut rest: Tokens<'_>) -> bool {
+    let (first, second, third) = (rest.next(), rest.next(), rest.next());
+    let Some(first) = first else { return false };
+    if text.get(first.start..).is_some_and(|rest| rest.starts_with("```")) {
+        return true;
+    }
+    let reads_on = |token: Token<'_>| match token.kind {
+        TokenKind::Word => third.is_none_or(|third| match third.text {
+            "{" | ":" | "=" | "<" => false,
+            "(" => third.start > token.end(),
+            _ => true,
+        }),
+        _ => matches!(token.text, "," | "." | ":" | "!" | "'"),
+    };
+    first.kind == TokenKind::Word
         && !is_declaration(first, second)
         && !matches!(first.text, "during" | "catch" | "else" | "until")
-        && second.is_some_and(|token| token.kind == TokenKind::Word || matches!(token.text, "," | "." | ":"));
-    if is_fence || is_prose { part(text, start, end, start, end) } else { Reply::Whole }
+        && second.is_some_and(reads_on)
 }
 
 /// The document `start..end`; what lies outside of `outer_start..outer_end` and is not blank is ignored.
 fn part(text: &str, start: usize, end: usize, outer_start: usize, outer_end: usize) -> Reply {
     let mut ignored = Vec::new();
     for (from, to) in [(0, outer_start), (outer_end, text.len())] {
-        let region = text.get(from..to).unwrap_or("");
-        let lines = region.split_inclusive('\n').scan(from, |at, line| {
-            let start = *at;
-            *at += line.len();
-            Some((start, line))
-        });
-        // Comments and the marks of an empty fence are nothing that anyone would miss.
-        let told = lines.into_iter().find(|(_, line)| !matches!(line.trim(), "" | "```" | "~~~"));
-        if let Some((at, line)) = told {
-            let begin = at + line.len() - line.trim_start().len();
-            ignored.push((begin, begin + line.trim().len()));
-        }
+        ignored.extend(first_line(text, from, to));
     }
-    Reply::Part(Found { start, end, ignored })
+    Reply::Part(Found { start, end, ignored, others: Vec::new() })
+}
+
+/// The first line of a part of a text that says anything, trimmed.
+fn first_line(text: &str, from: usize, to: usize) -> Option<(usize, usize)> {
+    let region = text.get(from..to).unwrap_or("");
+    let mut lines = region.split_inclusive('\n').scan(from, |at, line| {
+        let start = *at;
+        *at += line.len();
+        Some((start, line))
+    });
+    // The marks of a fence are nothing that anyone would miss.
+    let is_mark = |line: &str| line.starts_with("```") || line.starts_with("~~~");
+    let (at, line) = lines.find(|(_, line)| !line.trim().is_empty() && !is_mark(line.trim()))?;
+    let begin = at + line.len() - line.trim_start().len();
+    Some((begin, begin + line.trim().len()))
 }
 
 /// A fenced block of Markdown.
@@ -161,32 +207,38 @@ fn fences(text: &str) -> Vec<Fence> {
     let mut open: Option<(&str, Fence)> = None;
     let mut at = 0;
     for line in text.split_inclusive('\n') {
-        let (start, trimmed) = (at, line.trim());
+        let (start, content) = (at, line.trim_end());
         at += line.len();
-        let mark = ["```", "~~~"].into_iter().find(|mark| trimmed.starts_with(mark));
-        match (open.take(), mark) {
-            (None, Some(mark)) => {
-                let language = trimmed.trim_start_matches(['`', '~']).trim().to_ascii_lowercase();
-                let is_marked = ["json", "jsonc", "json5", "motet"].contains(&language.as_str());
-                let fence = Fence {
-                    start: at,
-                    end: text.len(),
-                    outer_start: start,
-                    outer_end: text.len(),
-                    is_marked,
-                };
-                open = Some((mark, fence));
+        match open.take() {
+            None => {
+                open = opening(content).map(|(offset, mark, is_marked)| {
+                    let (outer_start, end) = (start + offset, text.len());
+                    (mark, Fence { start: at, end, outer_start, outer_end: end, is_marked })
+                });
             }
-            (Some((mark, fence)), Some(closing))
-                if mark == closing && trimmed.trim_start_matches(['`', '~']).is_empty() =>
-            {
-                fences.push(Fence { end: start, outer_end: at, ..fence });
-            }
-            (still_open, _) => open = still_open,
+            // It may close behind the last line of what it holds.
+            Some((mark, fence)) => match content.strip_suffix(mark).filter(|held| !held.contains(mark)) {
+                Some(held) => {
+                    let end = start + held.trim_end_matches(['`', '~', ' ', '\t']).len();
+                    fences.push(Fence { end, outer_end: at, ..fence });
+                }
+                None => open = Some((mark, fence)),
+            },
         }
     }
     fences.extend(open.map(|(_, fence)| fence));
     fences
+}
+
+/// Where on a line a fence opens, its mark, and whether its language is one of ours: at the end of the line, perhaps behind
+/// prose.
+fn opening(line: &str) -> Option<(usize, &'static str, bool)> {
+    let (offset, mark) =
+        ["```", "~~~"].into_iter().filter_map(|mark| Some((line.find(mark)?, mark))).min()?;
+    let language = line.get(offset..)?.trim_start_matches(['`', '~']).trim().to_ascii_lowercase();
+    let is_marked = ["json", "jsonc", "json5", "motet"].contains(&language.as_str());
+    let begins_line = line.get(..offset)?.trim().is_empty();
+    (begins_line || is_marked || language.is_empty()).then_some((offset, mark, is_marked))
 }
 
 /// A document in prose without a fence: the first object or declaration that looks like a policy.
@@ -194,8 +246,8 @@ fn bare(text: &str) -> Option<(usize, usize)> {
     let mut at = 0;
     for line in text.split_inclusive('\n') {
         if line.trim_start().starts_with("policy ") && text.get(at..).is_some_and(|rest| rest.contains('{')) {
-            let end = text.rfind('}').map_or(text.len(), |brace| brace + 1);
-            return Some((at, end.max(at)));
+            let end = declarations_end(text, at).map_or(text.len(), |(end, _)| end);
+            return Some((at, end));
         }
         at += line.len();
     }

@@ -192,6 +192,16 @@ impl Unit {
         value * numerator / denominator
     }
 
+    /// A value in SI units as a number of this unit, to nine digits: `720 deg`.
+    #[must_use]
+    pub fn show(self, si: f64) -> String {
+        let (symbol, _, numerator, denominator) = self.row();
+        let value = si * denominator / numerator;
+        let digits = if value == 0.0 { 0.0 } else { 8.0 - value.abs().log10().floor() };
+        let scale = 10_f64.powf(digits.clamp(0.0, 12.0));
+        format!("{} {symbol}", (value * scale).round() / scale)
+    }
+
     /// The SI unit of a dimension, where the language has one.
     #[must_use]
     pub fn si(dimension: Dimension) -> Option<Self> {

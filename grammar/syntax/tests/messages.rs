@@ -51,6 +51,19 @@ reports! {
     go(x)
 }
 "##;
+    call_with_a_bare_argument: r##"policy p {
+    pick mug
+}
+"##;
+    modifier_twice: r##"policy p {
+    pick(mug) retry 3 within 20 s retry 2
+}
+"##;
+    binding_of_a_name: r##"policy p {
+    let mug = mug_1
+    go(mug)
+}
+"##;
     each_without_bound: r##"policy p {
     each cup in cups { go(cup) }
 }
@@ -173,6 +186,9 @@ pick(mug)
     json_wrong_types: r##"{"motet": "1", "policy": ["p"], "steps": {}}"##;
     json_steps_of_wrong_types: r##"{"motet": 1, "policy": "p", "steps": ["go", {"do": 5}, {"do": "go", "within": true}, {"repeat": "3", "steps": []}, {"end": "finished"}, {"parallel": [{"do": "go"}]}]}"##;
     json_missing_keys: r##"{"motet": 1, "policy": "p", "steps": [{"if": "holding(a)"}, {"each": "x", "steps": []}, {"try": []}, {}, {"monitor": [{"when": true}], "during": []}]}"##;
+    json_surplus_elements: r##"{"motet": 1, "policy": "p", "steps": [{"if": {"less": [1, 2, 3]}, "then": []}, {"wait": {"more": [{"add": [1]}, 2]}}]}"##;
+    json_durations: r##"{"motet": 1, "policy": "p", "steps": [{"wait": true, "within": "20 m"}, {"wait": true, "within": "20"}, {"wait": true, "within": "20 kg"}]}"##;
+    json_depth: &format!(r##"{{"motet": 1, "policy": "p", "steps": {}"##, "[".repeat(300));
     json_two_forms: r##"{"motet": 1, "policy": "p", "steps": [{"if": true, "repeat": 2, "then": [], "steps": []}, {"do": "go", "if": true}]}"##;
     json_conditions: r##"{"motet": 1, "policy": "p", "steps": [{"wait": {"iz": "open"}}, {"wait": {"less": [1]}}, {"wait": {"not": true, "all": []}}, {"wait": "not holding(mug"}, {"wait": "holding(\"mug\") &&"}]}"##;
 }

@@ -67,6 +67,36 @@ fn a_bare_document_in_prose_is_found() {
 }
 
 #[test]
+fn a_fence_may_open_behind_words_and_close_behind_its_content() {
+    check(&format!("First ```json\n{JSON}\n```"), Some("p"), &["M0116 First"]);
+    check(
+        &format!("First ```json\n{{\"a\": 1}}\n```\nand then\n```motet\n{TEXT}\n```"),
+        Some("p"),
+        &["M0116 First ```json"],
+    );
+    check(&format!("```json\n{JSON}```\nDone."), Some("p"), &["M0116 Done."]);
+}
+
+#[test]
+fn braces_of_prose_are_no_part_of_a_policy() {
+    check(&format!("{TEXT}\nIt says }} and {{ x."), Some("p"), &["M0116 It says } and { x."]);
+    check(&format!("{TEXT}\nIt drives (see {{x}})."), Some("p"), &["M0116 It drives (see {x})."]);
+    check(
+        &format!("Here you go:\n{TEXT}\nNote }} here."),
+        Some("p"),
+        &["M0116 Here you go:", "M0116 Note } here."],
+    );
+    // A misspelt declaration is not prose.
+    check(&format!("{TEXT}\npolcy q {{ go(b) }}"), None, &["M0101 polcy"]);
+}
+
+#[test]
+fn a_second_policy_is_told() {
+    let reply = format!("```motet\n{TEXT}\n```\nor\n```motet\npolicy q {{ go(b) }}\n```");
+    check(&reply, Some("p"), &["M0116 or", "M0116 policy q { go(b) }"]);
+}
+
+#[test]
 fn what_is_broken_is_no_prose() {
     check(&format!("{JSON} {JSON}"), None, &["M0102 {"]);
     check("```json\n{\"motet\": 1, \"policy\": \"p\", \"steps\": [{\"do\": \"go\"", None, &["M0102 "]);

@@ -264,16 +264,18 @@ impl Completer<'_> {
                 why: format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
             });
         }
+        if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
+            return Err(Outside { span, why: format!("`{name}` is an entity, which no name may hide") });
+        }
         if self.surface.form == Form::Text && self.is_taken(name) {
             return Err(Outside { span, why: format!("`{name}` means something else in the text form") });
         }
         Ok(name.clone())
     }
 
-    /// Whether a name is a word of the language, an entity or a case.
+    /// Whether a name is a word of the language or a case.
     fn is_taken(&self, name: &str) -> bool {
         motet_syntax::print::identifier(name) != name
-            || self.signatures.entities.iter().any(|(entity, _)| entity == name)
             || self.signatures.enums.iter().any(|def| def.cases.iter().any(|case| case == name))
     }
 }

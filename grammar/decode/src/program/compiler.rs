@@ -115,12 +115,13 @@ fn types(signatures: &Signatures) -> Vec<Type> {
     types
 }
 
-/// What a name that a policy gives may not be: in the text form it would mean something else.
+/// What a name that a policy gives may not be: an entity, and in the text form what would mean something else there.
 fn taken(signatures: &Signatures, surface: Surface) -> FxHashSet<SmolStr> {
+    let entities = signatures.entities.iter().map(|row| row.0.clone());
     if surface.form == Form::Json {
-        return FxHashSet::default();
+        return entities.collect();
     }
     let words = RESERVED.iter().map(|word| SmolStr::new_static(word));
     let cases = signatures.enums.iter().flat_map(|def| def.cases.iter().cloned());
-    words.chain(signatures.entities.iter().map(|row| row.0.clone())).chain(cases).collect()
+    words.chain(entities).chain(cases).collect()
 }

@@ -74,8 +74,8 @@ pub fn is_text(text: &str) -> bool {
     (1..=MAX_TEXT_CHARS).contains(&text.len()) && text.chars().all(is_text_char) && !text.starts_with('$')
 }
 
-/// Whether a name that a policy gives can be written: a letter or `_`, then letters, digits or `_`. In the text form it is
-/// also no word of the language, and no name of an entity or a case, which it would hide.
+/// Whether a name that a policy gives can be written: a letter or `_`, then letters, digits or `_`. It is also no name of
+/// an entity, and in the text form no word of the language and no case, which it would hide.
 #[must_use]
 pub fn is_name(name: &str) -> bool {
     let mut bytes = name.bytes();

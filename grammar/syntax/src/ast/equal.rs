@@ -176,6 +176,7 @@ enums! {
         Self::Name(a), Self::Name(b) => a.same(b);
         Self::Binding(a), Self::Binding(b) => a.same(b);
         Self::Plain(a), Self::Plain(b) => a.same(b);
+        Self::Wrong(a), Self::Wrong(b) => a.same(b);
         Self::Any, Self::Any => true;
         Self::List(a), Self::List(b) => a.same(b);
         Self::Call(a), Self::Call(b) => a.same(b);

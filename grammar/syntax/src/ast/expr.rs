@@ -33,6 +33,8 @@ pub enum ExprKind {
     Binding(SmolStr),
     /// A plain string in JSON: an entity, a case, a quantity or a text, as the type where it stands says.
     Plain(SmolStr),
+    /// What was refused where it was read, as written: that is said already, and nothing more is said of it.
+    Wrong(SmolStr),
     /// `any` in an argument position.
     Any,
     /// `[a, b]`
@@ -51,6 +53,18 @@ pub enum ExprKind {
     Compare(CompareOp, Box<Expr>, Box<Expr>),
     /// `a + b`
     Arith(ArithOp, Box<Expr>, Box<Expr>),
+}
+
+impl Expr {
+    /// The unit in which it is written, where it is a quantity.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        match &self.kind {
+            ExprKind::Quantity(_, unit) => Some(*unit),
+            ExprKind::Plain(text) => crate::json::quantity(text).map(|(_, unit)| unit),
+            _ => None,
+        }
+    }
 }
 
 /// A name applied to arguments: a primitive, a sub-policy, a fluent, a measure or a motion.

@@ -32,7 +32,7 @@ impl Converter {
         let origin = if is_plain { Origin::At(self.file, span.start + 1) } else { Origin::Within(span) };
         let (expr, found) = text::parse_expr(&text, origin, level.saturating_sub(1));
         self.found.extend(found);
-        expr.unwrap_or(Expr { kind: ExprKind::Plain(text), span })
+        expr.unwrap_or(Expr { kind: ExprKind::Wrong(text), span })
     }
 
     /// A duration: a bare number is seconds.
@@ -41,18 +41,20 @@ impl Converter {
         let kind = match value {
             Term::Number(seconds) => ExprKind::Quantity(seconds, Unit::Second),
             Term::Text(text) if !text.starts_with('$') => {
-                let quantity = quantity(&text);
-                if quantity.is_none_or(|(_, unit)| unit.dimension() != Dimension::DURATION) {
-                    let mistake = BadValue {
-                        span,
-                        message: format!("`{text}` is not a duration"),
-                        expected: &[],
-                        found: SmolStr::default(),
-                        help: Some(duration_help(&text)),
-                    };
-                    self.found.push(mistake.into());
+                match quantity(&text).filter(|(_, unit)| unit.dimension() == Dimension::DURATION) {
+                    Some((value, unit)) => ExprKind::Quantity(value, unit),
+                    None => {
+                        let mistake = BadValue {
+                            span,
+                            message: format!("`{text}` is not a duration"),
+                            expected: &[],
+                            found: SmolStr::default(),
+                            help: Some(duration_help(&text)),
+                        };
+                        self.found.push(mistake.into());
+                        ExprKind::Wrong(text)
+                    }
                 }
-                quantity.map_or(ExprKind::Plain(text), |(value, unit)| ExprKind::Quantity(value, unit))
             }
             other @ (Term::Text(_) | Term::Form(_)) => {
                 return self.term(Spanned { value: other, span }, depth + 1);
@@ -82,7 +84,7 @@ impl Converter {
             Term::Form(_) => "an object".into(),
         };
         self.found.push(WrongType { span, expected: expected.into(), found }.into());
-        Expr { kind: ExprKind::Plain(SmolStr::default()), span }
+        Expr { kind: ExprKind::Wrong(SmolStr::default()), span }
     }
 
     /// A term; `level` counts blocks and expressions.
@@ -90,7 +92,7 @@ impl Converter {
         let Spanned { value, span } = term;
         if level > MAX_NESTING {
             self.found.push(TooDeep { span, limit: MAX_NESTING }.into());
-            return Expr { kind: ExprKind::Plain(SmolStr::default()), span };
+            return Expr { kind: ExprKind::Wrong(SmolStr::default()), span };
         }
         let kind = match value {
             Term::Bool(value) => ExprKind::Bool(value),
@@ -215,7 +217,13 @@ impl Converter {
 fn duration_help(text: &str) -> String {
     let unit = text.trim().trim_start_matches(|c: char| matches!(c, '0'..='9' | '.' | '-' | ' '));
     let number = text.trim().strip_suffix(unit).unwrap_or("").trim_end();
-    match UnknownUnit::meant(unit) {
+    let meant = match unit {
+        "" => Some(Unit::Second),
+        // Of time, what begins so are minutes.
+        "m" | "M" => Some(Unit::Minute),
+        unit => UnknownUnit::meant(unit).filter(|meant| meant.dimension() == Dimension::DURATION),
+    };
+    match meant {
         Some(meant) if !number.is_empty() => format!("did you mean `\"{number} {}\"`?", meant.symbol()),
         Some(_) | None => "write seconds, or a number and a unit such as `\"200 ms\"`".into(),
     }

@@ -8,6 +8,7 @@
 use std::cell::RefCell;
 
 use serde::Deserializer;
+use serde::de::SeqAccess as _;
 use serde::de::{Error as _, IntoDeserializer};
 use serde::de::{Unexpected, Visitor};
 
@@ -144,8 +145,28 @@ impl<'de> Deserializer<'de> for Value<'_, 'de> {
         .map_err(|fault| fault.or_at(self.at))
     }
 
+    /// An array of a fixed length has as many elements: a visitor would take the first of more.
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
+        if matches!(self.kind(), Some(Kind::Array)) {
+            let found = Elements::new(self.context, self.at).size_hint().unwrap_or(0);
+            if found != length {
+                return Err(Fault::invalid_length(found, &visitor).or_at(self.at));
+            }
+        }
+        self.deserialize_any(visitor)
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        self.deserialize_tuple(length, visitor)
+    }
+
     serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
-        tuple_struct map identifier ignored_any
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq map
+        identifier ignored_any
     }
 }

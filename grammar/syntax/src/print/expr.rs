@@ -41,6 +41,7 @@ fn level(expr: &Expr) -> Level {
         | ExprKind::Name(_)
         | ExprKind::Binding(_)
         | ExprKind::Plain(_)
+        | ExprKind::Wrong(_)
         | ExprKind::Any
         | ExprKind::List(_)
         | ExprKind::Call(_)
@@ -67,7 +68,7 @@ fn bare(text: &mut String, expr: &Expr) {
         ExprKind::Quantity(value, unit) => measure(text, *value, *unit),
         ExprKind::Text(value) => literal(text, value),
         ExprKind::Name(value) | ExprKind::Binding(value) => name(text, value),
-        ExprKind::Plain(value) => plain(text, value),
+        ExprKind::Plain(value) | ExprKind::Wrong(value) => plain(text, value),
         ExprKind::Any => text.push_str("any"),
         ExprKind::List(members) => {
             text.push('[');
@@ -83,6 +84,7 @@ fn bare(text: &mut String, expr: &Expr) {
                 | ExprKind::Text(_)
                 | ExprKind::Name(_)
                 | ExprKind::Binding(_)
+                | ExprKind::Wrong(_)
                 | ExprKind::Any
                 | ExprKind::List(_)
                 | ExprKind::Call(_)

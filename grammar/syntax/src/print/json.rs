@@ -187,6 +187,7 @@ impl Lowering {
             | ExprKind::Text(_)
             | ExprKind::Name(_)
             | ExprKind::Plain(_)
+            | ExprKind::Wrong(_)
             | ExprKind::Any
             | ExprKind::List(_) => Term::Text(super::expression(expr).into()),
         };
@@ -210,7 +211,7 @@ impl Lowering {
                 let is_si = unit.dimension() != Dimension::NONE && Unit::si(unit.dimension()) == Some(*unit);
                 if is_si { Term::Number(*value) } else { Term::Text(super::expression(expr).into()) }
             }
-            ExprKind::Text(text) | ExprKind::Plain(text) => Term::Text(escaped(text)),
+            ExprKind::Text(text) | ExprKind::Plain(text) | ExprKind::Wrong(text) => Term::Text(escaped(text)),
             ExprKind::Name(bound) if self.scope.contains(bound) => binding(bound),
             ExprKind::Name(plain) => Term::Text(plain.clone()),
             ExprKind::Binding(bound) => binding(bound),
@@ -272,6 +273,7 @@ impl Lowering {
             | ExprKind::Name(_)
             | ExprKind::Binding(_)
             | ExprKind::Plain(_)
+            | ExprKind::Wrong(_)
             | ExprKind::Any
             | ExprKind::List(_) => return self.term(expr),
         };

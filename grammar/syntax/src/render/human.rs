@@ -62,11 +62,25 @@ impl Report {
         report.severity = diagnostic.severity;
         report.message.clone_from(&diagnostic.message);
         report.help.clone_from(&diagnostic.help);
+        let inner = diagnostic.related.iter().filter_map(|related| related.span);
+        let inner = inner
+            .filter(|inner| inner.file == span.file && span.contains(*inner) && !is_cut(*inner, sources));
+        // Underlines in one another cannot be drawn: of a place with others in it, the beginning is shown.
+        let main = match inner.map(|inner| inner.start).min() {
+            Some(first) => Span { end: head(span, sources).min(first), ..span },
+            None => span,
+        };
         // The place of the mistake itself is the one that the header names.
-        let main = label(span, None, sources);
+        let main = label(main, None, sources).filter(|main| !main.is_empty() || span.start == span.end);
         report.labels.extend(main.map(|main| LabeledSpan::new_primary_with_span(None, *main.inner())));
         for related in &diagnostic.related {
             report.relate(related, span, sources);
+        }
+        if let [only] = report.labels.as_slice()
+            && !only.primary()
+        {
+            let words = only.label().map(str::to_owned);
+            report.labels = vec![LabeledSpan::new_primary_with_span(words, *only.inner())];
         }
         report
     }
@@ -103,6 +117,15 @@ impl Report {
             }
         }
     }
+}
+
+/// One past the first word of a place.
+fn head(span: Span, sources: &Sources) -> u32 {
+    let text = source(sources, span).and_then(|source| source.text.get(span.range())).unwrap_or("");
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let length = text.find(|c| !is_word(c)).filter(|length| *length > 0);
+    let length = length.unwrap_or_else(|| text.chars().next().map_or(0, char::len_utf8));
+    span.start.saturating_add(u32::try_from(length).unwrap_or(0))
 }
 
 /// A label on a place, as much of it as is shown.

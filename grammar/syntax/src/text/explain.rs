@@ -177,13 +177,31 @@ impl<'t> Place<'t> {
                 Some(format!("let {}", word.text)),
             );
         }
+        if self.earlier.is_some_and(|earlier| earlier.text == "=") {
+            let advice =
+                format!("a binding is the result of a call: write `{}` where it is meant", word.text);
+            return (Some(advice), None);
+        }
+        if matches!(word.text, "retry" | "within") {
+            let advice = "`within` and `retry` stand once behind a call, in this order: `pick(mug) within 20 s retry 2`";
+            return (Some(advice.into()), None);
+        }
         let starters = STARTERS.iter().chain(DECLARATIONS).chain(CLAUSES).copied();
         if let Some(meant) = suggest::closest(word.text, starters).filter(|meant| *meant != word.text) {
             return (Some(format!("did you mean `{meant}`?")), Some(meant.into()));
         }
         let rest = text.get(word.end()..).unwrap_or("");
         let ends_line = rest.trim_start_matches([' ', '\t', '\r']).starts_with(['\n', '}']);
-        let call = format!("{}()", word.text);
+        // `pick mug`: what stands behind it on its line is its argument.
+        let argument = self.found.filter(|found| {
+            let is_value = matches!(
+                found.kind,
+                TokenKind::Word | TokenKind::Quoted | TokenKind::Number | TokenKind::Text
+            );
+            let between = text.get(word.end()..found.start).unwrap_or("\n");
+            is_value && !between.contains('\n') && !super::is_reserved(found.text.trim_matches(['`', '"']))
+        });
+        let call = format!("{}({})", word.text, argument.map_or("", |argument| argument.text));
         (Some(format!("a call needs its parentheses: `{call}`")), ends_line.then_some(call))
     }
 
