@@ -51,19 +51,6 @@ reports! {
     go(x)
 }
 "##;
-    call_with_a_bare_argument: r##"policy p {
-    pick mug
-}
-"##;
-    modifier_twice: r##"policy p {
-    pick(mug) retry 3 within 20 s retry 2
-}
-"##;
-    binding_of_a_name: r##"policy p {
-    let mug = mug_1
-    go(mug)
-}
-"##;
     each_without_bound: r##"policy p {
     each cup in cups { go(cup) }
 }
@@ -186,9 +173,61 @@ pick(mug)
     json_wrong_types: r##"{"motet": "1", "policy": ["p"], "steps": {}}"##;
     json_steps_of_wrong_types: r##"{"motet": 1, "policy": "p", "steps": ["go", {"do": 5}, {"do": "go", "within": true}, {"repeat": "3", "steps": []}, {"end": "finished"}, {"parallel": [{"do": "go"}]}]}"##;
     json_missing_keys: r##"{"motet": 1, "policy": "p", "steps": [{"if": "holding(a)"}, {"each": "x", "steps": []}, {"try": []}, {}, {"monitor": [{"when": true}], "during": []}]}"##;
-    json_surplus_elements: r##"{"motet": 1, "policy": "p", "steps": [{"if": {"less": [1, 2, 3]}, "then": []}, {"wait": {"more": [{"add": [1]}, 2]}}]}"##;
-    json_durations: r##"{"motet": 1, "policy": "p", "steps": [{"wait": true, "within": "20 m"}, {"wait": true, "within": "20"}, {"wait": true, "within": "20 kg"}]}"##;
-    json_depth: &format!(r##"{{"motet": 1, "policy": "p", "steps": {}"##, "[".repeat(300));
     json_two_forms: r##"{"motet": 1, "policy": "p", "steps": [{"if": true, "repeat": 2, "then": [], "steps": []}, {"do": "go", "if": true}]}"##;
     json_conditions: r##"{"motet": 1, "policy": "p", "steps": [{"wait": {"iz": "open"}}, {"wait": {"less": [1]}}, {"wait": {"not": true, "all": []}}, {"wait": "not holding(mug"}, {"wait": "holding(\"mug\") &&"}]}"##;
+}
+
+/// What is said of a document, each with its code and words of its message or help.
+fn check(document: &str, expected: &[(&str, &str)]) {
+    let parsed = read(&Source::new("policy", document), motet_syntax::FileId(0));
+    let said = parsed.diagnostics.iter();
+    let found: Vec<(&str, String)> =
+        said.map(|d| (d.code.0, format!("{}; {}", d.message, d.help.as_deref().unwrap_or("")))).collect();
+    let fits = |(found, expected): (&(&str, String), &(&str, &str))| {
+        found.0 == expected.0 && found.1.contains(expected.1)
+    };
+    assert!(found.len() == expected.len() && found.iter().zip(expected).all(fits), "{document}\n{found:#?}");
+}
+
+#[test]
+fn help_says_what_was_meant() {
+    check("policy p {\n    pick mug\n}\n", &[("M0101", "`pick(mug)`")]);
+    check(
+        "policy p {\n    pick(mug) retry 3 within 20 s retry 2\n}\n",
+        &[("M0101", "stand once behind a call")],
+    );
+    check(
+        "policy p {\n    let mug = mug_1\n    go(mug)\n}\n",
+        &[("M0101", "write `mug_1` where it is meant")],
+    );
+}
+
+#[test]
+fn arrays_of_a_fixed_length_have_no_element_more() {
+    let steps = r#"{"if": {"less": [1, 2, 3]}, "then": []}, {"wait": {"more": [{"add": [1]}, 2]}}"#;
+    check(
+        &format!(r#"{{"motet": 1, "policy": "p", "steps": [{steps}]}}"#),
+        &[
+            ("M0106", "expected an array of 2 elements, found 3"),
+            ("M0106", "expected an array of 2 elements, found one"),
+        ],
+    );
+}
+
+#[test]
+fn durations_are_of_time() {
+    for (written, help) in [
+        ("20 m", "did you mean `\"20 min\"`?"),
+        ("20", "did you mean `\"20 s\"`?"),
+        ("20 kg", "write seconds"),
+    ] {
+        let step = format!(r#"{{"wait": true, "within": "{written}"}}"#);
+        check(&format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#), &[("M0108", help)]);
+    }
+}
+
+#[test]
+fn the_depth_of_brackets_is_told_alike() {
+    let document = format!(r#"{{"motet": 1, "policy": "p", "steps": {}"#, "[".repeat(300));
+    check(&document, &[("M0111", "more than 264 levels deep; brackets nest at most 264 deep")]);
 }
