@@ -238,7 +238,7 @@ fn labels_stand_under_their_places() {
     let lines: Vec<&str> = shown.lines().collect();
     let document = lines.iter().find(|line| line.contains("open(drawer_1)")).unwrap();
     let marks = lines.iter().find(|line| line.contains('┬')).unwrap();
-    let column = |line: &str, of: &str| line[..line.find(of).unwrap()].chars().count();
+    let column = |line: &str, of: &str| line.split(of).next().unwrap().chars().count();
     let at = |place: &str| marks.chars().nth(column(document, place)).unwrap();
     assert!(["parallel", "open(", "close("].iter().all(|place| "─┬".contains(at(place))), "{shown}");
     assert_eq!(at(" { open"), ' ', "{shown}");
