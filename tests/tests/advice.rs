@@ -195,6 +195,7 @@ fn help_says_what_to_write() {
     text(
         "handover(mug_1, kitchen_table)",
         &[
+            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; `pick` or `grasp` makes it so: call it before",
             "M0301: `to` of `handover` takes a `Person`, not `kitchen_table`, which is a `Surface`; write `user`",
         ],
     );
@@ -236,7 +237,7 @@ fn labels_stand_under_their_places() {
     assert!(!said.is_empty());
     let shown = render::human(&said[..1], &sources, render::Color::Off, 120);
     let lines: Vec<&str> = shown.lines().collect();
-    let document = lines.iter().find(|line| line.contains("open(drawer_1)")).unwrap();
+    let document = lines.iter().find(|line| line.contains("policy p")).unwrap();
     let marks = lines.iter().find(|line| line.contains('┬')).unwrap();
     let column = |line: &str, of: &str| line.split(of).next().unwrap().chars().count();
     let at = |place: &str| marks.chars().nth(column(document, place)).unwrap();

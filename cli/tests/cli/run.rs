@@ -76,7 +76,7 @@ fn ends_with_the_right_code() {
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),
-        (format!("run stranger.motet {max}"), 2, &["err:no built-in robot `nobody`"]),
+        (format!("run stranger.motet {max}"), 1, &["out:M0447", "out:there is no robot `nobody`"]),
         (format!("run good.motet {max} --faults absent.json"), 2, &["err:no such file"]),
         (
             format!("run good.motet {max} --faults odd_faults.json"),

@@ -66,12 +66,12 @@ impl Report {
         let inner = inner
             .filter(|inner| inner.file == span.file && span.contains(*inner) && !is_cut(*inner, sources));
         // Underlines in one another cannot be drawn: of a place with others in it, the beginning is shown.
-        let main = match inner.map(|inner| inner.start).min() {
+        let drawn = match inner.map(|inner| inner.start).min() {
             Some(first) => Span { end: head(span, sources).min(first), ..span },
             None => span,
         };
         // The place of the mistake itself is the one that the header names.
-        let main = label(main, None, sources).filter(|main| !main.is_empty() || span.start == span.end);
+        let main = label(drawn, None, sources).filter(|main| !main.is_empty() || drawn == span);
         report.labels.extend(main.map(|main| LabeledSpan::new_primary_with_span(None, *main.inner())));
         for related in &diagnostic.related {
             report.relate(related, span, sources);

@@ -177,11 +177,6 @@ impl<'t> Place<'t> {
                 Some(format!("let {}", word.text)),
             );
         }
-        if self.earlier.is_some_and(|earlier| earlier.text == "=") {
-            let advice =
-                format!("a binding is the result of a call: write `{}` where it is meant", word.text);
-            return (Some(advice), None);
-        }
         if matches!(word.text, "retry" | "within") {
             let advice = "`within` and `retry` stand once behind a call, in this order: `pick(mug) within 20 s retry 2`";
             return (Some(advice.into()), None);
@@ -189,6 +184,11 @@ impl<'t> Place<'t> {
         let starters = STARTERS.iter().chain(DECLARATIONS).chain(CLAUSES).copied();
         if let Some(meant) = suggest::closest(word.text, starters).filter(|meant| *meant != word.text) {
             return (Some(format!("did you mean `{meant}`?")), Some(meant.into()));
+        }
+        if self.earlier.is_some_and(|earlier| earlier.text == "=") {
+            let advice =
+                format!("a binding is the result of a call: write `{}` where it is meant", word.text);
+            return (Some(advice), None);
         }
         let rest = text.get(word.end()..).unwrap_or("");
         let ends_line = rest.trim_start_matches([' ', '\t', '\r']).starts_with(['\n', '}']);
