@@ -81,7 +81,7 @@ fn the_exchange_of_a_request_is_written_and_read_again() {
             "out:<user> bring me the coke",
             "out:<vision> coke: not seen",
             "out:<feasibility> coke: feasible",
-            "out: pick coke, go to user, ",
+            "out:<robot> go to counter, pick coke, go to user, ",
             "out:hand over coke to user",
             "err:left out of the list: a monitor",
         ],

@@ -333,8 +333,11 @@ impl Writer<'_> {
     fn call(&mut self, call: &Do) {
         let args: Vec<String> = call.call.args.iter().map(|arg| self.arg(&arg.value.kind)).collect();
         let name = call.call.name.text.as_str();
-        let words = written(name).replace('_', " ");
+        // The dialect has no word for it: who goes there sees what is there.
+        let looks_there = name == "search" && args.len() == 2;
+        let words = written(if looks_there { "go" } else { name }).replace('_', " ");
         let joined = match (name, args.as_slice()) {
+            ("search", [_, around]) => around.clone(),
             ("place", [what, to]) => {
                 let inside = call.call.args.get(1).is_some_and(|arg| self.is_container(&arg.value.kind));
                 format!("{what} {} {to}", if inside { "in" } else { "on" })
