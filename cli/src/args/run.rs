@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
+use motet_planner::guard::Verifies;
 
 use super::input::WorldArgs;
 
@@ -85,6 +86,16 @@ pub(crate) enum Speed {
     Max,
     /// So many times real time.
     Times(f64),
+}
+
+impl Speed {
+    /// When motions are searched for that were left to the run: where time is virtual a run is the same each time.
+    pub(crate) const fn verifies(self) -> Verifies {
+        match self {
+            Self::Max => Verifies::AtOnce,
+            Self::Times(_) => Verifies::Beside,
+        }
+    }
 }
 
 impl FromStr for Speed {

@@ -76,11 +76,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start(setting.scene.as_ref());
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let how = match args.simulated.speed {
-        Speed::Max => Guard::new,
-        Speed::Times(_) => Guard::beside,
-    };
-    let guard = setting.session.course().map(how);
+    let verifies = args.simulated.speed.verifies();
+    let guard = setting.session.course().map(|course| Guard::new(course, verifies));
     let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
     let journal = match &args.record {
         Some(folder) => {

@@ -1,14 +1,10 @@
 //! Drivers in another process and a host that end at bad moments.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use crate::drive::{has_python, odd};
-use crate::support::Place;
-use std::path::PathBuf;
+use crate::drive::{AWAY, has_python, odd, recorded};
+use crate::support::{Place, eventually};
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
-
-const AWAY: &str = "policy away for hsr {\n    go(kitchen_table)\n}\n";
 
 /// What most drivers do: a start is accepted, and is over at once.
 const AT_ONCE: &str = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n        say({'method': 'ended', \
@@ -19,37 +15,19 @@ fn place(name: &str, then: &str) -> Place {
     Place::new(name).file("away.motet", AWAY).file("driver.py", odd(then))
 }
 
-const DRIVE: [&str; 10] = [
-    "drive",
-    "away.motet",
-    "--robot",
-    "hsr",
-    "--scene",
-    "kitchen",
-    "--record",
-    "run",
-    "--driver",
-    "python3 driver.py",
-];
+fn line() -> Vec<String> {
+    recorded("away.motet", "python3 driver.py")
+}
 
 fn drive(place: &Place) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_motet"));
-    command.args(DRIVE).current_dir(place.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.args(line()).current_dir(place.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command.spawn().unwrap()
 }
 
-/// Waits until a file says something, half a minute at most.
-fn wait_for(path: PathBuf, word: &str) {
-    for _ in 0..600 {
-        if std::fs::read_to_string(&path).is_ok_and(|text| text.contains(word)) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(50));
-    }
-    panic!("{} does not say {word}", path.display());
-}
+const JOURNAL: &str = "run/000000000000.journal";
 
 #[test]
 fn a_safe_stop_is_asked_for_again_after_a_crash() {
@@ -66,13 +44,10 @@ fn a_safe_stop_is_asked_for_again_after_a_crash() {
          if m['method'] == 'safe_stop' and good: say({'method': 'stopped', 'params': goal})\n",
     );
     let mut first = drive(&place);
-    let journal = place.path("run/000000000000.journal");
-    wait_for(journal.clone(), "{\"safe_stop\":");
+    assert!(eventually(|| place.says(JOURNAL, "{\"safe_stop\":")));
     // Other entries come after it.
-    let known = std::fs::read_to_string(&journal).unwrap().lines().count();
-    while std::fs::read_to_string(&journal).unwrap().lines().count() < known + 3 {
-        std::thread::sleep(Duration::from_millis(50));
-    }
+    let known = place.read(JOURNAL).lines().count();
+    assert!(eventually(|| place.read(JOURNAL).lines().count() >= known + 3));
     first.kill().unwrap();
     first.wait().unwrap();
     let place = place.file("good", "");
@@ -87,7 +62,7 @@ fn a_driver_has_time_to_stop_when_the_host_goes() {
     }
     let bye = "    if m['method'] == 'bye':\n        time.sleep(1)\n        open('stands', 'w').close()\n";
     let place = place("crash_bye", &format!("{AT_ONCE}{bye}"));
-    place.run_args(&DRIVE.map(str::to_owned)).check(0, &[]);
+    place.run_args(&line()).check(0, &[]);
     assert!(place.path("stands").exists(), "it was killed while it braked");
 }
 
@@ -103,7 +78,7 @@ fn an_interrupt_at_the_terminal_leaves_the_driver_alive() {
          'params': {'goal': m['params']['goal'], 'outcome': 'interrupted'}})\n",
     );
     let host = drive(&place);
-    wait_for(place.path("run/000000000000.journal"), "\"acknowledged\"");
+    assert!(eventually(|| place.says(JOURNAL, "\"acknowledged\"")));
     // A terminal says it to all that runs in the foreground.
     let killed = Command::new("kill").args(["-INT", "--", &format!("-{}", host.id())]).status().unwrap();
     assert!(killed.success());
@@ -125,7 +100,7 @@ fn what_is_nested_too_deep_for_a_journal_is_refused() {
          if m['method'] == 'start':\n        value = {'entity': 'mug_1'}\n        for _ in range(60): value = {'list': [value]}\n        \
          say({'method': 'ended', 'params': dict(goal, outcome={'success': value})})\n",
     );
-    let ran = place.run_args(&DRIVE.map(str::to_owned));
+    let ran = place.run_args(&line());
     ran.check(3, &["err:it is nested more than 32 deep", "out:failed with"]);
     place.run("replay run").check(0, &["out:the same to the byte"]);
 }

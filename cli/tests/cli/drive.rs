@@ -7,11 +7,12 @@
     reason = "a test fails by panicking, and says why it is skipped"
 )]
 
-use crate::support::{GOOD, Place};
+use crate::support::{GOOD, Place, eventually};
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
 
+/// A policy that goes once.
+pub(crate) const AWAY: &str = "policy away for hsr {\n    go(kitchen_table)\n}\n";
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/drivers/echo.py");
 
 /// Whether there is a Python to run drivers with.
@@ -21,6 +22,16 @@ pub(crate) fn has_python() -> bool {
         println!("skipped: there is no python3");
     }
     found
+}
+
+/// The command line that has a driver do a policy.
+pub(crate) fn driven(policy: &str, driver: &str) -> Vec<String> {
+    ["drive", policy, "--robot", "hsr", "--scene", "kitchen", "--driver", driver].map(str::to_owned).to_vec()
+}
+
+/// The same, with a journal in the folder `run`.
+pub(crate) fn recorded(policy: &str, driver: &str) -> Vec<String> {
+    [driven(policy, driver), vec!["--record".to_owned(), "run".to_owned()]].concat()
 }
 
 /// A driver that greets, and then does what stands in `then` at each further message `m`.
@@ -45,8 +56,7 @@ fn drives_the_example() {
     }
     let place = Place::new("drive").file("good.motet", GOOD);
     let echo = format!("python3 {ECHO} --seconds 0.05");
-    let drive = ["drive", "good.motet", "--robot", "hsr", "--scene", "kitchen", "--driver"];
-    let args = |driver: &str| drive.iter().copied().chain([driver]).map(str::to_owned).collect::<Vec<_>>();
+    let args = |driver: &str| driven("good.motet", driver);
     place.run_args(&args(&echo)).check(0, &["out:✓ tidy: done", "out:5 steps done, 0 failed"]);
     let refusing = format!("{echo} --refuse pick");
     place.run_args(&args(&refusing)).check(3, &["out:failed with `unreachable`"]);
@@ -60,8 +70,7 @@ fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
     if !has_python() {
         return;
     }
-    let place =
-        Place::new("drive_odd").file("good.motet", "policy away for hsr {\n    go(kitchen_table)\n}\n");
+    let place = Place::new("drive_odd").file("away.motet", AWAY);
     let stop = "    if m['method'] == 'safe_stop':\n        say({'id': m['id'], 'result': {}})\n        \
                 say({'method': 'stopped', 'params': m['params']})\n";
     for (name, then, message) in [
@@ -84,14 +93,9 @@ fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
         ("stalls", format!("{stop}    if m['method'] == 'start': time.sleep(60)\n"), "gave no sign of life"),
     ] {
         println!("{name}");
-        let place = place.path(name);
-        std::fs::write(&place, odd(&then)).unwrap();
-        let driver = format!("python3 '{}'", place.display());
-        let file = place.with_file_name("good.motet").display().to_string();
-        let args =
-            ["drive", file.as_str(), "--robot", "hsr", "--scene", "kitchen", "--driver", driver.as_str()]
-                .map(str::to_owned);
-        let ran = Place::new("drive_odd_run").run_args(&args);
+        let driver = place.path(name);
+        std::fs::write(&driver, odd(&then)).unwrap();
+        let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
         ran.check(3, &[&format!("err:{message}"), "out:failed with"]);
     }
 }
@@ -101,8 +105,7 @@ fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
     if !has_python() {
         return;
     }
-    let place =
-        Place::new("drive_rude").file("away.motet", "policy away for hsr {\n    go(kitchen_table)\n}\n");
+    let place = Place::new("drive_rude").file("away.motet", AWAY);
     let start = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n";
     let ends = |kind: &str| {
         format!(
@@ -126,10 +129,7 @@ fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
         println!("{name}");
         let driver = place.path(name);
         std::fs::write(&driver, odd(&ends(kind))).unwrap();
-        let driver = format!("python3 '{}'", driver.display());
-        let args =
-            ["drive", "away.motet", "--robot", "hsr", "--scene", "kitchen", "--driver", driver.as_str()];
-        let ran = place.run_args(&args.map(str::to_owned));
+        let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
         ran.check(3, texts).check(3, &["err:a\\u{1b}[2Jb"]);
         let shown = format!("{}{}", ran.stdout, ran.stderr);
         assert!(!shown.contains('\u{1b}') && shown.len() < 10_000, "{ran:#?}");
@@ -145,20 +145,8 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     let place = Place::new("drive_crash").file("good.motet", GOOD);
     let mut echo = Echo::start();
     let driver = echo.address();
-    let args = [
-        "drive",
-        "good.motet",
-        "--robot",
-        "hsr",
-        "--scene",
-        "kitchen",
-        "--record",
-        "run",
-        "--driver",
-        &driver,
-    ];
     let mut first = Command::new(env!("CARGO_BIN_EXE_motet"))
-        .args(args)
+        .args(recorded("good.motet", &driver))
         .current_dir(place.path(""))
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -168,12 +156,7 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     let starts =
         || std::fs::read_to_string(&journal).unwrap_or_default().matches("\"start\":{\"goal\":").count();
     // In the midst of it, however slow the machine is.
-    for _ in 0..600 {
-        if starts() >= 1 || first.try_wait().unwrap().is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(50));
-    }
+    eventually(|| starts() >= 1 || first.try_wait().unwrap().is_some());
     first.kill().unwrap();
     first.wait().unwrap();
     place.run("run --resume run").check(0, &["out:✓ tidy: done", "err:resumed at"]);

@@ -5,6 +5,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 /// What a run of the command left behind.
 #[derive(Debug)]
@@ -15,6 +16,17 @@ pub(crate) struct Ran {
     pub(crate) stdout: String,
     /// Standard error.
     pub(crate) stderr: String,
+}
+
+/// Waits until something is so, half a minute at most, however slow the machine is; whether it is.
+pub(crate) fn eventually(mut is_so: impl FnMut() -> bool) -> bool {
+    (0..600).any(|_| {
+        let is_so = is_so();
+        if !is_so {
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        is_so
+    })
 }
 
 /// A folder with files, and the command run in it.
@@ -42,6 +54,11 @@ impl Place {
     /// Reads a file.
     pub(crate) fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.folder.join(name)).expect("the file is there")
+    }
+
+    /// Whether a file is there and says something.
+    pub(crate) fn says(&self, name: &str, word: &str) -> bool {
+        std::fs::read_to_string(self.folder.join(name)).is_ok_and(|text| text.contains(word))
     }
 
     /// The path of a file in the folder.

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
+use sha2::{Digest as _, Sha256};
 use smol_str::{SmolStr, format_smolstr};
 
 /// The folder of pictures, beside the files of rows.
@@ -25,11 +26,9 @@ pub(crate) struct Picture(pub(crate) Arc<[u8]>);
 impl Picture {
     /// Its path as seen from the folder of the rows: of the room, the robot and what it shows, so that the same is stored once.
     pub(crate) fn path(&self, room: &str, robot: &str) -> SmolStr {
-        // FNV-1a, of 64 bits: the same everywhere.
-        let hash = self.0.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
-        });
-        format_smolstr!("{FOLDER}/{room}_{robot}_{hash:016x}.png")
+        let digest: String =
+            Sha256::digest(&self.0).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        format_smolstr!("{FOLDER}/{room}_{robot}_{digest}.png")
     }
 }
 

@@ -27,6 +27,16 @@ enum How {
     Beside { thread: Sender<Told>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
 
+/// When motions are searched for that were left to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verifies {
+    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    AtOnce,
+    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what follows from a
+    /// step for the next.
+    Beside,
+}
+
 /// What a guard hears of.
 #[derive(Debug)]
 enum Told {
@@ -36,18 +46,19 @@ enum Told {
 }
 
 impl Guard {
-    /// For a run that begins where a course does. It searches when it is asked, so that a run in virtual time is the same each
-    /// time.
+    /// For a run that begins where a course does.
     #[must_use]
-    pub const fn new(course: Course) -> Self {
-        let way = Way { course, live: BTreeMap::new() };
-        Self(How::AtOnce { way, verdicts: VecDeque::new() })
+    pub fn new(course: Course, verifies: Verifies) -> Self {
+        match verifies {
+            Verifies::AtOnce => {
+                let way = Way { course, live: BTreeMap::new() };
+                Self(How::AtOnce { way, verdicts: VecDeque::new() })
+            }
+            Verifies::Beside => Self::beside(course),
+        }
     }
 
-    /// The same on a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what
-    /// follows from a step for the next.
-    #[must_use]
-    pub fn beside(course: Course) -> Self {
+    fn beside(course: Course) -> Self {
         let (thread, told) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {

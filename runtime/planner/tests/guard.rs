@@ -6,9 +6,9 @@
 mod common;
 
 use common::{hsr, kitchen, session, walled};
-use motet_compiler::{Course, Session};
+use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_planner::guard::{Guard, WITHIN};
+use motet_planner::guard::{Guard, Verifies, WITHIN};
 use motet_robots::scene::Scene;
 use motet_runtime::journal::{Entry, Head, Replay, Step};
 use motet_runtime::{
@@ -94,11 +94,11 @@ impl Onlooker for Host {
 
 /// Runs a policy in simulation, sees that a replay of its journal gives the same, and returns what happened.
 fn play(scene: &Scene, policy: &str) -> (RunEnd, Vec<String>) {
-    play_with(scene, policy, Guard::new)
+    play_with(scene, policy, Verifies::AtOnce)
 }
 
-/// The same with a guard of one's choice.
-fn play_with(scene: &Scene, policy: &str, guard: fn(Course) -> Guard) -> (RunEnd, Vec<String>) {
+/// The same, where motions are searched for as one likes.
+fn play_with(scene: &Scene, policy: &str, verifies: Verifies) -> (RunEnd, Vec<String>) {
     let session = session(scene);
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
@@ -116,7 +116,7 @@ fn play_with(scene: &Scene, policy: &str, guard: fn(Course) -> Guard) -> (RunEnd
         capabilities: (&sim.capabilities()).into(),
         ..Head::new(&graph)
     };
-    let guard = guard(session.course().unwrap());
+    let guard = Guard::new(session.course().unwrap(), verifies);
     let mut host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let end = run(&mut engine, &mut sim, &mut host, Time::ZERO);
     let mut replay = Replay::new(&head).unwrap();
@@ -157,7 +157,7 @@ fn what_can_be_done_is_done() {
 #[test]
 fn on_a_thread_of_its_own_a_guard_comes_to_the_same() {
     for scene in [walled(), kitchen()] {
-        let (end, told) = play_with(&scene, CHOSEN, Guard::beside);
+        let (end, told) = play_with(&scene, CHOSEN, Verifies::Beside);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
         assert_eq!(told, play(&scene, CHOSEN).1);
     }
@@ -219,7 +219,7 @@ fn the_loop_goes_on_while_a_verdict_is_awaited() {
     let entities = kitchen().entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
     let start = StartState { entities, ..StartState::default() };
     let mut engine = Engine::new(compile(&session, CHOSEN), &start).unwrap().with_settings(settings);
-    let guard = Guard::new(session.course().unwrap());
+    let guard = Guard::new(session.course().unwrap(), Verifies::AtOnce);
     let host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let mut patient = Patient { host, is_asked: false, glances: 0 };
     let end = run(&mut engine, &mut sim, &mut patient, Time::ZERO);

@@ -5,14 +5,15 @@ use std::sync::Arc;
 
 use motet_graph::Graph;
 use motet_planner::builtin::Answered;
-use motet_planner::conversation::{Outcome, Problem, Verifies, Watcher};
+use motet_planner::conversation::{Outcome, Problem, Watcher};
+use motet_planner::guard::Verifies;
 use motet_runtime::{Control, Effect, Onlooker as _, Refusal, RunEnd, Time};
 use serde_json::json;
 
 use super::model::printable;
 use super::person::Asked;
 use super::record::Recorder;
-use crate::args::{DoArgs, RunFormat, Speed};
+use crate::args::{DoArgs, RunFormat};
 use crate::command::run::{self, Pace};
 use crate::exit::Trouble;
 use crate::out::{Colors, note};
@@ -87,10 +88,7 @@ impl Watcher for Eyes<'_> {
     }
 
     fn verifies(&self) -> Verifies {
-        match self.args.simulated.speed {
-            Speed::Max => Verifies::AtOnce,
-            Speed::Times(_) => Verifies::Beside,
-        }
+        self.args.simulated.speed.verifies()
     }
 
     fn request(&mut self, _now: Time) -> Option<String> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motet_host::journal::Writer;
 use motet_host::remote::protocol::Hello;
-use motet_planner::guard::Guard;
+use motet_planner::guard::{Guard, Verifies};
 use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace, Step};
 use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
 
@@ -13,7 +13,7 @@ use super::pace::Pace;
 use super::play::{self, Play, journal_trouble};
 use super::saved::Saved;
 use super::view::Clock;
-use crate::args::{RunArgs, Speed};
+use crate::args::RunArgs;
 use crate::exit::{Exit, Trouble};
 use crate::out::{Colors, note};
 
@@ -42,11 +42,12 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     let view = play::view(args.format, replay.engine().graph(), colors, clock);
     let mut pace = Pace::new(view, args.simulated.speed);
     let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
+    let verifies = match &saved {
+        Saved::Simulator(_) => args.simulated.speed.verifies(),
+        Saved::Process { .. } => Verifies::Beside,
+    };
     let guard = saved.guard().filter(|_| head.settings.verify_within.is_some());
-    let mut guard = guard.and_then(|guard| guard.make(colors)).map(match (&saved, args.simulated.speed) {
-        (Saved::Simulator(_), Speed::Max) => Guard::new,
-        (Saved::Simulator(_), Speed::Times(_)) | (Saved::Process { .. }, _) => Guard::beside,
-    });
+    let mut guard = guard.and_then(|guard| guard.make(colors)).map(|course| Guard::new(course, verifies));
     let mut begun = false;
     for (number, entry) in entries.iter().enumerate() {
         let differs = |what: String| Trouble::Other(format!("entry {number} of the journal: {what}"));

@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 use super::first::First;
 use super::sense::sense;
-use super::{Ask, Conversation, Planner, Problem, Rest, Verifies, Wait, Watcher};
+use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::guard::Guard;
 use crate::model::{Judged, judge};
@@ -92,11 +92,8 @@ impl<'r, 'a> Live<'r, 'a> {
         self.watcher.planned(&answered, &shared);
         let before = self.talk.known.places(scene);
         let session = self.talk.session(scene, &self.talk.known, driver.base());
-        let how = match self.watcher.verifies() {
-            Verifies::AtOnce => Guard::new,
-            Verifies::Beside => Guard::beside,
-        };
-        self.guard = session.course().map(how);
+        let verifies = self.watcher.verifies();
+        self.guard = session.course().map(|course| Guard::new(course, verifies));
         let mut engine = self.talk.engine(graph, scene, self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {

@@ -7,6 +7,7 @@ use motet_runtime::{Control, Effect, Event, Refusal, RunEnd, Time};
 
 use super::problem::Problem;
 use crate::builtin::Answered;
+use crate::guard::Verifies;
 
 /// Answers questions.
 pub trait Person {
@@ -58,12 +59,3 @@ pub trait Watcher {
 
 /// Looks on without a word.
 impl Watcher for () {}
-
-/// When motions are searched for that were left to a run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verifies {
-    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
-    AtOnce,
-    /// On a thread of its own, while a robot and its monitors go on.
-    Beside,
-}
