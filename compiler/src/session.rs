@@ -292,7 +292,7 @@ impl Session {
             findings.extend(said.into_iter().map(Finding::from));
         }
         for finding in &mut findings {
-            locate(&mut finding.diagnostic, policy, &program);
+            locate(&mut finding.diagnostic, policy, &program, library);
         }
         Analysed { program, proof, placed, findings }
     }
@@ -332,7 +332,7 @@ pub(crate) fn other_robot(policy: &Policy, library: &Library) -> Option<Diagnost
 }
 
 /// Gives a finding its path, and moves one inside an inlined policy of another file to the call.
-fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
+fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, library: &Library) {
     if diagnostic.span.file != policy.span.file
         && let Some(call) = call_site(diagnostic.span, policy, program)
     {
@@ -340,10 +340,12 @@ fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program) {
         diagnostic.span = call;
         diagnostic.fix = None;
     }
-    diagnostic.path = motet_syntax::path::pointer(policy, diagnostic.span);
+    let parameter = |callee: &str, position: usize| library.parameter(callee, position);
+    let pointer = |span| motet_syntax::path::pointer(policy, span, &parameter);
+    diagnostic.path = pointer(diagnostic.span);
     for related in &mut diagnostic.related {
         if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {
-            related.path = motet_syntax::path::pointer(policy, span);
+            related.path = pointer(span);
         }
     }
 }

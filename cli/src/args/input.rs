@@ -24,8 +24,8 @@ pub(crate) struct KnownArgs {
     /// Scene: a built-in name, or a JSON file
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) scene: Option<String>,
-    /// What is known at the start: a JSON file such as {"holding(mug_1)": true, "free(hand)": false}
-    #[arg(long, value_name = "FILE")]
+    /// What is known at the start: a JSON object such as '{"holding(mug_1)": true, "free(hand)": false}', or a file with one
+    #[arg(long, value_name = "FACTS|FILE")]
     pub(crate) state: Option<PathBuf>,
     /// File of further declarations; may be repeated
     #[arg(long, value_name = "FILE")]

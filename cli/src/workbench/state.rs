@@ -12,11 +12,15 @@ use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
 
-/// Reads a state from a file.
+/// Reads a state from a file, or from the argument itself where it is an object.
 pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> Result<State, Trouble> {
-    let bytes = read_small(path)?;
+    let written = path.to_str().filter(|text| text.trim_start().starts_with('{'));
+    let (name, bytes) = match written {
+        Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
+        None => (path.display().to_string(), read_small(path)?),
+    };
     let file = next_id(sources);
-    let (source, mut said) = crate::document::decode(&path.display().to_string(), &bytes, file);
+    let (source, mut said) = crate::document::decode(&name, &bytes, file);
     sources.add(source.clone());
     let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     said.extend(more);

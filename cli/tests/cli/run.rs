@@ -72,7 +72,7 @@ fn ends_with_the_right_code() {
             0,
             &["out:retry 1  slipped\n", "out:attempt 2 of 2", "out:of simulated time"],
         ),
-        (format!("run watch.motet {max}"), 0, &["out:monitor distance(user) < 0.1 for 0.2 s"]),
+        (format!("run watch.motet {max}"), 0, &["out:monitor distance(user) < 0.1 m for 0.2 s"]),
         (format!("run asks.motet {max} --answers answers.json"), 3, &["out:why: the red one"]),
         (format!("run no_robot.motet {max}"), 2, &["err:--robot NAME"]),
         (format!("run no_robot.motet {max} --robot hsr"), 0, &[]),

@@ -271,6 +271,15 @@ impl Library {
         self.primitives.iter().filter(|def| def.provided).map(|def| &*def.source)
     }
 
+    /// The name of the parameter at a position, from 0, of a primitive or policy.
+    pub(crate) fn parameter(&self, callee: &str, position: usize) -> Option<SmolStr> {
+        if let Some(primitive) = self.names.primitives.get(callee) {
+            return self.primitive(*primitive)?.params.get(position).map(|param| param.name.clone());
+        }
+        let policy = self.policies.get(*self.names.policies.get(callee)?)?;
+        policy.params.get(position).map(|param| param.name.text.clone())
+    }
+
     /// The policies that can be called.
     pub fn policies(&self) -> impl Iterator<Item = &ast::Policy> {
         self.policies.iter().map(|policy| &**policy)

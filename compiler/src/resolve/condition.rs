@@ -1,6 +1,6 @@
 //! Conditions: fluents, comparisons, and what joins them.
 
-use motet_syntax::ast::{Arg, Call, CompareOp, Expr, ExprKind};
+use motet_syntax::ast::{Arg, Call, CompareOp, Expr, ExprKind, Name};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
@@ -103,9 +103,8 @@ impl Resolver<'_> {
             if library.names.measures.contains_key(&call.name.text) {
                 self.say(NotACondition { span: call.span, found: "a value", wanted: "a condition" });
             } else {
-                let near = near(&call.name.text, library.fluents.iter().map(|def| def.name.as_str()));
-                let name = call.name.text.clone();
-                self.say(UnknownFluent { span: call.name.span, name, near, wanted: "fluent" });
+                let known = library.fluents.iter().map(|def| &def.name);
+                self.say(UnknownFluent::new(&call.name, "fluent", known));
             }
             return None;
         };
@@ -136,9 +135,10 @@ impl Resolver<'_> {
         if let Some(id) = self.library.names.fluents.get(&name) {
             return Condition::MonitoredFluent(*id);
         }
-        let known = self.library.measures.iter().map(|def| def.name.as_str());
-        let near = near(&name, known.chain(self.library.fluents.iter().map(|def| def.name.as_str())));
-        self.say(UnknownFluent { span: value.span, name, near, wanted: "measure or fluent" });
+        let known = self.library.measures.iter().map(|def| &def.name);
+        let known = known.chain(self.library.fluents.iter().map(|def| &def.name));
+        let name = Name { text: name, span: value.span };
+        self.say(UnknownFluent::new(&name, "measure or fluent", known));
         Condition::Unknown
     }
 

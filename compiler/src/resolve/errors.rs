@@ -1,9 +1,10 @@
 //! Names that mean nothing (M02xx) and values of the wrong type (M03xx).
 
+use motet_syntax::ast::Name;
 use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use super::near::article;
+use super::near::{article, list, near};
 
 fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -109,9 +110,9 @@ motet_syntax::mistakes! {
     help(_m) { Some("use `repeat` or `each`: every loop is bounded".to_owned()) }
 
     /// A condition names a fluent that does not exist.
-    UnknownFluent("M0208", Error) { name: SmolStr, near: Option<SmolStr>, wanted: &'static str }
+    UnknownFluent("M0208", Error) { name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
-    help(m) { write(m.near.as_ref()) }
+    help(m) { write(m.near.as_ref()).or_else(|| Some(format!("what is known here is {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// A type that does not exist.
@@ -258,4 +259,16 @@ motet_syntax::mistakes! {
     LimitExceeded("M0314", Error) { what: &'static str, limit: usize }
     message(m) { format!("more than {} {}", m.limit, m.what) }
     help(m) { Some(format!("at most {} {} are taken", m.limit, m.what)) }
+}
+
+impl UnknownFluent {
+    /// What `wanted` says is none of the known names.
+    pub(crate) fn new<'n>(
+        name: &Name,
+        wanted: &'static str,
+        known: impl Iterator<Item = &'n SmolStr> + Clone,
+    ) -> Self {
+        let near = near(&name.text, known.clone().map(SmolStr::as_str));
+        Self { span: name.span, name: name.text.clone(), near, wanted, known: list(known.cloned()) }
+    }
 }

@@ -196,9 +196,8 @@ impl<'a> Resolver<'a> {
             if library.names.fluents.contains_key(&call.name.text) {
                 self.say(NotACondition { span: call.span, found: "a condition", wanted: "a value" });
             } else {
-                let near = near(&call.name.text, library.measures.iter().map(|def| def.name.as_str()));
-                let name = call.name.text.clone();
-                self.say(UnknownFluent { span: call.name.span, name, near, wanted: "measure" });
+                let known = library.measures.iter().map(|def| &def.name);
+                self.say(UnknownFluent::new(&call.name, "measure", known));
             }
             return (Term::Unknown, Ty::UNKNOWN);
         };

@@ -22,9 +22,12 @@ motet_syntax::mistakes! {
     help(_m) { Some("leave out what the policy does not touch".to_owned()) }
 
     /// A state whose entry is no fact.
-    NotAFact("M0224", Error) { text: String, why: String }
+    NotAFact("M0224", Error) { text: String, why: String, mend: Option<String> }
     message(m) { format!("`{}` is not a fact: {}", m.text, m.why) }
-    help(_m) { Some("write a fluent with its arguments, such as \"on(mug_1, table)\": true".to_owned()) }
+    help(m) {
+        let usual = || "write a fluent with its arguments, such as \"on(mug_1, table)\": true".to_owned();
+        Some(m.mend.clone().unwrap_or_else(usual))
+    }
 
     /// A state whose facts cannot all be so: what is held and what the hands are free for.
     Contradiction("M0225", Error) { what: String, mend: String, other: Option<Span> }

@@ -28,7 +28,8 @@ impl State {
             let parsed = match motet_syntax::text::condition(text) {
                 Ok(expr) => expr,
                 Err(mistake) => {
-                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why: mistake }.into());
+                    diagnostics
+                        .push(NotAFact { span: *span, text: text.clone(), why: mistake, mend: None }.into());
                     continue;
                 }
             };
@@ -45,7 +46,7 @@ impl State {
                 motet_syntax::ast::ExprKind::Call(call) => resolver.fact(call),
                 _ => None,
             };
-            let why = resolver.diagnostics.first().map(|mistake| mistake.message.clone());
+            let why = resolver.diagnostics.into_iter().next();
             match (fact, why) {
                 (Some(fact), None) => {
                     let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
@@ -61,8 +62,9 @@ impl State {
                     }
                 }
                 (_, why) => {
-                    let why = why.unwrap_or_else(|| "a fluent is asked for".to_owned());
-                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why }.into());
+                    let unasked = || ("a fluent is asked for".to_owned(), None);
+                    let (why, mend) = why.map_or_else(unasked, |why| (why.message, why.help));
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why, mend }.into());
                 }
             }
         }

@@ -1,15 +1,20 @@
 //! JSON Pointers of places in a policy, whichever form it was read from: a diagnostic of any stage says where in the
 //! JSON form it belongs.
 
-use crate::ast::{ArithOp, Block, Call, CompareOp, Expr, ExprKind, Policy, Reaction, Step, StepKind, When};
+use smol_str::SmolStr;
+
+use crate::ast::{
+    Arg, ArithOp, Block, Call, CompareOp, Expr, ExprKind, Policy, Reaction, Step, StepKind, When,
+};
 use crate::json::push_escaped;
 use crate::source::Span;
 
 /// The pointer of the innermost step, argument or condition that contains the span, such as `/steps/2/try/0/object`;
-/// empty where none does. An argument without a name has the pointer of its call. O(nodes on the way).
+/// empty where none does. `parameter` names the parameter of a primitive or policy at a position, from 0, for arguments without a
+/// name; such an argument has the pointer of its call where there is none. O(nodes on the way).
 #[must_use]
-pub fn pointer(policy: &Policy, span: Span) -> String {
-    let mut walk = Walk { span, pointer: String::new() };
+pub fn pointer(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -> Option<SmolStr>) -> String {
+    let mut walk = Walk { span, parameter, pointer: String::new() };
     if let Some(goal) = &policy.achieves {
         walk.expr("achieves", goal);
     }
@@ -17,13 +22,14 @@ pub fn pointer(policy: &Policy, span: Span) -> String {
     walk.pointer
 }
 
-struct Walk {
+struct Walk<'a> {
     span: Span,
+    parameter: &'a dyn Fn(&str, usize) -> Option<SmolStr>,
     pointer: String,
 }
 
 /// Each method appends its key and goes on inside, where its node contains the span, and tells whether it did.
-impl Walk {
+impl Walk<'_> {
     fn key(&mut self, key: &str) {
         self.pointer.push('/');
         push_escaped(&mut self.pointer, key);
@@ -49,6 +55,7 @@ impl Walk {
         match &step.kind {
             StepKind::Do(step) => {
                 let _ = self.args(&step.call)
+                    || self.positional(&step.call)
                     || self.optional("within", step.within.as_ref())
                     || self.optional("retry", step.retry.as_ref())
                     || self.name("as", step.bind.as_ref().map(|name| name.span))
@@ -153,6 +160,17 @@ impl Walk {
             return true;
         }
         false
+    }
+
+    /// An argument without a name.
+    fn positional(&mut self, call: &Call) -> bool {
+        let contains = |arg: &Arg| arg.name.is_none() && arg.span.contains(self.span);
+        let Some(position) = call.args.iter().position(contains) else { return false };
+        let (Some(arg), Some(name)) = (call.args.get(position), (self.parameter)(&call.name.text, position))
+        else {
+            return false;
+        };
+        self.expr(&name, &arg.value)
     }
 
     fn expr(&mut self, key: &str, expr: &Expr) -> bool {

@@ -2,8 +2,8 @@
 
 /// The candidate closest to `name`, where one is close enough to be worth naming.
 ///
-/// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in `pick_up`), or the
-/// other way round, is close. Ties go to the earlier candidate. O(candidates × length²).
+/// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in `pick_up`) or with which it
+/// begins (`holding` and `hold`), or the other way round, is close. Ties go to the earlier candidate. O(candidates × length²).
 #[must_use]
 pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let folded = fold(name);
@@ -31,8 +31,11 @@ fn distance(name: &str, folded: &str, candidate: &str) -> Option<usize> {
     }
     let is_part =
         |part: &str, whole: &str| whole.split(['_', '-', ' ']).any(|word| word.eq_ignore_ascii_case(part));
-    let shares =
-        candidate.len() >= 3 && is_part(candidate, name) || name.len() >= 3 && is_part(name, candidate);
+    let begins = |part: &str, whole: &str| part.len() >= 4 && whole.starts_with(part);
+    let shares = candidate.len() >= 3 && is_part(candidate, name)
+        || name.len() >= 3 && is_part(name, candidate)
+        || begins(folded, &known)
+        || begins(&known, folded);
     shares.then(|| 250 + longer)
 }
 
@@ -67,6 +70,7 @@ mod tests {
         check("detcet", &["detect", "detect_all"], Some("detect"));
         check("detectall", &["detect", "detect_all"], Some("detect_all"));
         check("mug", &["red_mug", "table"], Some("red_mug"));
+        check("hold", &["on", "holding"], Some("holding"));
     }
 
     #[test]

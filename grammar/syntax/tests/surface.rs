@@ -24,7 +24,8 @@ fn policy(document: &str) -> Policy {
 /// Where the text `needle` of a document is said to be.
 fn pointer(document: &str, needle: &str) -> String {
     let start = document.find(needle).unwrap();
-    path::pointer(&policy(document), Span::new(FileId(0), start, start + needle.len()))
+    let parameter = |callee: &str, at: usize| (callee == "say" && at == 0).then(|| "text".into());
+    path::pointer(&policy(document), Span::new(FileId(0), start, start + needle.len()), &parameter)
 }
 
 const TEXT: &str = r#"
@@ -56,7 +57,7 @@ fn places_have_pointers() {
         ("20 s", "/steps/0/try/0/within"),
         ("home()", "/steps/0/try/1"),
         ("slipped", "/steps/0/catch/0"),
-        ("dropped it", "/steps/0/catch/0/steps/0"),
+        ("dropped it", "/steps/0/catch/0/steps/0/text"),
         ("0.5 m", "/steps/1/monitor/0/when/all/0/less/1"),
         ("distance", "/steps/1/monitor/0/when/all/0/less/0"),
         ("drawer", "/steps/1/monitor/0/when/all/1/not/container"),

@@ -40,7 +40,11 @@ impl<'s> Scanner<'s> {
     /// A fault of the character that comes next.
     #[cold]
     pub(crate) fn fault(&self, fault: SyntaxFault) -> Box<Diagnostic> {
-        let length = self.text.get(self.at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+        let rest = self.text.get(self.at..).unwrap_or("");
+        if let Some(mark) = ["//", "/*", "#"].into_iter().find(|mark| rest.starts_with(mark)) {
+            return self.fault_at(self.at, self.at + mark.len(), SyntaxFault::Comment);
+        }
+        let length = rest.chars().next().map_or(0, char::len_utf8);
         self.fault_at(self.at, self.at + length, fault)
     }
 

@@ -39,6 +39,9 @@ pub(super) fn explain(text: &str, error: &Error<Rule>, file: FileId) -> Diagnost
         None => "the end of the text".into(),
         Some(token) if token.kind == TokenKind::Doc => "a `///` comment".into(),
         Some(token) if token.kind == TokenKind::Text => format!("the text {}", short(token.text)),
+        Some(token) if is_control(token) => {
+            format!("the control character {:?}", token.text).replace('"', "`")
+        }
         Some(token) => format!("`{}`", short(token.text)),
     };
     let message = match words(expected) {
@@ -47,6 +50,10 @@ pub(super) fn explain(text: &str, error: &Error<Rule>, file: FileId) -> Diagnost
     };
     let (help, fix) = place.advice();
     TextSyntax { span, message, help, related: None, fix }.into()
+}
+
+fn is_control(token: Token<'_>) -> bool {
+    token.text.chars().all(char::is_control)
 }
 
 fn short(text: &str) -> String {
@@ -222,6 +229,14 @@ impl<'t> Place<'t> {
                 say("texts stand in straight double quotes: `\"red mug\"`")
             }
             (_, "#") => say("comments begin with `//`"),
+            (_, "°") => mend("an angle is written `90 deg`", " deg"),
+            (_, _) if is_control(found) => mend("remove it", ""),
+            (_, "{") if before == "sequence" => say("a sequence has a name: `sequence tidy { … }`"),
+            _ if before == "retry" && self.expects(VALUE) => say("say how often: `retry 2`"),
+            _ if before == "within" && self.expects(VALUE) => say("say how long: `within 20 s`"),
+            _ if matches!(before, "and" | "or" | "not") && self.expects(VALUE) => {
+                say("a condition follows: `holding(mug) and not lifted(mug)`")
+            }
             (_, "/") if after == "*" => say("comments begin with `//` and end with the line"),
             (_, "$") => say("write the name alone: `$` marks bindings in JSON only"),
             (_, "-") if self.expects(VALUE) => say("write `0 - x`: only a number can begin with `-`"),

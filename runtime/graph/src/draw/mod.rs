@@ -5,6 +5,7 @@
 mod dot;
 mod mermaid;
 mod names;
+mod quantity;
 mod text;
 
 pub use dot::dot;

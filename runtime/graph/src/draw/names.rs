@@ -1,5 +1,6 @@
 //! Conditions, terms and steps in words, with the names that a graph's tables give.
 
+use super::quantity;
 use crate::model::{
     BindingId, CallNode, Condition, Effect, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId, Motion,
     Need, NodeKind, Reaction, Term, Unsettled, Watch,
@@ -47,7 +48,8 @@ impl<'a> Names<'a> {
                     self.0.primitives.get(call.primitive.index()).map_or(NOBODY, |primitive| &primitive.name);
                 let binds = call.binds.map(|id| self.binding(id)).filter(|name| *name != "_");
                 let binds = binds.map_or_else(String::new, |name| format!("let {name} = "));
-                format!("{binds}{name}({})", self.terms(&call.args))
+                let args = call.args.iter().enumerate().map(|(index, arg)| self.argument(call, index, arg));
+                format!("{binds}{name}({})", args.collect::<Vec<_>>().join(", "))
             }
             NodeKind::Monitor { watches, .. } => {
                 let watched: Vec<_> = watches.iter().map(|watch| self.condition(&watch.condition)).collect();
@@ -65,12 +67,24 @@ impl<'a> Names<'a> {
         }
     }
 
+    /// An argument of a call, a quantity with its unit.
+    fn argument(&self, call: &CallNode, index: usize, arg: &Term) -> String {
+        let primitive = self.0.primitives.get(call.primitive.index());
+        let ty = primitive.and_then(|primitive| primitive.params.get(index)).map(|(_, ty)| ty);
+        quantity::literal(arg, ty).unwrap_or_else(|| self.term(arg))
+    }
+
+    /// What is compared, a number with the unit of what it is compared with.
+    fn side(&self, term: &Term, other: &Term) -> String {
+        quantity::literal(term, quantity::type_of(self.0, other)).unwrap_or_else(|| self.term(term))
+    }
+
     fn call(&self, call: &CallNode) -> String {
         let primitive = self.0.primitives.get(call.primitive.index());
         let args = call.args.iter().enumerate().map(|(index, arg)| {
             let name =
                 primitive.and_then(|primitive| primitive.params.get(index)).map(|(name, _)| name.as_str());
-            format!("{}: {}", name.unwrap_or(NOBODY), self.term(arg))
+            format!("{}: {}", name.unwrap_or(NOBODY), self.argument(call, index, arg))
         });
         let args = args.collect::<Vec<_>>().join(", ");
         let name = primitive.map_or(NOBODY, |primitive| &primitive.name);
@@ -165,7 +179,8 @@ impl<'a> Names<'a> {
             Condition::Literal(value) => value.to_string(),
             Condition::Fact(fact) => self.fact(fact),
             Condition::Compare(comparison, left, right) => {
-                format!("{} {} {}", self.term(left), comparison.symbol(), self.term(right))
+                let (left, right) = (self.side(left, right), self.side(right, left));
+                format!("{left} {} {right}", comparison.symbol())
             }
             Condition::Not(inner) => match **inner {
                 Condition::Compare(..) => format!("not ({})", self.condition(inner)),

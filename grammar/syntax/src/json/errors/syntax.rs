@@ -45,6 +45,8 @@ pub enum SyntaxFault {
     KeyNotText,
     /// Something that begins no value.
     NoValue,
+    /// `//`, `/*` or `#`.
+    Comment,
     /// A word that is none of `true`, `false`, `null`.
     Word(SmolStr),
     /// A number that is written otherwise than JSON writes it.
@@ -78,6 +80,7 @@ impl Mistake for JsonSyntax {
             SyntaxFault::NoColon => "expected `:` after a key".into(),
             SyntaxFault::KeyNotText => "expected a key in double quotes".into(),
             SyntaxFault::NoValue => "expected a JSON value".into(),
+            SyntaxFault::Comment => "a comment stands in JSON".into(),
             SyntaxFault::Word(word) => format!("`{word}` is no JSON value"),
             SyntaxFault::Number => "this is not how JSON writes a number".into(),
             SyntaxFault::OpenText => "the string is not closed".into(),
@@ -97,7 +100,8 @@ impl Mistake for JsonSyntax {
             SyntaxFault::WrongClosing { is_object: false, .. } => Some("write `]`".into()),
             SyntaxFault::NoComma { .. } => Some("is a comma, a quote or a bracket missing?".into()),
             SyntaxFault::NoColon => None,
-            SyntaxFault::KeyNotText => Some("JSON keys stand in double quotes; JSON has no comments".into()),
+            SyntaxFault::KeyNotText => Some("JSON keys stand in double quotes".into()),
+            SyntaxFault::Comment => Some("JSON has no comments: remove it, or write the policy as text".into()),
             SyntaxFault::NoValue => {
                 Some("a value is a string in double quotes, a number, `true`, `false`, `null`, `[…]` or `{…}`".into())
             }
@@ -126,6 +130,7 @@ impl Mistake for JsonSyntax {
             | SyntaxFault::NoColon
             | SyntaxFault::KeyNotText
             | SyntaxFault::NoValue
+            | SyntaxFault::Comment
             | SyntaxFault::Word(_)
             | SyntaxFault::Number
             | SyntaxFault::OpenText
@@ -147,6 +152,7 @@ impl Mistake for JsonSyntax {
             | SyntaxFault::NoColon
             | SyntaxFault::KeyNotText
             | SyntaxFault::NoValue
+            | SyntaxFault::Comment
             | SyntaxFault::Number
             | SyntaxFault::OpenText
             | SyntaxFault::Control(_)
