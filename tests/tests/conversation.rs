@@ -189,3 +189,104 @@ fn a_thing_is_looked_for_where_it_is_believed_to_be() {
     let goal = ("at", ["apple", "user"]);
     changes("anymal_z1", "bring me the red mug", (21.5, "bring me the green apple instead"), goal);
 }
+
+/// A picking hand that slips each time.
+fn slipping(setting: &Setting) -> Sim {
+    let faults = r#"{"calls": [{"primitive": "pick", "then": {"fails": "slipped"}}]}"#;
+    let faults = Faults::from_json(faults).unwrap();
+    Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() })
+}
+
+#[test]
+fn who_says_no_is_not_taken_to_say_yes() {
+    let setting = setting("hsr");
+    for no in [
+        "No, leave it alone!",
+        "please don't",
+        "nah",
+        "not now",
+        "stop, that is dangerous!",
+        "I'll do it myself",
+    ] {
+        let (outcome, asked, _) = talk(&setting, &mut slipping(&setting), "bring me the coke", &[no, "yes"]);
+        assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 1), "{no}: {asked:?}");
+    }
+}
+
+#[test]
+fn an_answer_that_is_not_understood_is_asked_for_again_and_moves_nothing() {
+    let setting = setting("hsr");
+    let mut sim = slipping(&setting);
+    let (outcome, asked, _) =
+        talk(&setting, &mut sim, "bring me the coke", &["what?", "wait a moment", "no"]);
+    assert_eq!(outcome, Outcome::GivenUp);
+    let questions: Vec<&str> = asked.iter().map(|problem| problem.question.as_str()).collect();
+    let [first, second, third] = questions.as_slice() else { panic!("{questions:?}") };
+    assert!(first.ends_with("Shall I try again?"), "{first}");
+    assert_eq!((*second, *third), (format!("I did not understand that. {first}").as_str(), *second));
+}
+
+/// The first request with a line that is said after three seconds.
+fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome, Vec<Problem>, Sim) {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut talk = Conversation::new(&setting);
+    let mut watcher = Interrupts { at: Time::from_secs(3.0), says: Some(line), swapped: 0, picked: 0 };
+    let mut person = Answers(answers.to_vec(), Vec::new());
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut person, &mut watcher, Time::ZERO);
+    (outcome, person.1, sim)
+}
+
+#[test]
+fn who_moves_stops_when_told_to() {
+    for line in ["stop", "never mind", "wait!", "leave it, please"] {
+        let (outcome, asked, sim) = says("bring me the coke", line, &[]);
+        assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 0), "{line}");
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(false), "{line}");
+    }
+}
+
+#[test]
+fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
+    let setting = setting("hsr");
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
+    let mut sim = Sim::new(&setting.robot, &real, Options::default());
+    let mut talk = Conversation::new(&setting);
+    let line = Some("the coke is in the cupboard");
+    let mut watcher = Interrupts { at: Time::ZERO, says: line, swapped: 0, picked: 0 };
+    let request = "bring me the coke";
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn a_fact_alone_is_no_request() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let (outcome, asked, _) = talk(&setting, &mut sim, "the coke is in the fridge", &[]);
+    assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
+    assert_eq!(asked[0].question, "I take note of that. What shall I do?");
+}
+
+#[test]
+fn what_was_asked_for_before_is_not_forgotten() {
+    // More of it.
+    let (outcome, asked, sim) = says("bring me the coke", "also bring me the apple", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
+    for thing in ["coke", "apple"] {
+        assert_eq!(sim.holds("at", &[thing, "user"]), Some(true), "{thing}");
+    }
+    // Something else first.
+    let (outcome, asked, sim) = says("bring me the coke", "bring me the apple", &["yes"]);
+    assert_eq!(outcome, Outcome::Done);
+    assert_eq!(asked[0].question, "That is done. Shall I go on with \"bring me the coke\"?");
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    // Nothing that is understood.
+    let (outcome, asked, sim) = says("bring me the coke", "faster", &["go on"]);
+    assert_eq!(outcome, Outcome::Done, "{asked:?}");
+    assert!(asked[0].question.ends_with("Shall I go on with \"bring me the coke\"?"), "{asked:?}");
+    assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}

@@ -13,7 +13,7 @@ motet_syntax::mistakes! {
     /// The policy is written for another robot.
     OtherRobot("M0401", Error) { written: SmolStr, given: SmolStr }
     message(m) { format!("the policy is for `{}`, and is checked for `{}`", m.written, m.given) }
-    help(m) { Some(format!("pass `--robot {}`, or write the policy for `{}`", m.written, m.given)) }
+    help(m) { Some(format!("write the policy for `{}`, or pass `--robot {}`", m.given, m.written)) }
 
     /// A document in which it is not clear which policy is meant.
     NoPolicy("M0405", Error) { wanted: Option<SmolStr>, known: Vec<SmolStr> }
@@ -29,7 +29,7 @@ motet_syntax::mistakes! {
         Some(if known.is_empty() {
             "write `policy NAME { … }`".to_owned()
         } else {
-            format!("name one with `--policy`: {}", known.join(", "))
+            format!("leave one of them, or name one with `--policy`: {}", known.join(", "))
         })
     }
 

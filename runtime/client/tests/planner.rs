@@ -11,11 +11,12 @@ use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, ses
 use motet_client::Client;
 use motet_decode::export::Offer;
 use motet_decode::{Prepared, Surface};
-use motet_planner::builtin::Answered;
+use motet_planner::builtin::{self, Answered};
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Problem, Watcher};
 use motet_planner::model::{
     Finish, Message, Model, ModelError, ModelPlanner, News, Reading, Reply, Settings, Start, Verdict,
 };
+use motet_planner::request::Situation;
 use motet_runtime::{Effect, Refusal, Time};
 use motet_sim::{Options, Sim};
 
@@ -36,7 +37,11 @@ fn a_right_reply_is_carried_out_however_it_is_written() {
     let indented = serde_json::to_string_pretty(&value).unwrap();
     let fenced = format!("Sure. Here is the policy:\n```json\n{indented}\n```\nAnything else?");
     let thought = format!("<think>\nA {{brace}} and a coke.\n</think>\n\n{line}");
-    let text = "policy fetch for hsr {\n    go(counter)\n    detect(\"coke\")\n    done\n}\n".to_owned();
+    let setting = setting();
+    let situation = Situation::new(&setting.scene);
+    let planned =
+        builtin::answer(&session(&setting), Some(&setting.robot), COKE, &situation).unwrap().planned;
+    let text = planned.text;
     for reply in [line, indented, fenced, thought, text] {
         let (outcome, heard, _) = play(vec![Act::says(reply.clone())]);
         assert_eq!(outcome, Outcome::Done, "{reply}: {heard:?}");
@@ -58,6 +63,22 @@ fn a_reply_that_is_wrong_goes_back_with_its_own_text_and_the_reason() {
     assert_eq!((again[2]["role"].as_str(), again[3]["role"].as_str()), (Some("assistant"), Some("user")));
     assert!(wrong.starts_with(again[2]["content"].as_str().unwrap()));
     assert!(again[3]["content"].as_str().unwrap().contains("teapot_of_brown_betty"));
+}
+
+#[test]
+fn a_policy_that_does_something_else_goes_back_once() {
+    let nothing = r#"{"motet":1,"policy":"idle","robot":"hsr","steps":[]}"#.to_owned();
+    let apple = right(&setting(), "bring me the green apple");
+    for wrong in [nothing, apple] {
+        let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(right(&setting(), COKE))]);
+        assert_eq!(outcome, Outcome::Done, "{heard:?}");
+        assert!(heard[1].contains("at(coke, user)"), "{heard:?}");
+        assert_eq!(heard[2..], ["asked 1", "taken"], "{heard:?}");
+        // A model that says so again may know better what was meant.
+        let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(wrong)]);
+        assert_eq!(outcome, Outcome::Done, "{heard:?}");
+        assert_eq!(heard[2..], ["asked 1", "taken"], "{heard:?}");
+    }
 }
 
 #[test]

@@ -91,6 +91,10 @@ impl Watcher for Eyes<'_> {
         self.args.simulated.speed.verifies()
     }
 
+    fn is_stopped(&self) -> bool {
+        run::is_interrupted()
+    }
+
     fn request(&mut self, _now: Time) -> Option<String> {
         let line = self.asked.typed()?;
         self.requested(&line);

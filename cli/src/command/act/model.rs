@@ -33,6 +33,19 @@ pub(super) fn planner(
             let why = "nobody looks at what the camera sees: give a model with --planner URL, or leave --camera out";
             return Err(Trouble::Other(why.to_owned()));
         }
+        let idle = [
+            ("--model", asking.model != "default"),
+            ("--dialect", asking.dialect != Held::None),
+            ("--image", !asking.image.is_empty()),
+            ("--key-from", asking.key_from.is_some()),
+            ("--eager", asking.eager),
+            ("--lark", asking.lark),
+            ("--fallback", asking.fallback),
+        ];
+        if let Some((flag, _)) = idle.iter().find(|(_, is_given)| *is_given) {
+            let why = format!("{flag} is for a model: give one with --planner URL, or leave {flag} out");
+            return Err(Trouble::Other(why));
+        }
         return Ok(Box::new(Builtin));
     }
     let client = client(asking)?;
@@ -115,6 +128,10 @@ impl Planner for Fallback {
 
     fn reads_answers(&self) -> bool {
         self.0.reads_answers()
+    }
+
+    fn begin(&mut self, ask: &Ask<'_>) -> bool {
+        self.0.begin(ask)
     }
 
     fn rest(&mut self, wait: Wait) -> Rest {

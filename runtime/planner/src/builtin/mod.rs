@@ -104,6 +104,10 @@ pub fn answer(
     situation: &Situation<'_>,
 ) -> Result<Answered, Unplanned> {
     let understood = request::understand(request, situation)?;
+    if understood.aims.is_empty() {
+        let question = "I take note of that. What shall I do?".to_owned();
+        return Err(Puzzle::AmbiguousTask { question, options: Vec::new() }.into());
+    }
     let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
     let planned = plan(session, robot, name, &understood.aims)?;
     Ok(Answered { understood, planned })

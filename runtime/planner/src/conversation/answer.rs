@@ -2,6 +2,7 @@
 
 use smol_str::SmolStr;
 
+use super::polarity::{Polarity, is_done, polarity};
 use super::problem::{Kind, Problem};
 use crate::request::{self, Located, Puzzle, Situation};
 
@@ -27,63 +28,34 @@ pub enum Answer {
     NotUnderstood,
 }
 
-/// Words that ask for another try.
-const YES: &[&str] = &[
-    "yes",
-    "yeah",
-    "yep",
-    "sure",
-    "ok",
-    "okay",
-    "please",
-    "again",
-    "retry",
-    "try again",
-    "try it again",
-    "yes please",
-    "go on",
-    "please try again",
-    "yes try again",
-    "once more",
-    "try once more",
-];
-/// Words that give it up.
-const NO: &[&str] = &[
-    "no",
-    "nope",
-    "stop",
-    "cancel",
-    "never mind",
-    "nevermind",
-    "leave it",
-    "forget it",
-    "forget about it",
-    "give up",
-    "no thanks",
-    "no thank you",
-    "abort",
-    "skip it",
-    "that is fine",
-    "do not bother",
-];
-
 /// Reads an answer to a problem with a request.
 pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &Situation<'_>) -> Answer {
-    let bare = bare(answer);
-    if bare.is_empty() {
-        return Answer::NotUnderstood;
-    }
-    if NO.contains(&bare.as_str()) {
-        return Answer::GiveUp;
-    }
-    if YES.contains(&bare.as_str()) {
-        return match problem.kind {
+    let meaning = |said: &str| {
+        if is_done(said) { Answer::NotUnderstood } else { meaning(said, problem, request, situation) }
+    };
+    match polarity(answer) {
+        Polarity::Stop => Answer::GiveUp,
+        // Who says no, and more that is not understood, still said no.
+        Polarity::No(rest) => match meaning(rest) {
+            Answer::NotUnderstood => Answer::GiveUp,
+            instead => instead,
+        },
+        Polarity::Yes(rest) if is_done(rest) => match problem.kind {
             // "Shall I bring you something to drink?" "Yes."
             Kind::AmbiguousTask => offered(&problem.question).map_or(Answer::NotUnderstood, Answer::Request),
             Kind::NotFound | Kind::NotReachable | Kind::ActionFailed => Answer::Again,
             Kind::AmbiguousReference => Answer::NotUnderstood,
-        };
+        },
+        Polarity::Yes(rest) => meaning(rest),
+        // Where nobody knows more, looking once more is all that is left.
+        Polarity::Ignorant if problem.kind == Kind::NotFound => Answer::Again,
+        Polarity::Ignorant => Answer::NotUnderstood,
+        Polarity::Neither => meaning(answer),
     }
+}
+
+/// Reads what stands behind yes and no.
+fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation<'_>) -> Answer {
     // A thing or a place among those that were offered, or any that fits the words in question.
     if let Some(said) = &problem.said
         && problem.kind != Kind::AmbiguousTask
@@ -155,15 +127,4 @@ fn completed(request: &str, answer: &str, situation: &Situation<'_>) -> Option<S
 fn offered(question: &str) -> Option<String> {
     let offer = question.strip_prefix("Shall I ")?.strip_suffix('?')?;
     Some(offer.replace(" you ", " me "))
-}
-
-fn bare(answer: &str) -> String {
-    let letters = answer
-        .to_lowercase()
-        .replace('\u{2019}', "'")
-        .replace("that's", "that is")
-        .replace("don't", "do not");
-    let words: Vec<&str> =
-        letters.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-    words.join(" ")
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_graph::{Graph, NodeId};
+use motet_graph::{Graph, NodeId, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
@@ -10,12 +10,23 @@ use motet_runtime::{
 use smol_str::SmolStr;
 
 use super::first::First;
+use super::polarity;
 use super::sense::sense;
 use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::guard::Guard;
 use crate::model::{Judged, judge};
-use crate::request::{Situation, Understood};
+use crate::request::{self, Located, Situation, Understood};
+
+/// Why a run is stopped before its end.
+pub(super) enum Pending {
+    /// A new request, which cannot take over as it stands.
+    Request(String),
+    /// Something is elsewhere than was thought, so that the same has to be planned anew.
+    Told(Vec<Located>),
+    /// A person says so.
+    Stop,
+}
 
 /// The eyes and ears of a run.
 pub(super) struct Live<'r, 'a> {
@@ -25,8 +36,10 @@ pub(super) struct Live<'r, 'a> {
     meant: Vec<(String, SmolStr)>,
     /// The latest time.
     pub(super) now: Time,
-    /// A new request that cannot take over as it stands: the run is stopped for it.
-    pub(super) pending: Option<String>,
+    /// What the run is stopped for.
+    pub(super) pending: Option<Pending>,
+    /// What the run is for.
+    task: String,
     /// The request that took over.
     pub(super) request: Option<String>,
     /// A request for which a policy is being written.
@@ -41,12 +54,21 @@ pub(super) struct Live<'r, 'a> {
     guard: Option<Guard>,
 }
 
+/// How a run ended.
+pub(super) struct Ran {
+    pub(super) end: RunEnd,
+    /// What ran last.
+    pub(super) graph: Arc<Graph>,
+    /// What its names were bound to.
+    pub(super) bound: Vec<(SmolStr, Value)>,
+}
+
 impl<'r, 'a> Live<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
         planner: &'r mut dyn Planner,
         watcher: &'r mut dyn Watcher,
-        meant: Vec<(String, SmolStr)>,
+        (task, meant): (String, Vec<(String, SmolStr)>),
         now: Time,
     ) -> Self {
         Self {
@@ -56,6 +78,7 @@ impl<'r, 'a> Live<'r, 'a> {
             meant,
             now,
             pending: None,
+            task,
             request: None,
             awaited: None,
             next: None,
@@ -77,13 +100,13 @@ impl<'r, 'a> Live<'r, 'a> {
             && (self.started.is_empty() || self.started.as_slice() == [*node])
     }
 
-    /// Runs a policy to its end, and learns from it. Gives the graph that ran last too.
+    /// Runs a policy to its end, and learns from it.
     pub(super) fn run(
         &mut self,
         answered: Answered,
         driver: &mut dyn Driver,
         scene: &Scene,
-    ) -> Result<(RunEnd, Arc<Graph>), Problem> {
+    ) -> Result<Ran, Problem> {
         let Some(graph) = answered.planned.compiled.graph.clone() else {
             return Err(Problem::nothing("there is no graph to run"));
         };
@@ -103,8 +126,11 @@ impl<'r, 'a> Live<'r, 'a> {
         };
         let from = self.now;
         let end = motet_runtime::run(&mut engine, driver, self, from);
-        self.pending = self.pending.take().or(self.awaited.take());
-        self.watcher.ended(self.now, &end);
+        self.pending = self.pending.take().or(self.awaited.take().map(Pending::Request));
+        // Behind its first step, a policy that is still being written goes on.
+        if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
+            self.watcher.ended(self.now, &end);
+        }
         let mut known = std::mem::take(&mut self.talk.known);
         known.learn(&engine, self.talk.base());
         self.talk.known = known;
@@ -117,10 +143,11 @@ impl<'r, 'a> Live<'r, 'a> {
             self.talk.known.notice(&felt);
             self.now = self.now.max(now);
         }
+        let bound = engine.snapshot().bindings;
         if let Some(first) = &mut self.first {
-            first.bound = engine.snapshot().bindings;
+            first.bound.clone_from(&bound);
         }
-        Ok((end, Arc::new(engine.graph().clone())))
+        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound })
     }
 }
 
@@ -142,7 +169,7 @@ impl Live<'_, '_> {
                 Rest::Nothing | Rest::Broken | Rest::Stopped => None,
             };
             if prepared.is_none() {
-                self.pending = Some(request);
+                self.pending = Some(Pending::Request(request));
             }
             return prepared;
         }
@@ -178,6 +205,12 @@ impl Live<'_, '_> {
     }
 }
 
+/// What a line says of where things are, where it asks for nothing.
+fn statement(said: &str, situation: &Situation<'_>) -> Option<Vec<Located>> {
+    let understood = request::understand(said, situation).ok()?;
+    (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
+}
+
 impl Onlooker for Live<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
@@ -209,13 +242,27 @@ impl Onlooker for Live<'_, '_> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
-        let Some(request) = self.watcher.request(now) else { return self.written(engine) };
-        self.talk.memory.instruct(now, &request);
+        let Some(said) = self.watcher.request(now) else { return self.written(engine) };
+        self.talk.memory.instruct(now, &said);
+        if polarity::stops(&said) {
+            self.pending = Some(Pending::Stop);
+            return None;
+        }
+        let request = match polarity::added(&said) {
+            Some(more) => format!("{} and {more}", self.task),
+            None => said,
+        };
         let mut known = self.talk.known.clone();
         let before = known.places(&self.talk.setting.scene);
         known.learn_midway(engine, self.talk.base());
         known.presume(&before);
         let scene = known.scene(&self.talk.setting.scene);
+        if !self.planner.reads_answers()
+            && let Some(told) = statement(&request, &known.situation(&scene))
+        {
+            self.pending = Some(Pending::Told(told));
+            return None;
+        }
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
         let situation = Situation { meant: meant.clone(), ..known.situation(&scene) };
@@ -238,7 +285,7 @@ impl Onlooker for Live<'_, '_> {
             }
             // It needs a question, or another start: the robot stops, and it is the next request.
             None => {
-                self.pending = Some(request);
+                self.pending = Some(Pending::Request(request));
                 None
             }
         }
@@ -253,14 +300,15 @@ impl Onlooker for Live<'_, '_> {
                 self.watcher.swapped(now, None);
                 self.watcher.planned(&answered, graph);
                 self.first = None;
-                if request.is_some() {
-                    self.request = request;
+                if let Some(request) = request {
+                    self.task.clone_from(&request);
+                    self.request = Some(request);
                 }
             }
             (Err(refusal), Some((_, request))) => {
                 self.watcher.swapped(now, Some(&refusal));
-                if request.is_some() {
-                    self.pending = request;
+                if let Some(request) = request {
+                    self.pending = Some(Pending::Request(request));
                 }
             }
             (_, None) => {}

@@ -10,6 +10,7 @@ mod first;
 mod known;
 mod live;
 mod planner;
+mod polarity;
 mod problem;
 mod sense;
 mod talk;

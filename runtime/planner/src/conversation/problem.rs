@@ -92,12 +92,18 @@ impl Problem {
         }
     }
 
-    /// What a run ended in; none where it is done, or a person stopped it.
+    /// What a run ended in, with what its names were bound to; none where it is done, or a person stopped it.
     #[must_use]
-    pub fn of_run(end: &RunEnd, graph: &Graph, scene: &Scene) -> Option<Self> {
+    pub fn of_run(
+        end: &RunEnd,
+        (graph, bound): (&Graph, &[(SmolStr, Value)]),
+        scene: &Scene,
+    ) -> Option<Self> {
         match end {
             RunEnd::Done { .. } | RunEnd::Interrupted => None,
-            RunEnd::Failed { kind, why, node } => Some(failed(kind, why.as_deref(), *node, graph, scene)),
+            RunEnd::Failed { kind, why, node } => {
+                Some(failed((kind, why.as_deref()), *node, (graph, bound), scene))
+            }
             RunEnd::Replan { why } => Some(Self {
                 kind: Kind::ActionFailed,
                 question: format!(
@@ -119,17 +125,36 @@ impl Problem {
     }
 }
 
-fn failed(kind: &str, why: Option<&str>, node: motet_graph::NodeId, graph: &Graph, scene: &Scene) -> Problem {
+fn failed(
+    (kind, why): (&str, Option<&str>),
+    node: motet_graph::NodeId,
+    (graph, bound): (&Graph, &[(SmolStr, Value)]),
+    scene: &Scene,
+) -> Problem {
     let call = graph.nodes.get(node.index()).and_then(|node| match &node.kind {
         NodeKind::Call(call) => Some(call),
         _ => None,
     });
     let primitive = call.and_then(|call| graph.primitives.get(call.primitive.index()));
-    let about = call.into_iter().flat_map(|call| &call.args).find_map(|arg| match arg {
+    let args = || call.into_iter().flat_map(|call| &call.args);
+    let entity = |arg: &Term| match arg {
         Term::Literal(Value::Entity(id)) => Some(id.clone()),
-        Term::Literal(Value::Text(text)) => Some(SmolStr::from(text.as_str())),
+        Term::Binding(id) => {
+            let name = &graph.bindings.get(id.index())?.name;
+            bound.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
+                Value::Entity(id) => Some(id.clone()),
+                _ => None,
+            })
+        }
         _ => None,
-    });
+    };
+    // What cannot be got at is where the step leads last: of what is put somewhere the place, since the thing is in the hand.
+    let about = match (kind, args().next()) {
+        ("unreachable" | "blocked", _) => args().filter_map(entity).next_back(),
+        // Who looks for a thing by words names it first.
+        (_, Some(Term::Literal(Value::Text(text)))) => Some(SmolStr::from(text.as_str())),
+        (_, _) => args().find_map(entity),
+    };
     let thing =
         about.as_ref().map_or_else(|| "what I need".to_owned(), |id| format!("the {}", called(scene, id)));
     let doing =
@@ -219,6 +244,23 @@ fn join(parts: &[String]) -> String {
 }
 
 impl Problem {
+    /// What was asked for in between is done, and what was asked for before it may not be.
+    pub(super) fn half_done(before: &str) -> Self {
+        Self::whether(format!("That is done. Shall I go on with \"{before}\"?"))
+    }
+
+    /// What somebody said in between is not understood.
+    pub(super) fn interrupted(said: &str, before: &str) -> Self {
+        Self::whether(format!(
+            "I do not understand \"{said}\", so I have stopped. Shall I go on with \"{before}\"?"
+        ))
+    }
+
+    fn whether(question: String) -> Self {
+        let options = vec!["yes".into(), "no".into()];
+        Self { kind: Kind::AmbiguousTask, question, options, about: None, said: None }
+    }
+
     /// Something that no answer mends.
     pub(super) fn nothing(what: &str) -> Self {
         Self {

@@ -16,13 +16,14 @@ use smol_str::SmolStr;
 use super::answer::{self, Answer};
 use super::first::After;
 use super::known::Known;
-use super::live::Live;
+use super::live::{Live, Pending, Ran};
 use super::planner::{Ask, Planner};
+use super::polarity::{Polarity, polarity};
 use super::problem::{Kind, Problem};
 use super::watcher::{Person, Watcher};
 use crate::builtin::{Answered, Unplanned};
 use crate::guard::WITHIN;
-use crate::request::Situation;
+use crate::request::{self, Puzzle, Situation};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
@@ -74,10 +75,29 @@ pub struct Conversation<'a> {
 /// What one request has come to.
 struct Task {
     request: String,
+    /// The request that it took the place of, which may not be done.
+    before: Option<String>,
     /// What was meant by words that could mean several things.
     meant: Vec<(String, SmolStr)>,
     questions: usize,
     tries: usize,
+}
+
+impl Task {
+    fn new(request: String, before: Option<String>) -> Self {
+        // Who says so replaces what was asked for before.
+        let before = before.filter(|before| *before != request && !request.contains(before.as_str()));
+        let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
+        let before = before.filter(|_| !is_other);
+        Self { request, before, meant: Vec::new(), questions: 0, tries: 0 }
+    }
+}
+
+/// Whether a person says yes to a question.
+fn goes_on(question: &Problem, person: &mut dyn Person, watcher: &mut dyn Watcher) -> bool {
+    let answer = person.ask(question);
+    watcher.asked(question, answer.as_deref());
+    answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_)))
 }
 
 impl<'a> Conversation<'a> {
@@ -104,7 +124,8 @@ impl<'a> Conversation<'a> {
         watcher: &mut dyn Watcher,
         from: Time,
     ) -> (Outcome, Time) {
-        let mut task = Task { request: request.to_owned(), meant: Vec::new(), questions: 0, tries: 0 };
+        let mut task = Task::new(request.to_owned(), None);
+        self.hear(&task.request);
         let mut now = from;
         self.memory.instruct(now, request);
         let mut latest = None;
@@ -118,24 +139,31 @@ impl<'a> Conversation<'a> {
             let mut was_refused = false;
             let problem = match proposed {
                 Ok(answered) => {
-                    let mut live = Live::new(self, &mut *planner, &mut *watcher, task.meant.clone(), now);
-                    let end = live.run(answered, driver, &scene);
+                    let told = (task.request.clone(), task.meant.clone());
+                    let mut live = Live::new(self, &mut *planner, &mut *watcher, told, now);
+                    let ran = live.run(answered, driver, &scene);
                     now = live.now;
                     let (pending, first) = (live.pending.take(), live.first.take());
-                    was_refused = end.as_ref().is_ok_and(|(end, _)| live.was_refused(end));
-                    let stood_wrong = end.as_ref().is_ok_and(|(end, _)| live.stood_wrong(end));
+                    was_refused = ran.as_ref().is_ok_and(|ran| live.was_refused(&ran.end));
+                    let stood_wrong = ran.as_ref().is_ok_and(|ran| live.stood_wrong(&ran.end));
                     if let Some(request) = live.request.take() {
-                        task = Task { request, meant: Vec::new(), questions: 0, tries: task.tries };
+                        task = Task { tries: task.tries, ..Task::new(request, Some(task.request)) };
                     }
-                    let (end, graph) = match end {
-                        Ok(ended) => ended,
+                    let Ran { end, graph, bound } = match ran {
+                        Ok(ran) => ran,
                         Err(problem) => return (Outcome::Failed(problem), now),
                     };
                     match (pending, &end) {
-                        (Some(request), _) => {
-                            task = Task { request, meant: Vec::new(), questions: 0, tries: 0 };
+                        (Some(Pending::Request(request)), _) => {
+                            self.hear(&request);
+                            task = Task::new(request, Some(task.request));
                             continue;
                         }
+                        (Some(Pending::Told(located)), _) => {
+                            located.iter().for_each(|one| self.known.hear(one));
+                            continue;
+                        }
+                        (Some(Pending::Stop), _) => return (Outcome::GivenUp, now),
                         (None, RunEnd::Interrupted) => return (Outcome::Stopped, now),
                         (None, _) => {}
                     }
@@ -152,10 +180,29 @@ impl<'a> Conversation<'a> {
                         self.known.doubt_standing();
                         was_refused = true;
                     }
-                    match Problem::of_run(&end, &graph, &scene) {
-                        None => return (Outcome::Done, now),
-                        Some(problem) => problem,
+                    match (Problem::of_run(&end, (&graph, &bound), &scene), task.before.take()) {
+                        (Some(problem), before) => {
+                            task.before = before;
+                            problem
+                        }
+                        (None, None) => return (Outcome::Done, now),
+                        (None, Some(before)) => {
+                            if !goes_on(&Problem::half_done(&before), person, watcher) {
+                                return (Outcome::Done, now);
+                            }
+                            task = Task::new(before, None);
+                            continue;
+                        }
                     }
+                }
+                Err(ref why @ Unplanned::Puzzle(Puzzle::NotUnderstood { .. })) if task.before.is_some() => {
+                    let problem = Problem::of_planning(why, &scene);
+                    let Some(before) = task.before.take() else { return (Outcome::Failed(problem), now) };
+                    if !goes_on(&Problem::interrupted(&task.request, &before), person, watcher) {
+                        return (Outcome::GivenUp, now);
+                    }
+                    task = Task::new(before, None);
+                    continue;
                 }
                 Err(Unplanned::Stopped) => return (Outcome::Stopped, now),
                 // No answer of a person brings a model back.
@@ -169,22 +216,38 @@ impl<'a> Conversation<'a> {
                 task.tries += 1;
                 continue;
             }
-            if task.questions >= MAX_QUESTIONS {
-                return (Outcome::Failed(problem), now);
-            }
-            task.questions += 1;
-            let answer = person.ask(&problem);
-            watcher.asked(&problem, answer.as_deref());
-            let Some(answer) = answer else { return (Outcome::Failed(problem), now) };
-            latest = Some(problem.clone());
-            let situation = self.known.situation(&scene);
             // What it says beside what is understood of it is for who plans.
             let is_told = planner.reads_answers();
-            match answer::read(&answer, &problem, &task.request, &situation) {
+            let mut question = problem.clone();
+            let (answer, meaning) = loop {
+                if task.questions >= MAX_QUESTIONS {
+                    return (Outcome::Failed(problem), now);
+                }
+                task.questions += 1;
+                let answer = person.ask(&question);
+                watcher.asked(&question, answer.as_deref());
+                let Some(answer) = answer else {
+                    let stopped = watcher.is_stopped();
+                    return (if stopped { Outcome::Stopped } else { Outcome::Failed(problem) }, now);
+                };
+                let situation = self.known.situation(&scene);
+                let meaning = answer::read(&answer, &problem, &task.request, &situation);
+                if meaning != Answer::NotUnderstood || is_told {
+                    break (answer, meaning);
+                }
+                question.question = format!("I did not understand that. {}", problem.question);
+            };
+            latest = Some(problem.clone());
+            match meaning {
                 Answer::GiveUp => return (Outcome::GivenUp, now),
                 Answer::Request(request) => {
                     self.memory.instruct(now, &request);
-                    task = Task { request, meant: Vec::new(), ..task };
+                    self.hear(&request);
+                    // What is asked for where something could not be done may be a help to it.
+                    let helps =
+                        matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
+                    let before = helps.then_some(task.request).or(task.before);
+                    task = Task { questions: task.questions, ..Task::new(request, before) };
                     continue;
                 }
                 Answer::Again => task.tries = 0,
@@ -204,6 +267,17 @@ impl<'a> Conversation<'a> {
             said: None,
         };
         (Outcome::Failed(latest.unwrap_or(nothing)), now)
+    }
+
+    /// Takes in what a request says of where things are.
+    fn hear(&mut self, request: &str) {
+        let scene = self.known.scene(&self.setting.scene);
+        if let Ok(understood) = request::understand(request, &self.known.situation(&scene)) {
+            understood.located.iter().for_each(|one| self.known.hear(one));
+            if understood.aims.is_empty() {
+                self.known.spoken_of = understood.spoken_of;
+            }
+        }
     }
 
     fn propose(

@@ -49,6 +49,10 @@ pub trait Watcher {
     fn request(&mut self, _now: Time) -> Option<String> {
         None
     }
+    /// Whether a person stops it all, at a question too.
+    fn is_stopped(&self) -> bool {
+        false
+    }
     /// A policy took over, or could not.
     fn swapped(&mut self, _now: Time, _refusal: Option<&Refusal>) {}
     /// A run has ended.

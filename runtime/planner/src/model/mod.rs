@@ -9,6 +9,7 @@ mod judge;
 mod later;
 mod listen;
 mod planner;
+mod purpose;
 mod reading;
 mod scan;
 

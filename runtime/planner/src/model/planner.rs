@@ -6,12 +6,14 @@ use std::time::Duration;
 use motet_compiler::{Session, Signatures};
 use motet_decode::export::Offer;
 use motet_decode::{Prepared, Surface};
+use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
 use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::judge::{Judged, judge};
 use super::later::{Came, Later, first_step};
 use super::listen::{Happening, Listener};
+use super::purpose;
 use super::reading::{Reading, Verdict, Wrong};
 use crate::builtin::{Answered, Planned, Unplanned};
 use crate::conversation::{Ask, Planner, Rest, Wait};
@@ -115,13 +117,19 @@ impl<'m> ModelPlanner<'m> {
     }
 
     /// Asks until a reply is a policy that passes the check.
-    fn rounds(&mut self, session: &Session, ready: &Ready, first: &[Message]) -> Result<Planned, Unplanned> {
+    fn rounds(
+        &mut self,
+        session: &Session,
+        ready: &Ready,
+        first: &[Message],
+        mut goal: Option<Expr>,
+    ) -> Result<Planned, Unplanned> {
         let mut chat = first.to_vec();
         let mut last = Unplanned::NoModel { why: String::new() };
         for round in 0..=self.settings.repairs {
             let name = self.model.name();
             self.listener.hear(&Happening::Asked { round, model: &name, chat: &chat });
-            match self.round(session, ready, &chat, round) {
+            match self.round(session, ready, (&chat, &mut goal), round) {
                 Round::Good(planned) => return Ok(*planned),
                 Round::Bad(reply, findings) => {
                     let words = render::llm(&findings, &Sources::default());
@@ -144,7 +152,13 @@ impl<'m> ModelPlanner<'m> {
         Err(last)
     }
 
-    fn round(&mut self, session: &Session, ready: &Ready, chat: &[Message], round: u32) -> Round {
+    fn round(
+        &mut self,
+        session: &Session,
+        ready: &Ready,
+        (chat, goal): (&[Message], &mut Option<Expr>),
+        round: u32,
+    ) -> Round {
         let mut reading = Reading::new(session, ready.prepared.acceptor(POLICY_BYTES));
         let mut reply = match self.model.ask(chat, &ready.offer) {
             Ok(reply) => reply,
@@ -164,6 +178,12 @@ impl<'m> ModelPlanner<'m> {
                 let whole = if verdict == Verdict::Whole { reading.policy() } else { reading.reply() };
                 match judge(session, whole) {
                     Judged::Good { planned, mended } => {
+                        // A model is told once that this is not what was asked for; it may know better what was meant.
+                        let wanted = goal.take().filter(|_| round < self.settings.repairs);
+                        let findings = wanted.map(|goal| purpose::missed(session, &planned, &goal));
+                        if let Some(findings) = findings.filter(|findings| !findings.is_empty()) {
+                            return Round::Bad(reading.reply().to_owned(), findings);
+                        }
                         if !mended.is_empty() {
                             self.listener.hear(&Happening::Mended { titles: &mended });
                         }
@@ -231,7 +251,8 @@ impl Planner for ModelPlanner<'_> {
         self.later = None;
         let ready = self.ready(ask);
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
-        let planned = self.rounds(ask.session, &ready, &chat)?;
+        let goal = purpose::goal(ask.request, ask.situation);
+        let planned = self.rounds(ask.session, &ready, &chat, goal)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
         spoken_of.extend(request::named(ask.request, ask.situation));
         Ok(Answered { understood: Understood { spoken_of, ..Understood::default() }, planned })

@@ -1,11 +1,11 @@
 //! What a prompt says of the robot alone, and two requests of the room with the policies for them: made once, for every
 //! prompt of the same robot in the same room.
 
-use motet_compiler::Session;
+use motet_compiler::{Session, settle};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{Clause, File, Item, PrimitiveDecl};
-use motet_syntax::print;
+use motet_syntax::{Form, print};
 
 use crate::builtin;
 use crate::request::{self, Situation};
@@ -71,8 +71,9 @@ fn examples(session: &Session, robot: &Robot, scene: &Scene) -> Vec<String> {
     let start = Situation::new(scene);
     let written = requests.iter().filter_map(|request| {
         let answered = builtin::answer(session, Some(robot), request, &start).ok()?;
-        let policy = answered.planned.parsed.file.policies().next()?;
-        Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(policy))))
+        let mut policy = answered.planned.parsed.file.policies().next()?.clone();
+        settle(&mut policy, session.library(), Form::Json);
+        Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
     });
     written.collect()
 }

@@ -124,9 +124,18 @@ impl Prompt<'_> {
             text.push_str(&format!("- {} ({}): {called}", entity.id, entity.kind));
             let now = self.situation.supports.iter().find(|(id, _)| *id == entity.id);
             match now {
-                Some((_, Some(support))) => text.push_str(&format!("; at {support}")),
-                Some((_, None)) => text.push_str("; it is not known where"),
-                None => {
+                Some((_, Some(support))) => {
+                    let holder = self.scene.entities.get(support).map(|holder| holder.kind.as_str());
+                    let relation = match holder {
+                        Some("Container") => "in",
+                        Some("Surface") => "on",
+                        Some(_) | None => "at",
+                    };
+                    text.push_str(&format!("; {relation} {support}"));
+                }
+                // Only what can be carried is ever nowhere.
+                Some((_, None)) if entity.kind == "Object" => text.push_str("; it is not known where"),
+                Some((_, None)) | None => {
                     if let Some(support) = &entity.on {
                         text.push_str(&format!("; on {support}"));
                     } else if let Some(container) = &entity.inside {

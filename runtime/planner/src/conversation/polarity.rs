@@ -1,0 +1,266 @@
+//! Yes, no, and stop, at the beginning of what a person says.
+
+/// What the first words of an answer say, with what is said behind them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Polarity<'a> {
+    /// Yes; what follows may say more.
+    Yes(&'a str),
+    /// No; what follows may say what instead.
+    No(&'a str),
+    /// No, whatever follows: "don't try again", "stop, that is dangerous".
+    Stop,
+    /// That the person does not know.
+    Ignorant,
+    /// None of these.
+    Neither,
+}
+
+/// Words that agree.
+const YES: &[&str] = &[
+    "yes",
+    "yeah",
+    "yep",
+    "yup",
+    "sure",
+    "of course",
+    "certainly",
+    "ok",
+    "okay",
+    "alright",
+    "all right",
+    "please do",
+    "do it",
+    "do that",
+    "go on",
+    "go ahead",
+    "carry on",
+    "continue",
+    "again",
+    "retry",
+    "try again",
+    "try it again",
+    "try once more",
+    "once more",
+    "one more time",
+];
+/// Words that decline what was offered.
+const NO: &[&str] = &[
+    "no",
+    "nope",
+    "nah",
+    "never mind",
+    "nevermind",
+    "forget it",
+    "forget about it",
+    "forget that",
+    "no thanks",
+    "no thank you",
+];
+/// Words that end it.
+const STOP: &[&str] = &[
+    "stop",
+    "halt",
+    "cancel",
+    "abort",
+    "quit",
+    "enough",
+    "that's enough",
+    "that is enough",
+    "that's fine",
+    "that is fine",
+    "don't",
+    "do not",
+    "not now",
+    "not again",
+    "no more",
+    "no way",
+    "leave it",
+    "leave that",
+    "leave them",
+    "give up",
+    "skip it",
+    "skip that",
+    "neither",
+    "none",
+    "nobody",
+];
+/// These end it only where nothing else is said.
+const STOP_ALONE: &[&str] =
+    &["nothing", "nothing at all", "leave", "skip", "i'll do it myself", "i will do it myself"];
+/// What a robot that moves is told so that it does not.
+const HOLD: &[&str] = &["wait", "hold on", "hold it", "freeze", "pause", "careful", "watch out", "look out"];
+/// Words for not knowing.
+const IGNORANT: &[&str] = &[
+    "no idea",
+    "no clue",
+    "not sure",
+    "i'm not sure",
+    "i am not sure",
+    "don't know",
+    "do not know",
+    "i don't know",
+    "i do not know",
+    "i have no idea",
+    "who knows",
+];
+/// Politeness, which says nothing.
+const COURTESY: &[&str] =
+    &["please", "thanks", "thank you", "oh", "well", "hm", "hmm", "then", "so", "just", "actually"];
+/// Behind `stop` and `leave it` these begin a place: "stop at the table".
+const PLACES: &[&str] = &["at", "by", "in", "on", "near", "next", "beside", "behind", "with", "under"];
+
+/// Reads the first words.
+pub(super) fn polarity(said: &str) -> Polarity<'_> {
+    let rest = skip_all(said, COURTESY);
+    if let Some(left) = skip(rest, IGNORANT) {
+        return if words(left).next().is_none() { Polarity::Ignorant } else { Polarity::Neither };
+    }
+    if let Some(left) = skip(rest, STOP)
+        && !words(left).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()))
+    {
+        return Polarity::Stop;
+    }
+    if skip(rest, STOP_ALONE).is_some_and(|left| is_done(skip_all(left, COURTESY))) {
+        return Polarity::Stop;
+    }
+    if let Some(mut left) = skip(rest, NO) {
+        left = skip_all(skip_all(left, NO), COURTESY);
+        return if skip(left, STOP).is_some() { Polarity::Stop } else { Polarity::No(left) };
+    }
+    if let Some(left) = skip(rest, YES) {
+        return Polarity::Yes(skip_all(skip_all(skip_all(left, COURTESY), YES), COURTESY));
+    }
+    // A bare "please" agrees.
+    if is_done(rest) && !is_done(said) && skip(said, &["please"]).is_some() {
+        return Polarity::Yes(rest);
+    }
+    Polarity::Neither
+}
+
+/// Whether somebody tells a robot that moves to stop.
+pub(super) fn stops(said: &str) -> bool {
+    let rest = skip_all(said, COURTESY);
+    let places = |left: &str| words(left).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()));
+    skip(rest, HOLD).is_some_and(|left| !places(left))
+        || match polarity(said) {
+            Polarity::Stop => true,
+            Polarity::No(left) => is_done(left),
+            Polarity::Yes(_) | Polarity::Ignorant | Polarity::Neither => false,
+        }
+}
+
+/// What is left where an addition begins: "also bring me the apple".
+pub(super) fn added(said: &str) -> Option<&str> {
+    let rest = skip(said, &["also", "and also", "and then", "after that", "afterwards", "then", "and"])?;
+    let rest = rest.trim_start_matches([',', ' ']);
+    (!rest.is_empty()).then_some(rest)
+}
+
+/// Whether nothing is left to be read.
+pub(super) fn is_done(said: &str) -> bool {
+    words(said).next().is_none()
+}
+
+/// What stands behind the longest of some phrases at the beginning.
+fn skip<'a>(said: &'a str, phrases: &[&str]) -> Option<&'a str> {
+    let behind = |phrase: &&str| {
+        let mut said_words = words(said);
+        let mut end = 0;
+        for wanted in phrase.split(' ') {
+            let (word, at) = said_words.next()?;
+            if word != wanted {
+                return None;
+            }
+            end = at;
+        }
+        Some(end)
+    };
+    phrases.iter().filter_map(behind).max().and_then(|end| said.get(end..))
+}
+
+/// The same as often as it goes.
+fn skip_all<'a>(mut said: &'a str, phrases: &[&str]) -> &'a str {
+    while let Some(left) = skip(said, phrases) {
+        said = left;
+    }
+    said
+}
+
+/// The words in small letters, each with the offset behind it.
+fn words(said: &str) -> impl Iterator<Item = (String, usize)> {
+    let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '\'' | '\u{2019}');
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let rest = said.get(at..)?;
+        let start = at + rest.find(is_letter)?;
+        let word = said.get(start..)?;
+        let length = word.find(|letter| !is_letter(letter)).unwrap_or(word.len());
+        at = start + length;
+        Some((word.get(..length)?.to_lowercase().replace('\u{2019}', "'"), at))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Polarity, added, polarity, stops};
+
+    #[test]
+    fn the_first_words_tell() {
+        for said in [
+            "No, leave it alone!",
+            "please don't",
+            "no, don't",
+            "no, that's enough",
+            "Don’t try again",
+            "stop it",
+            "not now",
+            "stop, that is dangerous!",
+            "nothing, thanks",
+            "leave it",
+            "I'll do it myself",
+        ] {
+            assert_eq!(polarity(said), Polarity::Stop, "{said}");
+        }
+        for (said, rest) in [
+            ("nope", ""),
+            ("no no", ""),
+            ("nah, thanks", ""),
+            ("no, the blue one", ", the blue one"),
+            ("forget it, bring me the apple", ", bring me the apple"),
+        ] {
+            assert_eq!(polarity(said), Polarity::No(rest), "{said}");
+        }
+        for (said, rest) in [
+            ("Yes.", "."),
+            ("please", ""),
+            ("ok, try again please", ""),
+            ("sure, it is in the cupboard", ", it is in the cupboard"),
+        ] {
+            assert_eq!(polarity(said), Polarity::Yes(rest), "{said}");
+        }
+        assert_eq!(polarity("no idea"), Polarity::Ignorant);
+        for said in [
+            "no idea, I am sitting at the table",
+            "wait a moment",
+            "what?",
+            "stop at the table",
+            "please bring me the cup",
+        ] {
+            assert_eq!(polarity(said), Polarity::Neither, "{said}");
+        }
+    }
+
+    #[test]
+    fn who_moves_is_told_to_stop() {
+        for said in
+            ["stop", "Wait!", "never mind", "cancel that", "hold on a second", "no!", "leave it, please"]
+        {
+            assert!(stops(said), "{said}");
+        }
+        for said in ["go on", "wait at the table", "bring me the apple", "no, the blue one", "thanks"] {
+            assert!(!stops(said), "{said}");
+        }
+        assert_eq!(added("also bring me the apple"), Some("bring me the apple"));
+        assert_eq!(added("android"), None);
+    }
+}

@@ -1,0 +1,41 @@
+//! Whether a policy that a model wrote does what was asked for, as far as the request is understood without a model.
+
+use motet_compiler::Session;
+use motet_compiler::plan::Lasts;
+use motet_syntax::ast::{Expr, ExprKind, File, Item};
+use motet_syntax::{Diagnostic, FileId, Source, print};
+
+use super::judge::errors;
+use crate::builtin::Planned;
+use crate::request::{self, Situation};
+
+/// What a request asks for that lasts; none where it is not understood, or asks for something under a condition.
+pub(super) fn goal(request: &str, situation: &Situation<'_>) -> Option<Expr> {
+    let understood = request::understand(request, situation).ok()?;
+    if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
+        return None;
+    }
+    let lasting = understood.aims.into_iter().filter(|aim| aim.goal.lasts == Lasts::ToTheEnd);
+    let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
+    let first = parts.pop()?;
+    if parts.is_empty() {
+        return Some(first);
+    }
+    parts.push(first);
+    let span = parts.first().map(|part| part.span).unwrap_or_default();
+    Some(Expr { kind: ExprKind::All(parts), span })
+}
+
+/// What is wrong with a policy that passes the check, where it cannot come to what was asked for.
+pub(super) fn missed(session: &Session, planned: &Planned, goal: &Expr) -> Vec<Diagnostic> {
+    let mut file = File { items: planned.parsed.file.items.clone() };
+    for item in &mut file.items {
+        if let Item::Policy(policy) = item {
+            policy.achieves = Some(goal.clone());
+        }
+    }
+    let text = print::text(&file);
+    let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+    // Only what the goal adds is of interest: the policy alone has no error.
+    errors(session.compile(&parsed, None).diagnostics)
+}
