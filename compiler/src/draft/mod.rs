@@ -8,13 +8,16 @@
 mod fluents;
 mod template;
 
+use std::hash::Hasher;
+
 use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Diagnostic, FileId, Form, Severity, Span};
+use rustc_hash::FxHasher;
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 pub use self::template::Template;
-use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Program, StepId, Term};
+use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, Term};
 use crate::prove::Prover;
 use crate::prove::draft::{Mark, Outcome, Parts, Stand};
 use crate::resolve::scope::{self, Scope};
@@ -87,6 +90,8 @@ pub struct Draft {
     starts: Vec<Start>,
     /// Where the step begins that is not part of the body, and the states in which control reaches the hole in it.
     inside: Option<(Start, Vec<Stand>)>,
+    /// The hole in it.
+    hole: Option<StepId>,
 }
 
 /// Where a draft begins a step.
@@ -109,7 +114,18 @@ impl Draft {
         said.extend(crate::session::other_robot(policy, library));
         program.body.clear();
         let proof = Parts::new(&program, library, world);
-        (Self { form, program, scope: Scope::default(), proof, starts: Vec::new(), inside: None }, said)
+        (
+            Self {
+                form,
+                program,
+                scope: Scope::default(),
+                proof,
+                starts: Vec::new(),
+                inside: None,
+                hole: None,
+            },
+            said,
+        )
     }
 
     /// The number of a primitive among those of the session's library.
@@ -186,6 +202,12 @@ impl Draft {
         let start = self.start();
         let (id, outcome) = self.prove(session, step, Looks::Inside);
         self.inside = Some((start, outcome.stands));
+        self.hole = self
+            .program
+            .steps
+            .iter()
+            .rposition(|step| step.span == HOLE)
+            .and_then(|index| u32::try_from(index).ok().map(StepId));
         id.is_some() && !outcome.refuted
     }
 
@@ -224,11 +246,8 @@ impl Draft {
         let Some((start, stands)) = inside.as_mut().filter(|(_, stands)| !stands.is_empty()) else {
             return Test::Open;
         };
-        let args = args.iter().map(|arg| arg.as_ref().map(|value| value.0.clone()));
-        let fact = Fact { fluent, args: args.collect() };
-        let touches = stands.iter().any(|stand| start.proof.touches(stand, &fact));
-        let plain = Condition::Fact(fact);
-        let condition = if negated { Condition::Not(Box::new(plain)) } else { plain };
+        let condition = condition(fluent, args, negated);
+        let touches = stands.iter().any(|stand| start.proof.touches(stand, &condition));
         let given = (&*program, library, world);
         let mut holds = |stand: &mut Stand| proof.at(stand, given, |prover| prover.proves(&condition));
         if stands.iter_mut().all(&mut holds) {
@@ -238,6 +257,31 @@ impl Draft {
         } else {
             Test::Idle
         }
+    }
+
+    /// Whether the loop around the place may end its body there: nothing in it is refuted where it comes round. `until` is the
+    /// test of a `repeat`: a fluent, its arguments, of which one that is none is `any`, and whether it stands under `not`. What
+    /// runs at once with the loop is not asked.
+    ///
+    /// Where it may, a number that is the same for tests that leave the same facts, in the states in which the place is reached.
+    pub fn permits_round(
+        &mut self,
+        session: &Session,
+        until: Option<(&str, &[Option<Value>], bool)>,
+    ) -> Option<u64> {
+        let (library, world) = session.parts();
+        let Self { proof, program, inside, hole, .. } = self;
+        let (Some((_, stands)), Some(hole)) = (inside, *hole) else { return Some(0) };
+        let condition = until.and_then(|(fluent, args, negated)| {
+            let fluent = library.names.fluents.get(fluent).copied()?;
+            Some(condition(fluent, args, negated))
+        });
+        let given = (&*program, library, world);
+        let mut seen = FxHasher::default();
+        let mut stands = stands.iter();
+        let permits =
+            stands.all(|stand| proof.comes_round(stand, (hole, condition.as_ref()), given, &mut seen));
+        permits.then(|| seen.finish())
     }
 
     /// Whether the policy may be done at the place: its goal is not refuted there.
@@ -303,6 +347,13 @@ impl Draft {
         outcome.refuted |= is_wrong;
         (Some(id), outcome)
     }
+}
+
+/// A fluent as a condition; an argument that is none is `any`.
+fn condition(fluent: Fluent, args: &[Option<Value>], negated: bool) -> Condition {
+    let args = args.iter().map(|arg| arg.as_ref().map(|value| value.0.clone()));
+    let plain = Condition::Fact(Fact { fluent, args: args.collect() });
+    if negated { Condition::Not(Box::new(plain)) } else { plain }
 }
 
 /// Whether a proof stops to look at the hole of a step.

@@ -1,6 +1,8 @@
 //! A proof that goes on step by step: what it holds between two steps, and the states in which a place of a policy is
 //! reached. Fed by [`crate::draft`].
 
+use std::hash::Hasher;
+
 use motet_syntax::{Code, Diagnostic, Severity, Span};
 use rustc_hash::FxHashMap;
 
@@ -10,7 +12,7 @@ use super::facts::{ANY, Facts, Key, Split};
 use super::symbols::Symbols;
 use super::value::Value;
 use super::{Mood, Proof, Prover, Verdict, Volatile, Watched};
-use crate::ir::{Condition, Fact, Fluent, Program, StepId, Term};
+use crate::ir::{Condition, Fluent, Program, StepId, Term};
 use crate::library::{Library, PrimitiveDef};
 use crate::world::World;
 
@@ -22,6 +24,10 @@ pub(crate) struct Stand {
     watched: Vec<Watched>,
     volatile: Vec<Volatile>,
     splits: Vec<Split>,
+    /// Where the round began of the innermost loop around, as a mark of the facts.
+    head: Option<usize>,
+    /// The facts before what reactions may have done just now.
+    calm: usize,
 }
 
 /// A proof between two steps of a policy's body.
@@ -46,7 +52,12 @@ pub(crate) struct Mark {
 
 impl Mark {
     /// Whether the steps since then have written anything that a fact may speak of.
-    pub(crate) fn touches(&self, stand: &Stand, fact: &Fact) -> bool {
+    pub(crate) fn touches(&self, stand: &Stand, condition: &Condition) -> bool {
+        let fact = match condition {
+            Condition::Fact(fact) => fact,
+            Condition::Not(inner) => return self.touches(stand, inner),
+            _ => return true,
+        };
         let mut key = Key(0);
         for (index, term) in fact.args.iter().enumerate() {
             let arg = match term {
@@ -88,6 +99,8 @@ impl Parts {
             watched: Vec::new(),
             volatile: Vec::new(),
             splits: Vec::new(),
+            head: None,
+            calm: 0,
         };
         let symbols = Symbols::new(program, library, world);
         Self { stand, symbols, fresh, aliased: vec![false; library.fluents.len()], live: true }
@@ -126,6 +139,22 @@ impl Parts {
         self.with(given, ask)
     }
 
+    /// Whether nothing is refuted where the loop around the hole, which is at the end of its body, comes round from this state.
+    pub(crate) fn comes_round(
+        &mut self,
+        stand: &Stand,
+        (hole, until): (StepId, Option<&Condition>),
+        given: Given<'_>,
+        seen: &mut impl Hasher,
+    ) -> bool {
+        let Some(head) = stand.head else { return true };
+        let (mut stand, calm) = (stand.clone(), stand.calm);
+        self.at(&mut stand, given, |prover| {
+            prover.back_to(calm);
+            prover.comes_round(hole, head, until, seen)
+        })
+    }
+
     /// Asks something of another state than this proof's own.
     pub(crate) fn at<T>(
         &mut self,
@@ -142,7 +171,8 @@ impl Parts {
     }
 
     fn with<T>(&mut self, (program, library, world): Given<'_>, run: impl FnOnce(&mut Prover<'_>) -> T) -> T {
-        let Stand { facts, lasting, watched, volatile, splits } = &mut self.stand;
+        let Stand { facts, lasting, watched, volatile, splits, head, calm } = &mut self.stand;
+        let (head, calm) = (*head, *calm);
         let mut prover = Prover {
             library,
             world,
@@ -158,6 +188,7 @@ impl Parts {
             splits: std::mem::take(splits),
             live: self.live,
             fixpoints: 0,
+            head,
             aliased: std::mem::take(&mut self.aliased),
             buffers: Default::default(),
             diagnostics: Vec::new(),
@@ -169,7 +200,7 @@ impl Parts {
         };
         let answer = run(&mut prover);
         let Prover { symbols, facts, lasting, watched, volatile, splits, aliased, live, .. } = prover;
-        self.stand = Stand { facts: facts.lift(), lasting, watched, volatile, splits };
+        self.stand = Stand { facts: facts.lift(), lasting, watched, volatile, splits, head, calm };
         self.symbols = symbols;
         self.aliased = aliased;
         self.live = live;
@@ -210,6 +241,7 @@ impl Prover<'_> {
 
     /// Remembers the state in which the hole is reached, with what the reactions around it may have done just now.
     pub(crate) fn take_stand(&mut self) {
+        let calm = self.facts.mark();
         self.erode();
         self.stands.push(Stand {
             facts: self.facts.clone().lift(),
@@ -217,6 +249,8 @@ impl Prover<'_> {
             watched: self.watched.clone(),
             volatile: self.volatile.clone(),
             splits: self.splits.clone(),
+            head: self.head,
+            calm,
         });
     }
 

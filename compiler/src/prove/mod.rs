@@ -13,6 +13,7 @@ pub(crate) mod eval;
 pub(crate) mod facts;
 mod flow;
 mod intent;
+mod looped;
 pub(crate) mod mend;
 mod monitor;
 mod parallel;
@@ -96,6 +97,8 @@ pub(crate) struct Prover<'a> {
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
+    /// Where the round began of the innermost loop around, as a mark of the facts.
+    pub(crate) head: Option<usize>,
     /// By fluent: whether a symbol has an entry.
     pub(crate) aliased: Vec<bool>,
     /// Room for the changes of a step, kept so that no step asks for new.
@@ -181,6 +184,7 @@ impl<'a> Prover<'a> {
             splits: Vec::new(),
             live: true,
             fixpoints: 0,
+            head: None,
             aliased: vec![false; library.fluents.len()],
             buffers: Default::default(),
             diagnostics: Vec::new(),

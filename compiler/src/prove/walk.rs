@@ -9,6 +9,7 @@ use super::collect::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
 use super::eval::Frame;
 use super::facts::Delta;
+use super::looped::Loop;
 use super::mend::End;
 use super::value::{Cause, Value};
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
@@ -47,25 +48,13 @@ impl Prover<'_> {
             StepKind::Try { body, catches } => self.attempt(body, catches),
             StepKind::Repeat { times, body, until } => {
                 let until = until.as_ref().map(|(condition, _)| condition);
-                self.looped(id, body, |prover, back| prover.repeat_exits(id, *times, until, back));
+                self.looped(id, body, Loop::Repeat { times: *times, until });
             }
             StepKind::Each { item, body, .. } => {
                 if let Some(kind) = self.library.known.exhausted {
                     self.throw(kind, self.enclosing.len());
                 }
-                let before = Delta::default();
-                let symbol = self.symbols.of_binding(item.index());
-                self.looped_with(
-                    id,
-                    body,
-                    vec![before],
-                    |prover| prover.forget(symbol),
-                    |prover, back| {
-                        let way = prover.facts.delta(back.mark);
-                        back.ways.push(way.clone());
-                        back.back = Some(way);
-                    },
-                );
+                self.looped(id, body, Loop::Each { symbol: self.symbols.of_binding(item.index()) });
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
             StepKind::End { kind, of, .. } => self.end(Some(id), *kind, *of, step.span),
@@ -196,67 +185,6 @@ impl Prover<'_> {
         }
     }
 
-    fn repeat_exits(&mut self, id: StepId, times: u32, until: Option<&Condition>, back: &mut Back) {
-        let here = self.facts.mark();
-        let Some(until) = until else {
-            let way = self.facts.delta(back.mark);
-            back.back = (times > 1).then(|| way.clone());
-            back.ways.push(way);
-            return;
-        };
-        let cause = Cause::step(id);
-        if self.assume(until, true, cause, Frame::default()) {
-            back.ways.push(self.facts.delta(back.mark));
-        }
-        self.back_to(here);
-        if self.assume(until, false, cause, Frame::default()) {
-            if let Some(kind) = self.library.known.exhausted {
-                self.throw(kind, self.enclosing.len());
-            }
-            back.back = (times > 1).then(|| self.facts.delta(back.mark));
-        }
-    }
-
-    fn looped(&mut self, id: StepId, body: &[StepId], exits: impl Fn(&mut Self, &mut Back)) {
-        self.looped_with(id, body, Vec::new(), |_| {}, exits);
-    }
-
-    /// A loop to its fixed point: the state at its head is the join of the entry and of every back edge.
-    fn looped_with(
-        &mut self,
-        id: StepId,
-        body: &[StepId],
-        before: Vec<Delta>,
-        begin: impl Fn(&mut Self),
-        exits: impl Fn(&mut Self, &mut Back),
-    ) {
-        if !self.enter_fixpoint(id) {
-            return;
-        }
-        let mark = self.facts.mark();
-        let said = self.said();
-        let mut head = Delta::default();
-        loop {
-            self.unsay(said);
-            self.facts.replay(&head);
-            begin(self);
-            self.block(body);
-            let mut back = Back { mark, ways: before.clone(), back: None };
-            if self.live {
-                exits(self, &mut back);
-            }
-            self.back_to(mark);
-            let next = back.back.as_ref().map(|way| head.or(way, &self.facts));
-            let settled = next.as_ref().is_none_or(|next| next.same_sets(&head, &self.facts));
-            if settled {
-                self.fixpoints -= 1;
-                return self.meet(mark, &back.ways);
-            }
-            self.live = true;
-            head = next.unwrap_or_default();
-        }
-    }
-
     /// Each level of loops and branches is proved at least twice: beyond a limit that would take for ever.
     pub(crate) fn enter_fixpoint(&mut self, id: StepId) -> bool {
         if self.fixpoints >= MAX_FIXPOINTS {
@@ -312,13 +240,4 @@ impl Prover<'_> {
             }
         }
     }
-}
-
-/// Where the body of a loop leads.
-pub(crate) struct Back {
-    pub(crate) mark: usize,
-    /// Out of the loop.
-    pub(crate) ways: Vec<Delta>,
-    /// To its head.
-    pub(crate) back: Option<Delta>,
 }

@@ -1,5 +1,7 @@
 //! What one way through a fork changed.
 
+use std::hash::{Hash, Hasher};
+
 use super::super::value::Value;
 use super::{Atom, Facts, Key};
 use crate::ir::Fluent;
@@ -59,6 +61,15 @@ impl Delta {
     pub(crate) fn same_sets(&self, other: &Self, base: &Facts<'_>) -> bool {
         let mut ranks = self.ranks().chain(other.ranks());
         ranks.all(|rank| self.at(base, rank).same_set(other.at(base, rank)))
+    }
+
+    /// Tells ways apart that leave different sets of values, whatever caused them.
+    pub(crate) fn fingerprint(&self, hasher: &mut impl Hasher) {
+        for (rank, value) in &self.written {
+            let known = (value.yes.is_some(), value.no.is_some(), value.open.is_some());
+            (rank.0, known).hash(hasher);
+        }
+        self.written.len().hash(hasher);
     }
 
     /// What is written.

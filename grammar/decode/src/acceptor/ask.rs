@@ -107,6 +107,25 @@ impl Walk {
         self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
     }
 
+    /// Whether the loop whose body ends behind `event` may come round, as far as its own steps tell. Its test is a fluent, whether
+    /// it stands under `not`, and its arguments. Where it may, a number that tests share which leave the same facts.
+    pub(crate) fn permits_round(&mut self, event: Id, test: Option<(u16, bool, &[Event])>) -> Option<u64> {
+        let machine = std::sync::Arc::clone(&self.machine);
+        let Some((fluent, negated, args)) = test else {
+            return self.place(event).and_then(|(draft, session)| draft.permits_round(session, None));
+        };
+        let fluent = machine.program.signatures.fluents.get(usize::from(fluent));
+        let (Some(fluent), Some(_)) = (fluent, self.place(event)) else { return None };
+        let spot = Spot { event, scope: 0, shared: false };
+        let values = args.iter().map(|arg| match meaning(&machine.program, *arg) {
+            Some(Meaning::Any) => Some(None),
+            _ => self.value_of(Given::One(*arg), spot).map(Some),
+        });
+        let values = values.collect::<Option<Vec<_>>>()?;
+        let test = Some((fluent.name.as_str(), values.as_slice(), negated));
+        self.place(event).and_then(|(draft, session)| draft.permits_round(session, test))
+    }
+
     /// Whether the policy may be done where the next step will stand.
     pub(crate) fn may_be_done(&mut self, event: Id) -> bool {
         let key = self.key(Question::Done, event, None);

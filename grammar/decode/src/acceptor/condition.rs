@@ -3,7 +3,7 @@
 
 use motet_compiler::draft::Test;
 
-use super::arena::{Event, Flags, Id, State};
+use super::arena::{Event, Flags, Id, State, mix};
 use super::ask::meaning;
 use super::memo::Question;
 use super::walk::Walk;
@@ -98,8 +98,47 @@ impl Walk {
         match self.test(body, fluent, negated, &args) {
             Test::Holds if self.is_apart(event, more) => true,
             // The body was no error without a test, so it was the back edge.
-            Test::Idle if !self.verify(body, &[Event::Close]) => false,
-            Test::Holds | Test::Idle | Test::Open => self.verify(event, more),
+            Test::Idle if !self.may_come_round(body) => false,
+            Test::Holds | Test::Idle | Test::Open => {
+                let round = self.permits_round(body, Some((fluent, negated, &args)));
+                round.is_some_and(|facts| self.is_right_beside((body, facts), event, more))
+            }
+        }
+    }
+
+    /// Whether what stands beside a loop is no error with a test, which is the last of what was said and `more`; it leaves
+    /// certain facts where the body of the loop ends. Where another that leaves the same was wrong, so is this one.
+    fn is_right_beside(&mut self, (body, facts): (Id, u64), event: Id, more: &[Event]) -> bool {
+        if self.is_apart(event, more) {
+            return true;
+        }
+        let others = mix(self.key(Question::Beside, body, None), facts);
+        let own = self.key(Question::Verify, event, more.iter().copied());
+        if self.known(own).is_none() && self.known(others) == Some(false) {
+            return false;
+        }
+        let is_right = self.verify(event, more);
+        if !is_right {
+            self.machine.memo.put(others, false);
+        }
+        is_right
+    }
+
+    /// Whether the body of a loop may end behind `event`, whatever test there may be.
+    pub(super) fn may_come_round(&mut self, event: Id) -> bool {
+        let key = self.key(Question::Round, event, None);
+        self.answer(key, |walk| walk.permits_round(event, None).is_some())
+            && self.verify_beside(event, &[Event::Close])
+    }
+
+    /// Whether the loop may do without a test whose body ended with the last event.
+    pub(super) fn needs_no_test(&mut self, event: Id) -> bool {
+        match self.arenas.said(event) {
+            Some(said) if event > 0 && said.event == Event::Close => {
+                let body = said.below;
+                self.may_come_round(body)
+            }
+            _ => self.verify(event, &[]),
         }
     }
 

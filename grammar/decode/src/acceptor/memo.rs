@@ -29,6 +29,10 @@ pub(crate) enum Question {
     SharedCall,
     /// Whether a test keeps a loop's back edge from being wrong.
     Test,
+    /// Whether a loop may come round where its body ends.
+    Round,
+    /// Whether all is well beside a loop where some test leaves certain facts.
+    Beside,
 }
 
 impl Memo {
@@ -92,6 +96,11 @@ impl Walk {
         let said =
             more.into_iter().fold(self.arenas.hash(event), |hash, event| mix(hash, self.content(event)));
         mix(said, question as u64)
+    }
+
+    /// The answer to a question that was asked before.
+    pub(crate) fn known(&self, key: u64) -> Option<bool> {
+        self.machine.memo.get(key)
     }
 
     /// The answer to a question, asked only where it is not known.

@@ -100,7 +100,7 @@ impl Walk {
             Guard::Several => usize::from(control.conditions) <= MAX_CONDITION_DEPTH,
             Guard::Compared => self.last_condition(state.event).is_comparison,
             Guard::Loose => may_be_loose,
-            Guard::NoTest => self.verify(state.event, &[]),
+            Guard::NoTest => self.needs_no_test(state.event),
         }
     }
 
@@ -111,7 +111,7 @@ impl Walk {
             Slot::Body => self.may_be_done(state.event),
             // What comes back to the head of a loop; a test may keep it away.
             Slot::Loop => {
-                self.verify(state.event, &close)
+                self.may_come_round(state.event)
                     || (self.is_repeat(state.event)
                         && (self.some_condition_holds(state, &close, false)
                             || self.some_condition_holds(state, &close, true)))

@@ -107,7 +107,7 @@ impl Walk {
                         if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
                     }
                     Asks::Wait => flags,
-                    Asks::Until if self.verify(state.event, &[]) => flags,
+                    Asks::Until if self.needs_no_test(state.event) => flags,
                     Asks::Until => flags.with(Flags::STRICT),
                 };
                 Control { flags, conditions: 0, ..control }
