@@ -46,6 +46,10 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, Trouble
     for finding in &lost {
         report.out.line(&shown(finding, args.format));
     }
+    if rows == 0 {
+        note("there is no row to look at");
+        return Ok(Exit::Findings);
+    }
     note(&format!("{}, {} with something wrong", count(rows, "row"), wrong.len()));
     Ok(if wrong.is_empty() && lost.is_empty() { Exit::Clean } else { Exit::Findings })
 }

@@ -61,6 +61,10 @@ pub(super) struct Ran {
     pub(super) graph: Arc<Graph>,
     /// What its names were bound to.
     pub(super) bound: Vec<(SmolStr, Value)>,
+    /// Whether it ended at a guard: the step was not even begun, since something was not as it was believed to be.
+    pub(super) was_refused: bool,
+    /// Whether the first thing that was tried could not be reached from where the robot happened to stand.
+    pub(super) stood_wrong: bool,
 }
 
 impl<'r, 'a> Live<'r, 'a> {
@@ -88,13 +92,11 @@ impl<'r, 'a> Live<'r, 'a> {
         }
     }
 
-    /// Whether a run ended at a guard: the step was not even begun, since something was not as it was believed to be.
-    pub(super) fn was_refused(&self, end: &RunEnd) -> bool {
+    fn was_refused(&self, end: &RunEnd) -> bool {
         matches!(end, RunEnd::Failed { node, .. } if !self.started.contains(node))
     }
 
-    /// Whether the first thing that was tried could not be reached from where the robot happened to stand.
-    pub(super) fn stood_wrong(&self, end: &RunEnd) -> bool {
+    fn stood_wrong(&self, end: &RunEnd) -> bool {
         let RunEnd::Failed { kind, node, .. } = end else { return false };
         matches!(kind.as_str(), "unreachable" | "blocked")
             && (self.started.is_empty() || self.started.as_slice() == [*node])
@@ -147,7 +149,8 @@ impl<'r, 'a> Live<'r, 'a> {
         if let Some(first) = &mut self.first {
             first.bound.clone_from(&bound);
         }
-        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound })
+        let (was_refused, stood_wrong) = (self.was_refused(&end), self.stood_wrong(&end));
+        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
     }
 }
 

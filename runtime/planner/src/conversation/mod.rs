@@ -12,6 +12,7 @@ mod live;
 mod planner;
 mod polarity;
 mod problem;
+mod pursuit;
 mod sense;
 mod talk;
 mod watcher;

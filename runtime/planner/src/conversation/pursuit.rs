@@ -1,0 +1,244 @@
+//! One request, pursued to its end: planned, run, tried again, asked about, and planned anew with the answer.
+
+use motet_robots::scene::Scene;
+use motet_runtime::{Driver, RunEnd, Time};
+use smol_str::SmolStr;
+
+use super::answer::{self, Answer};
+use super::first::After;
+use super::live::{Live, Pending, Ran};
+use super::planner::Planner;
+use super::polarity::{Polarity, polarity};
+use super::problem::{Kind, Problem};
+use super::talk::{Conversation, Outcome};
+use super::watcher::{Person, Watcher};
+use crate::builtin::{Answered, Unplanned};
+use crate::request::Puzzle;
+
+/// The most policies for one request.
+const MAX_ROUNDS: usize = 12;
+/// The most questions for one request.
+const MAX_QUESTIONS: usize = 6;
+/// How often a step that failed is tried again, with a new plan, before somebody is asked.
+const TRIES: usize = 2;
+
+/// What one request has come to.
+struct Task {
+    request: String,
+    /// The request that it took the place of, which may not be done.
+    before: Option<String>,
+    /// What was meant by words that could mean several things.
+    meant: Vec<(String, SmolStr)>,
+    questions: usize,
+    tries: usize,
+}
+
+impl Task {
+    fn new(request: String, before: Option<String>) -> Self {
+        // Who says so replaces what was asked for before.
+        let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
+        let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
+        Self { request, before, meant: Vec::new(), questions: 0, tries: 0 }
+    }
+}
+
+/// What follows from a round.
+enum Next {
+    /// Another round.
+    Round,
+    /// Nothing.
+    Over(Outcome),
+    /// What stands in the way; whether a guard or the place where the robot stood was the reason, which another plan may mend.
+    Problem(Problem, bool),
+}
+
+/// A request with all who have to do with it.
+pub(super) struct Pursuit<'r, 'a> {
+    talk: &'r mut Conversation<'a>,
+    planner: &'r mut dyn Planner,
+    person: &'r mut dyn Person,
+    watcher: &'r mut dyn Watcher,
+    task: Task,
+    /// The latest time.
+    pub(super) now: Time,
+    /// The rest of a policy of which the first step was run.
+    ready: Option<Answered>,
+}
+
+impl<'r, 'a> Pursuit<'r, 'a> {
+    pub(super) fn new(
+        talk: &'r mut Conversation<'a>,
+        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn Watcher),
+        request: &str,
+        now: Time,
+    ) -> Self {
+        let task = Task::new(request.to_owned(), None);
+        Self { talk, planner, person, watcher, task, now, ready: None }
+    }
+
+    /// To its end.
+    pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
+        let mut latest = None;
+        for _ in 0..MAX_ROUNDS {
+            let scene = self.talk.known.scene(&self.talk.setting.scene);
+            let proposed = match self.ready.take() {
+                Some(answered) => Ok(answered),
+                None => self.propose(&scene, driver.base()),
+            };
+            let next = match proposed {
+                Ok(answered) => self.run(answered, driver, &scene),
+                Err(why) => self.unplanned(&why, &scene),
+            };
+            let (problem, was_refused) = match next {
+                Next::Round => continue,
+                Next::Over(outcome) => return outcome,
+                Next::Problem(problem, was_refused) => (problem, was_refused),
+            };
+            // What merely did not work, or was not as it was believed, is tried again before somebody is troubled.
+            if (problem.kind == Kind::ActionFailed || was_refused) && self.task.tries < TRIES {
+                self.task.tries += 1;
+                continue;
+            }
+            latest = Some(problem.clone());
+            if let Some(outcome) = self.ask(problem, &scene) {
+                return outcome;
+            }
+        }
+        let nothing = || Problem::nothing("I have tried as often as I may. What shall I do?");
+        Outcome::Failed(latest.unwrap_or_else(nothing))
+    }
+
+    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<Answered, Unplanned> {
+        let session = self.talk.session(scene, &self.talk.known, base);
+        let image = self.talk.look(self.now);
+        let world = (&session, scene, &self.talk.known);
+        self.talk.plan_for((&self.task.request, image.as_ref()), &self.task.meant, self.planner, world)
+    }
+
+    /// Runs a policy, and sees what became of it.
+    fn run(&mut self, answered: Answered, driver: &mut dyn Driver, scene: &Scene) -> Next {
+        let told = (self.task.request.clone(), self.task.meant.clone());
+        let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
+        let ran = live.run(answered, driver, scene);
+        self.now = live.now;
+        let (pending, first, request) = (live.pending.take(), live.first.take(), live.request.take());
+        if let Some(request) = request {
+            let before = std::mem::take(&mut self.task.request);
+            self.task = Task { tries: self.task.tries, ..Task::new(request, Some(before)) };
+        }
+        let Ran { end, graph, bound, was_refused, stood_wrong } = match ran {
+            Ok(ran) => ran,
+            Err(problem) => return Next::Over(Outcome::Failed(problem)),
+        };
+        match (pending, &end) {
+            (Some(Pending::Request(request)), _) => {
+                self.talk.hear(&request);
+                let before = std::mem::take(&mut self.task.request);
+                self.task = Task::new(request, Some(before));
+                return Next::Round;
+            }
+            (Some(Pending::Told(located)), _) => {
+                located.iter().for_each(|one| self.talk.known.hear(one));
+                return Next::Round;
+            }
+            (Some(Pending::Stop), _) => return Next::Over(Outcome::GivenUp),
+            (None, RunEnd::Interrupted) => return Next::Over(Outcome::Stopped),
+            (None, _) => {}
+        }
+        if let (Some(first), RunEnd::Done { .. }) = (first, &end) {
+            match self.talk.after_first(first, self.planner, driver.base()) {
+                After::Done => return Next::Over(Outcome::Done),
+                After::Stopped => return Next::Over(Outcome::Stopped),
+                After::Runs(answered) => self.ready = Some(*answered),
+                After::PlansAnew => {}
+            }
+            return Next::Round;
+        }
+        if stood_wrong {
+            self.talk.known.doubt_standing();
+        }
+        match Problem::of_run(&end, (&graph, &bound), scene) {
+            Some(problem) => Next::Problem(problem, was_refused || stood_wrong),
+            None => self.done(),
+        }
+    }
+
+    /// A request is done. What it took the place of may not be.
+    fn done(&mut self) -> Next {
+        let Some(before) = self.task.before.take() else { return Next::Over(Outcome::Done) };
+        self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
+    }
+
+    /// There is no policy.
+    fn unplanned(&mut self, why: &Unplanned, scene: &Scene) -> Next {
+        let problem = Problem::of_planning(why, scene);
+        match (why, self.task.before.clone()) {
+            (Unplanned::Stopped, _) => Next::Over(Outcome::Stopped),
+            // No answer of a person brings a model back.
+            (Unplanned::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            // Something that is not understood was said in between.
+            (Unplanned::Puzzle(Puzzle::NotUnderstood { .. }), Some(before)) => {
+                let question = Problem::interrupted(&self.task.request, &before);
+                self.goes_on(&question, before, Outcome::GivenUp)
+            }
+            (_, _) => Next::Problem(problem, false),
+        }
+    }
+
+    /// Goes on with what was asked for before, where a person says yes.
+    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> Next {
+        let answer = self.person.ask(question);
+        self.watcher.asked(question, answer.as_deref());
+        if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
+            return Next::Over(or);
+        }
+        self.task = Task::new(before, None);
+        Next::Round
+    }
+
+    /// Asks a person what to do about a problem, until the answer is understood; the outcome, where that ends it.
+    fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
+        // What an answer says beside what is understood of it is for who plans.
+        let is_told = self.planner.reads_answers();
+        let mut question = problem.clone();
+        let (answer, meaning) = loop {
+            if self.task.questions >= MAX_QUESTIONS {
+                return Some(Outcome::Failed(problem));
+            }
+            self.task.questions += 1;
+            let answer = self.person.ask(&question);
+            self.watcher.asked(&question, answer.as_deref());
+            let Some(answer) = answer else {
+                let stopped = self.watcher.is_stopped();
+                return Some(if stopped { Outcome::Stopped } else { Outcome::Failed(problem) });
+            };
+            let situation = self.talk.known.situation(scene);
+            let meaning = answer::read(&answer, &problem, &self.task.request, &situation);
+            if meaning != Answer::NotUnderstood || is_told {
+                break (answer, meaning);
+            }
+            question.question = format!("I did not understand that. {}", problem.question);
+        };
+        match meaning {
+            Answer::GiveUp => return Some(Outcome::GivenUp),
+            Answer::Request(request) => {
+                self.talk.memory.instruct(self.now, &request);
+                self.talk.hear(&request);
+                // What is asked for where something could not be done may be a help to it.
+                let helps = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
+                let earlier = std::mem::take(&mut self.task.request);
+                let before = helps.then_some(earlier).or(self.task.before.take());
+                self.task = Task { questions: self.task.questions, ..Task::new(request, before) };
+                return None;
+            }
+            Answer::Again => self.task.tries = 0,
+            Answer::Means { said, id } => self.task.meant.push((said, id)),
+            Answer::Located(located) => located.iter().for_each(|one| self.talk.known.hear(one)),
+            Answer::NotUnderstood => {}
+        }
+        if is_told {
+            self.talk.memory.instruct(self.now, &answer);
+        }
+        None
+    }
+}
