@@ -230,7 +230,7 @@ impl Prover<'_> {
     }
 
     /// Takes a need as given: the guard has seen it hold, or it was reported and is not to be reported again.
-    fn grant(&mut self, id: StepId, need: &NeedDef, frame: Frame<'_>) {
+    pub(crate) fn grant(&mut self, id: StepId, need: &NeedDef, frame: Frame<'_>) {
         let cause = Cause::step(id);
         if need.each.is_none() && need.when.is_none() {
             self.assume(&need.condition, true, cause, frame);

@@ -11,7 +11,7 @@ use super::eval::Frame;
 use super::facts::{ANY, Facts, Key, Split};
 use super::symbols::Symbols;
 use super::value::Value;
-use super::{Mood, Proof, Prover, Verdict, Volatile, Watched};
+use super::{Mood, Proof, Prover, Volatile, Watched};
 use crate::ir::{Condition, Fluent, Program, StepId, Term};
 use crate::library::{Library, PrimitiveDef};
 use crate::world::World;
@@ -235,6 +235,11 @@ impl Prover<'_> {
         self.stands.truncate(stands);
     }
 
+    /// Whether nothing that follows changes the answer: something is refuted, and by no rehearsal.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.mood == Mood::Judge && self.fixpoints == 0 && self.hole.is_none() && self.is_refuted()
+    }
+
     pub(crate) fn is_refuted(&self) -> bool {
         self.diagnostics.iter().any(|said| said.severity == Severity::Error)
     }
@@ -264,10 +269,17 @@ impl Prover<'_> {
         // No step of the program has this number: the cause of what the call grants is the call itself.
         let id = StepId(u32::try_from(self.program.steps.len()).unwrap_or(u32::MAX));
         let frame = Frame { args, result: None, each: None };
-        let verdicts = self.needs(id, def, count, frame, Span::default());
+        let needs = def.needs.get(..count).unwrap_or(&def.needs);
+        let is_refuted = needs.iter().enumerate().any(|(index, need)| {
+            let (value, _) = self.need(need, frame);
+            // What nothing is asked behind need not be taken as given.
+            if !value.no.is_some() && value.open.is_some() && index + 1 < needs.len() {
+                self.grant(id, need, frame);
+            }
+            value.no.is_some()
+        });
         self.facts.back_to(mark);
-        self.diagnostics.clear();
-        verdicts.contains(&Verdict::Refuted)
+        is_refuted
     }
 
     /// Whether nothing of a step is refuted here; it leaves no trace.

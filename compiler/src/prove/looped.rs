@@ -131,7 +131,9 @@ impl Prover<'_> {
         let entry = Delta::default();
         let head = entry.or(&way, &self.facts);
         if !head.same_sets(&entry, &self.facts) {
+            self.fixpoints += 1;
             self.rounds(id, body, how, head).fingerprint(seen);
+            self.fixpoints -= 1;
         }
         !self.is_refuted()
     }

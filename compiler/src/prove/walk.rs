@@ -17,7 +17,7 @@ use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 impl Prover<'_> {
     pub(crate) fn block(&mut self, block: &[StepId]) {
         for id in block {
-            if !self.live {
+            if !self.live || self.is_settled() {
                 return;
             }
             self.step(*id);
