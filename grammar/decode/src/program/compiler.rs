@@ -9,9 +9,9 @@ use motet_syntax::print::identifier;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
-use super::{Assembler, Bound, Callable, Entry, OpId, Program, Table};
+use super::{Assembler, Bound, Callable, Ends, Entry, Guard, Meaning, Op, OpId, Program, Role, Table, Words};
 use crate::export::RESERVED;
-use crate::surface::Surface;
+use crate::surface::{NumberRange, Relation, Surface};
 
 /// A program in the making.
 pub(super) struct Compiler<'a> {
@@ -79,6 +79,49 @@ impl<'a> Compiler<'a> {
     pub(super) fn bound(&mut self, ty: &Type) -> Bound {
         let fits = self.types.iter().any(|actual| self.signatures.fits(ty, actual));
         if fits { Bound::Type(self.type_number(ty)) } else { Bound::None }
+    }
+
+    /// The relations that values of a type are compared by, each under its spelling.
+    pub(super) fn relation(&mut self, ty: &Type, ends: Ends, spelled: impl Fn(Relation) -> SmolStr) {
+        let is_ordered = NumberRange::of(ty, None).is_some();
+        let relations = Relation::ALL.iter().zip(0..);
+        let relations = relations.filter(|(relation, _)| is_ordered || Relation::EQUALITY.contains(relation));
+        let entries = relations.map(|(relation, place)| Entry {
+            name: spelled(*relation),
+            meaning: Meaning::Named(place),
+            to: None,
+            guard: Guard::Open,
+        });
+        self.plain_word(Arc::new(Table::new(entries)), ends);
+    }
+
+    /// What a value of a type is compared with, and whether there is anything; none of what each surface spells in its
+    /// own way: numbers with their ranges, true and false.
+    pub(super) fn operand(&mut self, ty: &Type, ends: Ends) -> Option<bool> {
+        match ty {
+            Type::Int | Type::Number | Type::Quantity(_) if NumberRange::of(ty, None).is_none() => {
+                Some(false)
+            }
+            Type::Int | Type::Number | Type::Quantity(_) | Type::Bool => None,
+            Type::Text => {
+                self.asm.literal("\"");
+                self.asm.put(Op::Text { arg: None });
+                Some(true)
+            }
+            Type::Entity(_) | Type::Enum(_) => {
+                let table = self.table(ty).0;
+                let can = !table.entries.is_empty();
+                self.plain_word(table, ends);
+                Some(can)
+            }
+            Type::Pose | Type::List(_) => Some(false),
+        }
+    }
+
+    /// One of some words, none of them bound.
+    fn plain_word(&mut self, table: Arc<Table>, ends: Ends) {
+        let next = self.asm.here() + 1;
+        self.asm.put(Op::Word(Words { table, bound: Bound::None, role: Role::Free, ends, next }));
     }
 
     /// The words of a type, without and with `any`.

@@ -7,7 +7,7 @@ use smol_str::SmolStr;
 
 use crate::program::compiler::Compiler;
 use crate::program::{Act, Bound, Ends, Entry, Guard, Kind, Meaning, Op, OpId, Role, Table, Words};
-use crate::surface::{MAX_MEMBERS, NumberRange, Relation, is_text};
+use crate::surface::{MAX_MEMBERS, is_text};
 
 impl Compiler<'_> {
     /// A condition behind its `{"`, with its brace.
@@ -123,43 +123,13 @@ impl Compiler<'_> {
 
     /// `,"is":"less","than":0.5`; false where nothing can be compared with.
     pub(super) fn comparison(&mut self, ty: &Type, end: OpId) -> bool {
-        let range = NumberRange::of(ty, None);
-        let relations: &[Relation] = if range.is_some() { &Relation::ALL } else { &Relation::EQUALITY };
         self.asm.literal(",\"is\":\"");
-        let next = self.asm.here() + 1;
-        let entries = relations.iter().enumerate().filter_map(|(index, relation)| {
-            let place = Relation::ALL.iter().position(|other| other == relation).unwrap_or(index);
-            let meaning = Meaning::Named(u16::try_from(place).ok()?);
-            let name = SmolStr::new_static(relation.word());
-            Some(Entry { name, meaning, to: None, guard: Guard::Open })
-        });
-        let table = Arc::new(Table::new(entries));
-        self.asm.put(Op::Word(Words { table, bound: Bound::None, role: Role::Free, ends: Ends::Tail, next }));
+        self.relation(ty, Ends::Tail, |relation| SmolStr::new_static(relation.word()));
         self.asm.literal(",\"than\":");
-        let can = match ty {
-            Type::Int | Type::Number | Type::Quantity(_) => {
-                self.value(ty, None, Role::Free);
-                range.is_some()
-            }
-            Type::Bool => {
-                self.value(ty, None, Role::Free);
-                true
-            }
-            Type::Text => {
-                self.asm.literal("\"");
-                self.asm.put(Op::Text { arg: None });
-                true
-            }
-            Type::Entity(_) | Type::Enum(_) => {
-                let table = self.table(ty).0;
-                let can = !table.entries.is_empty();
-                let next = self.asm.here() + 1;
-                let (bound, role) = (Bound::None, Role::Free);
-                self.asm.put(Op::Word(Words { table, bound, role, ends: Ends::Quoted, next }));
-                can
-            }
-            Type::Pose | Type::List(_) => false,
-        };
+        let can = self.operand(ty, Ends::Quoted).unwrap_or_else(|| {
+            self.value(ty, None, Role::Free);
+            true
+        });
         self.asm.put(Op::Jump(end));
         can
     }

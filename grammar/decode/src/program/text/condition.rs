@@ -1,15 +1,13 @@
 //! Conditions: fluents, comparisons, and what joins them. `and` and `or` stand between what they join, so the first of
 //! several is a condition of its own until one of them follows.
 
-use std::sync::Arc;
-
 use motet_compiler::signature::Type;
 use motet_syntax::print::identifier;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Speller;
-use crate::program::{Act, Bound, Ends, Entry, Guard, Kind, Meaning, Op, OpId, Role, Table, Words};
-use crate::surface::{MAX_MEMBERS, NumberRange, Relation};
+use crate::program::{Act, Ends, Guard, Kind, Op, OpId, Role};
+use crate::surface::MAX_MEMBERS;
 
 /// A word that begins a condition, the rule behind it, and when it is open.
 type Ways = Vec<(SmolStr, OpId, Guard)>;
@@ -169,40 +167,11 @@ impl Speller<'_> {
 
     /// `< 0.5 m`; false where nothing can be compared with.
     fn comparison(&mut self, ty: &Type) -> bool {
-        let range = NumberRange::of(ty, None);
-        let relations: &[Relation] = if range.is_some() { &Relation::ALL } else { &Relation::EQUALITY };
-        let next = self.of.asm.here() + 1;
-        let entries = relations.iter().filter_map(|relation| {
-            let place = Relation::ALL.iter().position(|other| other == relation)?;
-            let meaning = Meaning::Named(u16::try_from(place).ok()?);
-            let name = format_smolstr!("{} ", relation.symbol());
-            Some(Entry { name, meaning, to: None, guard: Guard::Open })
+        self.of.relation(ty, Ends::Whole, |relation| format_smolstr!("{} ", relation.symbol()));
+        let can = self.of.operand(ty, Ends::Bare).unwrap_or_else(|| {
+            self.value(ty, None, Role::Free);
+            true
         });
-        let (table, bound) = (Arc::new(Table::new(entries)), Bound::None);
-        self.of.asm.put(Op::Word(Words { table, bound, role: Role::Free, ends: Ends::Whole, next }));
-        let can = match ty {
-            Type::Int | Type::Number | Type::Quantity(_) => {
-                self.value(ty, None, Role::Free);
-                range.is_some()
-            }
-            Type::Bool => {
-                self.value(ty, None, Role::Free);
-                true
-            }
-            Type::Text => {
-                self.of.asm.literal("\"");
-                self.of.asm.put(Op::Text { arg: None });
-                true
-            }
-            Type::Entity(_) | Type::Enum(_) => {
-                let table = self.of.table(ty).0;
-                let can = !table.entries.is_empty();
-                let (next, bound, ends) = (self.of.asm.here() + 1, Bound::None, Ends::Bare);
-                self.of.asm.put(Op::Word(Words { table, bound, role: Role::Free, ends, next }));
-                can
-            }
-            Type::Pose | Type::List(_) => false,
-        };
         self.act(Act::Close);
         self.of.asm.put(Op::Return);
         can
