@@ -15,7 +15,7 @@ mod common;
 
 use common::dice::Dice;
 use common::tokens::{END, tokens};
-use common::walks::{Ended, KINDS, of_kind, steps, walk};
+use common::walks::{Ended, KINDS, of_kind, steps, walk, written};
 use common::{errors, session};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
 use motet_syntax::{FileId, Form, Source};
@@ -133,6 +133,40 @@ fn accept_examples(form: Form) {
         }
     }
     assert!(count >= 10, "{count}");
+}
+
+/// What is written in one surface is accepted in both, spelled as it spells it.
+#[test]
+fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
+    let (mut count, mut outside) = (0, 0);
+    for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
+        let session = session(robot, scene);
+        for (from, to) in [(Form::Json, Form::Text), (Form::Text, Form::Json)] {
+            let [from, to] = [from, to].map(|form| Surface { form, ..surface(Modifiers::Written) });
+            let prepared = Prepared::new(&session, to);
+            // The acceptor of the text form writes no comparison of a field.
+            let fits = |text: &str| (600..3000).contains(&text.len()) && !text.contains("\"field\":");
+            for text in written(&session, from, 4, fits) {
+                let parsed = motet_syntax::read(&Source::new("policy", text.as_str()), FileId(7));
+                let policy = parsed.file.policies().next().unwrap();
+                let Ok(spelled) = canonical(policy, &session.signatures(), to) else {
+                    outside += 1;
+                    continue;
+                };
+                let mut acceptor = prepared.acceptor(100_000).unwrap();
+                let taken = acceptor.accept(spelled.as_bytes());
+                assert!(
+                    taken == spelled.len() && acceptor.is_accepting(),
+                    "{robot} in {scene}, {to:?}: refused after {}, before {}",
+                    &spelled[..taken],
+                    &spelled[taken..]
+                );
+                count += 1;
+            }
+        }
+    }
+    println!("{count} policies, and {outside} that the other surface has no spelling for");
+    assert!(count >= 20, "{count}");
 }
 
 #[test]

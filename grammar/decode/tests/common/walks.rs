@@ -1,6 +1,7 @@
 //! Random walks through the acceptor: what a model without any sense writes.
 
-use motet_decode::{Acceptor, Prepared};
+use motet_compiler::Session;
+use motet_decode::{Acceptor, Prepared, Surface};
 use motet_syntax::Form;
 
 use super::dice::Dice;
@@ -31,6 +32,29 @@ pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -
         };
         acceptor.accept(&[byte]);
     }
+}
+
+/// So many policies that are written at random and fit, by walks of a session of their own, so that no answer is known
+/// beforehand.
+pub fn written(
+    session: &Session,
+    surface: Surface,
+    count: usize,
+    fits: impl Fn(&str) -> bool,
+) -> Vec<String> {
+    let (prepared, mut dice) = (Prepared::new(session, surface), Dice::new(7));
+    let mut found = Vec::new();
+    // The text form takes fewer tokens a step.
+    let (least, spread) = if surface.form == Form::Json { (12, 8) } else { (24, 20) };
+    while found.len() < count {
+        let steps = least + dice.below(spread);
+        if let Some(Ended::Whole(policy)) = walk(&prepared, 6000, steps, &mut dice)
+            && fits(&policy)
+        {
+            found.push(policy);
+        }
+    }
+    found
 }
 
 fn text(acceptor: &Acceptor) -> String {
