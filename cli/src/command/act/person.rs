@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use motet_planner::conversation::{Person, Problem};
+use motet_planner::conversation::{Kind, Person, Problem};
 
 use crate::command::run;
 use crate::exit::Trouble;
@@ -97,7 +97,8 @@ impl Asked {
 /// A question as it is put.
 pub(super) fn put(problem: &Problem) -> String {
     let mut text = format!("? {}", problem.question);
-    if !problem.options.is_empty() {
+    // Which things could be meant stands in the question, in the words that people have for them.
+    if !problem.options.is_empty() && problem.kind != Kind::AmbiguousReference {
         let options: Vec<&str> = problem.options.iter().map(|option| option.as_str()).collect();
         text.push_str(&format!("\n  ({})", options.join(", ")));
     }
