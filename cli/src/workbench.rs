@@ -1,6 +1,7 @@
 //! Against what documents are checked: the robot, the scene, the state, the domains. Read once; a session is made for
 //! each robot that the documents ask for.
 
+mod body;
 mod cards;
 mod scenes;
 mod state;

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{Geometry, Options, Session, State, codes};
-use motet_robots::{card, scene, srdf, urdf};
+use motet_robots::{card, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
@@ -99,6 +99,9 @@ struct Case {
     scene: Option<scene::Scene>,
     state: Option<State>,
     options: Options,
+    /// Files of meshes, by name.
+    meshes: Vec<(String, Vec<u8>)>,
+    has_srdf: bool,
     /// A PDDL domain, a problem and a plan, in this order.
     pddl: Vec<(Source, FileId)>,
 }
@@ -132,6 +135,15 @@ impl Case {
         if let Some((source, file)) = self.add(text) {
             let (urdf, said) = urdf::read(&source, file);
             self.said.extend(said);
+            let urdf = urdf.map(|urdf| {
+                let find = |name: &str| match self.meshes.iter().find(|(known, _)| known == name) {
+                    Some((_, bytes)) => mesh::Found::Bytes(bytes.clone()),
+                    None => mesh::Found::Missing(mesh::locate(name, "", &[])),
+                };
+                let (urdf, said) = mesh::attach(&source, file, urdf, find);
+                self.said.extend(said);
+                urdf
+            });
             if let (Some(urdf), Some((card, file))) = (&urdf, &self.card)
                 && self.robot.as_ref().is_some_and(|robot| robot.model.is_some())
             {
@@ -142,6 +154,7 @@ impl Case {
     }
 
     fn srdf(&mut self, text: &[u8]) {
+        self.has_srdf = true;
         if let Some(((source, file), urdf)) = self.add(text).zip(self.urdf.as_ref()) {
             self.said.extend(srdf::read(&source, file, urdf).1);
         }
@@ -185,6 +198,10 @@ impl Case {
                         let (_, text) = known.ok_or_else(|| format!("no scene `{name}`"))?;
                         self.scene(text.as_bytes());
                     }
+                    Some(("mesh", name)) => {
+                        self.meshes.push((name.to_owned(), bytes.clone()));
+                        role = "mesh";
+                    }
                     Some(("max", secs)) => self.options.max_duration_secs = secs.parse().ok(),
                     None if word == "generated" => {
                         let rest: Vec<_> = words.by_ref().collect();
@@ -200,6 +217,7 @@ impl Case {
                 "card" => self.card(text, None),
                 "urdf" => self.urdf(&bytes),
                 "srdf" => self.srdf(&bytes),
+                "mesh" => {}
                 "scene" => self.scene(&bytes),
                 "state" => self.state(&bytes),
                 "pddl" => {
@@ -226,6 +244,9 @@ impl Case {
             let domain = motet_pddl::Input { source: &domain, file: first };
             let problem = motet_pddl::Input { source: &problem, file: second };
             self.said.extend(motet_pddl::import(domain, problem, plan).1);
+        }
+        if let Some((source, file)) = self.card.as_ref().filter(|_| !self.has_srdf) {
+            self.said.extend(card::missing(source, *file, card::ModelFile::Srdf));
         }
         let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
         let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);

@@ -5,6 +5,7 @@
 //! `motet-geometry` does, from what is read here.
 
 pub mod card;
+pub mod mesh;
 pub mod scene;
 pub mod srdf;
 pub mod urdf;

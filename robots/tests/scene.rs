@@ -238,7 +238,10 @@ fn a_thing_is_as_wide_as_its_shape() {
     check(r#", "shape": {"box": [0.3, 0.2, 0.1]}"#, Some(0.2));
     check(r#", "shape": {"cylinder": {"radius": 0.04, "height": 0.01}}"#, Some(0.08));
     check(r#", "shape": {"sphere": {"radius": 0.5}}"#, Some(1.0));
-    check(r#", "shape": {"mesh": {"file": "a.stl"}}"#, None);
+    let mesh = room(r#"{"id": "a", "kind": "Object", "shape": {"mesh": {"file": "a.stl"}}}"#);
+    let (scene, told) = scene::read(&Source::new("room", mesh), FileId(0));
+    assert_eq!(scene.unwrap().entities["a"].width(), None);
+    assert_eq!(told.iter().map(|told| told.code.to_string()).collect::<Vec<_>>(), ["M0448"]);
     check(r#", "shape": {"box": [0.3, 0.2, 0.1]}, "width": 0.02"#, Some(0.02));
     check("", None);
 }

@@ -12,8 +12,9 @@
 use std::path::{Path, PathBuf};
 
 use motet_robots::card::{self, Drive};
+use motet_robots::mesh;
 use motet_robots::srdf;
-use motet_robots::urdf::{self, JointKind, Shape, Urdf, mesh};
+use motet_robots::urdf::{self, JointKind, Shape, Urdf};
 use motet_syntax::{Diagnostic, FileId, Source};
 use proptest::prelude::*;
 

@@ -36,7 +36,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
         return Err(Trouble::Other(format!("the card of `{}` names no URDF under [model]", robot.name)));
     };
     let scene = read_scene(&args.scene, &mut sources, report)?;
-    let machine = Machine::new(&robot, &urdf, None);
+    let machine = Machine::new(&robot, &urdf);
     let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions)? };
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);

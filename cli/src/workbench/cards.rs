@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use motet_robots::card::{self, Robot};
-use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Sources, suggest};
 
 use super::next_id;
@@ -15,16 +14,17 @@ use crate::report::Report;
 #[derive(Clone, Debug)]
 pub(crate) struct Card {
     /// Its name in diagnostics.
-    name: String,
+    pub(super) name: String,
     /// Where its files are.
-    home: Home,
-    toml: Vec<u8>,
+    pub(super) home: Home,
+    /// The text of its `robot.toml`.
+    pub(super) toml: Vec<u8>,
     declarations: Option<String>,
 }
 
 /// Where the files of a card are.
 #[derive(Clone, Debug)]
-enum Home {
+pub(super) enum Home {
     /// In the command, under the robot's name.
     BuiltIn(&'static str),
     /// In a folder.
@@ -92,43 +92,6 @@ impl Card {
         };
         let home = Home::Folder(folder.to_owned());
         Ok(Self { name: path.display().to_string(), home, toml: read_small(&path)?, declarations })
-    }
-
-    /// Reads the URDF of the card, which must have no error, and whether the card fits it; diagnostics go to the report.
-    /// There is none where the card names none.
-    ///
-    /// # Errors
-    ///
-    /// The file cannot be read, or has a mistake.
-    pub(crate) fn body(
-        &self,
-        robot: &Robot,
-        sources: &mut Sources,
-        report: &mut Report,
-    ) -> Result<Option<Urdf>, Trouble> {
-        let Some(model) = &robot.model else { return Ok(None) };
-        let (name, bytes) = match &self.home {
-            Home::BuiltIn(name) => {
-                let text = card::embedded_urdf(name).unwrap_or_default();
-                (format!("{name}/{}", model.urdf), text.as_bytes().to_vec())
-            }
-            Home::Folder(folder) => {
-                let path = folder.join(&model.urdf);
-                (path.display().to_string(), read_small(&path)?)
-            }
-        };
-        let file = next_id(sources);
-        let (source, mut said) = crate::document::decode(&name, &bytes, file);
-        sources.add(source.clone());
-        let (urdf, more) = urdf::read(&source, file);
-        said.extend(more);
-        report.usable("URDF", &said, sources)?;
-        let Some(urdf) = urdf else { return Err(Trouble::Diagnosed("URDF")) };
-        let file = next_id(sources);
-        let (source, _) = crate::document::decode(&self.name, &self.toml, file);
-        sources.add(source.clone());
-        report.usable("robot card", &card::fit(&source, file, &urdf), sources)?;
-        Ok(Some(urdf))
     }
 
     /// Reads the card; its diagnostics go to the report.

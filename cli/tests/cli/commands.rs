@@ -97,6 +97,49 @@ fn writes_a_first_card_and_checks_it() {
     place.run("robots check sloppy").check(1, &["out:M0427", "out:did you mean `base`?"]);
 }
 
+/// Two links that touch wherever the joint is in its range but at its ends, as an SRDF may allow.
+const ELBOW: &str = "<robot name='elbow'>
+  <link name='base'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
+  <link name='boom'/>
+  <link name='tip'><collision><geometry><mesh filename='package://elbow/tip.obj'/></geometry></collision></link>
+  <joint name='turn' type='revolute'><parent link='base'/><child link='boom'/>
+  <limit lower='-1' upper='1' velocity='1' effort='1'/></joint>
+  <joint name='bend' type='prismatic'><parent link='boom'/><child link='tip'/><axis xyz='1 0 0'/>
+  <limit lower='0' upper='1' velocity='1' effort='1'/></joint></robot>";
+
+const TIP: &str = "v 0 0 0.15\nv 0.1 0 0.15\nv 0 0.1 0.15\nv 0 0 0.05\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+
+#[test]
+fn reads_what_a_card_says_of_the_body() {
+    let place = Place::new("robots_body").file("elbow/robot.urdf", ELBOW).file("secret.obj", TIP);
+    place.run("robots add elbow/robot.urdf").check(0, &[]);
+    let card = place.read("elbow/robot.toml").replace("height = \"0 m\"", "height = \"1 m\"");
+    place.run("robots check elbow").check(0, &["out:M0448", "out:`tip` has a mesh that is not read"]);
+    let with = |line: &str| card.replace("[model]", &format!("[model]\n{line}"));
+    let place = place.file("elbow/robot.toml", with("packages = [\"packages\"]"));
+    place.run("robots check elbow").check(0, &["out:packages/elbow/tip.obj", "out:M0448"]);
+    // What lies elsewhere is not read, nor what is broken.
+    let (out, own) = ("'../secret.obj'", "'package://elbow/tip.obj'");
+    let place = place.file("elbow/robot.urdf", ELBOW.replace(own, out));
+    place.run("robots check elbow").check(1, &["out:M0449", "out:neither below"]);
+    let place = place.file("elbow/robot.urdf", ELBOW).file("elbow/packages/elbow/tip.obj", "f 1 2 3\n");
+    place.run("robots check elbow").check(1, &["out:M0449", "out:line 1 names a corner"]);
+    let place = place.file("elbow/packages/elbow/tip.obj", TIP);
+    place.run("robots check elbow").check(0, &["out:no errors\n", "out:warning: `base` touches `tip`"]);
+    // The SRDF says that they may.
+    let place = place.file("elbow/robot.toml", with("packages = [\"packages\"]\nsrdf = \"robot.srdf\""));
+    place.run("robots check elbow").check(1, &["out:M0450", "out:`srdf` is `robot.srdf`"]);
+    place.run("feasible --robot elbow --scene kitchen --all").check(2, &["out:M0450"]);
+    let srdf = "<robot name='elbow'><disable_collisions link1='base' link2='TOP'/></robot>";
+    let place = place.file("elbow/robot.srdf", srdf);
+    place.run("robots check elbow").check(1, &["out:M0472", "out:`TOP`"]);
+    place.run("feasible --robot elbow --scene kitchen --all").check(2, &["out:M0472"]);
+    let place = place.file("elbow/robot.srdf", srdf.replace("TOP", "tip"));
+    place
+        .run("robots check elbow")
+        .check(0, &["out:no errors\n", "out:touches neither itself nor the floor"]);
+}
+
 /// The HSR's card under another roof, with one line replaced, and whether its own declarations lie beside it.
 fn own_card(name: &str, from: &str, to: &str, declarations: Option<&str>) -> Place {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../robots/models/hsr");

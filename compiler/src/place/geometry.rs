@@ -54,7 +54,7 @@ impl Geometry {
     /// A robot in a scene, in a state where one is given. O(parts² of the robot).
     #[must_use]
     pub fn new(robot: &Robot, urdf: &Urdf, scene: &Scene, state: Option<&State>, budget: Budget) -> Self {
-        let machine = Machine::new(robot, urdf, None);
+        let machine = Machine::new(robot, urdf);
         let mut scene = scene.clone();
         let start = begin(&machine, &mut scene, state);
         Self { machine, scene, start, budget, memo: Mutex::default(), maps: Maps::default() }

@@ -18,7 +18,7 @@ fn query(criterion: &mut Criterion) {
     let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.unwrap();
     let text = scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap().1;
     let scene = scene::read(&Source::new("kitchen", text), FileId(0)).0.unwrap();
-    let machine = Machine::new(&robot, &urdf, None);
+    let machine = Machine::new(&robot, &urdf);
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);
     let mut group = criterion.benchmark_group("hsr, kitchen");
@@ -66,7 +66,7 @@ fn among(criterion: &mut Criterion) {
     let robot = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
     let text = card::embedded_urdf("hsr").unwrap();
     let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.unwrap();
-    let machine = Machine::new(&robot, &urdf, None);
+    let machine = Machine::new(&robot, &urdf);
     let mut group = criterion.benchmark_group("hsr, objects");
     group.sample_size(20);
     for tables in [12, 1112] {

@@ -16,7 +16,7 @@ fn hsr() -> Machine {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();
     let card = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
     let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
-    Machine::new(&card, &urdf, None)
+    Machine::new(&card, &urdf)
 }
 
 fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> Entity {

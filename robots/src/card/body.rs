@@ -5,7 +5,7 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, FileId, Source, suggest};
 use smol_str::SmolStr;
 
-use super::errors::{BeyondLimit, NoPlace, NotInUrdf, SameAxis};
+use super::errors::{BeyondLimit, NoFile, NoPlace, NotInUrdf, SameAxis};
 use super::model::Model;
 use super::quantity::{Numbers, Sign};
 use super::read::Reader;
@@ -90,6 +90,28 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     let mut found = fit.numbers.found;
     found.sort_by_key(|diagnostic| diagnostic.span);
     found
+}
+
+/// That a file which the card names is not there. None where the card does not name one.
+#[must_use]
+pub fn missing(toml: &Source, file: FileId, which: ModelFile) -> Option<Diagnostic> {
+    let card = toml::from_str::<wire::Card>(&toml.text).ok()?;
+    let model = card.model.as_ref()?;
+    let (key, name) = match which {
+        ModelFile::Urdf => ("urdf", &model.urdf),
+        ModelFile::Srdf => ("srdf", model.srdf.as_ref()?),
+    };
+    let span = Numbers { file, found: Vec::new() }.span(name);
+    Some(NoFile { span, key, file: name.get().clone() }.into())
+}
+
+/// A file under `[model]`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ModelFile {
+    /// `urdf`
+    Urdf,
+    /// `srdf`
+    Srdf,
 }
 
 struct Fit<'u> {

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot card (M0411 to M0430).
+//! What can be wrong with a robot card (M0411 to M0430, M0450).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
@@ -131,6 +131,11 @@ motet_syntax::mistakes! {
     NoPlace("M0430", Warning) { what: &'static str, name: String, key: &'static str }
     message(m) { format!("no link of the URDF is named for the {} `{}`, so no motion with it can be computed", m.what, m.name) }
     help(m) { Some(format!("add `{} = \"…\"`", m.key)) }
+
+    /// A file that the card names, and that is not there.
+    NoFile("M0450", Error) { key: &'static str, file: String }
+    message(m) { format!("`{}` is `{}`, and there is no such file", m.key, m.file.escape_debug()) }
+    help(_m) { Some("a path is seen from the folder of the card".to_owned()) }
 }
 
 fn known_or_near(near: Option<&str>, known: &[String]) -> String {

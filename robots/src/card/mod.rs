@@ -15,7 +15,7 @@ mod resources;
 mod shape;
 pub mod wire;
 
-pub use body::fit;
+pub use body::{ModelFile, fit, missing};
 pub use draft::draft;
 pub use embedded::{embedded, embedded_urdf};
 pub use errors::CODES;

@@ -1,6 +1,7 @@
 //! One entity or view: from its wire form to the model's, number by number. What cannot be is left out.
 
 use indexmap::IndexMap;
+use motet_syntax::Span;
 use motet_syntax::json::Spanned;
 use smol_str::SmolStr;
 
@@ -8,6 +9,7 @@ use super::errors::{EmptyName, FieldTwice, TooWideAngle};
 use super::model::{Entity, Placement, Shape, Travel, View, Written};
 use super::number::{Numbers, Quantity};
 use super::wire;
+use crate::mesh::UnreadMesh;
 
 /// Fields of entities that have a key of their own.
 const OWN_KEYS: &[&str] = &["mass", "width"];
@@ -25,7 +27,7 @@ pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut Numbers) -> Ent
         names: wire.names.clone(),
         categories: wire.categories.clone(),
         pose: wire.pose.0.as_ref().and_then(|pose| placement(pose, numbers)),
-        shape: wire.shape.0.as_ref().and_then(|it| shape(it, numbers)),
+        shape: wire.shape.0.as_ref().and_then(|it| shape(it, wire.id.span, numbers)),
         mass_kg: wire.mass.as_ref().and_then(|mass| numbers.one(mass, Quantity::Mass)),
         fixed: wire.fixed,
         on: name(&wire.on),
@@ -63,7 +65,7 @@ fn placement(pose: &wire::Pose, numbers: &mut Numbers) -> Option<Placement> {
     Some(Placement { xyz: xyz?, rpy: rpy? })
 }
 
-fn shape(shape: &wire::Shape, numbers: &mut Numbers) -> Option<Shape> {
+fn shape(shape: &wire::Shape, span: Span, numbers: &mut Numbers) -> Option<Shape> {
     let mut rod = |rod: &wire::Rod| {
         let radius = numbers.one(&rod.radius, Quantity::Size);
         let height = numbers.one(&rod.height, Quantity::Size);
@@ -79,7 +81,12 @@ fn shape(shape: &wire::Shape, numbers: &mut Numbers) -> Option<Shape> {
                 Some(scale) => numbers.three(scale, Quantity::Scale)?,
                 None => [1.0; 3],
             };
-            Shape::Mesh { file: mesh.file.clone(), scale }
+            let file = mesh.file.clone();
+            let problem = "those of a scene are not".to_owned();
+            let help =
+                "give the `box`, `cylinder`, `capsule` or `sphere` that encloses it instead".to_owned();
+            numbers.found.push(UnreadMesh { span, file: file.clone(), problem, help }.into());
+            Shape::Mesh { file, scale }
         }
     })
 }

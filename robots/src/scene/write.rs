@@ -127,7 +127,7 @@ fn view(view: &View) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use motet_syntax::{FileId, Source};
+    use motet_syntax::{FileId, Severity, Source};
 
     use crate::scene::{embedded, read};
 
@@ -144,10 +144,13 @@ mod tests {
     #[test]
     fn what_is_written_is_read_as_the_same_scene() {
         for (name, text) in embedded().iter().copied().chain([("all", ALL)]) {
-            let (scene, said) = read(&Source::new(name, text), FileId(0));
+            let (scene, mut said) = read(&Source::new(name, text), FileId(0));
+            // That a mesh is not read.
+            said.retain(|said| said.severity == Severity::Error);
             assert!(said.is_empty(), "{name}: {said:?}");
             let scene = scene.unwrap();
-            let (again, said) = read(&Source::new(name, super::write(&scene)), FileId(0));
+            let (again, mut said) = read(&Source::new(name, super::write(&scene)), FileId(0));
+            said.retain(|said| said.severity == Severity::Error);
             assert!(said.is_empty(), "{name}: {said:?}");
             assert_eq!(again.unwrap(), scene, "{name}");
         }

@@ -2,13 +2,12 @@
 //!
 //! The reader takes its numbers from the same parse that it checks, so what was checked is what is used. It reads what
 //! kinematics and collision need: links with their shapes, joints with their origin, axis, limits and mimic rule.
-//! Inertia, materials, transmissions and simulator extensions are passed over. No file is opened: a mesh is a name,
-//! and [`mesh::locate`] says where it may be.
+//! Inertia, materials, transmissions and simulator extensions are passed over. No file is opened: a mesh is a name
+//! until [`crate::mesh::attach`] reads it.
 
 mod document;
 mod errors;
 mod joint;
-pub mod mesh;
 pub mod model;
 mod number;
 mod read;

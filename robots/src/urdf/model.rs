@@ -13,6 +13,9 @@ pub struct Urdf {
     pub joints: Vec<Joint>,
     /// Index of the link that no joint moves.
     pub root: usize,
+    /// Pairs of links whose collision does not count, the lower index first: none from the file itself, what
+    /// [`crate::srdf::read`] finds in an SRDF.
+    pub may_touch: Vec<[usize; 2]>,
 }
 
 impl Urdf {

@@ -63,7 +63,7 @@ pub(super) fn settle(
         })
     });
     let joints = joints.collect();
-    Some(Urdf { name: name.into(), links, joints, root })
+    Some(Urdf { name: name.into(), links, joints, root, may_touch: vec![] })
 }
 
 fn link(

@@ -125,7 +125,7 @@ pub fn robot(name: &str) -> Option<Model> {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name)?;
     let card = card::read(&Source::new(name, *toml), FileId(0), *own).0?;
     let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name)?), FileId(0)).0?;
-    Model::new(Machine::new(&card, &urdf, None), urdf)
+    Model::new(Machine::new(&card, &urdf), urdf)
 }
 
 impl Model {

@@ -47,7 +47,7 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
 const NO_BODY: &str = "the card names no URDF under [model], so no motion can be computed";
 
 fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
-    let machine = Machine::new(robot, urdf, None);
+    let machine = Machine::new(robot, urdf);
     let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
     let mut lines = vec![format!(
@@ -71,7 +71,7 @@ fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
         lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(robot, &chain)));
     }
     lines.extend(machine.body().unseen().iter().filter_map(|link| {
-        Some(format!("`{}` is a mesh, so no motion is computed", tree.links().get(*link)?))
+        Some(format!("`{}` has a mesh that is not read, so no motion is computed", tree.links().get(*link)?))
     }));
     lines.extend(touching(&machine));
     lines

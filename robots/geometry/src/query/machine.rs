@@ -1,7 +1,6 @@
 //! A robot made ready for queries: its card, its kinematics, its body, and how its hand is solved. Made once.
 
 use motet_robots::card::{Drive, Hand as HandCard, Robot};
-use motet_robots::srdf::Srdf;
 use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
@@ -80,11 +79,11 @@ impl Solver {
 }
 
 impl Machine {
-    /// A robot from its card, a URDF that fits it and, where there is one, its SRDF. O(parts²).
+    /// A robot from its card and a URDF that fits it, with its meshes and its SRDF where there are any. O(parts²).
     ///
     /// The fingers of a hand may touch each other: that is what they are for.
     #[must_use]
-    pub fn new(card: &Robot, urdf: &Urdf, srdf: Option<&Srdf>) -> Self {
+    pub fn new(card: &Robot, urdf: &Urdf) -> Self {
         let tree = Tree::new(urdf);
         let model = card.model.as_ref();
         let link = |name: Option<&SmolStr>| name.and_then(|name| tree.link(name).ok());
@@ -100,7 +99,7 @@ impl Machine {
         let height = model.map_or(0.0, |model| model.height_m);
         let floor_from_root = Translation3::new(0.0, 0.0, height) * tree.pose(&rest, base, tree.root());
         let levers: Vec<Vec<Lever>> = (0..tree.links().len()).map(|link| tree.levers(link)).collect();
-        let mut allowed = srdf.map_or_else(Vec::new, |srdf| srdf.disabled.clone());
+        let mut allowed = urdf.may_touch.clone();
         for tip in card.hands.values().filter_map(|hand| link(hand.tip.as_ref())) {
             let fingers: Vec<usize> =
                 (0..levers.len()).filter(|at| is_carried_by(&tree, &levers, tip, *at)).collect();

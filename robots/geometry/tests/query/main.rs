@@ -27,7 +27,7 @@ fn machine(name: &str) -> (Machine, Urdf) {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
     let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
     let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    (Machine::new(&card, &urdf, None), urdf)
+    (Machine::new(&card, &urdf), urdf)
 }
 
 fn embedded(name: &str) -> Scene {
