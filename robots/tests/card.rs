@@ -324,6 +324,12 @@ fn a_card_and_its_urdf_agree() {
         &model.replace("lift", "look"),
         &["M0427 ['20 cm'] the URDF has no joint that moves by itself called `look`"],
     );
+    check_fit(
+        "tip = 'palm'",
+        "frame = 'eye_frame'",
+        &model.replace("20 cm", "30 deg"),
+        &["M0418 ['30 deg'] `lift` is not measured in `deg` / write it in `m`, `cm` or `mm`"],
+    );
     let (_, found, _) = read(&GOOD.replacen("[cameras.eye]", "points = 'y'\n[cameras.eye]", 1));
     assert_eq!(found[0].code.0, "M0429");
 }

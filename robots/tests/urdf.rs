@@ -401,10 +401,24 @@ fn a_first_card_finds_the_parts() {
         assert_eq!((robot.base.drive, found), (drive, Some(tip)), "{name}");
         assert_eq!(robot.cameras.first().and_then(|(_, camera)| camera.frame.as_deref()), frame, "{name}");
     }
+    let panda = card::draft(&read(card::embedded_urdf("panda").unwrap()).0.unwrap(), "robot.urdf");
+    assert!(panda.contains("\nopen = { \"panda_finger_joint1\" = 0.04"), "{panda}");
     let block = read("<robot name='7 up!'><link name='base'/></robot>").0.unwrap();
     let card = card::draft(&block, "robot.urdf");
     let robot = card::read(&Source::new("card", card), FileId(0), None).0.unwrap();
     assert_eq!((robot.name.as_str(), robot.hands.len()), ("robot_7_up", 0));
+}
+
+#[test]
+fn a_first_card_of_a_long_chain_takes_no_longer_than_its_links() {
+    let links: String = (0..20_000).map(|n| format!("<link name='l{n}'/>")).collect();
+    let joints: String = (1..20_000)
+        .map(|n| {
+            format!("<joint name='j{n}' type='fixed'><parent link='l{}'/><child link='l{n}'/></joint>", n - 1)
+        })
+        .collect();
+    let urdf = read(&format!("<robot name='chain'>{links}{joints}</robot>")).0.unwrap();
+    assert!(card::draft(&urdf, "robot.urdf").contains("name = \"chain\""));
 }
 
 #[test]

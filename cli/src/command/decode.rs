@@ -52,8 +52,10 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let mut acceptor = prepared
         .acceptor(args.budget)
         .ok_or_else(|| Trouble::Other(format!("no policy has at most {} bytes", args.budget)))?;
-    while begun.last().is_some_and(u8::is_ascii_whitespace) {
+    // What editors and shells put at the end of a file; any other space belongs to the beginning.
+    if begun.last() == Some(&b'\n') {
         begun.pop();
+        begun.pop_if(|last| *last == b'\r');
     }
     let taken = acceptor.accept(&begun);
     let rest = begun.split_off(taken);

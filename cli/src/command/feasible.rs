@@ -5,11 +5,12 @@ mod wire;
 
 use motet_geometry::query::{Answer, Budget, Machine, Query, Reason, Room, Unknown, World};
 use motet_robots::scene::Scene;
-use motet_syntax::Sources;
+use motet_syntax::{Sources, suggest};
+use smol_str::SmolStr;
 
 use crate::args::{FeasibleArgs, FeasibleFormat, Format};
 use crate::exit::{Exit, Trouble};
-use crate::out::Colors;
+use crate::out::{Colors, count};
 use crate::report::Report;
 use crate::workbench::{Card, read_scene};
 
@@ -37,13 +38,13 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     };
     let scene = read_scene(&args.scene, &mut sources, report)?;
     let machine = Machine::new(&robot, &urdf);
-    let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions)? };
+    let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions, &machine, &scene)? };
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);
     let mut found = Vec::new();
     let mut exit = Exit::Clean;
     for query in queries {
-        let answer = room.answer(&query, Budget::default());
+        let answer = room.answer(&query, Budget::default().times(usize::from(args.effort)));
         match args.format {
             FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
             FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
@@ -61,16 +62,47 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     Ok(exit)
 }
 
-fn asked(motions: &[String]) -> Result<Vec<Query>, Trouble> {
-    let queries = motions.iter().map(|motion| {
-        Query::parse(motion).ok_or_else(|| Trouble::Unknown {
+fn asked(motions: &[String], machine: &Machine, scene: &Scene) -> Result<Vec<Query>, Trouble> {
+    let parsed = motions.iter().map(|motion| {
+        let query = Query::parse(motion).ok_or_else(|| Trouble::Unknown {
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
                 .to_owned(),
-        })
+        })?;
+        let entities = || scene.entities.keys().map(SmolStr::as_str);
+        match &query {
+            Query::Put(object, other) | Query::Offer(object, other) => {
+                known("entity", object, entities)?;
+                known("entity", other, entities)?;
+            }
+            Query::GoTo(id) | Query::Reach(id, _) | Query::Look(id) | Query::Pull(id) | Query::Push(id) => {
+                known("entity", id, entities)?;
+            }
+            Query::Posture(name) => {
+                known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
+            }
+            Query::Other(_) => {}
+        }
+        Ok(query)
     });
-    queries.collect()
+    parsed.collect()
+}
+
+/// That there is something of a name.
+fn known<'a, I: Iterator<Item = &'a str>>(
+    what: &'static str,
+    name: &str,
+    names: impl Fn() -> I,
+) -> Result<(), Trouble> {
+    if names().any(|known| known == name) {
+        return Ok(());
+    }
+    let help = match suggest::closest(name, names()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known here: {}", suggest::one_of(names())),
+    };
+    Err(Trouble::Unknown { what, name: name.to_owned(), help })
 }
 
 /// Every motion that can be asked for in a scene.
@@ -91,13 +123,13 @@ fn told(query: &Query, answer: &Answer) -> String {
         Answer::Feasible(witness) => {
             let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
             let mut line = format!(
-                "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {} legs, {:.3} m clear",
+                "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {}, {:.3} m clear",
                 yaw.to_degrees(),
-                witness.path.len().saturating_sub(1),
+                count(witness.path.len().saturating_sub(1), "leg"),
                 witness.margins.clearance,
             );
             if let Some(limit) = witness.margins.limit {
-                line.push_str(&format!(", {limit:.2} from a joint's limit"));
+                line.push_str(&format!(", {limit:.2} rad or m from a joint's limit"));
             }
             if let Some(payload) = witness.margins.payload {
                 line.push_str(&format!(", {payload:.2} kg to spare"));
@@ -109,7 +141,9 @@ fn told(query: &Query, answer: &Answer) -> String {
             let help = why.change.as_ref().map_or_else(String::new, |change| format!("  help: {change}\n"));
             format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
         }
-        Answer::Unknown(Unknown::Budget) => format!("{query}: unknown, the search was cut short\n"),
+        Answer::Unknown(Unknown::Budget) => format!(
+            "{query}: unknown, the search was cut short\n  help: `--effort 4` searches four times as long\n"
+        ),
         Answer::Unknown(Unknown::Because(why)) => format!("{query}: unknown, {why}\n"),
     }
 }

@@ -34,6 +34,17 @@ fn answers() {
         ),
         ("feasible --robot hsr --scene kitchen", 2, &["err:--for"]),
         (
+            "feasible --robot hsr --scene kitchen --for reach(mug1)",
+            2,
+            &["err:there is no entity `mug1`", "err:did you mean `mug_1`?"],
+        ),
+        (
+            "feasible --robot hsr --scene kitchen --for posture(hom) --effort 2",
+            2,
+            &["err:there is no posture `hom`", "err:did you mean `home`?"],
+        ),
+        ("feasible --help", 0, &["out:--effort", "out:put(OBJECT, ENTITY)"]),
+        (
             "feasible --robot hsr --scene kitchen --for go_to(sink) --for reach(coke) --format json --svg room.svg",
             0,
             &["out:{\"query\":\"go_to(sink)\",\"answer\":\"feasible\"", "out:\"margins\""],

@@ -13,6 +13,10 @@ fn decode(name: &str, flags: &str, begun: &str) -> crate::support::Ran {
 fn what_must_follow_and_what_may() {
     let ran = decode("decode_bytes", "", "{\"mo\n");
     ran.check(0, &["out:taken: 4 bytes\nmust follow: \"tet\\\":1,\\\"policy\\\":\\\"\"\nmay follow: \"ABC"]);
+    // Only the end of a line is left out: a space belongs to what was begun.
+    decode("decode_space", "--surface text", "policy p ").check(0, &["out:taken: 9 bytes"]);
+    decode("decode_break", "--surface text", "policy p \r\n").check(0, &["out:taken: 9 bytes"]);
+    decode("decode_white", "", "{\"motet\":1, ").check(1, &["out:refused: \" \" at byte 11"]);
     let whole = format!("{HEAD}{{\"end\":\"done\"}}]}}");
     decode("decode_whole", "", &whole)
         .check(0, &["out:the policy is whole: nothing may follow but the end\n"]);

@@ -5,12 +5,12 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, FileId, Source, suggest};
 use smol_str::SmolStr;
 
-use super::errors::{BeyondLimit, NoFile, NoPlace, NotInUrdf, SameAxis};
+use super::errors::{BeyondLimit, NoFile, NoPlace, NotInUrdf, SameAxis, WrongDimension};
 use super::model::Model;
-use super::quantity::{Numbers, Sign};
+use super::quantity::{Numbers, Sign, units_of};
 use super::read::Reader;
 use super::wire::{self, At, Direction, Quantity};
-use crate::urdf::{Joint, Urdf};
+use crate::urdf::{Joint, JointKind, Urdf};
 
 impl Reader {
     pub(super) fn model(&mut self, model: &wire::Model) -> Model {
@@ -154,9 +154,21 @@ impl Fit<'_> {
                 self.numbers.found.push(NotInUrdf { span, what, name: name.clone(), near }.into());
                 continue;
             };
-            let Some((limits, (value, _))) = joint.limits.zip(self.numbers.any(name, position)) else {
-                continue;
+            let Some((value, unit)) = self.numbers.any(name, position) else { continue };
+            let dimension = match joint.kind {
+                JointKind::Prismatic => Dimension::LENGTH,
+                JointKind::Fixed
+                | JointKind::Revolute
+                | JointKind::Continuous
+                | JointKind::Planar
+                | JointKind::Floating => Dimension::ANGLE,
             };
+            if let Some(unit) = unit.filter(|unit| unit.dimension() != dimension) {
+                let (key, unit, units) = (name.clone(), unit.symbol(), units_of(dimension));
+                self.numbers.found.push(WrongDimension { span, key, unit, units }.into());
+                continue;
+            }
+            let Some(limits) = joint.limits else { continue };
             if !(limits.lower..=limits.upper).contains(&value) {
                 let (joint, least, greatest) = (name.clone(), limits.lower, limits.upper);
                 self.numbers.found.push(BeyondLimit { span, joint, value, least, greatest }.into());

@@ -99,7 +99,12 @@ fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
     )?;
     writeln!(card, "tip = {:?}  # guessed: {}", link(urdf, hand.tip), hand.why)?;
     writeln!(card, "points = {:?}  # guessed: away from the arm", hand.points)?;
-    writeln!(card, "closes = {:?}  # guessed", hand.closes)
+    writeln!(card, "closes = {:?}  # guessed", hand.closes)?;
+    if !hand.open.is_empty() {
+        let open: Vec<String> = hand.open.iter().map(|(joint, at)| format!("{joint:?} = {at}")).collect();
+        writeln!(card, "open = {{ {} }}  # guessed: the fingers at their farther limit", open.join(", "))?;
+    }
+    Ok(())
 }
 
 fn link(urdf: &Urdf, at: usize) -> &str {

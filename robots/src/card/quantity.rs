@@ -117,6 +117,6 @@ impl Numbers {
 }
 
 /// The units of a dimension; none where it has none of its own.
-fn units_of(dimension: Dimension) -> Vec<&'static str> {
+pub(super) fn units_of(dimension: Dimension) -> Vec<&'static str> {
     Unit::symbols_of(dimension).collect()
 }

@@ -247,7 +247,9 @@ impl std::fmt::Display for Reason {
             Self::OutOfReach { what, needs, reach } => {
                 write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
             }
-            Self::NoFreePose { by: Some(by) } => write!(f, "`{by}` is in the way of every pose"),
+            Self::NoFreePose { by: Some(by) } => {
+                write!(f, "no pose of the robot is free, and most often `{by}` is in the way")
+            }
             Self::NoFreePose { by: None } => f.write_str("no pose of the robot serves it"),
             Self::BlockedPath { by: Some(by) } => write!(f, "`{by}` blocks the way"),
             Self::BlockedPath { by: None } => f.write_str("no way leads there"),

@@ -19,8 +19,10 @@ use crate::kinematics::planar;
 pub(super) const ABOVE: f64 = 0.004;
 /// How far it is lowered straight down before, in m; the shorter where the longer does not do.
 const LOWER: [f64; 2] = [0.1, 0.05];
-/// Places that are tried, nearest to the robot first.
-const PLACES: usize = 12;
+/// Places that are tried with the usual budget: half of them the nearest to the robot, half spread over the face.
+const PLACES: usize = 16;
+/// A larger budget tries at most so many times as many.
+const MOST_TIMES: usize = 16;
 /// Directions in which the thing may be turned.
 const TURNS: u32 = 8;
 
@@ -42,13 +44,17 @@ impl Room<'_> {
             return unknown(format!("the hand does not hold `{id}`"));
         };
         let Some((index, entity)) = self.entity(on) else { return unknown(format!("there is no `{on}`")) };
+        if id == on {
+            return unknown(format!("`{id}` does not stand on itself"));
+        }
         let support = match self.support_of(entity) {
             Ok(support) => support,
             Err(answer) => return answer,
         };
         let allowed = Allowed { hand: None, held: Some(index) };
         let mut met = Tally::default();
-        let places = self.places(&held, &support, index, &mut met);
+        let wanted = PLACES * (budget.candidates / Budget::default().candidates).clamp(1, MOST_TIMES);
+        let places = self.places(&held, (&support, index), wanted, &mut met);
         if places.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
             let certified = self.is_full(&held, &support, index);
@@ -128,8 +134,14 @@ impl Room<'_> {
         Ok(Support { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
     }
 
-    /// Free places of what is held, upright, nearest to the robot first.
-    fn places(&self, held: &Held<'_>, on: &Support, index: usize, met: &mut Tally) -> Vec<Isometry3<f64>> {
+    /// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face.
+    fn places(
+        &self,
+        held: &Held<'_>,
+        (on, index): (&Support, usize),
+        wanted: usize,
+        met: &mut Tally,
+    ) -> Vec<Isometry3<f64>> {
         let solid = Solid::new(&Isometry3::identity(), held.shape);
         let bottom = solid.extent(&Vector3::z());
         let around = libm::hypot(solid.extent(&Vector3::x()), solid.extent(&Vector3::y()));
@@ -138,7 +150,7 @@ impl Room<'_> {
         let room = on.half.map(|half| (half - around).max(0.0));
         let [base_x, base_y, _] = self.world.robot.base;
         let mut spots: Vec<(f64, Vector3<f64>)> = Vec::new();
-        for at in 0..4 * PLACES {
+        for at in 0..4 * wanted {
             let [x, y] = [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0);
             if on.is_disc && x * x + y * y > 1.0 {
                 continue;
@@ -148,25 +160,24 @@ impl Room<'_> {
         }
         spots.sort_by(|one, other| one.0.total_cmp(&other.0));
         let turned = |turn: u32| std::f64::consts::TAU * f64::from(turn) / f64::from(TURNS);
-        let mut places = Vec::new();
-        for (_, spot) in spots {
-            let upright = |turn: u32| {
-                let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, turned(turn)).rotation;
-                Isometry3::from_parts(Translation3::from(spot), rotation)
-            };
-            let stands = Solid::new(&upright(0), held.shape);
+        let upright = |spot: Vector3<f64>, turn: u32| {
+            let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, turned(turn)).rotation;
+            Isometry3::from_parts(Translation3::from(spot), rotation)
+        };
+        let mut is_free = |spot: &Vector3<f64>| {
+            let stands = Solid::new(&upright(*spot, 0), held.shape);
             let others = self.things.near([spot.x, spot.y], stands.reach() + GAP).map(|(_, thing)| thing);
             let mut others = others.filter(|thing| thing.entity != index);
-            if let Some(other) = others.find(|thing| !stands.is_farther(&thing.solid, GAP)) {
-                met.add_entity(self.name(other.entity));
-                continue;
-            }
-            places.extend((0..TURNS).map(upright));
-            if places.len() >= PLACES * TURNS as usize {
-                break;
-            }
-        }
-        places
+            let other = others.find(|thing| !stands.is_farther(&thing.solid, GAP));
+            other.inspect(|other| met.add_entity(self.name(other.entity))).is_none()
+        };
+        let free: Vec<Vector3<f64>> =
+            spots.into_iter().map(|(_, spot)| spot).filter(|spot| is_free(spot)).collect();
+        let (near, far) = free.split_at(free.len().min(wanted / 2));
+        // In their order by distance, every so many-th.
+        let step = far.len().div_ceil(wanted / 2).max(1);
+        let chosen = near.iter().chain(far.iter().step_by(step));
+        chosen.flat_map(|spot| (0..TURNS).map(|turn| upright(*spot, turn))).collect()
     }
 
     /// The witness of a motion with what is held.

@@ -71,11 +71,15 @@ impl Span<'_> {
                     if height > *greatest { height - greatest } else { height - least }
                 });
                 let off = off.reduce(|one, other| if other.abs() < one.abs() { other } else { one })?;
-                // In terms of the thing's height: the wrist is so much above or below it.
-                let change = if off > 0.0 { "lower" } else { "higher" };
-                let change = format!("{:.2} m {change}, `{id}` would be within reach", off.abs());
+                // In terms of the thing's height: the wrist is so much above or below it. That is not enough for a hand to have
+                // room there, and nothing stands below the floor.
+                let change = (place.z - off > 0.0).then(|| {
+                    let least = libm::ceil(off.abs() * 100.0) / 100.0;
+                    let change = if off > 0.0 { "lower" } else { "higher" };
+                    format!("`{id}` would have to be at least {least:.2} m {change}")
+                });
                 let reason = Reason::OutOfReach { what: "height", needs: place.z, reach: place.z - off };
-                Some(certain(reason, Some(change)))
+                Some(certain(reason, change))
             }
             Self::Around(shoulder, reach) => {
                 let needs = holds.iter().map(|hold| (hold.map_from_tip.translation.vector - shoulder).norm());

@@ -292,3 +292,45 @@ proptest! {
         }
     }
 }
+
+/// What is held can be put on an empty face wherever the robot gets at any part of it.
+#[test]
+fn a_face_has_places_all_over() {
+    for y in [-2.2, -1.6, -1.1] {
+        let scene = changed(|scene| {
+            scene.entities.retain(|id, _| id == "mug_1" || id == "counter");
+            let counter = scene.entities.get_mut("counter").unwrap();
+            counter.pose.as_mut().unwrap().xyz = [1.0, y, 0.45];
+            counter.shape = Some(scene::Shape::Box([1.6, 0.6, 0.9]));
+            scene.entities["mug_1"].on = None;
+            scene.robot.holding = Some(Some("mug_1".into()));
+        });
+        let answer = ask(&scene, "put(mug_1, counter)");
+        assert!(matches!(answer, Answer::Feasible(_)), "{y}: {answer:?}");
+    }
+}
+
+#[test]
+fn a_help_is_no_more_than_is_known() {
+    let at = |height: f64| {
+        let scene = changed(|scene| {
+            scene.entities.retain(|id, _| id == "mug_1");
+            let mug = &mut scene.entities["mug_1"];
+            mug.on = None;
+            mug.pose.as_mut().unwrap().xyz[2] = height;
+        });
+        match ask(&scene, "reach(mug_1)") {
+            Answer::Infeasible(why) => (why.reason, why.change),
+            other => panic!("{height}: {other:?}"),
+        }
+    };
+    let (Reason::OutOfReach { needs, reach, .. }, Some(change)) = at(2.0) else { panic!("too high") };
+    let least = (needs - reach) * 100.0;
+    assert_eq!(change, format!("`mug_1` would have to be at least {:.2} m lower", least.ceil() / 100.0));
+    // Under the floor no way is up but out of it.
+    if let (Reason::OutOfReach { needs, reach, .. }, change) = at(-0.6) {
+        assert_eq!(change.is_some(), needs - (needs - reach) > 0.0, "{change:?}");
+    }
+    let told = Reason::NoFreePose { by: Some("wall".into()) }.to_string();
+    assert_eq!(told, "no pose of the robot is free, and most often `wall` is in the way");
+}

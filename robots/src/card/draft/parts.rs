@@ -27,6 +27,8 @@ pub(super) struct Hand {
     pub(super) opening: Option<f64>,
     pub(super) points: &'static str,
     pub(super) closes: &'static str,
+    /// Its sliding fingers that move by themselves, with where they are when it is open, in m.
+    pub(super) open: Vec<(String, f64)>,
     /// The joints of the arm with positions within their limits.
     pub(super) arm: Vec<(String, f64)>,
 }
@@ -47,13 +49,16 @@ impl Parts {
     }
 }
 
-/// The joints from the root to a link.
+/// The joints from the root to a link. O(joints).
 fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
     let mut way = Vec::new();
     let mut at = link;
-    while let Some(joint) = urdf.carrier(at) {
-        way.push(joint);
-        at = joint.parent;
+    // From the tips on, each joint stands after the one that carries its parent.
+    for joint in urdf.joints.iter().rev() {
+        if joint.child == at {
+            way.push(joint);
+            at = joint.parent;
+        }
     }
     way.reverse();
     way
@@ -114,12 +119,13 @@ fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
         (&["hand", "gripper"], "its name"),
         (&[""], "the end of the longest arm"),
     ];
-    let is_leg =
-        |link: usize| way(urdf, link).iter().any(|joint| has_word(&joint.name, &["hfe", "knee", "wheel"]));
-    let arms = |link: usize| way(urdf, link).iter().filter(|joint| works(joint)).count();
+    let stems = stems(urdf);
+    let is_leg = |link: usize| stems.get(link).is_some_and(|stem| stem.is_leg);
+    let arms = |link: usize| stems.get(link).map_or(0, |stem| stem.joints);
+    let palm = |link: usize| stems.get(link).and_then(|stem| stem.palm).unwrap_or(link);
     let longest = (0..urdf.links.len())
         .filter(|link| !is_leg(*link))
-        .map(|link| palm(urdf, link))
+        .map(palm)
         .max_by_key(|link| (arms(*link), *link))?;
     let joints = arms(longest);
     if joints < ARM {
@@ -132,7 +138,7 @@ fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
                 && !is_leg(*link)
                 && has_word(name, words)
                 && !has_word(name, &["camera", "finger", "sensor", "optical"])
-                && palm(urdf, *link) == *link
+                && palm(*link) == *link
                 && arms(*link) == joints
         });
         found.map(|tip| (tip, *why))
@@ -144,47 +150,75 @@ fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
     let length = |joint: &&Joint| joint.parent_from_joint.xyz.iter().map(|v| v * v).sum::<f64>().sqrt();
     let slides =
         |joint: &&Joint| joint.limits.filter(|_| joint.kind == JointKind::Prismatic).map_or(0.0, |l| l.upper);
-    let (points, closes, opening) = fingers(urdf, tip);
+    let (points, closes, sliding) = fingers(urdf, tip);
+    let travel: f64 =
+        sliding.iter().filter_map(|joint| joint.limits).map(|limits| limits.upper - limits.lower).sum();
     Some(Hand {
         tip,
         why,
         reach: steps.iter().skip(first + 1).map(|joint| length(joint) + slides(joint)).sum::<f64>().max(0.05),
         shoulder: steps.iter().take(first + 1).map(|joint| joint.parent_from_joint.xyz[2]).sum(),
-        opening,
+        opening: (travel > 0.001).then_some(travel),
         points,
         closes,
+        open: sliding.iter().filter(|joint| works(joint)).filter_map(opened).collect(),
         arm: arm.iter().map(|joint| (joint.name.to_string(), at_rest(joint))).collect(),
     })
 }
 
-/// The link itself, or where it is part of a finger the link that carries the fingers: nearest to the base of those
-/// that carry two joints which follow each other or slide.
-fn palm(urdf: &Urdf, link: usize) -> usize {
-    let carries = |link: usize| {
-        let on = urdf.joints.iter().filter(|joint| joint.parent == link && joint.kind.has_one_position());
-        let on: Vec<&Joint> = on.collect();
-        on.len() >= 2 && on.iter().any(|joint| joint.mimic.is_some() || joint.kind == JointKind::Prismatic)
-    };
-    let is_far = |joint: &Joint| way(urdf, joint.parent).iter().filter(|joint| works(joint)).count() >= ARM;
-    way(urdf, link)
-        .iter()
-        .find(|joint| {
-            is_far(joint)
-                && joint.kind.has_one_position()
-                && (carries(joint.parent) || has_word(&joint.name, &["finger", "gripper"]))
-        })
-        .map_or(link, |joint| joint.parent)
+/// What lies between the root and a link.
+#[derive(Clone, Copy, Default)]
+struct Stem {
+    /// How many joints work.
+    joints: usize,
+    is_leg: bool,
+    /// Of a part of a finger the link that carries the fingers: nearest to the base of those that carry two joints which
+    /// follow each other or slide.
+    palm: Option<usize>,
 }
 
-/// Where fingers on a link, or beside it, point, along what they close, and how wide they open.
-fn fingers(urdf: &Urdf, tip: usize) -> (&'static str, &'static str, Option<f64>) {
+/// That of each link. O(links + joints).
+fn stems(urdf: &Urdf) -> Vec<Stem> {
+    // Whether a link carries two joints, and whether one of them follows another or slides.
+    let mut carried = vec![(0_usize, false); urdf.links.len()];
+    for joint in urdf.joints.iter().filter(|joint| joint.kind.has_one_position()) {
+        if let Some((count, is_finger)) = carried.get_mut(joint.parent) {
+            *count += 1;
+            *is_finger |= joint.mimic.is_some() || joint.kind == JointKind::Prismatic;
+        }
+    }
+    let mut stems = vec![Stem::default(); urdf.links.len()];
+    // Each joint stands after the one that carries its parent.
+    for joint in &urdf.joints {
+        let before = stems.get(joint.parent).copied().unwrap_or_default();
+        let carries = carried.get(joint.parent).is_some_and(|(count, is_finger)| *count >= 2 && *is_finger);
+        let is_finger = before.joints >= ARM
+            && joint.kind.has_one_position()
+            && (carries || has_word(&joint.name, &["finger", "gripper"]));
+        if let Some(stem) = stems.get_mut(joint.child) {
+            *stem = Stem {
+                joints: before.joints + usize::from(works(joint)),
+                is_leg: before.is_leg || has_word(&joint.name, &["hfe", "knee", "wheel"]),
+                palm: before.palm.or(is_finger.then_some(joint.parent)),
+            };
+        }
+    }
+    stems
+}
+
+/// Where fingers on a link, or beside it, point, along what they close, and those that slide.
+fn fingers(urdf: &Urdf, tip: usize) -> (&'static str, &'static str, Vec<&Joint>) {
     let hosts: Vec<usize> =
         way(urdf, tip).iter().rev().take(2).map(|joint| joint.parent).chain([tip]).collect();
     let sliding: Vec<&Joint> = urdf
         .joints
         .iter()
         .filter(|joint| joint.kind == JointKind::Prismatic && hosts.contains(&joint.parent))
-        .filter(|joint| has_word(&joint.name, &["finger", "grip", "jaw"]))
+        .filter(|joint| {
+            let words = ["finger", "grip", "jaw"];
+            let moved = urdf.links.get(joint.child).map_or("", |link| link.name.as_str());
+            has_word(&joint.name, &words) || has_word(moved, &words)
+        })
         .collect();
     let offset = sliding.first().map_or([0.0, 0.0, 1.0], |joint| joint.parent_from_joint.xyz);
     let names = ["x", "y", "z"];
@@ -200,9 +234,14 @@ fn fingers(urdf: &Urdf, tip: usize) -> (&'static str, &'static str, Option<f64>)
     let points = largest(offset);
     let closes = sliding.first().map_or("y", |joint| largest(joint.axis));
     let closes = if closes == points { if points == "y" { "z" } else { "y" } } else { closes };
-    let opening: f64 =
-        sliding.iter().filter_map(|joint| joint.limits).map(|limits| limits.upper - limits.lower).sum();
-    (points, closes, (opening > 0.001).then_some(opening))
+    (points, closes, sliding)
+}
+
+/// Where a finger that slides is open: at the limit farther from 0, where it is shut.
+fn opened(joint: &&Joint) -> Option<(String, f64)> {
+    let limits = joint.limits?;
+    let far = if limits.lower.abs() > limits.upper.abs() { limits.lower } else { limits.upper };
+    Some((joint.name.to_string(), far))
 }
 
 /// 0, or the limit nearest to it.
