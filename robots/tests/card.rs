@@ -328,7 +328,7 @@ fn a_card_and_its_urdf_agree() {
         "tip = 'palm'",
         "frame = 'eye_frame'",
         &model.replace("20 cm", "30 deg"),
-        &["M0418 ['30 deg'] `lift` is not measured in `deg` / write it in `m`, `cm` or `mm`"],
+        &["M0418 ['30 deg'] `lift` is not measured in `deg` / write it in `m`, `cm`, `mm` or `km`"],
     );
     let (_, found, _) = read(&GOOD.replacen("[cameras.eye]", "points = 'y'\n[cameras.eye]", 1));
     assert_eq!(found[0].code.0, "M0429");
