@@ -22,7 +22,7 @@ pub(crate) struct DialogArgs {
     #[command(flatten)]
     pub(crate) world: WorldArgs,
     /// In which form to print the policy
-    #[arg(long, value_enum, default_value_t, value_name = "FORM")]
+    #[arg(long, value_enum, default_value_t, value_name = "FORM", conflicts_with = "write")]
     pub(crate) to: DialogForm,
 }
 

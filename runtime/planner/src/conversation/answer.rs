@@ -13,12 +13,12 @@ pub enum Answer {
     Again,
     /// Leave it.
     GiveUp,
-    /// These words mean this thing.
+    /// These words mean this thing, or all of these.
     Means {
         /// The words.
         said: String,
-        /// The thing.
-        id: SmolStr,
+        /// The thing, or the things.
+        ids: Vec<SmolStr>,
     },
     /// Something is somewhere else than was thought.
     Located(Vec<Located>),
@@ -59,9 +59,14 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation
     // A thing or a place among those that were offered, or any that fits the words in question.
     if let Some(said) = &problem.said
         && problem.kind != Kind::AmbiguousTask
-        && let Some(id) = request::pick(answer, &problem.options, situation)
     {
-        return Answer::Means { said: said.clone(), id };
+        let ids = match problem.kind {
+            Kind::AmbiguousReference => request::choose(answer, &problem.options, situation),
+            _ => request::pick(answer, &problem.options, situation).into_iter().collect(),
+        };
+        if !ids.is_empty() {
+            return Answer::Means { said: said.clone(), ids };
+        }
     }
     if problem.kind == Kind::AmbiguousTask
         && request::is_bare(answer)

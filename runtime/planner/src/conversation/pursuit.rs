@@ -13,7 +13,7 @@ use super::problem::{Kind, Problem};
 use super::talk::{Conversation, Outcome};
 use super::watcher::{Person, Watcher};
 use crate::builtin::{Answered, Unplanned};
-use crate::request::Puzzle;
+use crate::request::{Located, Puzzle};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
@@ -29,6 +29,8 @@ struct Task {
     before: Option<String>,
     /// What was meant by words that could mean several things.
     meant: Vec<(String, SmolStr)>,
+    /// Where else a thing may be, the next place first.
+    elsewhere: Vec<Located>,
     questions: usize,
     tries: usize,
 }
@@ -38,7 +40,7 @@ impl Task {
         // Who says so replaces what was asked for before.
         let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
         let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
-        Self { request, before, meant: Vec::new(), questions: 0, tries: 0 }
+        Self { request, before, meant: Vec::new(), elsewhere: Vec::new(), questions: 0, tries: 0 }
     }
 }
 
@@ -97,6 +99,9 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             // What merely did not work, or was not as it was believed, is tried again before somebody is troubled.
             if (problem.kind == Kind::ActionFailed || was_refused) && self.task.tries < TRIES {
                 self.task.tries += 1;
+                continue;
+            }
+            if self.looks_elsewhere(&problem) {
                 continue;
             }
             latest = Some(problem.clone());
@@ -161,6 +166,30 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             Some(problem) => Next::Problem(problem, was_refused || stood_wrong),
             None => self.done(),
         }
+    }
+
+    /// Takes in the first place of each thing; gives the others, in order.
+    fn hear_first(&mut self, located: Vec<Located>) -> Vec<Located> {
+        let mut heard: Vec<SmolStr> = Vec::new();
+        let mut others = Vec::new();
+        for one in located {
+            if heard.contains(&one.thing) {
+                others.push(one);
+            } else {
+                self.talk.known.hear(&one);
+                heard.push(one.thing);
+            }
+        }
+        others
+    }
+
+    /// Who names two places has a thing looked for in both: takes in the next one, where there is one.
+    fn looks_elsewhere(&mut self, problem: &Problem) -> bool {
+        let elsewhere = &mut self.task.elsewhere;
+        let next = elsewhere.iter().position(|next| Some(&next.thing) == problem.about.as_ref());
+        let Some(next) = next.filter(|_| problem.kind == Kind::NotFound) else { return false };
+        self.talk.known.hear(&elsewhere.remove(next));
+        true
     }
 
     /// A request is done. What it took the place of may not be.
@@ -232,8 +261,10 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 return None;
             }
             Answer::Again => self.task.tries = 0,
-            Answer::Means { said, id } => self.task.meant.push((said, id)),
-            Answer::Located(located) => located.iter().for_each(|one| self.talk.known.hear(one)),
+            Answer::Means { said, ids } => {
+                self.task.meant.extend(ids.into_iter().map(|id| (said.clone(), id)));
+            }
+            Answer::Located(located) => self.task.elsewhere = self.hear_first(located),
             Answer::NotUnderstood => {}
         }
         if is_told {

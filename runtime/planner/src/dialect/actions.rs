@@ -158,7 +158,7 @@ impl Reader<'_> {
             return Err(NoPolicy::Lacking { number, action: action(), primitive });
         }
         let usual = written(primitive);
-        if words != usual {
+        if words != usual && words != primitive.replace('_', " ") {
             self.warnings.push(format!("action {number}: read `{words}` as `{usual}`"));
         }
         self.call(number, primitive, rest).map_err(|what| NoPolicy::Unclear {
@@ -268,7 +268,14 @@ impl Reader<'_> {
                 self.warnings.push(format!("action {number}: took `{words}` to be `{id}`"));
                 Ok(id)
             }
-            None => Err(format!("`{words}` is nothing here, or several things")),
+            None => {
+                let named = request::named(words, self.situation).into_iter().filter(of_kind);
+                let named: Vec<_> = named.map(|id| format!("`{id}`")).collect();
+                Err(match named.as_slice() {
+                    [] => format!("`{words}` is nothing here"),
+                    several => format!("`{words}` may be {}", several.join(" or ")),
+                })
+            }
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
-use super::lead::skip_leads;
-use super::noun::{Noun, located, noun};
+use super::lead::{contrasts, skip_leads, thanks};
+use super::noun::{Noun, noun};
+use super::spot::{Relation, Spot, is_way, located, spot, way};
 use super::token::{Token, stands};
-use super::verb::{Act, begins, verb};
+use super::verb::{Act, begins, is_want, verb};
 
 /// One thing that is asked for.
 #[derive(Clone, PartialEq, Debug)]
@@ -13,16 +14,21 @@ pub(super) struct Command {
     pub(super) items: Vec<Noun>,
     /// Who gets it.
     pub(super) to_whom: Option<Noun>,
-    /// Where to: behind `to`, `into`, `on`, `in`, `at`.
-    pub(super) to: Option<Noun>,
+    /// Where to: behind `to`, `into`, `on`, `in`, `at`. Some of these also say where the thing is.
+    pub(super) to: Option<Spot>,
     /// Where the thing is now.
     pub(super) from: Option<Noun>,
     /// `away`, `down`, `up`, `back`, `over`: what the verb goes with.
     pub(super) with: Vec<String>,
+    /// Where the last thing that was named ends, as a position among the tokens.
+    thing_end: usize,
 }
 
 /// Among what a verb goes with: it is done only where it is not so yet.
 pub(super) const ONLY_IF: &str = "only if";
+
+/// Among what a verb goes with: it is no verb, but somebody says that they want something.
+pub(super) const WANTED: &str = "wanted";
 
 /// What somebody says beside what they ask for.
 #[derive(Clone, PartialEq, Debug)]
@@ -57,7 +63,10 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             at = begin + count;
             continue;
         }
-        if matches!(word, "not" | "never") || stands(tokens, begin, "do not").is_some() {
+        if matches!(word, "not" | "never")
+            || contrasts(tokens, begin)
+            || stands(tokens, begin, "do not").is_some()
+        {
             return Err(words(tokens, begin, tokens.len()));
         }
         if verb(tokens, begin).is_some() {
@@ -73,38 +82,6 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         at = end;
     }
     Ok(spoken)
-}
-
-fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
-    [
-        "thank you very much",
-        "thank you so much",
-        "thank you",
-        "thanks a lot",
-        "thanks",
-        "that would be great",
-        "that would be nice",
-        "if possible",
-        "if you can",
-        "if you could",
-        "when you have time",
-        "right away",
-        "immediately",
-        "again",
-        "as soon as possible",
-        "for me",
-        "when you can",
-        "if you would",
-        "quickly",
-        "now",
-        "too",
-        "as well",
-        "instead",
-        "rather",
-    ]
-    .iter()
-    .filter_map(|words| stands(tokens, at, words))
-    .max()
 }
 
 /// A statement goes on to the end of its sentence, or to a comma or an `and` behind which something is asked for.
@@ -164,6 +141,9 @@ fn words(tokens: &[Token], begin: usize, end: usize) -> String {
 fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
     let mut now = Command::new(act);
+    if is_want(tokens, begin) {
+        now.with.push(WANTED.to_owned());
+    }
     loop {
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
@@ -200,7 +180,7 @@ fn skip_and(tokens: &[Token], mut at: usize) -> usize {
 
 /// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a command of its own.
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
-    let another = noun(tokens, at).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_) | Noun::Before));
+    let another = noun(tokens, at).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_) | Noun::Before(_)));
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
     if !(another || is_place) {
@@ -221,7 +201,10 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     // `grab the mug for me`: who takes something for somebody brings it.
     let for_me = ["for me", "for us"].iter().find_map(|words| stands(tokens, at, words));
     if let (Some(count), Act::Take) = (for_me, now.act) {
-        now.to_whom.get_or_insert(Noun::Speaker);
+        // `take the mug to the sink for me` asks for a favour.
+        if now.to.as_ref().is_none_or(|to| !to.moves()) {
+            now.to_whom.get_or_insert(Noun::Speaker);
+        }
         return Ok(at + count);
     }
     if let Some(count) = thanks(tokens, at) {
@@ -229,6 +212,9 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     }
     let word = tokens.get(at).map_or("", Token::word);
     let lost = || words(tokens, begin, tokens.len().min(at + 4));
+    if contrasts(tokens, at) {
+        return Err(lost());
+    }
     let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
     if let Some(count) = ["from off", "from on top of", "from inside", "from", "off of", "off", "out of"]
         .iter()
@@ -246,49 +232,22 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     if word == "to" && now.act == Act::Fetch && now.to_whom.is_some() && !is_determined(tokens, at + 1) {
         return Ok(rest(tokens, at));
     }
-    let to = [
-        "over to",
-        "back to",
-        "up to",
-        "right next to",
-        "next to",
-        "close to",
-        "to",
-        "onto",
-        "into",
-        "towards",
-        "toward",
-        "near",
-        "beside",
-        "by",
-        "in front of",
-    ];
-    if let Some(count) = to.iter().filter_map(|words| stands(tokens, at, words)).max() {
-        let Some((place, after)) = noun(tokens, at + count) else { return Err(lost()) };
-        let is_person = matches!(place, Noun::Speaker);
-        if is_person && !goes {
-            now.to_whom = Some(place);
+    if is_way(tokens, at) {
+        let Some((place, after)) = way(tokens, at) else { return Err(lost()) };
+        if matches!(place.noun, Noun::Speaker) && place.relation == Relation::To && !goes {
+            now.to_whom = Some(place.noun);
         } else {
-            now.to = Some(place);
+            now.put_at(place);
         }
         return Ok(after);
     }
-    if let Some((place, after)) = located(tokens, at) {
+    if let Some((place, after)) = spot(tokens, at) {
         // `take it in your hand`
-        if is_hand(&place) {
+        if is_hand(&place.noun) {
             now.with.push("hand".to_owned());
             return Ok(after);
         }
-        // `over there on the table`
-        if matches!(now.to, Some(Noun::There)) {
-            now.to = None;
-        }
-        // `put the mug on the table in the drawer`: the last is where to, the others say which.
-        if let Some(before) = now.to.replace(place)
-            && now.from.is_none()
-        {
-            now.from = Some(before);
-        }
+        now.put_at(Spot { is_behind_thing: !now.items.is_empty() && at == now.thing_end, ..place });
         return Ok(after);
     }
     // `close the drawer if it is open`
@@ -310,22 +269,22 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         && matches!(now.act, Act::Go | Act::Come)
         && let Some((carried, after)) = noun(tokens, at + 1)
     {
-        now.act = if now.act == Act::Come || matches!(now.to, Some(Noun::Speaker)) {
-            Act::Fetch
-        } else {
-            Act::Take
-        };
+        let to_me = now.to.as_ref().is_some_and(|to| to.noun == Noun::Speaker);
+        now.act = if now.act == Act::Come || to_me { Act::Fetch } else { Act::Take };
         now.items.push(carried);
         return Ok(after);
     }
     if word == "for" {
         let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
-        now.to_whom.get_or_insert(whom);
+        // Who has something thrown away or opened for them does not get it.
+        if !matches!(now.act(), Act::Discard | Act::Stow | Act::Store | Act::Open | Act::Close | Act::Find) {
+            now.to_whom.get_or_insert(whom);
+        }
         return Ok(after);
     }
     // `open it and put the mug inside`
     if word == "inside" {
-        now.to.get_or_insert(Noun::There);
+        now.to.get_or_insert(there("inside", Relation::In, Noun::There));
         return Ok(at + 1);
     }
     if matches!(
@@ -349,13 +308,21 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     match (&found, now.act) {
         // `bring me the mug`
         (Noun::Speaker, _) if now.to_whom.is_none() => now.to_whom = Some(found),
-        (Noun::Here, _) => now.to = Some(Noun::Speaker),
+        (Noun::Here, _) => now.to = Some(there("", Relation::To, Noun::Speaker)),
         (Noun::There, _) => {
-            now.to.get_or_insert(found);
+            now.to.get_or_insert(there("", Relation::To, found));
         }
-        _ => now.items.push(found),
+        _ => {
+            now.items.push(found);
+            now.thing_end = after;
+        }
     }
     Ok(after)
+}
+
+/// A place that is said in one word.
+fn there(preposition: &'static str, relation: Relation, noun: Noun) -> Spot {
+    Spot { relation, preposition, noun, is_behind_thing: false }
 }
 
 /// Whether an article or the like stands at a place.
@@ -383,7 +350,22 @@ fn rest(tokens: &[Token], mut at: usize) -> usize {
 
 impl Command {
     fn new(act: Act) -> Self {
-        Self { act, items: Vec::new(), to_whom: None, to: None, from: None, with: Vec::new() }
+        let (items, with) = (Vec::new(), Vec::new());
+        Self { act, items, to_whom: None, to: None, from: None, with, thing_end: 0 }
+    }
+
+    /// Takes in a place. `put the mug on the table in the drawer`: the last is where to, the others say which.
+    fn put_at(&mut self, place: Spot) {
+        // `over there on the table`
+        if self.to.as_ref().is_some_and(|to| to.noun == Noun::There) {
+            self.to = None;
+        }
+        if let Some(before) = self.to.replace(place)
+            && !before.moves()
+            && self.from.is_none()
+        {
+            self.from = Some(before.noun);
+        }
     }
 
     pub(super) fn has(&self, particle: &str) -> bool {

@@ -20,9 +20,15 @@ impl Reader<'_> {
             Act::Open | Act::Close => self.doors(command, act, later),
             Act::Release => self.release(command),
             Act::Find => self.find(command, later),
-            Act::Fetch | Act::Pick | Act::Lift | Act::Put | Act::Take | Act::Stow | Act::Discard => {
-                self.carry(command, act, later)
-            }
+            Act::Fetch
+            | Act::Pick
+            | Act::Lift
+            | Act::Put
+            | Act::Take
+            | Act::Stow
+            | Act::Store
+            | Act::Discard
+            | Act::Throw => self.carry(command, act, later),
         }
     }
 
@@ -31,7 +37,8 @@ impl Reader<'_> {
         if command.act == Act::Come && command.to.is_none() {
             targets.push(SmolStr::new_static("user"));
         }
-        for place in command.items.iter().chain(&command.to).chain(&command.to_whom) {
+        let to = command.to.as_ref().map(|to| &to.noun);
+        for place in command.items.iter().chain(to).chain(&command.to_whom) {
             // `meet me at the door`
             if matches!(place, Noun::Speaker) && !targets.is_empty() {
                 continue;
@@ -75,7 +82,13 @@ impl Reader<'_> {
             return Err(self.ask(question, &[Role::Container]));
         }
         for item in &command.items {
-            for what in self.things(item, &[Role::Container, Role::Place], None)? {
+            let mut found = self.things(item, &[Role::Container], None)?;
+            // Of everything only what has a door.
+            if matches!(item, Noun::Phrase(phrase) if phrase.words.is_empty()) {
+                let scene = self.situation.scene;
+                found.retain(|id| scene.entities.get(id).is_some_and(|entity| entity.open.is_some()));
+            }
+            for what in found {
                 let is_open = fact("open", &[&what]);
                 let closed_later = later.iter().any(|later| later.act == Act::Close);
                 let (name, goal, lasts) = match act {
@@ -104,14 +117,35 @@ impl Reader<'_> {
     /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
     fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), Puzzle> {
         let Some(item) = command.items.first() else { return Err(self.ask(question(Act::Find), OBJECTS)) };
-        let found = self.things(item, OBJECTS, None)?;
+        let from = match (&command.to, &command.from) {
+            (Some(to), _) => Some(vec![self.holder(to)?]),
+            (None, Some(from)) => Some(self.things(from, HOLDERS, None)?),
+            (None, None) => None,
+        };
+        let found = self.things(item, OBJECTS, from.as_deref())?;
         for thing in found {
             if later.is_empty() {
+                self.go_and_look(&thing);
                 self.aim(format!("find_{thing}"), fact("visible", &[&thing]), Lasts::Once);
             }
             self.said.spoken_of.push(thing);
         }
         Ok(())
+    }
+
+    /// To find a thing is to go to where it is taken to be, and to open what it is shut in.
+    fn go_and_look(&mut self, thing: &SmolStr) {
+        let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.clone());
+        let Some(place) = support.and_then(|support| self.vocabulary.thing(&support)) else { return };
+        let (place, role) = (place.id.clone(), place.role);
+        let name = format!("find_{thing}");
+        if matches!(role, Role::Surface | Role::Container) {
+            self.aim(name.clone(), fact("at", &["robot", &place]), Lasts::Once);
+        }
+        let has_door = self.situation.scene.entities.get(&place).is_some_and(|entity| entity.open.is_some());
+        if role == Role::Container && has_door {
+            self.aim(name, fact("open", &[&place]), Lasts::Once);
+        }
     }
 
     fn release(&mut self, command: &Command) -> Result<(), Puzzle> {
@@ -130,121 +164,6 @@ impl Reader<'_> {
         }
         Ok(())
     }
-
-    /// Everything that takes a thing into the hand.
-    fn carry(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), Puzzle> {
-        let from = match &command.from {
-            Some(from) => Some(self.things(from, HOLDERS, None)?),
-            None => None,
-        };
-        // `bring me the mug on the table`: where it is, not where to.
-        let says_where = matches!(act, Act::Fetch | Act::Pick | Act::Lift) && command.to.is_some();
-        let target = match (&command.to, &command.to_whom) {
-            (Some(to), None) if says_where && !self.is_person(to) && act != Act::Fetch => {
-                Target::Where(self.one(to, HOLDERS)?)
-            }
-            (Some(to), _) if act == Act::Fetch && command.to_whom.is_some() => {
-                Target::Where(self.one(to, HOLDERS)?)
-            }
-            (Some(to), _) => Target::To(self.one(to, HOLDERS)?),
-            (None, Some(whom)) => Target::To(self.one(whom, HOLDERS)?),
-            (None, None) => Target::None,
-        };
-        let mut from = from;
-        if let Target::Where(place) = &target {
-            from.get_or_insert_with(|| vec![place.clone()]);
-        }
-        if command.items.is_empty() {
-            return Err(self.ask(question(act), OBJECTS));
-        }
-        let items = command.items.clone();
-        for item in &items {
-            let choices = self.choices(item, from.as_deref())?;
-            for choice in choices {
-                self.carry_one(act, &choice, &target, command, later)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// One thing, or any one of several.
-    fn carry_one(
-        &mut self,
-        act: Act,
-        choice: &[SmolStr],
-        target: &Target,
-        command: &Command,
-        later: &[Command],
-    ) -> Result<(), Puzzle> {
-        let name = choice.first().cloned().unwrap_or_default();
-        let any = |goal: &dyn Fn(&str) -> Expr| any_of(choice.iter().map(|id| goal(id)).collect());
-        let user = SmolStr::new_static("user");
-        let (verb, goal, lasts) = match (act, target) {
-            (Act::Discard, _) => {
-                let bin = match &command.to {
-                    Some(to) => self.one(to, HOLDERS)?,
-                    None => self.bin()?,
-                };
-                ("throw_away", any(&|id| self.put(id, &bin)), Lasts::ToTheEnd)
-            }
-            (Act::Fetch, Target::To(to)) => ("bring", any(&|id| self.put(id, to)), Lasts::ToTheEnd),
-            (Act::Fetch, Target::Where(_) | Target::None) => {
-                ("bring", any(&|id| self.put(id, &user)), Lasts::ToTheEnd)
-            }
-            (Act::Put | Act::Take | Act::Stow, Target::To(to)) => {
-                ("put", any(&|id| self.put(id, to)), Lasts::ToTheEnd)
-            }
-            (Act::Put | Act::Stow, Target::Where(_) | Target::None) => {
-                let what =
-                    self.vocabulary.thing(&name).map_or_else(|| name.to_string(), |thing| thing.called());
-                let question = format!("Where shall I put the {what}?");
-                return Err(self.ask(&question, &[Role::Surface, Role::Container]));
-            }
-            (Act::Lift, _) => {
-                let both = |id: &str| all_of(vec![fact("holding", &[id]), fact("lifted", &[id])]);
-                ("lift", any(&both), hold_on(later))
-            }
-            _ => ("pick", any(&|id| fact("holding", &[id])), hold_on(later)),
-        };
-        if let Target::To(place) = target {
-            self.said.spoken_of.push(place.clone());
-        }
-        self.said.spoken_of.extend(choice.iter().rev().cloned());
-        self.aim(format!("{verb}_{name}"), goal, lasts);
-        Ok(())
-    }
-
-    /// That something is where it was put.
-    fn put(&self, id: &str, to: &str) -> Expr {
-        let name = match self.vocabulary.thing(to).map(|thing| thing.role) {
-            Some(Role::Container) => "in",
-            Some(Role::Surface | Role::Object) => "on",
-            Some(Role::Place | Role::Person) | None => "at",
-        };
-        fact(name, &[id, to])
-    }
-
-    /// Where rubbish goes.
-    fn bin(&self) -> Result<SmolStr, Puzzle> {
-        let is_bin =
-            |words: &str| self.vocabulary.meant(&[words.to_owned()], &[Role::Container, Role::Surface]);
-        let bins: Vec<SmolStr> = is_bin("trash").into_iter().map(|thing| thing.id.clone()).collect();
-        match bins.as_slice() {
-            [only] => Ok(only.clone()),
-            [] => Err(Puzzle::NotFound { what: "bin".to_owned() }),
-            _ => Err(Puzzle::AmbiguousReference { what: "the bin".to_owned(), options: bins }),
-        }
-    }
-}
-
-/// Where a command takes a thing.
-enum Target {
-    /// To a place or a person.
-    To(SmolStr),
-    /// It only says where the thing is.
-    Where(SmolStr),
-    /// Nowhere in particular.
-    None,
 }
 
 impl Command {
@@ -255,25 +174,29 @@ impl Command {
             Act::Put if self.has("down") && self.to.is_none() => Act::Release,
             Act::Take if self.has("out") && self.from.is_none() && self.to.is_none() => Act::Pick,
             // `grab me a drink`, `take the mug to me`
-            Act::Take if self.to_whom.is_some() && self.to.is_none() => Act::Fetch,
+            Act::Take if self.to_whom.is_some() && self.to.as_ref().is_none_or(|to| !to.moves()) => {
+                Act::Fetch
+            }
             Act::Take if self.to.is_none() => Act::Pick,
             Act::Move if self.items.is_empty() => Act::Go,
             Act::Move => Act::Put,
+            Act::Throw if self.has("away") || self.has("out") => Act::Discard,
+            Act::Throw if self.to.is_none() && self.to_whom.is_none() => Act::Discard,
             act => act,
         }
     }
 }
 
 /// Whether something has to stay in the hand: not where it is put somewhere later.
-fn hold_on(later: &[Command]) -> Lasts {
+pub(super) fn hold_on(later: &[Command]) -> Lasts {
     let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
     if later.iter().all(goes) { Lasts::ToTheEnd } else { Lasts::Once }
 }
 
-fn question(act: Act) -> &'static str {
+pub(super) fn question(act: Act) -> &'static str {
     match act {
-        Act::Discard => "What shall I throw away?",
-        Act::Put | Act::Stow => "What shall I put there?",
+        Act::Discard | Act::Throw => "What shall I throw away?",
+        Act::Put | Act::Stow | Act::Store => "What shall I put there?",
         Act::Fetch => "What shall I bring?",
         Act::Find => "What shall I look for?",
         Act::Go
@@ -292,7 +215,7 @@ fn not(condition: Expr) -> Expr {
     Expr { kind: ExprKind::Not(Box::new(condition)), span: Span::default() }
 }
 
-fn any_of(mut parts: Vec<Expr>) -> Expr {
+pub(super) fn any_of(mut parts: Vec<Expr>) -> Expr {
     if parts.len() == 1 {
         parts.remove(0)
     } else {
@@ -300,6 +223,6 @@ fn any_of(mut parts: Vec<Expr>) -> Expr {
     }
 }
 
-fn all_of(parts: Vec<Expr>) -> Expr {
+pub(super) fn all_of(parts: Vec<Expr>) -> Expr {
     Expr { kind: ExprKind::All(parts), span: Span::default() }
 }

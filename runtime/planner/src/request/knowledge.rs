@@ -188,6 +188,32 @@ pub(super) fn holds(word: &str) -> bool {
     matches!(word, "can" | "bottle" | "bag" | "pack" | "packet" | "carton" | "tin" | "jar")
 }
 
+/// Words that mean what they say and are no slip of a name that is near: `cold` is not `cola`.
+const ORDINARY: &[&str] = &[
+    "back", "bad", "bare", "best", "better", "bit", "black", "blank", "blue", "bold", "broken", "brown",
+    "call", "calm", "card", "care", "case", "charge", "cheap", "clean", "clear", "close", "closed", "coat",
+    "code", "coin", "cold", "color", "colour", "cook", "cool", "cord", "core", "corn", "cost", "cover",
+    "damp", "dark", "dirty", "door", "dry", "empty", "face", "fast", "fat", "fine", "fire", "flat", "floor",
+    "food", "foot", "fork", "free", "fresh", "front", "full", "game", "glad", "gold", "gray", "green",
+    "grey", "half", "hand", "hard", "head", "heat", "heavy", "help", "here", "high", "hot", "house", "huge",
+    "ice", "iced", "job", "key", "kind", "lamp", "large", "last", "late", "left", "lid", "light", "like",
+    "line", "list", "little", "lock", "long", "loose", "lot", "low", "main", "mark", "mess", "metal",
+    "middle", "most", "name", "near", "neat", "new", "next", "nice", "noise", "note", "odd", "old", "only",
+    "orange", "other", "page", "paint", "pale", "pan", "part", "phone", "pink", "place", "plain", "point",
+    "pot", "purple", "rest", "rich", "right", "ring", "road", "roll", "room", "rope", "round", "same",
+    "sharp", "sheet", "shelf", "ship", "shirt", "shoe", "short", "side", "sign", "silver", "size", "slow",
+    "small", "smell", "smooth", "soap", "sock", "soft", "some", "song", "sore", "sour", "spare", "spot",
+    "square", "stain", "step", "stick", "still", "stone", "store", "straight", "strong", "stuff", "sweet",
+    "tail", "tall", "tape", "team", "thick", "thin", "thing", "time", "tiny", "toe", "top", "town", "trip",
+    "true", "wall", "warm", "wash", "wet", "white", "whole", "wide", "wild", "wind", "window", "wine",
+    "wire", "wise", "wood", "wooden", "word", "work", "wrong", "yellow", "young",
+];
+
+/// Whether a word is an ordinary one.
+pub(super) fn is_ordinary(word: &str) -> bool {
+    ORDINARY.binary_search(&word).is_ok()
+}
+
 /// A category by its usual word.
 pub(super) fn usual(words: &str) -> Option<&'static str> {
     SAME.iter().find(|(known, _)| *known == words).map(|(_, what)| *what)

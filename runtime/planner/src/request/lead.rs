@@ -194,6 +194,9 @@ pub(super) const WANTS: &[&str] = &[
 /// Where the request itself begins.
 pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
     loop {
+        if contrasts(tokens, at) {
+            return at;
+        }
         let lead = LEADS.iter().filter_map(|lead| stands(tokens, at, lead)).max();
         match lead {
             Some(count) => at += count,
@@ -201,4 +204,47 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
             None => return at,
         }
     }
+}
+
+/// How many words of thanks and the like stand at a place.
+pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
+    if contrasts(tokens, at) {
+        return None;
+    }
+    [
+        "thank you very much",
+        "thank you so much",
+        "thank you",
+        "thanks a lot",
+        "thanks",
+        "that would be great",
+        "that would be nice",
+        "if possible",
+        "if you can",
+        "if you could",
+        "when you have time",
+        "right away",
+        "immediately",
+        "again",
+        "as soon as possible",
+        "for me",
+        "when you can",
+        "if you would",
+        "quickly",
+        "now",
+        "too",
+        "as well",
+        "instead",
+        "rather",
+    ]
+    .iter()
+    .filter_map(|words| stands(tokens, at, words))
+    .max()
+}
+
+/// `instead of the wrench`, `rather than there`: what follows is not wanted.
+pub(super) fn contrasts(tokens: &[Token], at: usize) -> bool {
+    ["instead of", "rather than", "and not", "but not", "in place of", "in lieu of"]
+        .iter()
+        .any(|words| stands(tokens, at, words).is_some())
 }

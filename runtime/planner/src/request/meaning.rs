@@ -72,19 +72,13 @@ pub(super) fn understood(
         let later = commands.get(index + 1..).unwrap_or_default();
         reader.command(command, later)?;
     }
+    reader.settle()?;
     Ok(reader.said)
 }
 
 /// Where somebody says that things are, in words that would otherwise ask for something.
 pub(super) fn told(tokens: &[Token], situation: &Situation<'_>) -> Vec<Located> {
-    let mut reader = Reader::new(situation);
-    for sentence in tokens.split(|token| matches!(token, Token::Stop | Token::Comma)) {
-        let denies = sentence.iter().any(|token| matches!(token.word(), "not" | "no" | "never"));
-        if !denies && !reader.tell(sentence) {
-            reader.tell_place(sentence);
-        }
-    }
-    reader.said.located
+    Reader::new(situation).told(tokens)
 }
 
 impl Command {
@@ -96,12 +90,14 @@ impl Command {
                 | Act::Put
                 | Act::Take
                 | Act::Stow
+                | Act::Store
                 | Act::Discard
+                | Act::Throw
                 | Act::Release
                 | Act::Pick
                 | Act::Lift
         );
-        carries && self.items.as_slice() == [Noun::Before]
+        carries && matches!(self.items.as_slice(), [Noun::Before(_)])
     }
 
     /// `get the mug and leave it on the table`: getting it is taking it, where nobody is named who gets it.
@@ -146,7 +142,7 @@ impl<'a> Reader<'a> {
 impl Reader<'_> {
     /// `hand the guest the magazine`: the first of two nouns is who gets it.
     fn dative(&self, command: &mut Command) {
-        if command.act() == Act::Fetch
+        if matches!(command.act(), Act::Fetch | Act::Throw | Act::Discard)
             && command.to_whom.is_none()
             && command.items.len() > 1
             && command.items.first().is_some_and(|first| self.is_person(first))

@@ -2,6 +2,8 @@
 //!
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
+mod carry;
+mod clash;
 mod command;
 mod errand;
 mod frame;
@@ -13,16 +15,18 @@ mod noun;
 mod pick;
 mod puzzle;
 mod reference;
+mod spot;
 mod statement;
 mod token;
 mod verb;
 mod vocabulary;
+mod whereabouts;
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
 pub use meaning::Understood;
-pub use pick::{called, named, pick};
+pub use pick::{called, choose, named, pick};
 pub use puzzle::Puzzle;
 
 /// What is known where a request is made.
@@ -64,6 +68,9 @@ impl<'a> Situation<'a> {
 /// request it says what shall be done. Empty where it says nothing of the kind.
 #[must_use]
 pub fn told(answer: &str, situation: &Situation<'_>) -> Vec<Located> {
+    if answer.len() > MAX_REQUEST {
+        return Vec::new();
+    }
     meaning::told(&token::tokens(answer), situation)
 }
 
@@ -75,12 +82,19 @@ pub fn is_bare(answer: &str) -> bool {
     noun::noun(&tokens, 0).is_some_and(|(_, end)| end == tokens.len())
 }
 
+/// The most bytes of a request: what somebody says in one breath, and no document. Longer ones are not read.
+pub const MAX_REQUEST: usize = 4096;
+
 /// Understands a request. The same request and situation give the same goals. O(words · things).
 ///
 /// # Errors
 ///
 /// What is not understood, not there, or not clear.
 pub fn understand(request: &str, situation: &Situation<'_>) -> Result<Understood, Puzzle> {
+    if request.len() > MAX_REQUEST {
+        let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
+        return Err(Puzzle::Unfit { why });
+    }
     let tokens = frame::plain(&token::tokens(request));
     let spoken = command::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)

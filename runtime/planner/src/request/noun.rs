@@ -1,6 +1,7 @@
 //! What a request speaks of: a noun with its article, count, and what narrows it down.
 
 use super::knowledge;
+use super::spot::{Spot, is_way, spot};
 use super::token::{Token, singular, stands};
 
 /// Which of several things are meant.
@@ -22,7 +23,7 @@ pub(super) enum Noun {
     /// `me`, `us`
     Speaker,
     /// `it`, `them`, `that`
-    Before,
+    Before(&'static str),
     /// `here`
     Here,
     /// `there`
@@ -38,6 +39,8 @@ pub(super) struct Phrase {
     pub(super) said: String,
     /// Its words in the singular; none for `something`.
     pub(super) words: Vec<String>,
+    /// What is in it: the words behind the `of` of `a bottle of water`.
+    pub(super) content: Vec<String>,
     pub(super) which: Which,
     /// Whether the noun was in the plural.
     pub(super) is_plural: bool,
@@ -46,7 +49,7 @@ pub(super) struct Phrase {
     /// What it shall not be, or what it is.
     pub(super) is: Vec<(bool, Vec<String>)>,
     /// Where it is.
-    pub(super) place: Option<Box<Noun>>,
+    pub(super) place: Option<Box<Spot>>,
     /// `something that I would like`
     pub(super) is_liked: bool,
 }
@@ -132,6 +135,9 @@ const ENDS: &[&str] = &[
     "her",
 ];
 
+/// What stands for something that was spoken of.
+const PRONOUNS: &[&str] = &["it", "them", "that", "this", "these", "those"];
+
 /// A noun that begins at a place, and where it ends.
 pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let word = tokens.get(at)?.word();
@@ -139,8 +145,13 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     match word {
         "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
         "my" if next == "place" => return Some((Noun::Speaker, at + 2)),
-        "it" | "them" => return Some((Noun::Before, at + 1)),
-        "that" | "this" | "these" | "those" if ends(tokens, at + 1) => return Some((Noun::Before, at + 1)),
+        _ => {}
+    }
+    let pronoun = PRONOUNS.iter().find(|known| **known == word);
+    if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {
+        return Some((Noun::Before(pronoun), at + 1));
+    }
+    match word {
         "here" => return Some((Noun::Here, at + 1)),
         "there" => return Some((Noun::There, at + 1)),
         _ => {}
@@ -152,13 +163,14 @@ fn ends(tokens: &[Token], at: usize) -> bool {
     match tokens.get(at) {
         None | Some(Token::Comma | Token::Stop) => true,
         Some(Token::Word(word)) if word == "can" => stands(tokens, at, "can you").is_some(),
-        Some(Token::Word(word)) => ENDS.contains(&word.as_str()),
+        Some(Token::Word(word)) => ENDS.contains(&word.as_str()) || is_way(tokens, at),
     }
 }
 
 fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     let (which, mut at) = determiner(tokens, begin);
     let mut words: Vec<String> = Vec::new();
+    let mut content_at = None;
     let mut is_plural = false;
     let is_open = matches!(tokens.get(at).map_or("", Token::word), "something" | "anything" | "everything");
     let which = match tokens.get(at).map_or("", Token::word) {
@@ -179,8 +191,13 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
             break;
         }
         at += 1;
-        if word == "of" || (words.is_empty() && matches!(word, "kind" | "sort" | "other")) {
+        if (word == "of" && !words.is_empty())
+            || (words.is_empty() && matches!(word, "kind" | "sort" | "other"))
+        {
             // `a bag of the chips`
+            if words.last().is_some_and(|word| knowledge::is_package(word)) {
+                content_at = Some(words.len());
+            }
             at = determiner(tokens, at).1;
             continue;
         }
@@ -196,6 +213,7 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     }
     let mut phrase = Phrase {
         said: String::new(),
+        content: content_at.and_then(|at| words.get(at..)).unwrap_or_default().to_vec(),
         words,
         which: which.unwrap_or(Which::Any),
         is_plural,
@@ -246,7 +264,7 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
                 "not" => (false, after + 1),
                 _ => (true, after),
             };
-            if let (true, Some((place, end))) = (is_so, located(tokens, after)) {
+            if let (true, Some((place, end))) = (is_so, spot(tokens, after)) {
                 phrase.place = Some(Box::new(place));
                 at = end;
                 continue;
@@ -268,14 +286,6 @@ fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
     }
 }
 
-/// `on the table`, `in the drawer`, `at the counter`
-pub(super) fn located(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
-    let count = ["on top of", "inside of", "on", "in", "inside", "at", "upon"]
-        .iter()
-        .find_map(|words| stands(tokens, at, words))?;
-    noun(tokens, at + count)
-}
-
 /// `to clean it up with`: what still belongs to the use.
 fn rest_of_use(tokens: &[Token], mut at: usize) -> usize {
     while let Some(Token::Word(word)) = tokens.get(at) {
@@ -290,6 +300,10 @@ fn rest_of_use(tokens: &[Token], mut at: usize) -> usize {
 /// An article or a count, and where the noun begins.
 fn determiner(tokens: &[Token], at: usize) -> (Option<Which>, usize) {
     let word = tokens.get(at).map_or("", Token::word);
+    // `the one that is blue`
+    if word == "that" && tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "is" | "are" | "was")) {
+        return (None, at);
+    }
     let which = match word {
         "the" | "this" | "that" | "my" | "your" | "our" | "his" | "her" | "their" => Which::The,
         "these" | "those" | "all" | "every" | "each" | "both" => Which::All,

@@ -4,7 +4,8 @@ use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
 use super::Situation;
-use super::noun::{Noun, located, noun};
+use super::noun::{Noun, noun};
+use super::spot::{Spot, spot};
 use super::token::{Token, singular, tokens};
 use super::vocabulary::{Role, Vocabulary};
 
@@ -20,18 +21,27 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> Opt
     let vocabulary = Vocabulary::new(situation.scene, &situation.supports);
     let words = tokens(answer);
     let words = without_lead(&words);
-    let place = |place: Option<Noun>| match place {
-        Some(Noun::Phrase(place)) => {
-            vocabulary.meant(&place.words, ALL).first().map(|thing| thing.id.clone())
+    // What is on top of a fridge is not in it.
+    let place = |place: Option<Spot>| match place.map(|place| (place.relation, place.noun)) {
+        Some((relation, Noun::Phrase(place))) => {
+            let thing = vocabulary.meant(&place.words, ALL).first().copied()?;
+            relation.fits(thing.role).then(|| thing.id.clone())
         }
         _ => None,
     };
     let (mut told, at): (Vec<String>, Option<SmolStr>) = match noun(words, 0) {
-        Some((Noun::Phrase(phrase), after)) => {
+        Some((Noun::Phrase(mut phrase), after)) => {
+            // `the one that is blue`
+            for (is_so, words) in &phrase.is {
+                if !is_so {
+                    return None;
+                }
+                phrase.words.extend(words.iter().cloned());
+            }
             let own = phrase.place.map(|place| *place);
-            (phrase.words, place(own.or_else(|| located(words, after).map(|(place, _)| place))))
+            (phrase.words, place(own.or_else(|| spot(words, after).map(|(place, _)| place))))
         }
-        _ => (Vec::new(), place(located(words, 0).map(|(place, _)| place))),
+        _ => (Vec::new(), place(spot(words, 0).map(|(place, _)| place))),
     };
     told.retain(|word| word != "one" && word != "thing");
     let number = ["first", "second", "third", "fourth"];
@@ -60,6 +70,109 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> Opt
         [only] => Some(only.clone()),
         _ => None,
     }
+}
+
+/// Answers that leave it to the robot.
+const ANY: &[&str] = &[
+    "any",
+    "any one",
+    "any of them",
+    "any of those",
+    "either",
+    "either one",
+    "either of them",
+    "whichever",
+    "whatever",
+    "i do not care",
+    "i do not mind",
+    "do not care",
+    "do not mind",
+    "it does not matter",
+    "does not matter",
+    "you choose",
+    "you decide",
+    "your choice",
+    "one of them",
+    "whichever you like",
+];
+/// Answers that mean every option.
+const BOTH: &[&str] =
+    &["both", "both of them", "both of those", "the two", "all", "all of them", "all of those", "every one"];
+
+/// Which of the options the answer to "Which one?" means, or what else it names: `both`, `any`, `not the red one`, `2`,
+/// `the last one`. Empty where that is not clear.
+#[must_use]
+pub fn choose(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> Vec<SmolStr> {
+    let mut words: Vec<String> = tokens(answer).iter().map(|token| token.word().to_owned()).collect();
+    words.retain(|word| !matches!(word.as_str(), "" | "please" | "just" | "really" | "then"));
+    let said = words.join(" ");
+    if ANY.contains(&said.as_str()) {
+        return options.first().cloned().into_iter().collect();
+    }
+    if BOTH.contains(&said.as_str()) && (options.len() == 2 || !said.contains("both") && said != "the two") {
+        return options.to_vec();
+    }
+    if let Some(rest) = said.strip_prefix("not ") {
+        let but = pick(rest, options, situation);
+        let left = options.iter().filter(|option| Some(*option) != but.as_ref());
+        return if but.is_some() && options.len() == 2 { left.cloned().collect() } else { Vec::new() };
+    }
+    // `the red one and the blue one` are two, `the red one or the blue one` is none.
+    if words.iter().any(|word| word == "or") {
+        return Vec::new();
+    }
+    let mut chosen = Vec::new();
+    for part in words.split(|word| word == "and").filter(|part| !part.is_empty()) {
+        let said = part.join(" ");
+        let one = numbered(part, options).or_else(|| pick(&said, options, situation));
+        let Some(id) = one.or_else(|| other(&said, options, situation)) else { return Vec::new() };
+        if !chosen.contains(&id) {
+            chosen.push(id);
+        }
+    }
+    chosen
+}
+
+/// `2`, `number two`, `mug 2`, `the last one`, `the other one`
+fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
+    let kept = words.iter().map(String::as_str);
+    let kept: Vec<&str> = kept.filter(|word| !matches!(*word, "the" | "one" | "number" | "no")).collect();
+    let number = |word: &str| word.parse::<usize>().ok().filter(|number| (1..=9).contains(number));
+    match kept.as_slice() {
+        ["last" | "latter"] => options.last().cloned(),
+        ["former"] => options.first().cloned(),
+        [word] if number(word).is_some() => {
+            // The number of a name, where the options have such names, and else that of the option.
+            let named: Vec<_> = options.iter().filter(|id| id.ends_with(&format!("_{word}"))).collect();
+            let counted = options.get(number(word)? - 1);
+            match (named.as_slice(), counted) {
+                ([named], Some(counted)) if *named != counted => None,
+                ([named], _) => Some((*named).clone()),
+                ([], counted) => counted.cloned(),
+                _ => None,
+            }
+        }
+        [.., last] if number(last).is_some() => {
+            let id = kept.join("_");
+            options.iter().find(|option| option.as_str() == id).cloned()
+        }
+        _ => None,
+    }
+}
+
+/// `the other one`, of two of which one was spoken of; or another thing of the same kind by its name.
+fn other(said: &str, options: &[SmolStr], situation: &Situation<'_>) -> Option<SmolStr> {
+    if matches!(said, "the other one" | "the other") {
+        let mut not_spoken_of = options.iter().filter(|id| !situation.spoken_of.contains(id));
+        return match (options.len(), not_spoken_of.next(), not_spoken_of.next()) {
+            (2, Some(only), None) => Some(only.clone()),
+            _ => None,
+        };
+    }
+    // By a name, not by what would only tell it from others: `the green one` is no apple.
+    let named = <[SmolStr; 1]>::try_from(named(said, situation)).ok().map(|[named]| named)?;
+    let kind = |id: &SmolStr| situation.scene.entities.get(id).map(|entity| entity.kind.clone());
+    (kind(&named) == kind(options.first()?)).then_some(named)
 }
 
 fn without_lead(words: &[Token]) -> &[Token] {

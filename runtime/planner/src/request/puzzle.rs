@@ -18,6 +18,20 @@ pub enum Puzzle {
         /// As it was said.
         what: String,
     },
+    /// What is meant is clear, but cannot be done with it: `open the bottle`, `bring me three mugs` of two.
+    #[error("{why}")]
+    Unfit {
+        /// Why.
+        why: String,
+    },
+    /// A thing is meant by where it is, and is known to be somewhere else.
+    #[error("{why}")]
+    Elsewhere {
+        /// Where it is taken to be.
+        why: String,
+        /// The thing.
+        thing: SmolStr,
+    },
     /// More than one thing is called so.
     #[error("`{what}` may be {}", list(options))]
     AmbiguousReference {

@@ -4,16 +4,28 @@ use smol_str::SmolStr;
 
 use super::Located;
 use super::command::{Spoken, Statement};
-use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
-use super::noun::{Noun, Phrase, Which, located, noun};
+use super::meaning::{ANYWHERE, OBJECTS, Reader};
+use super::noun::{Noun, Phrase, Which, noun};
+use super::spot::spot;
 use super::token::{Token, stands};
 use super::vocabulary::Role;
+use super::whereabouts::Clause;
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things are.
     pub(super) fn state(&mut self, statement: &Statement) {
         let tokens = &statement.tokens;
-        if self.tell(tokens) {
+        // `I put the coke in the fridge and I am thirsty`
+        let mut located = self.whereabouts(tokens, Clause::Statement);
+        if located.is_empty() {
+            let clauses =
+                tokens.split(|token| matches!(token.word(), "and" | "so") || *token == Token::Comma);
+            located = clauses.flat_map(|clause| self.whereabouts(clause, Clause::Statement)).collect();
+        }
+        // Two places for one thing leave it open where it is.
+        let is_clear = |one: &Located| located.iter().filter(|other| other.thing == one.thing).count() == 1;
+        if !located.is_empty() && located.iter().all(is_clear) {
+            self.said.located.extend(located);
             return;
         }
         for (index, _) in tokens.iter().enumerate() {
@@ -32,7 +44,7 @@ impl Reader<'_> {
                 continue;
             };
             if phrase.words.is_empty() {
-                if let Some((place, _)) = located(tokens, after) {
+                if let Some((place, _)) = spot(tokens, after) {
                     phrase.place = Some(Box::new(place));
                     self.left = Some(phrase);
                 }
@@ -73,60 +85,6 @@ impl Reader<'_> {
                 self.said.spoken_of.push(place.id.clone());
                 return;
             }
-        }
-    }
-
-    /// `the coke is in the fridge`, `it is on the table`, `in the cupboard`: a fact. Whether it was one.
-    pub(super) fn tell(&mut self, tokens: &[Token]) -> bool {
-        let subject = match noun(tokens, 0) {
-            Some((subject, after)) => [
-                "is now",
-                "are now",
-                "is",
-                "are",
-                "must be",
-                "should be",
-                "might be",
-                "may be",
-                "could be",
-                "was",
-                "is probably",
-                "has to be",
-            ]
-            .iter()
-            .find_map(|word| Some((subject.clone(), after + stands(tokens, after, word)?))),
-            None => None,
-        };
-        let (subject, at) = subject.unwrap_or((Noun::Before, 0));
-        let Some((place, _)) = located(tokens, at).filter(|(_, end)| *end == tokens.len()) else {
-            return false;
-        };
-        let (Ok(things), Ok(places)) =
-            (self.things(&subject, OBJECTS, None), self.things(&place, HOLDERS, None))
-        else {
-            return false;
-        };
-        let ([thing], [place]) = (things.as_slice(), places.as_slice()) else { return false };
-        let Some(role) = self.vocabulary.thing(place).map(|place| place.role) else { return false };
-        let relation = if role == Role::Container { "in" } else { "on" };
-        self.said.located.push(Located { thing: thing.clone(), relation, place: place.clone() });
-        self.said.spoken_of.push(thing.clone());
-        true
-    }
-
-    /// `I put it on the counter`, `look in the cupboard`, `it should be in there, in the drawer`: an answer to the question
-    /// where a thing is tells the first place in it.
-    pub(super) fn tell_place(&mut self, tokens: &[Token]) {
-        let found = (0..tokens.len()).find_map(|at| {
-            let (place, _) = located(tokens, at)?;
-            let places = self.things(&place, &[Role::Surface, Role::Container], None).ok()?;
-            <[SmolStr; 1]>::try_from(places).ok()
-        });
-        let (Some([place]), Ok(things)) = (found, self.things(&Noun::Before, OBJECTS, None)) else { return };
-        let role = self.vocabulary.thing(&place).map(|place| place.role);
-        let relation = if role == Some(Role::Container) { "in" } else { "on" };
-        if let [thing] = things.as_slice() {
-            self.said.located.push(Located { thing: thing.clone(), relation, place });
         }
     }
 

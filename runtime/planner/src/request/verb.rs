@@ -22,8 +22,12 @@ pub(super) enum Act {
     Take,
     /// Put where it belongs.
     Stow,
+    /// Put into something in which things are kept.
+    Store,
     /// Throw away.
     Discard,
+    /// Throw: to a place, to someone, or away.
+    Throw,
     /// Let go of.
     Release,
     /// Open.
@@ -139,8 +143,8 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("look for", Act::Find),
     ("search for", Act::Find),
     ("have a look for", Act::Find),
-    ("stow", Act::Stow),
-    ("store", Act::Stow),
+    ("stow", Act::Store),
+    ("store", Act::Store),
     ("put away", Act::Stow),
     ("put back", Act::Stow),
     ("tidy up", Act::Stow),
@@ -149,11 +153,11 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("clear away", Act::Stow),
     ("throw away", Act::Discard),
     ("throw out", Act::Discard),
-    ("throw", Act::Discard),
-    ("toss", Act::Discard),
+    ("throw", Act::Throw),
+    ("toss", Act::Throw),
     ("toss out", Act::Discard),
     ("toss away", Act::Discard),
-    ("chuck", Act::Discard),
+    ("chuck", Act::Throw),
     ("chuck out", Act::Discard),
     ("discard", Act::Discard),
     ("dispose of", Act::Discard),
@@ -186,6 +190,11 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     let wants = WANTS.iter().filter_map(|want| Some((Act::Fetch, at + stands(tokens, at, want)?)));
     let verbs = VERBS.iter().filter_map(|(verb, act)| Some((*act, at + stands(tokens, at, verb)?)));
     verbs.chain(wants).max_by_key(|(_, after)| *after)
+}
+
+/// Whether it is a wish that stands here, and no verb.
+pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
+    WANTS.iter().any(|want| stands(tokens, at, want).is_some())
 }
 
 /// Whether a request begins here, after what politeness puts before it.

@@ -82,6 +82,13 @@ impl Vocabulary {
         self.things.iter().find(|thing| thing.id == id)
     }
 
+    /// Takes in where a thing is.
+    pub(super) fn moved(&mut self, id: &str, place: &SmolStr) {
+        if let Some(thing) = self.things.iter_mut().find(|thing| thing.id == id) {
+            thing.support = Some(place.clone());
+        }
+    }
+
     /// The things of some roles that words mean, by the closest way in which any is meant: by a whole name, by what it
     /// is, or by words of its name and of what it is together. Words are in the singular.
     pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
@@ -96,13 +103,17 @@ impl Vocabulary {
         if !kinds.is_empty() {
             return kinds;
         }
-        all().filter(|thing| thing.is_told_by(words)).collect()
+        // By all words, before words that only say how it is packed are passed over.
+        let told: Vec<_> = all().filter(|thing| thing.is_told_by(words)).collect();
+        let exactly: Vec<_> =
+            told.iter().copied().filter(|thing| words.iter().all(|word| thing.is_one_of_its(word))).collect();
+        if exactly.is_empty() { told } else { exactly }
     }
 
-    /// The things of some roles of which every word tells something.
+    /// The things of some roles of which every word tells something, be it that they only tell it apart: `the red one`.
     pub(super) fn told_by(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = self.things.iter().filter(|thing| roles.contains(&thing.role));
-        all.filter(|thing| thing.is_told_by(words)).collect()
+        all.filter(|thing| thing.are_its(words)).collect()
     }
 
     /// Words with those that nothing is called replaced by the one name that they are a slip away from. None where one
@@ -120,6 +131,9 @@ impl Vocabulary {
             if known.contains(&word.as_str()) || knowledge::is_package(word) {
                 respelt.push(word.clone());
                 continue;
+            }
+            if knowledge::is_ordinary(word) {
+                return None;
             }
             let most = match word.chars().count() {
                 0..=3 => return None,
@@ -159,13 +173,27 @@ impl Thing {
         self.tags.iter().any(|tag| tag == what)
     }
 
-    /// Whether every word is one of its names' or says what it is; that it is packed says nothing by itself.
+    /// Whether every word is one of its names' or says what it is; that it is packed says nothing by itself. A word that
+    /// only tells it apart, the `red` of a `red mug`, does not name it: there is a `can` of what is in it, but no `red can`.
     fn is_told_by(&self, words: &[String]) -> bool {
-        let told = |word: &String| {
-            self.names.iter().flatten().any(|known| known == word)
-                || self.is(knowledge::usual(word).unwrap_or(word))
-        };
-        words.iter().any(told) && words.iter().all(|word| told(word) || knowledge::is_package(word))
+        self.are_its(words) && words.iter().any(|word| self.is_content(word))
+    }
+
+    /// Whether every word is one of its names' or says what it is, adjectives alone too.
+    fn are_its(&self, words: &[String]) -> bool {
+        let is_named = words.iter().any(|word| self.is_content(word));
+        let is_its = |word: &String| self.is_one_of_its(word) || (is_named && knowledge::is_package(word));
+        words.iter().any(|word| self.is_one_of_its(word)) && words.iter().all(is_its)
+    }
+
+    fn is_one_of_its(&self, word: &str) -> bool {
+        self.names.iter().flatten().any(|known| known == word) || self.is_content(word)
+    }
+
+    /// Whether a word says what it is or what is in it: the noun of one of its names, or a category.
+    pub(super) fn is_content(&self, word: &str) -> bool {
+        self.names.iter().any(|name| name.last().is_some_and(|last| last == word))
+            || self.is(knowledge::usual(word).unwrap_or(word))
     }
 }
 

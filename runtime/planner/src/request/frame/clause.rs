@@ -4,7 +4,8 @@ use super::ONLY_IF_SO;
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
 use crate::request::lead::skip_leads;
-use crate::request::noun::{located, noun};
+use crate::request::noun::noun;
+use crate::request::spot::located;
 use crate::request::token::{Token, stands};
 use crate::request::verb::begins;
 

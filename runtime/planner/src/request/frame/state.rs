@@ -1,7 +1,8 @@
 //! What is wanted of a thing: that it is open, closed, somewhere, or that something is done with it.
 
 use crate::request::inflection::{Form, base};
-use crate::request::noun::{Noun, located, noun};
+use crate::request::noun::{Noun, noun};
+use crate::request::spot::{Relation, located, way};
 use crate::request::token::{Token, stands};
 
 /// What is wanted of something.
@@ -74,7 +75,8 @@ fn base_is_participle(word: &str) -> bool {
 pub(super) fn is_place(tokens: &[Token], at: usize) -> bool {
     let to =
         ["into", "onto", "over here", "over there", "here", "next to", "near", "by", "beside", "with me"];
-    located(tokens, at).is_some() || to.iter().any(|to| stands(tokens, at, to).is_some())
+    let is_way = || way(tokens, at).is_some_and(|(spot, _)| spot.relation != Relation::To);
+    located(tokens, at).is_some() || to.iter().any(|to| stands(tokens, at, to).is_some()) || is_way()
 }
 
 /// What is wanted of a thing of which this is not wanted; none where nothing is the opposite.

@@ -1,0 +1,352 @@
+//! Where somebody says that things are: `the coke is in the fridge`, `I left it in the cupboard yesterday`, `try the drawer`.
+//!
+//! A clause is such a fact as a whole or not at all: who sits at a table says nothing of what is on it.
+
+use smol_str::SmolStr;
+
+use super::Located;
+use super::meaning::{OBJECTS, Reader};
+use super::noun::{Noun, noun};
+use super::spot::{Relation, Spot, spot, way};
+use super::token::{Token, stands};
+use super::vocabulary::Role;
+
+/// Whether a clause answers the question where something is, so that a bare place is one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Clause {
+    Answer,
+    Statement,
+}
+
+/// What stands before such a clause and takes nothing from it.
+const BEFORE: &[&str] = &[
+    "maybe",
+    "perhaps",
+    "probably",
+    "possibly",
+    "i think",
+    "i guess",
+    "i believe",
+    "i suppose",
+    "i would say",
+    "i am sure",
+    "i am pretty sure",
+    "i am quite sure",
+    "as far as i know",
+    "well",
+    "oh",
+    "ah",
+    "sorry",
+    "no",
+    "yes",
+    "yeah",
+    "ok",
+    "okay",
+    "please",
+    "then",
+    "and",
+    "or",
+    "so",
+    "that",
+    "actually",
+    "you could",
+    "you can",
+    "you should",
+    "you might",
+    "now",
+    "first",
+    "it was",
+    "either",
+];
+/// What stands behind it.
+const BEHIND: &[&str] = &[
+    "i think",
+    "i guess",
+    "i believe",
+    "i suppose",
+    "probably",
+    "maybe",
+    "perhaps",
+    "now",
+    "right now",
+    "yesterday",
+    "today",
+    "earlier",
+    "this morning",
+    "this afternoon",
+    "last night",
+    "again",
+    "please",
+    "somewhere",
+    "there",
+    "already",
+    "instead",
+    "first",
+    "for you",
+    "before",
+    "a while ago",
+    "just now",
+    "recently",
+    "i am sure",
+    "as usual",
+    "next",
+    "too",
+    "as well",
+    "then",
+    "last time",
+];
+/// What stands between a thing and where it is.
+const IS: &[&str] = &[
+    "is",
+    "are",
+    "was",
+    "were",
+    "must be",
+    "should be",
+    "might be",
+    "may be",
+    "could be",
+    "can be",
+    "has to be",
+    "will be",
+    "would be",
+    "ought to be",
+    "should still be",
+    "lies",
+    "stands",
+    "sits",
+    "is lying",
+    "is standing",
+    "is sitting",
+    "was put",
+    "was left",
+    "was moved",
+    "has been moved",
+    "has been put",
+    "got moved",
+    "is kept",
+    "is stored",
+    "can be found",
+    "should be found",
+    "went",
+];
+/// Behind these and before the place.
+const HOW: &[&str] = &[
+    "now",
+    "probably",
+    "maybe",
+    "perhaps",
+    "likely",
+    "still",
+    "actually",
+    "right",
+    "usually",
+    "back",
+    "over",
+    "somewhere",
+    "again",
+    "over there",
+    "there",
+];
+/// Where to look. Of an answer only: else it asks for something.
+const LOOK: &[&str] = &[
+    "look",
+    "look again",
+    "have a look",
+    "take a look",
+    "try",
+    "try looking",
+    "try to look",
+    "check",
+    "search",
+    "see",
+    "go and look",
+    "go look",
+    "look first",
+    "find it",
+];
+/// Who has put or seen it.
+const WHO: &[&str] = &["i", "we", "you", "he", "she", "they", "someone", "somebody", "my", "our", "people"];
+/// Between them and that: nothing that is still to come, but that it will be found.
+const HAS: &[&str] = &[
+    "have",
+    "has",
+    "had",
+    "just",
+    "must have",
+    "might have",
+    "may have",
+    "could have",
+    "probably",
+    "already",
+    "also",
+    "think i",
+    "will",
+];
+/// What they have done with it.
+const PUT: &[&str] = &[
+    "put", "left", "placed", "stored", "moved", "saw", "seen", "dropped", "kept", "keep", "laid", "set",
+    "took", "taken", "brought", "stuck", "hid", "hidden", "stowed", "found", "find", "leave", "see",
+];
+/// Words of a clause that takes back or restricts what it says.
+const DENIES: &[&str] = &[
+    "not",
+    "never",
+    "nothing",
+    "nowhere",
+    "none",
+    "neither",
+    "nor",
+    "but",
+    "except",
+    "unless",
+    "if",
+    "without",
+    "anywhere",
+    "instead of",
+    "empty",
+    "gone",
+    "whether",
+];
+
+impl Reader<'_> {
+    /// What an answer says of where things are. Of the same thing more than one place is where to look first, then next.
+    pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<Located> {
+        let mut told = Vec::new();
+        for sentence in tokens.split(|token| *token == Token::Stop) {
+            let mut here = Vec::new();
+            for clause in sentence.split(|token| *token == Token::Comma) {
+                // `I put it in the fridge, but it is not there any more`
+                if denies(clause)
+                    && clause.iter().any(|token| matches!(token.word(), "there" | "gone" | "anymore"))
+                {
+                    here.clear();
+                }
+                here.extend(self.whereabouts(clause, Clause::Answer));
+            }
+            told.extend(here);
+        }
+        told
+    }
+
+    /// What one clause says of where something is; nothing where it says something else.
+    pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<Located> {
+        let begin = skip(tokens, 0, BEFORE);
+        if denies(tokens) || begin >= tokens.len() {
+            return Vec::new();
+        }
+        let Some((thing, spots)) = said(tokens, begin, clause) else { return Vec::new() };
+        let Ok(things) = self.things(&thing, OBJECTS, None) else { return Vec::new() };
+        let [thing] = things.as_slice() else { return Vec::new() };
+        let located: Option<Vec<Located>> = spots.iter().map(|spot| self.located(thing, spot)).collect();
+        let located = located.unwrap_or_default();
+        if let Some(first) = located.first() {
+            self.vocabulary.moved(thing, &first.place);
+            self.said.spoken_of.push(thing.clone());
+        }
+        located
+    }
+
+    fn located(&mut self, thing: &SmolStr, spot: &Spot) -> Option<Located> {
+        let places = self.things(&spot.noun, &[Role::Surface, Role::Container], None).ok()?;
+        let [place] = places.as_slice() else { return None };
+        let role = self.vocabulary.thing(place)?.role;
+        // What is at a drawer may be in it or beside it.
+        let is_clear = spot.relation != Relation::At || role != Role::Container;
+        let relation = if role == Role::Container { "in" } else { "on" };
+        (spot.relation.fits(role) && is_clear).then(|| Located {
+            thing: thing.clone(),
+            relation,
+            place: place.clone(),
+        })
+    }
+}
+
+/// Which thing a clause places, and where.
+fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)> {
+    let it = || Noun::Before("it");
+    let is_answer = clause == Clause::Answer;
+    // `in the cupboard`
+    if let Some(spots) = spots(tokens, at, false) {
+        return Some((it(), spots));
+    }
+    let look = LOOK.iter().filter_map(|look| stands(tokens, at, look)).max().filter(|_| is_answer);
+    if let Some(count) = look {
+        // `look for it in the cupboard`
+        let for_it = stands(tokens, at + count, "for it").unwrap_or(0);
+        return Some((it(), spots(tokens, at + count + for_it, true)?));
+    }
+    // `there is a can in the fridge`
+    let there = ["there is", "there should be", "there might be", "there must be", "there was"];
+    if let Some(count) = there.iter().find_map(|there| stands(tokens, at, there)) {
+        let (thing, after) = noun(tokens, at + count)?;
+        return Some((thing, spots(tokens, after, false)?));
+    }
+    // `somebody moved it to the cupboard`
+    if WHO.contains(&tokens.get(at)?.word()) {
+        let is_kin = matches!(tokens.get(at)?.word(), "my" | "our");
+        let verb = skip(tokens, at + 1 + usize::from(is_kin), HAS);
+        let is_to_come = tokens.get(at..verb)?.iter().any(|token| token.word() == "will");
+        let is_found = is_one_of(tokens, verb, &["find", "see"]);
+        if !is_one_of(tokens, verb, PUT) || (is_to_come && !is_found) {
+            return None;
+        }
+        let (thing, after) = noun(tokens, verb + 1)?;
+        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+    }
+    let (thing, after) = noun(tokens, at)?;
+    let count = IS.iter().filter_map(|is| stands(tokens, after, is)).max()?;
+    Some((thing, spots(tokens, skip(tokens, after + count, HOW), false)?))
+}
+
+/// Places to the end of a clause: `in the fridge or in the cupboard`, `the fridge first and then the drawer`.
+fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>> {
+    let mut spots: Vec<Spot> = Vec::new();
+    loop {
+        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first drawer` does not.
+        let whole = tokens;
+        let is_end = |end: &usize| {
+            let after = skip(whole, *end, BEHIND);
+            after > *end && (after == whole.len() || stands_any(whole, after, NEXT).is_some())
+        };
+        let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
+        let tokens = whole.get(..end)?;
+        let bare = || {
+            let (noun, after) = noun(tokens, at)?;
+            let is_named = matches!(noun, Noun::Phrase(_));
+            let spot = Spot { relation: Relation::To, preposition: "", noun, is_behind_thing: false };
+            (is_named && (may_be_bare || !spots.is_empty())).then_some((spot, after))
+        };
+        let (spot, after) = spot(tokens, at).or_else(|| way(tokens, at)).or_else(bare)?;
+        spots.push(spot);
+        at = skip(whole, after, BEHIND);
+        if at >= whole.len() {
+            return Some(spots);
+        }
+        at += stands_any(whole, at, NEXT)?;
+        at = skip(whole, at, LOOK);
+    }
+}
+
+/// What joins two places.
+const NEXT: &[&str] =
+    &["or else", "or maybe", "or perhaps", "or", "and then", "and after that", "and", "then"];
+
+fn stands_any(tokens: &[Token], at: usize, words: &[&str]) -> Option<usize> {
+    words.iter().filter_map(|words| stands(tokens, at, words)).max()
+}
+
+fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
+    while let Some(count) = stands_any(tokens, at, skipped) {
+        at += count;
+    }
+    at
+}
+
+fn is_one_of(tokens: &[Token], at: usize, words: &[&str]) -> bool {
+    tokens.get(at).is_some_and(|token| words.contains(&token.word()))
+}
+
+fn denies(tokens: &[Token]) -> bool {
+    (0..tokens.len()).any(|at| DENIES.iter().any(|word| stands(tokens, at, word).is_some()))
+}
