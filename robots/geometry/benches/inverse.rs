@@ -25,22 +25,10 @@ fn inverse(criterion: &mut Criterion) {
     let arm = LiftArm::detect(&chain("hsr", "base_footprint", "hand_palm_link")).unwrap();
     let values = [0.35, -1.2, 0.4, -0.9, 0.3];
     let wanted = planar(2.0, -1.0, 0.7) * arm.chain().base_from_tip(&values);
-    let manifold = Manifold::new(arm.clone(), 8, 8);
-    let mut blocks = 0;
-    manifold.sweep(&wanted, |_| {
-        blocks += 1;
-        true
-    });
-    criterion.bench_function(&format!("hsr: the family, {} candidates", blocks * 16), |bencher| {
-        bencher.iter(|| {
-            let mut allowed = 0_u32;
-            manifold.sweep(black_box(&wanted), |block| {
-                let block = black_box(block);
-                allowed += block.branches.iter().map(|branch| branch.allowed.count_ones()).sum::<u32>();
-                true
-            });
-            allowed
-        });
+    let manifold = Manifold::new(&arm);
+    let poses = manifold.poses(&[(wanted, 0.7); 8], [2.0, -1.0]);
+    criterion.bench_function("hsr: 16 candidates in f32", |bencher| {
+        bencher.iter(|| manifold.block(black_box(&poses), 0.3, -1.2));
     });
     criterion.bench_function("hsr: one yaw and shoulder in f64, confirmed", |bencher| {
         bencher.iter(|| arm.solve(black_box(&wanted), 0.7, -1.2));

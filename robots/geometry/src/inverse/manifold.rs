@@ -1,6 +1,6 @@
-//! The whole family of solutions of a [`LiftArm`] on a grid of yaws and shoulder angles, eight yaws at a time in `f32`:
-//! the hot path of a query, which looks for a member of the family that is free. What it finds is a candidate, and
-//! [`LiftArm::solve`] at the same yaw and shoulder angle gives it in `f64`, confirmed.
+//! The family of solutions of a [`LiftArm`], for eight poses of the tip at a time in `f32`: the hot path of a query, which looks
+//! for a member of the family that is free. What it finds is a candidate, and [`LiftArm::solve`] at the same yaw and
+//! shoulder value gives it in `f64`, confirmed.
 //!
 //! With the wrist's axes n₁ ⊥ n₂ ⊥ n₃ and the rotation M that they have to make up, the vector M n₃ in the frame
 //! (n₁, n₂, n₂ × n₁) has the middle angle's cosine as its first component and the first angle's sine and cosine, times
@@ -12,40 +12,34 @@ use wide::f32x8;
 use super::lanes::{above, atan2};
 use super::lift_arm::LiftArm;
 use super::subproblem::turned;
-use crate::trigonometry::{atan2 as atan2_of_one, sin_cos};
+use crate::trigonometry::{atan2 as atan2_of_one, sin_cos, wrapped};
 
-/// Yaws that are tried at once.
+/// Poses that are looked at at once.
 pub const LANES: usize = 8;
 
-/// A grid of yaws and shoulder angles for one arm; made once for a robot.
+/// What of an arm its candidates need; made once for a query.
 #[derive(Clone, Debug)]
-pub struct Manifold {
-    arm: LiftArm,
-    yaws: Vec<Yaws>,
-    shoulders: Vec<Shoulder>,
+pub struct Manifold<'a> {
+    arm: &'a LiftArm,
     /// From the third axis back to the first, about the second.
     bend: f32,
     /// Vectors whose images show the angles: n₃, n₂ and n₂ × n₃.
     shown: [Vector3<f64>; 3],
+    /// Of the lift and of the wrist.
+    lift: Limits,
     wrist: [Limits; 3],
 }
 
-/// Eight yaws.
+/// Eight poses of the tip, each with a yaw of the base from which others are counted.
 #[derive(Clone, Debug)]
-struct Yaws {
-    angles: [f64; LANES],
+pub struct Poses {
+    /// The wrist's centre, in m.
+    centre: [f32x8; 3],
+    /// Where what shows the angles points.
+    shown: [[f32x8; 3]; 3],
+    yaws: [f64; LANES],
     sin: f32x8,
     cos: f32x8,
-}
-
-/// A value of the shoulder.
-#[derive(Clone, Debug)]
-struct Shoulder {
-    value: f64,
-    /// From the base to the wrist's centre with the lift at position 0.
-    wrist: Vector3<f64>,
-    /// n₁, n₂ and n₂ × n₁, as the shoulder turns them.
-    frame: [Vector3<f32>; 3],
 }
 
 /// How a joint's value follows from its angle, and where it has to be.
@@ -57,16 +51,16 @@ struct Limits {
     upper: f32,
 }
 
-/// Candidates at one shoulder value and eight yaws.
+/// Candidates at one value of the shoulder, one for each of eight poses.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     /// Value of the shoulder's variable.
     pub shoulder: f64,
-    /// Value of the lift's variable, within its limits.
-    pub lift: f64,
-    /// The base's yaws in rad.
+    /// Values of the lift's variable.
+    pub lift: f32x8,
+    /// The base's yaws in rad, in [−π, π].
     pub yaws: [f64; LANES],
-    /// From the wrist's centre to the base in the map, x then y, in m.
+    /// The base's places, x then y, in m from the origin of the poses.
     pub base: [f32x8; 2],
     /// The two ways to hold the wrist.
     pub branches: [Branch; 2],
@@ -77,103 +71,85 @@ pub struct Block {
 pub struct Branch {
     /// Values of the wrist's variables.
     pub values: [f32x8; 3],
-    /// A bit for each lane, the first lowest: whether the values are within the limits, to about 1e-6 rad.
+    /// A bit for each lane, the first lowest: whether all values are within the limits, to about 1e-6 rad.
     pub allowed: u8,
 }
 
-impl Manifold {
-    /// A grid of `8 * blocks` yaws around the circle and `shoulders` values between the shoulder's limits, the ends
-    /// included where there are two or more.
+impl<'a> Manifold<'a> {
+    /// What an arm's candidates need.
     #[must_use]
-    pub fn new(arm: LiftArm, blocks: usize, shoulders: usize) -> Self {
-        let count = (blocks * LANES) as f64;
-        let yaws = (0..blocks).map(|block| {
-            // Lanes are spread over the circle, so that the first block alone sees every side.
-            let angle = |lane: usize| ((lane * blocks + block) as f64 / count - 0.5) * std::f64::consts::TAU;
-            Yaws::new(std::array::from_fn(angle))
-        });
-        let (lower, upper) = arm
-            .chain
-            .variables
-            .get(1)
-            .and_then(|variable| variable.limits)
-            .unwrap_or((-std::f64::consts::PI, std::f64::consts::PI));
-        let shoulders = (0..shoulders).map(|at| {
-            let part = if shoulders > 1 { at as f64 / (shoulders - 1) as f64 } else { 0.5 };
-            Shoulder::new(&arm, lower + part * (upper - lower))
-        });
+    pub fn new(arm: &'a LiftArm) -> Self {
         let [one, two, three] = arm.wrist;
         let bend = atan2_of_one(three.dot(&two.cross(&one)), three.dot(&one));
         Self {
-            yaws: yaws.collect(),
-            shoulders: shoulders.collect(),
             bend: bend as f32,
             shown: [three, two, two.cross(&three)],
-            wrist: std::array::from_fn(|at| Limits::new(&arm, at + 2)),
+            lift: Limits::new(arm, 0),
+            wrist: std::array::from_fn(|at| Limits::new(arm, at + 2)),
             arm,
         }
     }
 
-    /// The arm, to confirm candidates with.
+    /// Poses, seen from an origin on the floor, each with the yaw from which others are counted, in rad: at most eight, and of
+    /// fewer the first stands in the lanes that are left.
     #[must_use]
-    pub fn arm(&self) -> &LiftArm {
-        &self.arm
-    }
-
-    /// Hands over the candidates for a pose of the tip, block by block, shoulder values outermost; those which the
-    /// lift cannot serve are left out. `each` returns whether to go on. O(grid).
-    pub fn sweep(&self, map_from_tip: &Isometry3<f64>, mut each: impl FnMut(&Block) -> bool) {
-        let centre = map_from_tip * nalgebra::Point3::from(self.arm.centre_in_tip);
-        let rotation = map_from_tip.rotation * self.arm.base_from_tip.inverse();
-        let shown = self.shown.map(|vector| (rotation * vector).cast::<f32>());
-        let Some((lift_joint, lift)) = self.arm.chain.joints.first().zip(self.arm.chain.variables.first())
-        else {
-            return;
+    pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> Poses {
+        let lane = |lane: usize| poses.get(lane).or(poses.first()).copied().unwrap_or_default();
+        let all: [(Isometry3<f64>, f64); LANES] = std::array::from_fn(lane);
+        let lanes = |each: &dyn Fn(&Isometry3<f64>) -> Vector3<f64>| {
+            let found = all.map(|(pose, _)| each(&pose));
+            [
+                f32x8::new(found.map(|it| it.x as f32)),
+                f32x8::new(found.map(|it| it.y as f32)),
+                f32x8::new(found.map(|it| it.z as f32)),
+            ]
         };
-        for shoulder in &self.shoulders {
-            let position = (centre.z - shoulder.wrist.z) * self.arm.up;
-            let value = (position - lift_joint.driver.offset) / lift_joint.driver.multiplier;
-            if !lift.allows(value) {
-                continue;
-            }
-            for yaws in &self.yaws {
-                if !each(&self.block(yaws, shoulder, value, &shown)) {
-                    return;
-                }
-            }
+        let back = self.arm.base_from_tip.inverse();
+        let yaws = all.map(|(_, yaw)| yaw);
+        let waves = yaws.map(sin_cos);
+        Poses {
+            centre: lanes(&|pose| self.arm.centre(pose).coords - Vector3::new(x, y, 0.0)),
+            shown: self.shown.map(|vector| lanes(&|pose| pose.rotation * (back * vector))),
+            yaws,
+            sin: f32x8::new(waves.map(|(sin, _)| sin as f32)),
+            cos: f32x8::new(waves.map(|(_, cos)| cos as f32)),
         }
     }
 
-    #[inline]
-    fn block(&self, yaws: &Yaws, shoulder: &Shoulder, lift: f64, shown: &[Vector3<f32>; 3]) -> Block {
+    /// The candidates with the base turned on by `further` rad from the yaw of each pose, at a value of the shoulder's variable.
+    #[must_use]
+    pub fn block(&self, poses: &Poses, further: f64, shoulder: f64) -> Block {
         let splat = f32x8::splat;
-        let (px, py) = (splat(shoulder.wrist.x as f32), splat(shoulder.wrist.y as f32));
-        let base = [yaws.sin * py - yaws.cos * px, splat(0.0) - (yaws.sin * px + yaws.cos * py)];
+        let (sin, cos) = sin_cos(further);
+        let (sin, cos) = (splat(sin as f32), splat(cos as f32));
+        let (sin, cos) = (poses.sin * cos + poses.cos * sin, poses.cos * cos - poses.sin * sin);
+        let held = Shoulder::new(self.arm, shoulder);
+        let (px, py, pz) = (splat(held.wrist.x), splat(held.wrist.y), splat(held.wrist.z));
+        let [x, y, z] = poses.centre;
+        let up = splat(self.arm.up as f32);
+        let lift = ((z - pz) * up - splat(self.lift.offset)) * splat(self.lift.scale);
+        let is_lifted = lift.simd_ge(splat(self.lift.lower)).to_bitmask()
+            & lift.simd_le(splat(self.lift.upper)).to_bitmask();
+        let base = [x - (cos * px - sin * py), y - (sin * px + cos * py)];
         // The base turns by the yaw; seen from it, what is shown turns back.
-        let [three, two, side] = shown.map(|v| {
-            let (x, y) = (splat(v.x), splat(v.y));
-            [yaws.cos * x + yaws.sin * y, yaws.cos * y - yaws.sin * x, splat(v.z)]
-        });
+        let [three, two, side] = poses.shown.map(|[x, y, z]| [cos * x + sin * y, cos * y - sin * x, z]);
         let dot = |axis: &Vector3<f32>, [x, y, z]: [f32x8; 3]| {
             splat(axis.x) * x + splat(axis.y) * y + splat(axis.z) * z
         };
-        let [one, second, third] = &shoulder.frame;
+        let [one, second, third] = &held.frame;
         let (p1, p2, p3) = (dot(one, three), dot(second, three), dot(third, three));
         let (r2, r3) = (dot(one, two), dot(one, side));
         let zero = splat(0.0);
         let (middle, bend) = (atan2((p2 * p2 + p3 * p3).sqrt(), p1), splat(self.bend));
         let (first, last) = (atan2(p2, p3), atan2(r2, zero - r3));
         let half = splat(std::f32::consts::PI);
-        Block {
-            shoulder: shoulder.value,
-            lift,
-            yaws: yaws.angles,
-            base,
-            branches: [
-                self.branch([first, middle - bend, last]),
-                self.branch([first + half, zero - middle - bend, last + half]),
-            ],
-        }
+        let mut branches = [
+            self.branch([first, middle - bend, last]),
+            self.branch([first + half, zero - middle - bend, last + half]),
+        ];
+        branches.iter_mut().for_each(|branch| branch.allowed &= is_lifted as u8);
+        let yaws = poses.yaws.map(|yaw| wrapped(yaw + further));
+        Block { shoulder, lift, yaws, base, branches }
     }
 
     #[inline]
@@ -190,13 +166,12 @@ impl Manifold {
     }
 }
 
-impl Yaws {
-    fn new(angles: [f64; LANES]) -> Self {
-        let waves = angles.map(sin_cos);
-        let sin = f32x8::new(waves.map(|(sin, _)| sin as f32));
-        let cos = f32x8::new(waves.map(|(_, cos)| cos as f32));
-        Self { angles, sin, cos }
-    }
+/// The arm at a value of the shoulder.
+struct Shoulder {
+    /// From the base to the wrist's centre with the lift at position 0.
+    wrist: Vector3<f32>,
+    /// n₁, n₂ and n₂ × n₁, as the shoulder turns them.
+    frame: [Vector3<f32>; 3],
 }
 
 impl Shoulder {
@@ -205,8 +180,7 @@ impl Shoulder {
         let turn = |vector: &Vector3<f64>| turned(&arm.shoulder.axis, angle, vector);
         let [one, two, _] = &arm.wrist;
         Self {
-            value,
-            wrist: arm.shoulder.point + turn(&arm.shoulder.to_wrist),
+            wrist: (arm.shoulder.point + turn(&arm.shoulder.to_wrist)).cast::<f32>(),
             frame: [turn(one), turn(two), turn(&two.cross(one))].map(|vector| vector.cast::<f32>()),
         }
     }

@@ -73,6 +73,18 @@ pub fn refined(
     is_within(&error, tolerance).then_some(values)
 }
 
+/// A solution of a closed form as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
+pub(super) fn polished<const N: usize>(
+    chain: &Chain,
+    values: [f64; N],
+    base_from_tip: &Isometry3<f64>,
+) -> Option<[f64; N]> {
+    if Tolerance::EXACT.covers(&chain.base_from_tip(&values), base_from_tip) {
+        return Some(values);
+    }
+    refined(chain, base_from_tip, &values, 4, Tolerance::EXACT)?.try_into().ok()
+}
+
 fn is_within(error: &Vector6<f64>, tolerance: Tolerance) -> bool {
     let [x, y, z, a, b, c] = error.data.0[0];
     (x * x + y * y + z * z).sqrt() <= tolerance.position && (a * a + b * b + c * c).sqrt() <= tolerance.angle

@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Unit, UnitQuaternion, Vector3};
 
-use super::Tolerance;
-use super::numeric;
+use super::numeric::polished;
 use super::screw::{Screw, drives_each, screws};
 use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
 use crate::kinematics::Chain;
@@ -78,14 +77,28 @@ impl ParallelArm {
     pub fn solve(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
         let mut found = Vec::new();
         for positions in self.positions(base_from_tip) {
+            self.values(&positions, &mut |values| found.extend(self.confirmed(values, base_from_tip)));
+        }
+        found
+    }
+
+    /// The solution within the limits that is nearest to some values, by the largest difference of one.
+    #[must_use]
+    pub fn nearest(&self, base_from_tip: &Isometry3<f64>, to: &[f64]) -> Option<[f64; 6]> {
+        let mut best: Option<(f64, [f64; 6])> = None;
+        for positions in self.positions(base_from_tip) {
             self.values(&positions, &mut |values| {
-                let values = self.polished(values, base_from_tip);
-                if let Some(values) = values.filter(|values| self.chain.allows(values)) {
-                    found.push(values);
+                let far = values.iter().zip(to).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+                if best.is_none_or(|(known, _)| far < known) {
+                    best = Some((far, values));
                 }
             });
         }
-        found
+        self.confirmed(best?.1, base_from_tip)
+    }
+
+    fn confirmed(&self, values: [f64; 6], base_from_tip: &Isometry3<f64>) -> Option<[f64; 6]> {
+        polished(&self.chain, values, base_from_tip).filter(|values| self.chain.allows(values))
     }
 
     /// Joint positions, up to full turns, regardless of limits.
@@ -158,14 +171,5 @@ impl ParallelArm {
             }
             each(values);
         }
-    }
-
-    /// The solution as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
-    fn polished(&self, values: [f64; 6], base_from_tip: &Isometry3<f64>) -> Option<[f64; 6]> {
-        if Tolerance::EXACT.covers(&self.chain.base_from_tip(&values), base_from_tip) {
-            return Some(values);
-        }
-        let near = numeric::refined(&self.chain, base_from_tip, &values, 4, Tolerance::EXACT)?;
-        near.try_into().ok()
     }
 }

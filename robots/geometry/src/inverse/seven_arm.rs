@@ -11,9 +11,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::Tolerance;
 use super::lift_arm::wrist;
-use super::numeric;
+use super::numeric::polished;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
 use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
 use crate::kinematics::Chain;
@@ -79,19 +78,45 @@ impl SevenArm {
     /// variables. Where the arm is stretched out or an axis does not matter, a family is stood for by some of it.
     #[must_use]
     pub fn solve(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 7]> {
-        let mut found = Vec::new();
+        let found = self.unconfirmed(base_from_tip, last);
+        found.into_iter().filter_map(|values| self.confirmed(values, base_from_tip)).collect()
+    }
+
+    /// Solutions with the last joint's variable at any of some values, the nearest to other values of all variables first, by the
+    /// squares of their differences: at most `most`.
+    #[must_use]
+    pub fn nearest(
+        &self,
+        base_from_tip: &Isometry3<f64>,
+        lasts: &[f64],
+        to: &[f64],
+        most: usize,
+    ) -> Vec<[f64; 7]> {
+        let far = |values: &[f64; 7]| {
+            values.iter().zip(to).map(|(one, other)| (one - other) * (one - other)).sum::<f64>()
+        };
+        let found = lasts.iter().flat_map(|last| self.unconfirmed(base_from_tip, *last));
+        let mut found: Vec<(f64, [f64; 7])> = found.map(|values| (far(&values), values)).collect();
+        found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let confirmed = found.into_iter().filter_map(|(_, values)| self.confirmed(values, base_from_tip));
+        confirmed.take(most).collect()
+    }
+
+    /// Values within the limits that forward kinematics has yet to confirm.
+    fn unconfirmed(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 7]> {
         let Some((joint, variable)) = self.chain.joints.last().zip(self.chain.variables.last()) else {
-            return found;
+            return vec![];
         };
         if !variable.allows(last) {
-            return found;
+            return vec![];
         }
         let angle = joint.driver.multiplier * last + joint.driver.offset;
-        for angles in self.positions(base_from_tip, angle) {
-            let values = self.values(&angles, last).and_then(|values| self.polished(values, base_from_tip));
-            found.extend(values.filter(|values| self.chain.allows(values)));
-        }
-        found
+        let positions = self.positions(base_from_tip, angle);
+        positions.iter().filter_map(|angles| self.values(angles, last)).collect()
+    }
+
+    fn confirmed(&self, values: [f64; 7], base_from_tip: &Isometry3<f64>) -> Option<[f64; 7]> {
+        polished(&self.chain, values, base_from_tip).filter(|values| self.chain.allows(values))
     }
 
     /// Positions of the first six joints, up to full turns, regardless of limits.
@@ -138,15 +163,6 @@ impl SevenArm {
             *slot = within(variable, value % TAU).next()?;
         }
         Some(values)
-    }
-
-    /// The solution as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
-    fn polished(&self, values: [f64; 7], base_from_tip: &Isometry3<f64>) -> Option<[f64; 7]> {
-        if Tolerance::EXACT.covers(&self.chain.base_from_tip(&values), base_from_tip) {
-            return Some(values);
-        }
-        let near = numeric::refined(&self.chain, base_from_tip, &values, 4, Tolerance::EXACT)?;
-        near.try_into().ok()
     }
 }
 

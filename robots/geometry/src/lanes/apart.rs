@@ -67,10 +67,32 @@ impl<S: Simd> Axis<S> {
         least - wanted * wanted
     }
 
+    /// Negative where the middle or an end of the axis is nearer to a box than `wanted` for certain.
+    #[inline(always)]
+    pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: f32) -> Number<S> {
+        let between = self.centre - other.centre;
+        let [x, y, z] = other.axes;
+        let off = [between.dot(x), between.dot(y), between.dot(z)];
+        let along = [self.half.dot(x), self.half.dot(y), self.half.dot(z)];
+        let middle = squared(simd, off, along, other.half, [0.0, 0.0]);
+        let first = squared(simd, off, along, other.half, [-1.0, 0.0]);
+        let last = squared(simd, off, along, other.half, [1.0, 0.0]);
+        middle.least(first).least(last) - Number::splat(simd, wanted * wanted)
+    }
+
     /// Positive where two axes are farther from each other than `wanted` for certain: by the planes square to the way between two
-    /// places on them, which are nearly the nearest (Ericson 2005, 5.1.9).
+    /// places on them, which are nearly the nearest.
     #[inline(always)]
     pub(super) fn apart(self, simd: S, other: Self, wanted: Number<S>) -> Number<S> {
+        let way = self.way(simd, other);
+        let between = self.centre - other.centre;
+        let length = way.dot(way).sqrt();
+        way.dot(between) - way.dot(self.half).abs() - way.dot(other.half).abs() - wanted * length
+    }
+
+    /// The way from a place on another axis to one on this, of which both are nearly the nearest (Ericson 2005, 5.1.9).
+    #[inline(always)]
+    pub(super) fn way(self, simd: S, other: Self) -> Vector<S> {
         let tiny = Number::splat(simd, 1e-9);
         let between = self.centre - other.centre;
         let (d1, d2) = (self.half, other.half);
@@ -80,9 +102,7 @@ impl<S: Simd> Axis<S> {
         let s = (b * f - c * e).over((a * e - b * b).most(Number::splat(simd, 1e-12))).within();
         let t = (b * s + f).over(e).within();
         let s = (b * t - c).over(a).within();
-        let way = between + d1.times(s) - d2.times(t);
-        let length = way.dot(way).sqrt();
-        way.dot(between) - way.dot(d1).abs() - way.dot(d2).abs() - wanted * length
+        between + d1.times(s) - d2.times(t)
     }
 }
 

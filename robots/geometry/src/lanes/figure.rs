@@ -43,10 +43,14 @@ pub(super) struct Joint {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) frame: usize,
+    /// A bit for that frame and for each that carries it.
+    pub(super) carriers: u64,
     pub(super) centre: [f32; 3],
     /// From the centre to an end of the capsule's axis.
     pub(super) half: [f32; 3],
     pub(super) radius: f32,
+    /// The radius of a capsule about the same axis within it.
+    pub(super) inner: f32,
     /// The radius of the ball around the centre that holds it.
     pub(super) reach: f32,
     /// How far it may be off as it is placed, twice, in m.
@@ -102,7 +106,8 @@ impl Figure {
             let [far, turned, moved] = frames.get(*frame)?;
             let long = solid.centre.norm() + solid.reach();
             let slack = 2.0 * (moved + turned * long + MOVED);
-            if far + long <= LONG { Part::new(*frame, &solid, slack) } else { None }
+            let carriers = levers.get(*frame)?.iter().fold(0, |bits, joint| bits | frame_bit(joint + 1));
+            if far + long <= LONG { Part::new((*frame, carriers), &solid, slack) } else { None }
         });
         let parts = parts.collect::<Option<Vec<Part>>>()?;
         let mut pairs = Vec::new();
@@ -190,7 +195,7 @@ impl Joint {
 }
 
 impl Part {
-    fn new(frame: usize, solid: &Solid, slack: f64) -> Option<Self> {
+    fn new((frame, carriers): (usize, u64), solid: &Solid, slack: f64) -> Option<Self> {
         let sides = sides(&solid.shape)?;
         let along = |axis: usize, half: f64| solid.axes.get(axis).map(|axis| axis * half);
         // In a capsule around the longest axis of a box or a cylinder, a little less long than it.
@@ -211,15 +216,22 @@ impl Part {
         let axes = [along(0, 1.0)?, along(1, 1.0)?, along(2, 1.0)?].map(|axis| single(&axis));
         Some(Self {
             frame,
+            carriers,
             centre: single(&solid.centre),
             half: single(&half),
             radius: radius as f32,
+            inner: if is_capsule { radius as f32 } else { 0.0 },
             reach: solid.reach() as f32,
             slack: slack as f32,
             is_round: matches!(solid.shape, Shape::Cylinder { .. }),
             slab: (!is_capsule).then(|| (axes, single(&sides))),
         })
     }
+}
+
+/// The bit of a frame; the last of them stand together.
+pub(super) fn frame_bit(frame: usize) -> u64 {
+    1 << frame.min(63)
 }
 
 fn columns(matrix: &Matrix3<f64>) -> [[f32; 3]; 3] {

@@ -2,12 +2,12 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::TOLD;
 use super::apart::{Axis, Cuboid};
 use super::figure::{Eight, Figure, Part, Parts};
 use super::number::{Number, Vector};
 use super::pose::{Place, Posed};
 use super::slab::Slab;
+use super::{SURE, TOLD};
 
 /// What a part may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,6 +35,8 @@ pub(crate) struct Met {
     pub(crate) lanes: u8,
     /// The same while it stays where it is.
     pub(crate) still: u8,
+    /// Of these, whether they are known to be no farther apart than wanted.
+    pub(crate) sure: u8,
 }
 
 /// Eight states to look at.
@@ -46,6 +48,8 @@ pub(crate) struct Look<'a, F> {
     pub(crate) gap: f32,
     /// Whether parts are looked at among each other, where all pairs are.
     pub(crate) is_own: bool,
+    /// Whether no more has to be known as soon as something is touched for certain: in all states, or in one on a way.
+    pub(crate) is_first: bool,
     /// Pairs to look at; all where there are none.
     pub(crate) pairs: Option<&'a [Pair]>,
     /// Whether a part counts against an entity, and against the floor, where all pairs are looked at.
@@ -76,11 +80,21 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for Look<'_, F> {
         };
         let needed: Vec<bool> = (0..self.figure.parts.len()).map(needed).collect();
         let posed = Posed::new(simd, self.figure, self.eight, &needed);
-        let looked =
-            Looked { figure: self.figure, eight: self.eight, slabs: self.slabs, gap: self.gap, posed };
+        let looked = Looked {
+            figure: self.figure,
+            eight: self.eight,
+            slabs: self.slabs,
+            gap: self.gap,
+            is_first: self.is_first,
+            posed,
+        };
         let mut met = Vec::new();
         match self.pairs {
-            Some(pairs) => pairs.iter().for_each(|pair| looked.look(simd, *pair, &mut met)),
+            Some(pairs) => {
+                for pair in pairs {
+                    looked.look(simd, *pair, &mut met);
+                }
+            }
             None => looked.all(simd, self.counts, self.is_own, &mut met),
         }
         met
@@ -92,6 +106,7 @@ struct Looked<'a> {
     eight: &'a Eight,
     slabs: &'a [Slab],
     gap: f32,
+    is_first: bool,
     posed: Posed,
 }
 
@@ -122,6 +137,7 @@ impl Looked<'_> {
                 self.slabs.get(*at).is_some_and(|slab| meets((&low, &high), (&slab.low, &slab.high), wide))
             })
             .collect();
+        let mut touched = 0;
         for (place, part) in self.posed.parts.iter().zip(0..) {
             if self.eight.is_way && !place.moves {
                 continue;
@@ -131,12 +147,18 @@ impl Looked<'_> {
                 if meets((&place.low, &place.high), (&slab.low, &slab.high), wide)
                     && counts(part, Some(slab.entity))
                 {
-                    self.look(simd, Pair { part, against: Against::Slab(*at) }, met);
+                    touched |= self.look(simd, Pair { part, against: Against::Slab(*at) }, met);
+                    if self.is_told(touched) {
+                        return;
+                    }
                 }
             }
             let [_, _, lowest] = place.low;
             if lowest <= wide && counts(part, None) {
-                self.look(simd, Pair { part, against: Against::Floor }, met);
+                touched |= self.look(simd, Pair { part, against: Against::Floor }, met);
+                if self.is_told(touched) {
+                    return;
+                }
             }
         }
         let pairs = if is_own { self.figure.pairs.as_slice() } else { &[] };
@@ -146,9 +168,19 @@ impl Looked<'_> {
                 continue;
             }
             if meets((&a.low, &a.high), (&b.low, &b.high), wide) {
-                self.look(simd, Pair { part: *one, against: Against::Part(*other, *common) }, met);
+                let pair = Pair { part: *one, against: Against::Part(*other, *common) };
+                touched |= self.look(simd, pair, met);
+                if self.is_told(touched) {
+                    return;
+                }
             }
         }
+    }
+
+    /// Whether no more has to be known, by the states in which something is touched: all of them, or one on a way.
+    #[inline(always)]
+    fn is_told(&self, touched: u8) -> bool {
+        self.is_first && (touched == u8::MAX || (self.eight.is_way && touched != 0))
     }
 
     /// Whether a joint after the first so many moves a part on the way.
@@ -160,24 +192,27 @@ impl Looked<'_> {
         levers.iter().any(|at| self.eight.amounts.get(*at).is_some_and(|amount| *amount > 0.0))
     }
 
-    /// Looks at one pair, closer and closer.
+    /// Looks at one pair, closer and closer: the states in which it is known to be near.
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, pair: Pair, met: &mut Vec<Met>) {
-        let (mut lanes, mut still) = (0, 0);
+    fn look<S: Simd>(&self, simd: S, pair: Pair, met: &mut Vec<Met>) -> u8 {
+        let (mut lanes, mut still, mut sure) = (0, 0, 0);
         for chunk in 0..8 / S::F32_LANES {
-            let [going, standing] = self.chunk(simd, pair, chunk);
+            let [going, standing, touching] = self.chunk(simd, pair, chunk);
             lanes |= going << (chunk * S::F32_LANES);
             still |= standing << (chunk * S::F32_LANES);
+            sure |= touching << (chunk * S::F32_LANES);
         }
         if lanes != 0 {
-            met.push(Met { pair, lanes, still });
+            met.push(Met { pair, lanes, still, sure });
         }
+        sure
     }
 
+    /// Bits for the states in which a pair may be near on the way, where it stands, and is for certain where it stands.
     #[inline(always)]
-    fn chunk<S: Simd>(&self, simd: S, Pair { part, against }: Pair, chunk: usize) -> [u8; 2] {
+    fn chunk<S: Simd>(&self, simd: S, Pair { part, against }: Pair, chunk: usize) -> [u8; 3] {
         let Some((own, place)) = self.figure.parts.get(part).zip(self.posed.parts.get(part)) else {
-            return [0; 2];
+            return [0; 3];
         };
         let axis = place.axis(simd, chunk);
         let goes = Number::of(simd, &place.goes, chunk);
@@ -185,11 +220,19 @@ impl Looked<'_> {
             Against::Floor => {
                 let Vector([_, _, height]) = axis.centre;
                 let Vector([_, _, up]) = axis.half;
-                let above = height - up.abs() - Number::splat(simd, own.radius + self.gap + own.slack + TOLD);
-                [(above - goes).not_positive(), above.not_positive()]
+                let end = height - up.abs();
+                let above = end - Number::splat(simd, own.radius + self.gap + own.slack + TOLD);
+                match (above - goes).not_positive() {
+                    0 => [0; 3],
+                    going => {
+                        let within = end - Number::splat(simd, own.inner + self.gap - own.slack - SURE);
+                        let still = above.not_positive();
+                        [going, still, within.negative() & still]
+                    }
+                }
             }
             Against::Slab(at) => {
-                let Some(slab) = self.slabs.get(at) else { return [0; 2] };
+                let Some(slab) = self.slabs.get(at) else { return [0; 3] };
                 let [x, y, z] = slab.axes;
                 let other = Cuboid {
                     centre: Vector::splat(simd, slab.centre),
@@ -198,22 +241,58 @@ impl Looked<'_> {
                     is_round: false,
                 };
                 let least = Number::splat(simd, self.gap + own.slack + TOLD);
-                match self.slab(simd, (own, place), other, least + goes, chunk) {
-                    0 => [0; 2],
-                    going => [going, self.slab(simd, (own, place), other, least, chunk)],
+                let ball = Number::splat(simd, own.reach) + least + goes;
+                let balls = slab.aside(simd, axis.centre, ball).not_positive();
+                if balls == 0 {
+                    return [0; 3];
+                }
+                // What one state alone would be told counts, whatever it is looked at with.
+                match balls & self.slab(simd, (own, place), other, least + goes, chunk) {
+                    0 => [0; 3],
+                    going => {
+                        let still = match self.eight.is_way {
+                            true => going & self.slab(simd, (own, place), other, least, chunk),
+                            false => going,
+                        };
+                        let near = own.inner + self.gap - own.slack - SURE;
+                        let is_told = still != 0 && slab.is_exact && near > 0.0;
+                        let sure = if is_told { axis.within(simd, other, near).negative() } else { 0 };
+                        [going, still, sure & still]
+                    }
                 }
             }
             Against::Part(at, common) => {
                 let Some((far, beyond)) = self.figure.parts.get(at).zip(self.posed.parts.get(at)) else {
-                    return [0; 2];
+                    return [0; 3];
                 };
                 let least = Number::splat(simd, self.gap + own.slack + far.slack + TOLD);
+                // What moves both counts twice here, which is no less than it does.
+                let both = goes + Number::of(simd, &beyond.goes, chunk);
+                let balls = Number::splat(simd, own.reach + far.reach) + least + both;
+                let between = axis.centre - Vector::of(simd, &beyond.centre, chunk);
+                let balls = (between.dot(between) - balls * balls).not_positive();
+                if balls == 0 {
+                    return [0; 3];
+                }
                 let goes = self.posed.goes_after(simd, self.figure, self.eight, (part, common), chunk)
                     + self.posed.goes_after(simd, self.figure, self.eight, (at, common), chunk);
                 let pair = [(own, place), (far, beyond)];
-                match self.parts(simd, pair, least + goes, chunk) {
-                    0 => [0; 2],
-                    going => [going, self.parts(simd, pair, least, chunk)],
+                match balls & self.parts(simd, pair, least + goes, chunk) {
+                    0 => [0; 3],
+                    going => {
+                        let still = match self.eight.is_way {
+                            true => going & self.parts(simd, pair, least, chunk),
+                            false => going,
+                        };
+                        let near = own.inner + far.inner + self.gap - own.slack - far.slack - SURE;
+                        let sure = if still != 0 && near > 0.0 {
+                            let way = axis.way(simd, beyond.axis(simd, chunk));
+                            (way.dot(way) - Number::splat(simd, near * near)).negative()
+                        } else {
+                            0
+                        };
+                        [going, still, sure & still]
+                    }
                 }
             }
         }
@@ -285,7 +364,7 @@ impl Looked<'_> {
 fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> u8 {
     match axis.beside(simd, other, wanted, 1).not_positive() {
         0 => 0,
-        _ => axis.beside(simd, other, wanted, pieces).not_positive(),
+        bits => bits & axis.beside(simd, other, wanted, pieces).not_positive(),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Eight states of a robot at a time, in `f32`: which pairs of solids are apart for certain.
 //!
 //! A [`Figure`] is a robot of which some joints move, made once for a room; [`Slab`]s are what stands around. [`Look`] places the
-//! robot in [`Eight`] states and hands over the pairs that it cannot tell to be apart; these are looked at again in `f64`. So it
-//! takes work away and never decides that something touches.
+//! robot in [`Eight`] states and hands over the pairs that it cannot tell to be apart, with those states in which they touch for certain;
+//! the others are looked at again in `f64`. So it takes work away and decides only what is farther from open than it may be off.
 //!
 //! **Rounding.** The base is no farther than [`FAR`] m from the origin along either side, no part farther than [`LONG`] m from the base,
 //! and no joint further than [`TURNS`] rad from 0; else nothing is said. An angle is off by 5e-7 rad as it is rounded, its sine by 2e-7
@@ -38,3 +38,6 @@ const TURNED: f64 = 4.5e-6;
 const MOVED: f64 = 2e-6;
 /// How far the distance between two solids may be off, in m.
 const TOLD: f32 = 1e-5;
+/// How much nearer than wanted two solids have to be to count as near for certain, beside what may be off of parts, in m: a tenth of
+/// a millimetre, which is more than what a thing is rounded by ([`slab::Slab::is_exact`]).
+const SURE: f32 = 1e-4;

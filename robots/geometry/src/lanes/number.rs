@@ -46,7 +46,8 @@ impl<S: Simd> Number<S> {
 
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        Self(self.0, self.0.abs_f32s(self.1))
+        // The library's own is a call.
+        self.most(-self)
     }
 
     #[inline(always)]
@@ -62,15 +63,14 @@ impl<S: Simd> Number<S> {
     /// Of each lane the smaller one.
     #[inline(always)]
     pub(super) fn least(self, other: Self) -> Self {
-        let is_less = self.0.less_than_f32s(self.1, other.1);
-        Self(self.0, self.0.select_f32s(is_less, self.1, other.1))
+        // By the greater one, which is the same on every processor.
+        -(-self).most(-other)
     }
 
     /// Of each lane the greater one.
     #[inline(always)]
     pub(super) fn most(self, other: Self) -> Self {
-        let is_less = self.0.less_than_f32s(self.1, other.1);
-        Self(self.0, self.0.select_f32s(is_less, other.1, self.1))
+        Self(self.0, self.0.max_f32s(self.1, other.1))
     }
 
     /// Zero where negative.
@@ -115,6 +115,17 @@ impl<S: Simd> Number<S> {
         for lane in lanes.iter().rev() {
             // What is no number at all is not above 0.
             bits = bits << 1 | u8::from(lane.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater));
+        }
+        bits
+    }
+
+    /// A bit for each lane, the first lowest: whether it is below 0.
+    #[inline(always)]
+    pub(super) fn negative(self) -> u8 {
+        let lanes: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&self.1));
+        let mut bits = 0;
+        for lane in lanes.iter().rev() {
+            bits = bits << 1 | u8::from(*lane < 0.0);
         }
         bits
     }

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::figure::{Eight, Figure, Joint};
+use super::figure::{Eight, Figure, Joint, frame_bit};
 use super::number::{Number, Vector};
 
 /// Eight numbers, and eight vectors.
@@ -66,7 +66,16 @@ impl Posed {
             let Vector([x, y, z]) = about(simd, [sin, cos], root.at);
             Vector([x + base.0[0], y + base.0[1], z]).store(&mut frame.at, chunk);
         }
+        let mut frames = 0;
+        for (part, is_needed) in figure.parts.iter().zip(needed) {
+            if *is_needed {
+                frames |= part.carriers;
+            }
+        }
         for ((joint, positions), at) in figure.joints.iter().zip(&eight.positions).zip(1..) {
+            if frames & frame_bit(at) == 0 {
+                continue;
+            }
             let Some(parent) = self.frames.get(joint.parent).copied() else { continue };
             if let Some(slot) = self.frames.get_mut(at) {
                 parent.carry(simd, joint, Number::of(simd, positions, chunk), slot, chunk);

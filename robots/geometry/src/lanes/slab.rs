@@ -1,8 +1,10 @@
 //! A thing in a neighbourhood as the smallest box along its own directions.
 
 use nalgebra::Vector3;
+use pulp::Simd;
 
 use super::FAR;
+use super::number::{Number, Vector};
 use crate::collision::{Shape, Solid};
 
 /// A box that holds a thing, in m from the origin of a neighbourhood.
@@ -16,9 +18,22 @@ pub(crate) struct Slab {
     /// Corners of the box around it along the directions of the map.
     pub(super) low: [f32; 3],
     pub(super) high: [f32; 3],
+    /// Whether the thing is that box, and so small and near that a tenth of a millimetre is more than it is rounded by.
+    pub(super) is_exact: bool,
 }
 
 impl Slab {
+    /// Positive where a point is farther than `wanted` for certain: by the box along the directions of the map.
+    #[inline(always)]
+    pub(super) fn aside<S: Simd>(&self, simd: S, point: Vector<S>, wanted: Number<S>) -> Number<S> {
+        let (Vector([x, y, z]), Vector([a, b, c]), Vector([d, e, f])) =
+            (point, Vector::splat(simd, self.low), Vector::splat(simd, self.high));
+        let x = (a - x).most(x - d).above_zero();
+        let y = (b - y).most(y - e).above_zero();
+        let z = (c - z).most(z - f).above_zero();
+        x * x + y * y + z * z - wanted * wanted
+    }
+
     /// The box of a solid; `None` for what has no end.
     pub(crate) fn new(entity: usize, solid: &Solid, [x, y]: [f64; 2]) -> Option<Self> {
         let half = sides(&solid.shape)?;
@@ -39,6 +54,7 @@ impl Slab {
             half: single(&half),
             low: single(&low.add_scalar(-1e-5)),
             high: single(&high.add_scalar(1e-5)),
+            is_exact: matches!(solid.shape, Shape::Box(_)) && size < 50.0,
         })
     }
 }

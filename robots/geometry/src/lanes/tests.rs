@@ -71,7 +71,8 @@ fn things() -> Vec<Solid> {
 
 fn met(robot: &Robot, eight: &Eight, slabs: &[Slab], gap: f32, arch: Arch) -> Vec<Met> {
     let counts = |_: usize, _: Option<usize>| true;
-    Look { figure: &robot.figure, eight, slabs, gap, is_own: true, pairs: None, counts }.met_on(arch)
+    let (figure, pairs) = (&robot.figure, None);
+    Look { figure, eight, slabs, gap, is_own: true, is_first: false, pairs, counts }.met_on(arch)
 }
 
 const GAP: f32 = 0.01;
@@ -82,7 +83,7 @@ fn what_is_near_is_met() {
     let slabs: Vec<Slab> = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
-        let (mut told, mut near) = (0, 0);
+        let (mut told, mut near, mut sure) = (0, 0, 0);
         for block in 0..8 {
             let mut eight = robot.figure.eight();
             let states: Vec<_> =
@@ -95,9 +96,21 @@ fn what_is_near_is_met() {
                 met.iter()
                     .any(|met| met.pair.part == part && is(met.pair.against) && met.lanes >> lane & 1 == 1)
             };
-            told += met.iter().map(|met| met.lanes.count_ones()).sum::<u32>();
             for (lane, (base, joints)) in states.iter().enumerate() {
                 let placed = robot.placed(*base, joints);
+                for met in met.iter().filter(|met| met.sure >> lane & 1 == 1) {
+                    let one = &placed[met.pair.part];
+                    let is_near = match met.pair.against {
+                        Against::Slab(at) => !one.is_farther(&things[at], f64::from(GAP)),
+                        Against::Part(at, _) => !one.is_farther(&placed[at], f64::from(GAP)),
+                        Against::Floor => {
+                            one.centre.z - one.extent(&nalgebra::Vector3::z()) <= f64::from(GAP)
+                        }
+                    };
+                    assert!(is_near, "{name}: {met:?}");
+                    sure += 1;
+                }
+                told += met.iter().map(|met| u32::from(met.lanes >> lane & 1)).sum::<u32>();
                 for (part, solid) in placed.iter().enumerate() {
                     for (at, thing) in things.iter().enumerate() {
                         let is_near = !solid.is_farther(thing, f64::from(GAP));
@@ -125,6 +138,7 @@ fn what_is_near_is_met() {
         }
         // Boxes around cylinders and capsules take some more, and not many.
         assert!(near > 50 && told < 2 * near, "{name}: {near} near, {told} told");
+        assert!(sure > 30, "{name}: {sure} for certain");
     }
 }
 

@@ -4,15 +4,23 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use super::machine::{Hand, Solver};
+use super::machine::Hand;
 use super::room::Room;
+use super::solver::Solver;
 use super::state::State;
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{planar, spread};
+use crate::kinematics::{Chain, planar, spread};
 
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
 
+/// So many candidates of an arm with seven joints are found by steps, the others in closed form.
+const BY_STEPS: usize = 4;
+/// Solutions in closed form for one value of the last joint, the nearest to how the arm is.
+const MOST: usize = 2;
+
+/// The root of x² = x + 1.
+const LINE: f64 = 1.618_033_988_749_895;
 /// The root of x³ = x + 1.
 pub(super) const PLANE: f64 = 1.324_717_957_244_746;
 /// The root of x⁴ = x + 1.
@@ -40,17 +48,30 @@ impl Room<'_> {
         let values: Vec<Vec<f64>> = match &hand.solver {
             Solver::Parallel(arm) => arm.solve(&base_from_tip).into_iter().map(Into::into).collect(),
             Solver::Lift(_) => vec![],
-            Solver::Steps(chain) => {
-                // From where the arm is first.
-                let now = || chain.in_tree.iter().map(|at| self.world.robot.joints.get(*at).copied());
+            // By steps first, which leave it free where the elbow goes; then along a family for one value of the last joint.
+            Solver::Seven(arm) if at >= BY_STEPS => {
+                let range = arm.chain().variables.last().and_then(|variable| variable.limits);
+                let (lower, upper) = range.unwrap_or((-PI, PI));
+                let last = lower + part(at, 1, LINE) * (upper - lower);
+                let found = arm.nearest(&base_from_tip, &[last], &self.now(arm.chain()), MOST);
+                found.into_iter().map(Into::into).collect()
+            }
+            Solver::Seven(_) | Solver::Steps(_) => {
+                let chain = hand.solver.chain();
                 let start = match at {
-                    0 => now().map(Option::unwrap_or_default).collect(),
+                    0 => self.now(chain),
                     _ => spread(&chain.variables, at - 1),
                 };
                 numeric::refined(chain, &base_from_tip, &start, 30, Tolerance::EXACT).into_iter().collect()
             }
         };
         values.into_iter().map(|values| self.with(hand, base, &values)).collect()
+    }
+
+    /// Where the arm is.
+    fn now(&self, chain: &Chain) -> Vec<f64> {
+        let joints = &self.world.robot.joints;
+        chain.in_tree.iter().map(|at| joints.get(*at).copied().unwrap_or_default()).collect()
     }
 
     /// Where the base of candidate `at` is for an arm that does not place it itself: most often behind the hand and facing
@@ -71,7 +92,7 @@ impl Room<'_> {
 
     /// The direction in which the base is likely to face with the tip at a pose: that of the fingers, or from where the robot
     /// is where they point down.
-    fn heading(&self, hand: &Hand, map_from_tip: &Isometry3<f64>) -> f64 {
+    pub(super) fn heading(&self, hand: &Hand, map_from_tip: &Isometry3<f64>) -> f64 {
         let points = map_from_tip.rotation * Vector3::from(hand.card.points);
         if points.x * points.x + points.y * points.y > 0.1 {
             return libm::atan2(points.y, points.x);
@@ -124,13 +145,7 @@ impl Room<'_> {
         for step in 1..=STEPS {
             let part = Translation3::from(shift * (step as f64 / STEPS as f64));
             let wanted = map_from_base.inverse() * (part * map_from_tip);
-            let next = numeric::refined(chain, &wanted, &values, 20, Tolerance::EXACT)?;
-            let jump = next.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            // Another branch of the arm is no straight line.
-            if jump > 0.5 {
-                return None;
-            }
-            values = next;
+            values = hand.solver.followed(&wanted, &values)?;
             states.push(self.with(hand, state.base, &values));
         }
         states.reverse();
@@ -138,7 +153,7 @@ impl Room<'_> {
     }
 
     /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
-    fn with(&self, hand: &Hand, base: [f64; 3], values: &[f64]) -> State {
+    pub(super) fn with(&self, hand: &Hand, base: [f64; 3], values: &[f64]) -> State {
         let now = &self.world.robot.joints;
         // Around something the fingers stay as they are.
         let mut joints = if self.world.held.is_some() { now.clone() } else { hand.opened(now) };

@@ -137,7 +137,12 @@ impl Around<'_, '_> {
     pub(super) fn holds(&self, state: &State) -> bool {
         let [x, y, _] = state.base;
         let [a, b] = self.place;
-        (x - a) * (x - a) + (y - b) * (y - b) <= self.far * self.far
+        self.holds_off([x - a, y - b])
+    }
+
+    /// The same for a base so far from the origin of the neighbourhood.
+    pub(super) fn holds_off(&self, [x, y]: [f64; 2]) -> bool {
+        x * x + y * y <= self.far * self.far
     }
 
     fn first(&self, placed: &[Solid], allowed: Allowed) -> Option<(usize, Other)> {
@@ -223,6 +228,9 @@ impl Around<'_, '_> {
         let near = self.near_on([from, to], Pieces::WHOLE, allowed, None);
         if near.as_ref().is_some_and(Vec::is_empty) {
             return Ok(());
+        }
+        if let Some(near) = near.iter().flatten().find(|near| near.sure != 0) {
+            return Err(self.told(near));
         }
         let room = self.room;
         let placed = |state| room.body.placed(&room.machine.map_from_links(state));

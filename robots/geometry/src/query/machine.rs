@@ -5,9 +5,10 @@ use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
+use super::solver::Solver;
 use super::state::State;
 use crate::collision::{Body, Shape, Solid};
-use crate::inverse::{LiftArm, ParallelArm};
+use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::kinematics::{Chain, Lever, Tree, planar};
 
 /// How far in front of the palm a thing is held, in m.
@@ -53,29 +54,6 @@ pub struct Hand {
     pub members: Vec<bool>,
     /// For each link whether a joint of the arm moves it.
     pub carried: Vec<bool>,
-}
-
-/// How an arm is solved.
-#[derive(Clone, Debug)]
-pub enum Solver {
-    /// A lift with a spherical wrist on a base that drives anywhere.
-    Lift(LiftArm),
-    /// Six joints of which three are parallel.
-    Parallel(ParallelArm),
-    /// Any other chain, in steps.
-    Steps(Chain),
-}
-
-impl Solver {
-    /// The arm's chain, from the base's link to the tip.
-    #[must_use]
-    pub fn chain(&self) -> &Chain {
-        match self {
-            Self::Lift(arm) => arm.chain(),
-            Self::Parallel(arm) => arm.chain(),
-            Self::Steps(chain) => chain,
-        }
-    }
 }
 
 impl Machine {
@@ -134,7 +112,8 @@ impl Machine {
         let lift =
             LiftArm::detect(&chain).filter(|_| drives_anywhere).map(|arm| Solver::Lift(arm.raised(height)));
         let parallel = || ParallelArm::detect(&chain).map(Solver::Parallel);
-        let solver = lift.or_else(parallel).unwrap_or_else(|| Solver::Steps(chain.clone()));
+        let seven = || SevenArm::detect(&chain).map(Solver::Seven);
+        let solver = lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Solver::Steps(chain.clone()));
         let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
         let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
         let links = 0..self.levers.len();

@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::arm::{SPACE, part};
-use super::machine::Solver;
 use super::room::Room;
+use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, exhausted};

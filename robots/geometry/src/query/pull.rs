@@ -211,7 +211,7 @@ impl Pull<'_> {
             let turnings: &[f64] = if self.opening.hinge().is_some() { &[1.0, 0.5, 0.0] } else { &[0.0] };
             all.extend(turnings.iter().map(|share| Following::Base(Turning(*share))));
         }
-        if !matches!(self.hand.solver, super::machine::Solver::Lift(_)) {
+        if !matches!(self.hand.solver, super::solver::Solver::Lift(_)) {
             let turnings: &[f64] = if self.opening.hinge().is_some() { &[0.5, 0.0, 1.0] } else { &[0.0] };
             all.extend(turnings.iter().map(|share| Following::Arm(Turning(*share))));
         }

@@ -21,6 +21,8 @@ pub(super) struct Near {
     pair: Pair,
     pub(super) lanes: u8,
     pub(super) still: u8,
+    /// Of these the states in which it touches for certain.
+    pub(super) sure: u8,
 }
 
 /// What counts as near.
@@ -168,6 +170,11 @@ impl Around<'_, '_> {
         self.room.is_drawn(state) && figure.set(eight, lane, [x - a, y - b, yaw], &state.joints)
     }
 
+    /// The pairs that are near each other in eight states.
+    pub(super) fn near_to(&self, figure: &Figure, eight: &Eight, allowed: Allowed) -> Option<Vec<Near>> {
+        self.near(figure, eight, allowed, None, Gap::LEAST)
+    }
+
     fn near(
         &self,
         figure: &Figure,
@@ -190,6 +197,7 @@ impl Around<'_, '_> {
             slabs,
             gap: gap.metres as f32,
             is_own: gap.is_own,
+            is_first: true,
             pairs: pairs.as_deref(),
             counts,
         };
@@ -207,11 +215,25 @@ impl Around<'_, '_> {
         let Some(near) = is_here.then(|| self.near_in(states, allowed)).flatten() else {
             return states.iter().map(|state| self.touch_exactly(state, allowed)).collect();
         };
-        let touch = |(state, lane): (&&State, u8)| {
+        states.iter().zip(0..).map(|(state, lane)| self.touch_among(&near, lane, state)).collect()
+    }
+
+    /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
+    pub(super) fn touch_among(&self, near: &[Near], lane: usize, state: &State) -> Option<Touch> {
+        let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.told(near));
+        sure.or_else(|| {
             let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
             near.find_map(|near| self.touch_of(near, state))
+        })
+    }
+
+    /// The touch of a pair that touches.
+    pub(super) fn told(&self, near: &Near) -> Touch {
+        let other = match near.other {
+            Other::Thing(at) => Other::Thing(self.things.get(at).map_or(at, |thing| thing.index)),
+            Other::Part(_) | Other::Floor => near.other,
         };
-        states.iter().zip(0..).map(touch).collect()
+        self.room.told(near.part, other)
     }
 
     /// Whether a pair touches in a state.
@@ -224,28 +246,28 @@ impl Around<'_, '_> {
             Some((own.solid.moved(&pose), self.limbs.get(part)?))
         };
         let (one, limb) = solid(near.part)?;
-        let (is_touched, other) = match near.other {
+        let is_touched = match near.other {
             Other::Thing(at) => {
                 let thing = self.things.get(at)?;
-                (touches(&one, limb.reach, &thing.solid, thing.reach), Other::Thing(thing.index))
+                touches(&one, limb.reach, &thing.solid, thing.reach)
             }
             Other::Part(at) => {
                 let (other, beyond) = solid(at)?;
-                (touches(&one, limb.reach, &other, beyond.reach), near.other)
+                touches(&one, limb.reach, &other, beyond.reach)
             }
-            Other::Floor => (super::around::above_floor(&one) <= GAP, near.other),
+            Other::Floor => super::around::above_floor(&one) <= GAP,
         };
-        is_touched.then(|| self.room.told(near.part, other))
+        is_touched.then(|| self.told(near))
     }
 }
 
 impl Near {
-    fn new(Met { pair, lanes, still }: Met) -> Self {
+    fn new(Met { pair, lanes, still, sure }: Met) -> Self {
         let other = match pair.against {
             Against::Slab(at) => Other::Thing(at),
             Against::Part(at, _) => Other::Part(at),
             Against::Floor => Other::Floor,
         };
-        Self { part: pair.part, other, pair, lanes, still }
+        Self { part: pair.part, other, pair, lanes, still, sure }
     }
 }

@@ -7,12 +7,15 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::around::Around;
-use super::machine::{Hand, Solver};
+use super::machine::Hand;
 use super::palm::Palm;
 use super::room::Room;
+use super::screen::{Draft, Group, Screen, Seen};
+use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, Unfolding, exhausted};
+use crate::inverse::manifold::LANES;
 
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
 /// most candidates have no solution at all.
@@ -49,33 +52,191 @@ struct Candidate {
     state: State,
 }
 
+/// A pose by its index, with the way to it; or the answer where there is none.
+type Found = Result<(usize, Vec<State>), Answer>;
+
+/// What is known of the hand alone in a pose.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Alone {
+    Unknown,
+    Free,
+    Blocked,
+}
+
 /// What was tried of a budget, and what was met.
 struct Search<'a, 'r, 'w> {
     sought: &'a Sought<'a, 'r, 'w>,
     budget: Budget,
+    /// The poses by their index; after the first round those in which the hand alone is free.
+    tips: Vec<(usize, Isometry3<f64>, Alone)>,
     tried: usize,
-    poses: &'a mut Tally,
-    ways: &'a mut Tally,
+    hands: Tally,
+    poses: Tally,
+    ways: Tally,
+    /// Whether a candidate was passed over because no way leads near to where its base is.
+    is_cut_off: bool,
+    /// States to look at.
+    batch: Vec<Candidate>,
     /// Free states to which no simple way leads.
     left: Vec<Candidate>,
 }
 
-/// A pose by its index, with the way to it; or the answer where there is none.
-type Found = Result<(usize, Vec<State>), Answer>;
+impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
+    fn new(sought: &'a Sought<'a, 'r, 'w>, budget: Budget) -> Self {
+        Self {
+            sought,
+            budget,
+            tips: sought.tips.iter().enumerate().map(|(at, tip)| (at, *tip, Alone::Unknown)).collect(),
+            tried: 0,
+            hands: Tally::default(),
+            poses: Tally::default(),
+            ways: Tally::default(),
+            is_cut_off: false,
+            batch: Vec::with_capacity(BATCH),
+            left: vec![],
+        }
+    }
 
-impl Search<'_, '_, '_> {
+    /// Whether the hand alone is free in a pose.
+    fn is_free(&mut self, at: usize) -> bool {
+        let Some((_, tip, known)) = self.tips.get_mut(at) else { return false };
+        if *known == Alone::Unknown {
+            let touch = self.sought.palm.touch(tip);
+            *known = if touch.is_some() { Alone::Blocked } else { Alone::Free };
+            touch.iter().for_each(|touch| self.hands.add(touch));
+        }
+        *known == Alone::Free
+    }
+
+    /// Leaves out the poses in which the hand alone is not free: so many rounds are left for the others.
+    fn rounds(&mut self) -> usize {
+        self.tips.retain(|(_, _, known)| *known == Alone::Free);
+        let [few, many] = SHARED;
+        let shared = if self.places_base() { few } else { many };
+        let all = self.budget.candidates.saturating_mul(shared);
+        self.budget.candidates.min(all.div_ceil(self.tips.len().max(1)))
+    }
+
+    fn places_base(&self) -> bool {
+        matches!(self.sought.hand.solver, Solver::Lift(_))
+    }
+
+    /// Goes through all candidates, those of a round for all poses before the next; what ends the search.
+    fn one_by_one(&mut self) -> ControlFlow<Found> {
+        let (sought, room) = (self.sought, self.sought.around.room);
+        let places_base = self.places_base();
+        let (mut round, mut rounds) = (0, 1);
+        while round < rounds {
+            for index in 0..self.tips.len() {
+                if !self.is_free(index) {
+                    continue;
+                }
+                let Some((at, tip, _)) = self.tips.get(index).copied() else { continue };
+                if !places_base && !room.is_near_drivable(room.base_at(sought.hand, &tip, round)) {
+                    self.is_cut_off = true;
+                    continue;
+                }
+                for state in room.candidates(sought.hand, &tip, round) {
+                    if places_base && !room.is_near_drivable(state.base) {
+                        self.is_cut_off = true;
+                        continue;
+                    }
+                    self.batch.push(Candidate { at, tip, state });
+                    if self.batch.len() == BATCH {
+                        self.tries()?;
+                    }
+                }
+            }
+            if round == 0 {
+                rounds = self.rounds();
+            }
+            round += 1;
+        }
+        self.tries()
+    }
+
+    /// The same candidates, eight at a time.
+    fn by_eights(&mut self, screen: &Screen<'_, '_, '_>) -> ControlFlow<Found> {
+        let mut drafts: Vec<Draft> = Vec::new();
+        let mut groups: Vec<Group> = Vec::new();
+        let mut tips: Vec<(usize, Isometry3<f64>)> = Vec::new();
+        for index in 0..self.tips.len() {
+            if self.is_free(index) {
+                tips.extend(self.tips.get(index).map(|(at, tip, _)| (*at, *tip)));
+            }
+            if tips.len() == LANES || (index + 1 == self.tips.len() && !tips.is_empty()) {
+                let group = screen.group(std::mem::take(&mut tips));
+                screen.drafts(&group, 0, &mut drafts);
+                self.screened(screen, &mut drafts, LANES)?;
+                groups.push(group);
+            }
+        }
+        for round in 1..self.rounds() {
+            for group in &groups {
+                screen.drafts(group, round, &mut drafts);
+                self.screened(screen, &mut drafts, LANES)?;
+            }
+        }
+        self.screened(screen, &mut drafts, 1)?;
+        self.tries()
+    }
+
+    /// Looks at drafts while there are at least so many: the free ones are tried at once, those that come near something when
+    /// there are enough of them.
+    fn screened(
+        &mut self,
+        screen: &Screen<'_, '_, '_>,
+        drafts: &mut Vec<Draft>,
+        least: usize,
+    ) -> ControlFlow<Found> {
+        while drafts.len() >= least {
+            let rest = drafts.split_off(drafts.len().min(LANES));
+            let seen = screen.seen(drafts);
+            let mut is_any_free = false;
+            for (draft, seen) in drafts.iter().zip(seen) {
+                if let Seen::Touches(touch) = &seen {
+                    self.poses.add(touch);
+                    continue;
+                }
+                let Some(state) = screen.state(draft) else { continue };
+                if !self.sought.around.room.is_near_drivable(state.base) {
+                    self.is_cut_off = true;
+                    continue;
+                }
+                let candidate = Candidate { at: draft.at, tip: draft.tip, state };
+                match seen {
+                    Seen::Free => {
+                        is_any_free = true;
+                        self.batch.insert(0, candidate);
+                    }
+                    Seen::Open | Seen::Touches(_) => self.batch.push(candidate),
+                }
+                if self.batch.len() == BATCH {
+                    self.tries()?;
+                    is_any_free = false;
+                }
+            }
+            *drafts = rest;
+            if is_any_free {
+                self.tries()?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
     /// Tries candidates one after the other; what ends the search.
-    fn tries(&mut self, batch: &mut Vec<Candidate>) -> ControlFlow<Found> {
+    fn tries(&mut self) -> ControlFlow<Found> {
+        let batch = std::mem::take(&mut self.batch);
         let states: Vec<&State> = batch.iter().map(|candidate| &candidate.state).collect();
         let touches = self.sought.around.touches(&states, self.sought.allowed);
-        for (candidate, touch) in batch.drain(..).zip(touches) {
+        for (candidate, touch) in batch.into_iter().zip(touches) {
             if let Some(touch) = touch {
                 self.poses.add(&touch);
                 continue;
             }
             self.tried += 1;
             let Candidate { at, tip, state } = &candidate;
-            if let Some(path) = self.sought.way_to(tip, state, Unfolding::Simple, self.ways) {
+            if let Some(path) = self.sought.way_to(tip, state, Unfolding::Simple, &mut self.ways) {
                 return ControlFlow::Break(Ok((*at, path)));
             }
             if self.left.len() < SEARCHED {
@@ -97,17 +258,9 @@ impl Search<'_, '_, '_> {
     /// A way that a search finds to one of the states that are left.
     fn searched(&mut self) -> Option<(usize, Vec<State>)> {
         self.left.drain(..).find_map(|Candidate { at, tip, state }| {
-            Some((at, self.sought.way_to(&tip, &state, Unfolding::Searched, self.ways)?))
+            Some((at, self.sought.way_to(&tip, &state, Unfolding::Searched, &mut self.ways)?))
         })
     }
-}
-
-/// What is known of the hand alone in a pose.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Alone {
-    Unknown,
-    Free,
-    Blocked,
 }
 
 impl Room<'_> {
@@ -116,71 +269,37 @@ impl Room<'_> {
     /// # Errors
     ///
     /// The answer where none was found.
-    pub(super) fn seek(
-        &self,
-        sought: &Sought<'_, '_, '_>,
-        budget: Budget,
-    ) -> Result<(usize, Vec<State>), Answer> {
-        let mut tips: Vec<(usize, Isometry3<f64>, Alone)> =
-            sought.tips.iter().enumerate().map(|(at, tip)| (at, *tip, Alone::Unknown)).collect();
-        let (mut hands, mut poses, mut ways) = (Tally::default(), Tally::default(), Tally::default());
-        let mut is_cut_off = false;
-        let mut search =
-            Search { sought, budget, tried: 0, poses: &mut poses, ways: &mut ways, left: vec![] };
-        let mut batch: Vec<Candidate> = Vec::with_capacity(BATCH);
-        let places_base = matches!(sought.hand.solver, Solver::Lift(_));
-        let [few, many] = SHARED;
-        let shared = if places_base { few } else { many };
-        let mut rounds = budget.candidates;
-        let mut round = 0;
-        while round < rounds {
-            for (at, tip, known) in &mut tips {
-                if !known.is_free(&sought.palm, tip, &mut hands) {
-                    continue;
-                }
-                if !places_base && !self.is_near_drivable(self.base_at(sought.hand, tip, round)) {
-                    is_cut_off = true;
-                    continue;
-                }
-                for state in self.candidates(sought.hand, tip, round) {
-                    if places_base && !self.is_near_drivable(state.base) {
-                        is_cut_off = true;
-                        continue;
-                    }
-                    batch.push(Candidate { at: *at, tip: *tip, state });
-                    if batch.len() == BATCH
-                        && let ControlFlow::Break(found) = search.tries(&mut batch)
-                    {
-                        return found;
-                    }
-                }
-            }
-            if round == 0 {
-                tips.retain(|(_, _, known)| *known == Alone::Free);
-                rounds = rounds.min(budget.candidates.saturating_mul(shared).div_ceil(tips.len().max(1)));
-            }
-            round += 1;
-        }
-        if let ControlFlow::Break(found) = search.tries(&mut batch) {
+    pub(super) fn seek(&self, sought: &Sought<'_, '_, '_>, budget: Budget) -> Found {
+        let mut search = Search::new(sought, budget);
+        let screen = match &sought.hand.solver {
+            Solver::Lift(arm) => Screen::new(sought.around, sought.hand, arm, sought.allowed),
+            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => None,
+        };
+        let ended = match &screen {
+            Some(screen) => search.by_eights(screen),
+            None => search.one_by_one(),
+        };
+        if let ControlFlow::Break(found) = ended {
             return found;
         }
         if let Some(found) = search.searched() {
             return Ok(found);
         }
-        let tried = search.tried;
-        if tips.is_empty() {
-            let reason = Reason::NoFreePose { by: hands.most() };
+        if search.tips.is_empty() {
+            let reason = Reason::NoFreePose { by: search.hands.most() };
             let certified = sought.is_all && !sought.tips.is_empty();
             return Err(Answer::Infeasible(Infeasible { reason, change: None, certified }));
         }
-        Err(exhausted(tried > 0 || is_cut_off, &poses, &ways))
+        Err(exhausted(search.tried > 0 || search.is_cut_off, &search.poses, &search.ways))
     }
 
     /// How far the base can be from the tip of a hand, in m.
     pub(super) fn farthest(&self, hand: &Hand) -> f64 {
         match &hand.solver {
             Solver::Lift(arm) => arm.reach(),
-            Solver::Parallel(_) | Solver::Steps(_) => hand.card.reach_m + self.machine.card().base.radius_m,
+            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => {
+                hand.card.reach_m + self.machine.card().base.radius_m
+            }
         }
     }
 }
@@ -204,16 +323,5 @@ impl Sought<'_, '_, '_> {
             }
             self.around.route_to(&line, inwards, self.allowed, unfolding, met)
         })
-    }
-}
-
-impl Alone {
-    fn is_free(&mut self, palm: &Palm<'_, '_>, tip: &Isometry3<f64>, met: &mut Tally) -> bool {
-        if *self == Self::Unknown {
-            let touch = palm.touch(tip);
-            *self = if touch.is_some() { Self::Blocked } else { Self::Free };
-            touch.iter().for_each(|touch| met.add(touch));
-        }
-        *self == Self::Free
     }
 }

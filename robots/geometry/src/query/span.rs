@@ -4,9 +4,10 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Reason};
 use super::grasp::Hold;
-use super::machine::{Hand, Solver};
+use super::machine::Hand;
 use super::reach::certain;
 use super::room::Room;
+use super::solver::Solver;
 use crate::inverse::LiftArm;
 
 /// Poses of the tip that are not out of reach for certain.

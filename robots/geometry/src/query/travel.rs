@@ -208,7 +208,7 @@ impl Room<'_> {
 
     /// The variable that lifts the arm and its highest value, where the arm has one.
     fn lift(&self) -> Option<(usize, f64)> {
-        let super::machine::Solver::Lift(arm) = &self.machine.hand()?.solver else { return None };
+        let super::solver::Solver::Lift(arm) = &self.machine.hand()?.solver else { return None };
         let chain = arm.chain();
         let (lower, upper) = chain.variables.first()?.limits?;
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))

@@ -102,12 +102,11 @@ impl Around<'_, '_> {
     /// Of the pairs that look as if they touch in the middle of a leg, whether one does.
     fn still(&self, [from, to]: [&State; 2], pieces: Pieces, near: &[Near]) -> Result<(), Touch> {
         for lane in 0..8 {
-            let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1).peekable();
-            if near.peek().is_none() {
+            if !near.iter().any(|near| near.still >> lane & 1 == 1) {
                 continue;
             }
             let state = from.towards(to, pieces.piece(lane).0);
-            if let Some(touch) = near.find_map(|near| self.touch_of(near, &state)) {
+            if let Some(touch) = self.touch_among(near, lane, &state) {
                 return Err(touch);
             }
         }

@@ -1,0 +1,158 @@
+//! Candidates of an arm on a lift, eight at a time in `f32`: most touch something for certain, and only the others are worth a
+//! solution in `f64`.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Isometry3;
+
+use super::arm::{PLANE, part};
+use super::around::Around;
+use super::machine::Hand;
+use super::state::State;
+use super::touch::{Allowed, Touch};
+use crate::inverse::LiftArm;
+use crate::inverse::manifold::{Block, LANES, Manifold, Poses};
+use crate::lanes::Figure;
+
+/// How far a value of a solution in `f64` may be from the draft's, in rad or m.
+const SAME: f64 = 1e-3;
+
+/// What looks at candidates.
+pub(super) struct Screen<'a, 'r, 'w> {
+    around: &'a Around<'r, 'w>,
+    figure: &'a Figure,
+    hand: &'a Hand,
+    arm: &'a LiftArm,
+    manifold: Manifold<'a>,
+    allowed: Allowed,
+    /// The robot with the hand as it reaches.
+    still: State,
+    /// Between which values the shoulder moves.
+    shoulders: [f64; 2],
+}
+
+/// Eight poses of the tip or fewer, each with its index.
+pub(super) struct Group {
+    tips: Vec<(usize, Isometry3<f64>)>,
+    poses: Poses,
+}
+
+/// A candidate for a pose, in `f32`.
+#[derive(Clone, Copy)]
+pub(super) struct Draft {
+    /// Index of the pose.
+    pub(super) at: usize,
+    pub(super) tip: Isometry3<f64>,
+    yaw: f64,
+    shoulder: f64,
+    /// From the origin of the neighbourhood.
+    base: [f64; 2],
+    values: [f64; 5],
+}
+
+/// What is known of a draft.
+pub(super) enum Seen {
+    /// It touches nothing.
+    Free,
+    /// It comes near something.
+    Open,
+    Touches(Touch),
+}
+
+impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
+    /// `None` where the robot is not simple enough.
+    pub(super) fn new(
+        around: &'a Around<'r, 'w>,
+        hand: &'a Hand,
+        arm: &'a LiftArm,
+        allowed: Allowed,
+    ) -> Option<Self> {
+        let limits = arm.chain().variables.get(1).and_then(|variable| variable.limits);
+        let (lower, upper) = limits.unwrap_or((-PI, PI));
+        Some(Self {
+            around,
+            figure: around.room.figure()?,
+            hand,
+            arm,
+            manifold: Manifold::new(arm),
+            allowed,
+            still: around.room.with(hand, [0.0; 3], &[]),
+            shoulders: [lower, upper],
+        })
+    }
+
+    /// Poses of the tip, at most eight.
+    pub(super) fn group(&self, tips: Vec<(usize, Isometry3<f64>)>) -> Group {
+        let facing: Vec<_> =
+            tips.iter().map(|(_, tip)| (*tip, self.around.room.heading(self.hand, tip))).collect();
+        Group { poses: self.manifold.poses(&facing, self.around.place()), tips }
+    }
+
+    /// Adds the candidates of a round for some poses, as [`Room::candidates`](super::room::Room) has them.
+    pub(super) fn drafts(&self, group: &Group, round: usize, drafts: &mut Vec<Draft>) {
+        let [lower, upper] = self.shoulders;
+        let shoulder = lower + part(round, 2, PLANE) * (upper - lower);
+        let block = self.manifold.block(&group.poses, (part(round, 1, PLANE) - 0.5) * TAU, shoulder);
+        let Block { lift, base: [x, y], .. } = block;
+        let (lift, x, y) = (lift.to_array(), x.to_array(), y.to_array());
+        for branch in &block.branches {
+            if branch.allowed == 0 {
+                continue;
+            }
+            let wrist = branch.values.map(|values| values.to_array());
+            for (lane, (at, tip)) in (0..LANES).zip(&group.tips) {
+                if branch.allowed >> lane & 1 == 0 {
+                    continue;
+                }
+                let of = |row: &[f32; LANES]| row.get(lane).copied().map_or(f64::NAN, f64::from);
+                let [a, b, c] = &wrist;
+                drafts.push(Draft {
+                    at: *at,
+                    tip: *tip,
+                    yaw: block.yaws.get(lane).copied().unwrap_or_default(),
+                    shoulder,
+                    base: [of(&x), of(&y)],
+                    values: [of(&lift), shoulder, of(a), of(b), of(c)],
+                });
+            }
+        }
+    }
+
+    /// What is known of drafts, at most eight.
+    pub(super) fn seen(&self, drafts: &[Draft]) -> Vec<Seen> {
+        let look = || {
+            let mut eight = self.figure.eight();
+            let mut joints = self.still.joints.clone();
+            let first = drafts.first()?;
+            for lane in 0..LANES {
+                let draft = drafts.get(lane).unwrap_or(first);
+                for (at, value) in self.arm.chain().in_tree.iter().zip(draft.values) {
+                    *joints.get_mut(*at)? = value;
+                }
+                let [x, y] = draft.base;
+                let is_within = self.figure.set(&mut eight, lane, [x, y, draft.yaw], &joints);
+                if !is_within || !self.around.holds_off(draft.base) {
+                    return None;
+                }
+            }
+            self.around.near_to(self.figure, &eight, self.allowed)
+        };
+        let Some(near) = look() else { return drafts.iter().map(|_| Seen::Open).collect() };
+        let seen = |lane: usize| match near.iter().find(|near| near.sure >> lane & 1 == 1) {
+            Some(near) => Seen::Touches(self.around.told(near)),
+            None if near.iter().any(|near| near.still >> lane & 1 == 1) => Seen::Open,
+            None => Seen::Free,
+        };
+        (0..drafts.len()).map(seen).collect()
+    }
+
+    /// The state of a draft, to what `f64` can tell.
+    pub(super) fn state(&self, draft: &Draft) -> Option<State> {
+        let placed = self.arm.solve(&draft.tip, draft.yaw, draft.shoulder);
+        let is_same = |values: &[f64; 5]| {
+            values.iter().zip(&draft.values).all(|(one, other)| (one - other).abs() < SAME)
+        };
+        let placed = placed.into_iter().find(|placed| is_same(&placed.values))?;
+        Some(self.around.room.with(self.hand, placed.base, &placed.values))
+    }
+}

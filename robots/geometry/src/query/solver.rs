@@ -1,0 +1,51 @@
+//! How the joint positions of an arm are found: in closed form where it has one.
+
+use nalgebra::Isometry3;
+
+use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
+use crate::kinematics::Chain;
+
+/// The largest change of a joint between two places on a line that the hand follows, in rad or m.
+const JUMP: f64 = 0.5;
+
+/// How an arm is solved.
+#[derive(Clone, Debug)]
+pub enum Solver {
+    /// A lift with a spherical wrist on a base that drives anywhere.
+    Lift(LiftArm),
+    /// Six joints of which three are parallel.
+    Parallel(ParallelArm),
+    /// Seven joints as of the Franka arms.
+    Seven(SevenArm),
+    /// Any other chain, in steps.
+    Steps(Chain),
+}
+
+impl Solver {
+    /// The arm's chain, from the base's link to the tip.
+    #[must_use]
+    pub fn chain(&self) -> &Chain {
+        match self {
+            Self::Lift(arm) => arm.chain(),
+            Self::Parallel(arm) => arm.chain(),
+            Self::Seven(arm) => arm.chain(),
+            Self::Steps(chain) => chain,
+        }
+    }
+
+    /// Values of the arm's variables that put the tip at a pose a little way from where it is with others: near to these.
+    pub(super) fn followed(&self, base_from_tip: &Isometry3<f64>, values: &[f64]) -> Option<Vec<f64>> {
+        let closed = match self {
+            Self::Parallel(arm) => arm.nearest(base_from_tip, values).map(Vec::from),
+            Self::Seven(arm) => {
+                let last = values.last().copied().unwrap_or_default();
+                arm.nearest(base_from_tip, &[last], values, 1).pop().map(Vec::from)
+            }
+            Self::Lift(_) | Self::Steps(_) => None,
+        };
+        let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
+        let numeric = || numeric::refined(self.chain(), base_from_tip, values, 20, Tolerance::EXACT);
+        // Another branch of the arm is no straight line.
+        closed.filter(is_near).or_else(|| numeric().filter(is_near))
+    }
+}
