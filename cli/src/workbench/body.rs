@@ -129,7 +129,9 @@ impl Folders {
         let Some(path) =
             looked.iter().find_map(|path| fs::canonicalize(path).ok().filter(|path| path.is_file()))
         else {
-            return Found::Missing(looked);
+            // A way out of a package is no path at all.
+            let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
+            return if leaves { Found::Outside } else { Found::Missing(looked) };
         };
         if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
             return Found::Outside;

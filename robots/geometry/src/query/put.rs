@@ -54,7 +54,7 @@ impl Room<'_> {
         let allowed = Allowed { hand: None, held: Some(index) };
         let mut met = Tally::default();
         let wanted = PLACES * (budget.candidates / Budget::default().candidates).clamp(1, MOST_TIMES);
-        let places = self.places(&held, (&support, index), wanted, &mut met);
+        let (places, is_cut) = self.places(&held, (&support, index), wanted, &mut met);
         if places.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
             let certified = self.is_full(&held, &support, index);
@@ -81,6 +81,10 @@ impl Room<'_> {
                 Some(tip) => Answer::Feasible(Box::new(self.put_down(&held, path, *tip, allowed))),
                 None => Answer::Unknown(Unknown::Budget),
             },
+            // There may be other places, which were not tried.
+            Err(Answer::Infeasible(Infeasible { certified: false, .. })) if is_cut => {
+                Answer::Unknown(Unknown::Budget)
+            }
             Err(none) => none,
         }
     }
@@ -134,14 +138,15 @@ impl Room<'_> {
         Ok(Support { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
     }
 
-    /// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face.
+    /// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face. Tells
+    /// whether there were more.
     fn places(
         &self,
         held: &Held<'_>,
         (on, index): (&Support, usize),
         wanted: usize,
         met: &mut Tally,
-    ) -> Vec<Isometry3<f64>> {
+    ) -> (Vec<Isometry3<f64>>, bool) {
         let solid = Solid::new(&Isometry3::identity(), held.shape);
         let bottom = solid.extent(&Vector3::z());
         let around = libm::hypot(solid.extent(&Vector3::x()), solid.extent(&Vector3::y()));
@@ -177,7 +182,8 @@ impl Room<'_> {
         // In their order by distance, every so many-th.
         let step = far.len().div_ceil(wanted / 2).max(1);
         let chosen = near.iter().chain(far.iter().step_by(step));
-        chosen.flat_map(|spot| (0..TURNS).map(|turn| upright(*spot, turn))).collect()
+        let turned = chosen.flat_map(|spot| (0..TURNS).map(|turn| upright(*spot, turn)));
+        (turned.collect(), step > 1)
     }
 
     /// The witness of a motion with what is held.
