@@ -14,7 +14,7 @@ use motet_geometry::query::Budget;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
-use motet_syntax::{FileId, Parsed, Source, Sources};
+use motet_syntax::{Diagnostic, FileId, Parsed, Source, Sources};
 
 use crate::args::WorldArgs;
 use crate::exit::Trouble;
@@ -187,9 +187,7 @@ impl Setting {
 
 /// Adds a text to the sources and reads it.
 fn read_text(name: &str, bytes: &[u8], sources: &mut Sources) -> Parsed {
-    let file = next_id(sources);
-    let (source, said) = crate::document::decode(name, bytes, file);
-    sources.add(source.clone());
+    let (source, file, said) = add(name, bytes, sources);
     let mut parsed = motet_syntax::read(&source, file);
     if !said.is_empty() {
         parsed.diagnostics = said;
@@ -197,9 +195,12 @@ fn read_text(name: &str, bytes: &[u8], sources: &mut Sources) -> Parsed {
     parsed
 }
 
-/// The id that the next file gets.
-fn next_id(sources: &Sources) -> FileId {
-    FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX))
+/// Adds a file to the sources, with what is wrong with its bytes as text.
+pub(crate) fn add(name: &str, bytes: &[u8], sources: &mut Sources) -> (Source, FileId, Vec<Diagnostic>) {
+    let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
+    let (source, said) = crate::document::decode(name, bytes, file);
+    sources.add(source.clone());
+    (source, file, said)
 }
 
 /// The robot that a document names first.

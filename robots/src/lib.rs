@@ -8,4 +8,5 @@ pub mod card;
 pub mod mesh;
 pub mod scene;
 pub mod srdf;
+pub mod turn;
 pub mod urdf;

@@ -15,6 +15,14 @@ fn setting(robot: &str) -> Setting {
     Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
+/// The robot in a kitchen where the coke is in the cupboard, whatever it was told.
+fn coke_in_cupboard(setting: &Setting) -> Sim {
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
+    Sim::new(&setting.robot, &real, Options::default())
+}
+
 /// Gives answers in order, and keeps what was asked.
 struct Answers(Vec<&'static str>, Vec<Problem>);
 
@@ -65,10 +73,7 @@ fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
 #[test]
 fn an_answer_that_states_a_fact_becomes_one() {
     let setting = setting("hsr");
-    let mut real = setting.scene.clone();
-    let coke = real.entities.get_mut("coke").unwrap();
-    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
-    let mut sim = Sim::new(&setting.robot, &real, Options::default());
+    let mut sim = coke_in_cupboard(&setting);
     let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &["it is in the cupboard"]);
     assert_eq!(outcome, Outcome::Done, "{asked:?}");
     assert_eq!(asked.iter().map(|problem| problem.kind).collect::<Vec<_>>(), [Kind::NotFound]);
@@ -249,10 +254,7 @@ fn who_moves_stops_when_told_to() {
 #[test]
 fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
     let setting = setting("hsr");
-    let mut real = setting.scene.clone();
-    let coke = real.entities.get_mut("coke").unwrap();
-    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
-    let mut sim = Sim::new(&setting.robot, &real, Options::default());
+    let mut sim = coke_in_cupboard(&setting);
     let mut talk = Conversation::new(&setting);
     let line = Some("the coke is in the cupboard");
     let mut watcher = Interrupts { at: Time::ZERO, says: line, swapped: 0, picked: 0 };

@@ -6,11 +6,11 @@ use motet_pddl::Input;
 use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
 use crate::args::{ImportArgs, ImportCommand, PddlArgs};
-use crate::document;
 use crate::exit::{Exit, Trouble};
 use crate::input::read_small;
 use crate::out::Colors;
 use crate::report::Report;
+use crate::workbench::add;
 
 /// Runs the command.
 ///
@@ -53,9 +53,7 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, Trouble> {
 
 fn read(path: &Path, sources: &mut Sources, said: &mut Vec<Diagnostic>) -> Result<(Source, FileId), Trouble> {
     let bytes = read_small(path)?;
-    let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
-    let (source, more) = document::decode(&path.display().to_string(), &bytes, file);
+    let (source, file, more) = add(&path.display().to_string(), &bytes, sources);
     said.extend(more);
-    sources.add(source.clone());
     Ok((source, file))
 }

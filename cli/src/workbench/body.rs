@@ -8,10 +8,10 @@ use motet_robots::card::{self, Model, ModelFile, Robot};
 use motet_robots::mesh::{self, Found};
 use motet_robots::srdf;
 use motet_robots::urdf::{self, Urdf};
-use motet_syntax::{Diagnostic, FileId, Source, Sources};
+use motet_syntax::Sources;
 
+use super::add;
 use super::cards::{Card, Home};
-use super::next_id;
 use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
@@ -31,13 +31,13 @@ impl Card {
         report: &mut Report,
     ) -> Result<Option<Urdf>, Trouble> {
         let Some(model) = &robot.model else { return Ok(None) };
-        let (toml, toml_id) = add(&self.name, &self.toml, sources).0;
+        let (toml, toml_id, _) = add(&self.name, &self.toml, sources);
         let missing = |which| card::missing(&toml, toml_id, which);
         let Some((name, bytes)) = self.urdf(model)? else {
             report.usable("robot card", missing(ModelFile::Urdf).as_slice(), sources)?;
             return Err(Trouble::Diagnosed("robot card"));
         };
-        let ((source, file), mut said) = add(&name, &bytes, sources);
+        let (source, file, mut said) = add(&name, &bytes, sources);
         let (urdf, more) = urdf::read(&source, file);
         said.extend(more);
         report.usable("URDF", &said, sources)?;
@@ -51,7 +51,7 @@ impl Card {
             Srdf::None => {}
             Srdf::Missing => report.usable("robot card", missing(ModelFile::Srdf).as_slice(), sources)?,
             Srdf::Text(name, bytes) => {
-                let ((source, file), mut said) = add(&name, &bytes, sources);
+                let (source, file, mut said) = add(&name, &bytes, sources);
                 let (srdf, more) = srdf::read(&source, file, &urdf);
                 said.extend(more);
                 report.usable("SRDF", &said, sources)?;
@@ -93,14 +93,6 @@ enum Srdf {
     None,
     Missing,
     Text(String, Vec<u8>),
-}
-
-/// Adds a file to the sources.
-fn add(name: &str, bytes: &[u8], sources: &mut Sources) -> ((Source, FileId), Vec<Diagnostic>) {
-    let file = next_id(sources);
-    let (source, said) = crate::document::decode(name, bytes, file);
-    sources.add(source.clone());
-    ((source, file), said)
 }
 
 /// A file's name and bytes; none where it is not there.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use motet_robots::card::{self, Robot};
 use motet_syntax::{Sources, suggest};
 
-use super::next_id;
+use super::add;
 use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
@@ -100,9 +100,7 @@ impl Card {
     ///
     /// It has a mistake.
     pub(crate) fn read(&self, sources: &mut Sources, report: &mut Report) -> Result<Robot, Trouble> {
-        let file = next_id(sources);
-        let (source, mut said) = crate::document::decode(&self.name, &self.toml, file);
-        sources.add(source.clone());
+        let (source, file, mut said) = add(&self.name, &self.toml, sources);
         let (robot, more) = card::read(&source, file, self.declarations.as_deref());
         said.extend(more);
         report.usable("robot card", &said, sources)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Sources, suggest};
 
-use super::next_id;
+use super::add;
 use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
@@ -22,9 +22,7 @@ pub(crate) fn read(name: &str, sources: &mut Sources, report: &mut Report) -> Re
         None if looks_like_file(name) => (name.to_owned(), read_small(Path::new(name))?),
         None => return Err(unknown(name)),
     };
-    let file = next_id(sources);
-    let (source, mut said) = crate::document::decode(&name, &bytes, file);
-    sources.add(source.clone());
+    let (source, file, mut said) = add(&name, &bytes, sources);
     let (scene, more) = scene::read(&source, file);
     said.extend(more);
     report.usable("scene", &said, sources)?;

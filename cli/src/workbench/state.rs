@@ -7,7 +7,7 @@ use motet_compiler::State;
 use motet_syntax::Sources;
 use motet_syntax::json::{self, Spanned};
 
-use super::next_id;
+use super::add;
 use crate::exit::Trouble;
 use crate::input::read_small;
 use crate::report::Report;
@@ -19,9 +19,7 @@ pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> R
         Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
         None => (path.display().to_string(), read_small(path)?),
     };
-    let file = next_id(sources);
-    let (source, mut said) = crate::document::decode(&name, &bytes, file);
-    sources.add(source.clone());
+    let (source, file, mut said) = add(&name, &bytes, sources);
     let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     said.extend(more);
     report.usable("state", &said, sources)?;

@@ -120,19 +120,23 @@ fn accept_examples(form: Form) {
                     continue;
                 }
             };
-            let mut acceptor = prepared.acceptor(100_000).unwrap();
-            let taken = acceptor.accept(spelled.as_bytes());
-            assert!(
-                taken == spelled.len() && acceptor.is_accepting(),
-                "{} in {scene}: refused after {}, before {}",
-                file.display(),
-                &spelled[..taken],
-                &spelled[taken..]
-            );
+            takes_whole(&prepared, &spelled, &format!("{} in {scene}", file.display()));
             count += 1;
         }
     }
     assert!(count >= 10, "{count}");
+}
+
+/// That a policy is accepted byte by byte, to its end.
+fn takes_whole(prepared: &Prepared, spelled: &str, whose: &str) {
+    let mut acceptor = prepared.acceptor(100_000).unwrap();
+    let taken = acceptor.accept(spelled.as_bytes());
+    assert!(
+        taken == spelled.len() && acceptor.is_accepting(),
+        "{whose}: refused after {}, before {}",
+        &spelled[..taken],
+        &spelled[taken..]
+    );
 }
 
 /// What is written in one surface is accepted in both, spelled as it spells it.
@@ -153,14 +157,7 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
                     outside += 1;
                     continue;
                 };
-                let mut acceptor = prepared.acceptor(100_000).unwrap();
-                let taken = acceptor.accept(spelled.as_bytes());
-                assert!(
-                    taken == spelled.len() && acceptor.is_accepting(),
-                    "{robot} in {scene}, {to:?}: refused after {}, before {}",
-                    &spelled[..taken],
-                    &spelled[taken..]
-                );
+                takes_whole(&prepared, &spelled, &format!("{robot} in {scene}, {to:?}"));
                 count += 1;
             }
         }

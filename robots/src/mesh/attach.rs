@@ -7,7 +7,7 @@ use roxmltree::Node;
 use super::cover::cover;
 use super::errors::{BadMesh, UnreadMesh};
 use super::read::{self, Triangle};
-use super::turn::composed;
+use crate::turn::composed;
 use crate::urdf::{Document, Shape, Solid, Urdf};
 
 /// What was found for the name of a mesh.

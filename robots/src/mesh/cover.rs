@@ -6,7 +6,7 @@
 //! to all three axes could leave out what lies deep inside.
 
 use super::read::Triangle;
-use super::turn::{Quaternion, about, inverse, product, turned};
+use crate::turn::{Quaternion, about, inverse, product, turned};
 use crate::urdf::{Pose, Shape, Solid};
 
 /// The most pieces of one mesh.

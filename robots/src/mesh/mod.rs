@@ -8,7 +8,6 @@ mod locate;
 mod obj;
 mod read;
 mod stl;
-mod turn;
 
 pub use attach::{Found, attach};
 pub use cover::cover;

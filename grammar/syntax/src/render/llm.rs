@@ -87,7 +87,9 @@ fn shorter(text: &str, most: usize) -> String {
     short
 }
 
-fn capital(text: &str) -> String {
+/// With a capital letter at the beginning.
+#[must_use]
+pub fn capital(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
 }

@@ -10,7 +10,7 @@ mod sarif;
 pub use github::github;
 pub use human::{Color, human};
 pub use json::{EditRecord, FixRecord, Record, RelatedRecord, SpanRecord, json, record};
-pub use llm::{MAX_CHARS, llm};
+pub use llm::{MAX_CHARS, capital, llm};
 pub use sarif::{Help, sarif};
 
 use crate::source::{Source, Sources, Span};

@@ -40,7 +40,7 @@ pub(super) fn explain(text: &str, error: &Error<Rule>, file: FileId) -> Diagnost
         Some(token) if token.kind == TokenKind::Doc => "a `///` comment".into(),
         Some(token) if token.kind == TokenKind::Text => format!("the text {}", short(token.text)),
         Some(token) if is_control(token) => {
-            format!("the control character {:?}", token.text).replace('"', "`")
+            format!("the control character `{}`", token.text.escape_debug())
         }
         Some(token) => format!("`{}`", short(token.text)),
     };

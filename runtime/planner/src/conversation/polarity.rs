@@ -113,11 +113,9 @@ const PLACES: &[&str] = &["at", "by", "in", "on", "near", "next", "beside", "beh
 pub(super) fn polarity(said: &str) -> Polarity<'_> {
     let rest = skip_all(said, COURTESY);
     if let Some(left) = skip(rest, IGNORANT) {
-        return if words(left).next().is_none() { Polarity::Ignorant } else { Polarity::Neither };
+        return if is_done(left) { Polarity::Ignorant } else { Polarity::Neither };
     }
-    if let Some(left) = skip(rest, STOP)
-        && !words(left).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()))
-    {
+    if skip(rest, STOP).is_some_and(|left| !begins_place(left)) {
         return Polarity::Stop;
     }
     if skip(rest, STOP_ALONE).is_some_and(|left| is_done(skip_all(left, COURTESY))) {
@@ -140,8 +138,7 @@ pub(super) fn polarity(said: &str) -> Polarity<'_> {
 /// Whether somebody tells a robot that moves to stop.
 pub(super) fn stops(said: &str) -> bool {
     let rest = skip_all(said, COURTESY);
-    let places = |left: &str| words(left).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()));
-    skip(rest, HOLD).is_some_and(|left| !places(left))
+    skip(rest, HOLD).is_some_and(|left| !begins_place(left))
         || match polarity(said) {
             Polarity::Stop => true,
             Polarity::No(left) => is_done(left),
@@ -154,6 +151,10 @@ pub(super) fn added(said: &str) -> Option<&str> {
     let rest = skip(said, &["also", "and also", "and then", "after that", "afterwards", "then", "and"])?;
     let rest = rest.trim_start_matches([',', ' ']);
     (!rest.is_empty()).then_some(rest)
+}
+
+fn begins_place(said: &str) -> bool {
+    words(said).next().is_some_and(|(word, _)| PLACES.contains(&word.as_str()))
 }
 
 /// Whether nothing is left to be read.

@@ -4,6 +4,7 @@
 use motet_graph::{Graph, NodeKind, Term, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::RunEnd;
+use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
 use crate::builtin::Unplanned;
@@ -69,12 +70,12 @@ impl Problem {
                 ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
             },
             Unplanned::Puzzle(Puzzle::Unfit { why }) => {
-                bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capitalised(why)))
+                bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capital(why)))
             }
             Unplanned::Puzzle(Puzzle::Elsewhere { why, thing }) => Self {
                 options: holders(scene),
                 about: Some(thing.clone()),
-                ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capitalised(why)))
+                ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capital(why)))
             },
             Unplanned::Puzzle(Puzzle::AmbiguousReference { what, options }) => {
                 let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
@@ -233,11 +234,6 @@ fn described(scene: &Scene, id: &SmolStr) -> String {
 fn bare_noun(said: &str) -> &str {
     let articles = ["the ", "a ", "an ", "some ", "my ", "that ", "this "];
     articles.iter().find_map(|article| said.strip_prefix(article)).unwrap_or(said)
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn number(count: usize) -> String {

@@ -3,7 +3,7 @@
 use motet_compiler::Session;
 use motet_compiler::plan::Lasts;
 use motet_syntax::ast::{Expr, ExprKind, File, Item};
-use motet_syntax::{Diagnostic, FileId, Source, print};
+use motet_syntax::{Diagnostic, FileId, Source, Span, print};
 
 use super::judge::errors;
 use crate::builtin::Planned;
@@ -17,13 +17,10 @@ pub(super) fn goal(request: &str, situation: &Situation<'_>) -> Option<Expr> {
     }
     let lasting = understood.aims.into_iter().filter(|aim| aim.goal.lasts == Lasts::ToTheEnd);
     let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
-    let first = parts.pop()?;
-    if parts.is_empty() {
-        return Some(first);
+    if parts.len() < 2 {
+        return parts.pop();
     }
-    parts.push(first);
-    let span = parts.first().map(|part| part.span).unwrap_or_default();
-    Some(Expr { kind: ExprKind::All(parts), span })
+    Some(Expr { kind: ExprKind::All(parts), span: Span::default() })
 }
 
 /// What is wrong with a policy that passes the check, where it cannot come to what was asked for.

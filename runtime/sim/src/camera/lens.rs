@@ -1,6 +1,7 @@
 //! A pinhole camera at a place, looking somewhere.
 
 use motet_graph::Pose;
+use motet_robots::turn::product;
 use motet_runtime::Camera;
 
 /// Columns and rows of a picture.
@@ -95,28 +96,12 @@ pub(super) fn minus([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [x - a, y - b, z - c]
 }
 
-/// The product of two quaternions, order x, y, z, w.
-fn product([ax, ay, az, aw]: [f64; 4], [bx, by, bz, bw]: [f64; 4]) -> [f64; 4] {
-    [
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::indexing_slicing, reason = "a test fails by panicking")]
 
     use super::*;
-
-    /// A vector turned by a quaternion.
-    fn turned(q: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let conjugate = [-q[0], -q[1], -q[2], q[3]];
-        let [x, y, z, _] = product(product(q, [x, y, z, 0.0]), conjugate);
-        [x, y, z]
-    }
+    use motet_robots::turn::turned;
 
     #[test]
     fn the_quaternion_is_that_of_the_axes() {

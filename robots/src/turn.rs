@@ -1,18 +1,21 @@
-//! The little of rotations that placing the pieces of a mesh takes. Quaternions are x, y, z, w and of length 1.
+//! The little of rotations that placing things takes. Quaternions have the order x, y, z, w and length 1.
 
 use crate::urdf::Pose;
 
-pub(super) type Quaternion = [f64; 4];
+/// A rotation, order x, y, z, w.
+pub type Quaternion = [f64; 4];
 
 /// By an angle in rad about one of the axes 0, 1, 2.
-pub(super) fn about(axis: usize, angle: f64) -> Quaternion {
+#[must_use]
+pub fn about(axis: usize, angle: f64) -> Quaternion {
     let (sin, cos) = libm::sincos(angle / 2.0);
     let part = |at: usize| if at == axis { sin } else { 0.0 };
     [part(0), part(1), part(2), cos]
 }
 
 /// First the second, then the first.
-pub(super) fn product([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion) -> Quaternion {
+#[must_use]
+pub fn product([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion) -> Quaternion {
     [
         aw * bx + ax * bw + ay * bz - az * by,
         aw * by - ax * bz + ay * bw + az * bx,
@@ -21,18 +24,22 @@ pub(super) fn product([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion
     ]
 }
 
-pub(super) fn inverse([x, y, z, w]: Quaternion) -> Quaternion {
+/// The other way round.
+#[must_use]
+pub fn inverse([x, y, z, w]: Quaternion) -> Quaternion {
     [-x, -y, -z, w]
 }
 
 /// A vector turned.
-pub(super) fn turned(by: Quaternion, [x, y, z]: [f64; 3]) -> [f64; 3] {
+#[must_use]
+pub fn turned(by: Quaternion, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let [x, y, z, _] = product(product(by, [x, y, z, 0.0]), inverse(by));
     [x, y, z]
 }
 
 /// The pose of `c` in `a` from that of `b` in `a` and of `c` in `b`.
-pub(super) fn composed(a_from_b: &Pose, b_from_c: &Pose) -> Pose {
+#[must_use]
+pub fn composed(a_from_b: &Pose, b_from_c: &Pose) -> Pose {
     let [x, y, z] = turned(a_from_b.quaternion_xyzw, b_from_c.xyz);
     let [dx, dy, dz] = a_from_b.xyz;
     let quaternion_xyzw = product(a_from_b.quaternion_xyzw, b_from_c.quaternion_xyzw);
