@@ -178,7 +178,7 @@ impl Writer<'_> {
         let binding = self.program.bindings.get(call.binds?.index())?;
         let bound = &binding.name;
         let again = call.binds;
-        let proposed = Proposed { primitive: call.primitive, args: call.args.clone(), result: None, again };
+        let proposed = Proposed { primitive: call.primitive, args: call.args.to_vec(), result: None, again };
         let mut step = self.call(&proposed, &Renamed::new())?;
         let is_one_block = found.place.parent == before.place.parent && found.place.slot == before.place.slot;
         if binding.uses <= 1 && is_one_block {

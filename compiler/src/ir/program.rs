@@ -3,6 +3,7 @@
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 use motet_syntax::unit::Unit;
+use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use super::{BindingId, Condition, Failure, Primitive, StepId, Term, Ty};
@@ -224,11 +225,11 @@ pub(crate) struct Call {
     /// Which.
     pub(crate) primitive: Primitive,
     /// An argument for each parameter.
-    pub(crate) args: Vec<Term>,
+    pub(crate) args: SmallVec<[Term; 2]>,
     /// Where each argument stands; of a default, the call.
-    pub(crate) spans: Vec<Span>,
+    pub(crate) spans: SmallVec<[Span; 2]>,
     /// In which unit each argument is written, where it is a quantity.
-    pub(crate) units: Vec<Option<Unit>>,
+    pub(crate) units: SmallVec<[Option<Unit>; 4]>,
     /// Where the result goes.
     pub(crate) binds: Option<BindingId>,
     /// The deadline where one is written.

@@ -310,7 +310,7 @@ impl Prover<'_> {
             return;
         }
         let mut moved = None;
-        let mut stale = Vec::new();
+        let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
             self.facts.written(fluent, |key, value| {
                 let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };

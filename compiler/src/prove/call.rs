@@ -1,6 +1,7 @@
 //! One call of a primitive: its needs, then what it does, and what is known where it fails.
 
 use motet_syntax::{Diagnostic, Mistake, Span};
+use smallvec::SmallVec;
 
 use super::apply::{Change, Lasting};
 use super::errors::{Refuted, Stale};
@@ -251,7 +252,7 @@ impl Prover<'_> {
     /// Forgets what was known of a symbol: its name is bound anew.
     pub(crate) fn forget(&mut self, symbol: Option<Entity>) {
         let Some(symbol) = symbol else { return };
-        let mut stale = Vec::new();
+        let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for (index, def) in self.library.fluents.iter().enumerate() {
             let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
             self.facts.written(fluent, |key, _| {

@@ -93,9 +93,9 @@ impl Steps<'_> {
             .map(|param| Formal { name: &param.name, ty: param.ty, optional: param.default.is_some() })
             .collect();
         let given = self.match_arguments(call, &def.name, &formals);
-        let mut args = Vec::with_capacity(given.len());
-        let mut spans = Vec::with_capacity(given.len());
-        let mut units = Vec::with_capacity(given.len());
+        let mut args = SmallVec::with_capacity(given.len());
+        let mut spans = SmallVec::with_capacity(given.len());
+        let mut units = SmallVec::with_capacity(given.len());
         let mut description = None;
         for ((arg, param), formal) in given.into_iter().zip(&def.params).zip(&formals) {
             let (term, at) = match arg {

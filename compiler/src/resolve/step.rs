@@ -38,6 +38,7 @@ impl<'a> Steps<'a> {
         self.program.robot = self.resolver.library.robot.clone();
         self.program.span = policy.span;
         self.calls.push(policy.name.text.clone());
+        self.program.steps.reserve(2 * policy.body.steps.len());
         if let Some(goal) = &policy.achieves {
             self.program.achieves = Some((self.resolver.condition(goal), goal.span));
         }

@@ -30,7 +30,8 @@ impl Key {
     }
 
     /// The bits of the arguments that are `any`.
-    fn any(self) -> u64 {
+    #[inline]
+    pub(super) fn any(self) -> u64 {
         const HIGH: u64 = 0x8000_8000_8000_8000;
         // The high bit of each part of the complement that is zero, found for all four at once.
         let rest = !self.0;

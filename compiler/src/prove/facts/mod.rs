@@ -60,8 +60,10 @@ impl Facts<'static> {
 impl<'w> Facts<'w> {
     /// Facts above those of the start. O(fluents).
     pub(crate) fn above(start: &'w Facts<'static>) -> Self {
-        let tables = start.tables.iter().map(|table| Table::new(table.default)).collect();
-        Self { start: &start.tables, tables, trail: Vec::with_capacity(64) }
+        // One more for a table that is added.
+        let mut tables = Vec::with_capacity(start.tables.len() + 1);
+        tables.extend(start.tables.iter().map(|table| Table::new(table.default)));
+        Self { start: &start.tables, tables, trail: Vec::with_capacity(256) }
     }
 
     /// The same writes above another start, which has to say what theirs said.
@@ -85,8 +87,9 @@ impl<'w> Facts<'w> {
         self.tables.get(fluent.index())
     }
 
+    /// What is known of a fluent at the start, where anything is.
     fn below(&self, fluent: Fluent) -> Option<&'w Table> {
-        self.start.get(fluent.index())
+        self.start.get(fluent.index()).filter(|table| !table.is_empty())
     }
 
     /// What is known of a fact; of a pattern, what is known of those it covers that have no entry of their own.
@@ -118,12 +121,9 @@ impl<'w> Facts<'w> {
 
     /// Hands out the single facts with an entry above those of the start, in no order.
     pub(crate) fn written(&self, fluent: Fluent, mut take: impl FnMut(Key, Value)) {
-        let Some(table) = self.table(fluent) else { return };
-        table.covered(Key::ALL, |cell| {
-            if !cell.key.is_pattern() {
-                take(cell.key, cell.value);
-            }
-        });
+        if let Some(table) = self.table(fluent) {
+            table.singles(|cell| take(cell.key, cell.value));
+        }
     }
 
     /// Hands out the entries of the start that a pattern covers and nothing hides.

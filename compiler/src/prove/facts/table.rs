@@ -94,6 +94,18 @@ impl Table {
         Self { rows: Rows::One(Row::new()), patterns: 0, wide: Vec::new(), default }
     }
 
+    /// Whether nothing was written that is still there.
+    pub(super) fn is_empty(&self) -> bool {
+        self.wide.is_empty() && matches!(&self.rows, Rows::One(row) if row.is_empty())
+    }
+
+    /// Hands out all single facts with an entry.
+    pub(super) fn singles(&self, mut take: impl FnMut(&Cell)) {
+        self.rows.for_each(|cells| {
+            cells.iter().filter(|cell| !cell.key.is_pattern()).for_each(&mut take);
+        });
+    }
+
     /// The entries that begin like a key, perhaps among others.
     fn row(&self, key: Key) -> &[Cell] {
         key.head().map_or(&self.wide, |head| self.rows.with(head))
@@ -139,8 +151,15 @@ impl Table {
 
     /// Hands out what a pattern shares with each other pattern that crosses it.
     pub(super) fn crossings(&self, pattern: Key, mut take: impl FnMut(Key)) {
+        let any = pattern.any();
         let mut visit = |cells: &[Cell]| {
-            cells.iter().filter_map(|cell| cell.key.crossing(pattern)).for_each(&mut take);
+            // Most share nothing with it, or one covers the other: `any` in neither place alone tells.
+            let may_cross = |cell: &&Cell| {
+                let other = cell.key.any();
+                other & !any != 0 && any & !other != 0
+            };
+            let crossing = cells.iter().filter(may_cross).filter_map(|cell| cell.key.crossing(pattern));
+            crossing.for_each(&mut take);
         };
         visit(&self.wide);
         match pattern.head() {
@@ -196,7 +215,8 @@ impl Table {
         };
         match pattern.head() {
             Some(head) => {
-                if let Some(row) = self.rows.with_mut(head).filter(|row| !row.is_empty()) {
+                let covers = |row: &Row| row.iter().any(|cell| pattern.covers(cell.key));
+                if let Some(row) = self.rows.with_mut(head).filter(|row| covers(row)) {
                     row.retain(keep);
                 }
             }

@@ -122,7 +122,7 @@ impl<'a> Prover<'a> {
             _ => None,
         });
         let call = calls.filter(|call| call.primitive == primitive).find(|call| call.binds == Some(again))?;
-        Some(Proposed { primitive, args: call.args.clone(), result: Some(found), again: Some(again) })
+        Some(Proposed { primitive, args: call.args.to_vec(), result: Some(found), again: Some(again) })
     }
 
     /// What makes an effect be about a fact.
