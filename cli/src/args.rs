@@ -17,7 +17,7 @@ mod plan;
 mod prompt;
 mod run;
 
-pub(crate) use act::DoArgs;
+pub(crate) use act::{DoArgs, Said};
 pub(crate) use dataset::{DatasetArgs, DatasetCommand, LintArgs, LintFormat, MakeArgs, MotionArgs, RowForm};
 pub(crate) use decode::{DecodeArgs, DecodeForm};
 pub(crate) use dialog::{DialogArgs, DialogForm};

@@ -5,6 +5,7 @@ mod eyes;
 mod model;
 mod person;
 mod record;
+mod scribe;
 mod speaker;
 
 use std::cell::RefCell;

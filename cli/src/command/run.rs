@@ -43,7 +43,7 @@ use world::Choices;
 pub(crate) use drive::run as drive;
 pub(crate) use export::mcap;
 pub(crate) use pace::{Pace, catch_interrupts, is_interrupted};
-pub(super) use play::journal_trouble;
+pub(super) use play::{head, journal_trouble};
 
 /// Runs the command.
 ///
@@ -87,7 +87,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
                 &options,
                 SavedGuard::of(&args.world, setting),
             );
-            Some(play::journal(folder, &engine, &start, &simulator.capabilities(), &saved)?)
+            Some(play::journal(folder, &engine, &start, &saved)?)
         }
         None => None,
     };

@@ -206,3 +206,28 @@ fn once_each(folder: &Path) {
     assert!(!counts.is_empty());
     assert!(counts.values().all(|count| *count == (1, 1)), "{counts:?}");
 }
+
+/// The runs of a conversation are kept as well, with the policies that took over.
+#[test]
+fn a_conversation_is_recorded_and_replays() {
+    let place = Place::new("journal_talk");
+    let world = "--robot hsr --scene kitchen --no-geometry --speed max --ask never";
+    let words = ["do", "bring me the coke", "--say", "8s: bring me the apple instead", "--record", "talk"];
+    let words: Vec<_> = words.into_iter().chain(world.split(' ')).map(str::to_owned).collect();
+    let ran = place.run_args(&words);
+    // What came of the first policy is not told as a step of the second.
+    ran.check(0, &["out:■ search(\"coke\"", "out:✓ handover(apple, user)"]);
+    assert!(!ran.stdout.contains("search(\"apple\", kitchen_table)  interrupted"), "{}", ran.stdout);
+    let kept = place.read("talk/talk.jsonl");
+    let lines: Vec<Value> = kept.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(lines.iter().any(|line| line["what"] == "swap"), "{kept}");
+    let run = lines.iter().find(|line| line["what"] == "run").unwrap()["journal"].as_str().unwrap();
+    place.run(&format!("replay talk/{run}")).check(0, &["out:the same to the byte"]);
+    let entries = entries(&place.path(&format!("talk/{run}")));
+    assert_eq!(entries[0]["head"]["instruction"], "bring me the coke");
+    assert_eq!(entries.iter().filter(|entry| entry.get("swap").is_some()).count(), 1, "{entries:?}");
+    let ran = place.run(&format!("replay talk/{run} --at 1000s"));
+    ran.check(0, &["out:revision 1"]);
+    place.run(&format!("run --resume talk/{run}")).check(2, &["err:can be replayed and not resumed"]);
+    place.run_args(&words).check(2, &["err:talk.jsonl"]);
+}

@@ -23,7 +23,7 @@ fn a_reply_is_carried_out_and_kept_and_the_key_is_not() {
         .lines()
         .map(|line| serde_json::from_str::<Value>(line).unwrap()["what"].as_str().unwrap().to_owned())
         .collect();
-    assert_eq!(whats, ["request", "asked", "taken", "policy", "ended", "outcome"]);
+    assert_eq!(whats, ["request", "asked", "taken", "policy", "run", "ended", "outcome"]);
     assert!(!format!("{kept}{}{}", ran.stdout, ran.stderr).contains("very-secret"));
 }
 

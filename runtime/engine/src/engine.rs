@@ -78,6 +78,12 @@ impl Engine {
         Self { capabilities, ..self }
     }
 
+    /// What the driver can do.
+    #[must_use]
+    pub const fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
+    }
+
     /// Takes in one event that happened at `now` and appends what is to be done about it to `out`. All transitions that
     /// the event enables are made in document order, monitors first. What was due before `now` is done before it. A time
     /// before that of the last event counts as that. After [`Effect::Finished`] nothing happens any more.

@@ -1,22 +1,27 @@
 //! Shows what is done, paces it, brings typed lines as new requests, and writes the record.
 
+use std::cmp::Reverse;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use motet_graph::Graph;
 use motet_planner::builtin::Answered;
-use motet_planner::conversation::{Outcome, Problem, Watcher};
+use motet_planner::conversation::{Outcome, Problem, Scribe, Watcher};
 use motet_planner::guard::Verifies;
-use motet_runtime::{Control, Effect, Onlooker as _, Refusal, RunEnd, Time};
+use motet_runtime::{Control, Effect, Engine, Onlooker as _, Refusal, RunEnd, StartState, Time};
 use serde_json::json;
 
 use super::model::printable;
 use super::person::Asked;
 use super::record::Recorder;
-use crate::args::{DoArgs, RunFormat};
+use super::scribe::Journal;
+use crate::args::{DoArgs, RunFormat, Said};
 use crate::command::run::{self, Pace};
 use crate::exit::Trouble;
 use crate::out::{Colors, note};
+
+/// How often it is looked whether something is to be said.
+const LISTENS_EVERY: Time = Time::from_nanos(100_000_000);
 
 /// Looks on.
 pub(super) struct Eyes<'a> {
@@ -24,7 +29,18 @@ pub(super) struct Eyes<'a> {
     colors: Colors,
     asked: Rc<Asked>,
     recorder: Option<Recorder>,
+    /// What was asked for last.
+    request: String,
+    /// What is still to be said, the latest first.
+    say: Vec<Said>,
     pace: Option<Pace>,
+    /// The number of the policy that is shown, of those of this run.
+    revision: u32,
+    /// A policy that takes over, to be shown as soon as the one before has been told to end.
+    next: Option<(String, Arc<Graph>)>,
+    /// What shows the policy before.
+    older: Option<Pace>,
+    is_swapping: bool,
 }
 
 impl<'a> Eyes<'a> {
@@ -34,7 +50,22 @@ impl<'a> Eyes<'a> {
         asked: Rc<Asked>,
         recorder: Option<Recorder>,
     ) -> Self {
-        Self { args, colors, asked, recorder, pace: None }
+        let mut say = args.say.clone();
+        say.reverse();
+        say.sort_by_key(|said| Reverse(said.at));
+        Self {
+            args,
+            colors,
+            asked,
+            recorder,
+            request: String::new(),
+            say,
+            pace: None,
+            revision: 0,
+            next: None,
+            older: None,
+            is_swapping: false,
+        }
     }
 
     fn record(&mut self, what: &str, more: serde_json::Value) {
@@ -43,9 +74,19 @@ impl<'a> Eyes<'a> {
         }
     }
 
+    /// Shows a policy from now on.
+    fn stage(&mut self, text: &str, graph: &Graph) {
+        if self.args.format == RunFormat::Human {
+            note(&printable(text.trim_end()));
+        }
+        let pace = run::stage(self.args.format, graph, self.colors, self.args.simulated.speed);
+        self.older = self.pace.replace(pace);
+    }
+
     /// Something is asked for.
     pub(super) fn requested(&mut self, request: &str) {
         self.record("request", json!({"text": request}));
+        request.clone_into(&mut self.request);
     }
 
     /// How it all ended.
@@ -62,18 +103,36 @@ impl<'a> Eyes<'a> {
 }
 
 impl Watcher for Eyes<'_> {
+    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn Scribe>> {
+        let recorder = self.recorder.clone()?;
+        Some(Box::new(Journal::new(recorder, engine, start, &self.request)))
+    }
+
     fn planned(&mut self, answered: &Answered, graph: &Arc<Graph>) {
         if let Some(recorder) = &self.recorder {
             recorder.policy(&answered.planned.text);
         }
         answered.understood.notes.iter().for_each(|text| note(text));
-        if self.args.format == RunFormat::Human {
-            note(&printable(answered.planned.text.trim_end()));
+        let text = answered.planned.text.clone();
+        if std::mem::take(&mut self.is_swapping) {
+            self.next = Some((text, Arc::clone(graph)));
+        } else {
+            (self.revision, self.pace, self.older) = (0, None, None);
+            self.stage(&text, graph);
         }
-        self.pace = Some(run::stage(self.args.format, graph, self.colors, self.args.simulated.speed));
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
+        if let Effect::Report(record) = effect {
+            if record.revision < self.revision {
+                return self.older.iter_mut().for_each(|older| older.late(now, effect));
+            }
+            let is_newer = record.revision > self.revision;
+            self.revision = record.revision;
+            if let Some((text, graph)) = self.next.take_if(|_| is_newer) {
+                self.stage(&text, &graph);
+            }
+        }
         if let Some(pace) = &mut self.pace {
             pace.effect(now, effect);
         }
@@ -84,7 +143,8 @@ impl Watcher for Eyes<'_> {
     }
 
     fn at_least_every(&self) -> Time {
-        self.pace.as_ref().map_or(Time::NEVER, |pace| pace.at_least_every())
+        let own = if self.say.is_empty() { Time::NEVER } else { LISTENS_EVERY };
+        self.pace.as_ref().map_or(own, |pace| pace.at_least_every().min(own))
     }
 
     fn verifies(&self) -> Verifies {
@@ -95,15 +155,19 @@ impl Watcher for Eyes<'_> {
         run::is_interrupted()
     }
 
-    fn request(&mut self, _now: Time) -> Option<String> {
-        let line = self.asked.typed()?;
+    fn request(&mut self, now: Time) -> Option<String> {
+        let said = self.say.pop_if(|said| said.at <= now).map(|said| said.text);
+        let line = said.or_else(|| self.asked.typed())?;
         self.requested(&line);
         Some(line)
     }
 
     fn swapped(&mut self, _now: Time, refusal: Option<&Refusal>) {
         match refusal {
-            None => self.record("swap", json!({})),
+            None => {
+                self.is_swapping = true;
+                self.record("swap", json!({}));
+            }
             Some(refusal) => self.record("swap_refused", json!({"why": refusal.to_string()})),
         }
     }

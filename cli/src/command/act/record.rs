@@ -1,5 +1,5 @@
-//! A record of a conversation in a folder: `talk.jsonl`, a line for each thing that happens, and every policy in a file of
-//! its own.
+//! A record of a conversation in a folder: `talk.jsonl`, a line for each thing that happens, every policy in a file of its
+//! own, and the journal of every run in a folder of its own.
 
 use std::cell::RefCell;
 use std::fs::{self, File};
@@ -19,6 +19,7 @@ struct Record {
     folder: PathBuf,
     talk: File,
     policies: usize,
+    runs: usize,
     trouble: Option<Trouble>,
 }
 
@@ -27,7 +28,7 @@ impl Recorder {
     ///
     /// # Errors
     ///
-    /// It cannot be written to.
+    /// It cannot be written to, or holds a record already.
     pub(super) fn create(folder: &Path) -> Result<Self, Trouble> {
         let cannot = |path: &Path| {
             let path = path.to_owned();
@@ -35,8 +36,8 @@ impl Recorder {
         };
         fs::create_dir_all(folder).map_err(cannot(folder))?;
         let path = folder.join("talk.jsonl");
-        let talk = File::create(&path).map_err(cannot(&path))?;
-        let record = Record { folder: folder.to_owned(), talk, policies: 0, trouble: None };
+        let talk = File::create_new(&path).map_err(cannot(&path))?;
+        let record = Record { folder: folder.to_owned(), talk, policies: 0, runs: 0, trouble: None };
         Ok(Self(Rc::new(RefCell::new(record))))
     }
 
@@ -48,6 +49,20 @@ impl Recorder {
     /// A policy is about to run.
     pub(super) fn policy(&self, text: &str) {
         self.0.borrow_mut().policy(text);
+    }
+
+    /// A run is about to begin: the folder for its journal.
+    pub(super) fn run(&self) -> PathBuf {
+        let mut record = self.0.borrow_mut();
+        record.runs += 1;
+        let name = format!("run_{}", record.runs);
+        record.write("run", json!({"journal": name}));
+        record.folder.join(name)
+    }
+
+    /// Something could not be written.
+    pub(super) fn spoil(&self, trouble: Trouble) {
+        self.0.borrow_mut().trouble.get_or_insert(trouble);
     }
 
     /// What went wrong in writing.

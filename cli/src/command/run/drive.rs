@@ -45,7 +45,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
                 &driver.welcome().instance,
                 SavedGuard::of(&args.world, setting),
             );
-            Some(play::journal(folder, &engine, &start, &driver.capabilities(), &saved)?)
+            Some(play::journal(folder, &engine, &start, &saved)?)
         }
         None => None,
     };

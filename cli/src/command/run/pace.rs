@@ -61,6 +61,11 @@ impl Pace {
         effects.iter().for_each(|effect| self.view.past(now, effect));
     }
 
+    /// Takes in what came of its policy after it was replaced.
+    pub(crate) fn late(&mut self, now: Time, effect: &Effect) {
+        self.view.late(now, effect);
+    }
+
     /// Says how it ended.
     pub(crate) fn finish(&mut self, end: &RunEnd) {
         self.view.finish(self.now, end);

@@ -73,18 +73,21 @@ pub(super) fn journal(
     folder: &Path,
     engine: &Engine,
     start: &StartState,
-    can: &Capabilities,
     driver: &Saved,
 ) -> Result<Writer, Trouble> {
-    let head = Head {
+    let head = Head { driver: driver.to_json()?, ..head(engine, start) };
+    Writer::create(folder, head).map_err(journal_trouble)
+}
+
+/// The head of a journal of a run that begins now, at time 0.
+pub(in crate::command) fn head(engine: &Engine, start: &StartState) -> Head {
+    Head {
         began_unix_ns: unix_ns(),
         start: start.into(),
         settings: (*engine.settings()).into(),
-        capabilities: can.into(),
-        driver: driver.to_json()?,
+        capabilities: engine.capabilities().into(),
         ..Head::new(engine.graph())
-    };
-    Writer::create(folder, head).map_err(journal_trouble)
+    }
 }
 
 /// The view in a format, of a run by that clock.

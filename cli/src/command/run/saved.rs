@@ -113,6 +113,10 @@ impl Saved {
     ///
     /// It was written by another host.
     pub(super) fn of(json: &serde_json::Value) -> Result<Self, Trouble> {
+        if json.is_null() {
+            let why = "the run was part of a conversation, in a world that had gone on before it: it can be replayed and not resumed";
+            return Err(Trouble::Other(why.to_owned()));
+        }
         Self::deserialize(json).map_err(|error| {
             Trouble::Other(format!("the journal does not say in which world the run moved: {error}"))
         })

@@ -111,6 +111,10 @@ impl View for Screen {
         }
     }
 
+    fn late(&mut self, _now: Time, _effect: &Effect) {
+        // What stands above the other plan stays as it is.
+    }
+
     fn reached(&mut self, now: Time) {
         if self.last.is_none_or(|last| last.elapsed() >= FRAME) {
             self.draw(now);

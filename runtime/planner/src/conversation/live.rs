@@ -119,7 +119,8 @@ impl<'r, 'a> Live<'r, 'a> {
         let session = self.talk.session(scene, &self.talk.known, driver.base());
         let verifies = self.watcher.verifies();
         self.guard = session.course().map(|course| Guard::new(course, verifies));
-        let mut engine = self.talk.engine(graph, scene, self.guard.is_some())?;
+        let verifies = self.guard.is_some();
+        let (mut engine, start) = self.talk.engine(graph, scene, driver.capabilities(), verifies)?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
             Rest::Nothing => None,
@@ -127,7 +128,10 @@ impl<'r, 'a> Live<'r, 'a> {
             rest @ (Rest::Whole(_) | Rest::Broken | Rest::Stopped) => Some(First::new(Some(rest), &answered)),
         };
         let from = self.now;
-        let end = motet_runtime::run(&mut engine, driver, self, from);
+        let end = match self.watcher.scribe(&engine, &start) {
+            Some(scribe) => scribe.run(&mut engine, driver, self, from),
+            None => motet_runtime::run(&mut engine, driver, self, from),
+        };
         self.pending = self.pending.take().or(self.awaited.take().map(Pending::Request));
         // Behind its first step, a policy that is still being written goes on.
         if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {

@@ -23,4 +23,4 @@ pub use planner::{Ask, Builtin, Planner, Rest, Wait};
 pub(crate) use problem::called;
 pub use problem::{Kind, Problem};
 pub use talk::{Conversation, Outcome, Setting};
-pub use watcher::{Nobody, Person, Watcher};
+pub use watcher::{Nobody, Person, Scribe, Watcher};

@@ -8,7 +8,7 @@ use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Driver, Engine, Image, Perception, Settings, Time};
+use motet_runtime::{Capabilities, Driver, Engine, Image, Perception, Settings, StartState, Time};
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
@@ -150,12 +150,20 @@ impl<'a> Conversation<'a> {
         Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory, image: None }
     }
 
-    /// An engine for a policy, in the state that is known.
-    pub(super) fn engine(&self, graph: Graph, scene: &Scene, verifies: bool) -> Result<Engine, Problem> {
+    /// An engine for a policy, in the state that is known, with that state.
+    pub(super) fn engine(
+        &self,
+        graph: Graph,
+        scene: &Scene,
+        can: Capabilities,
+        verifies: bool,
+    ) -> Result<(Engine, StartState), Problem> {
         let session = self.session(scene, &self.known, None);
         let settings = Settings { verify_within: verifies.then_some(WITHIN), ..Settings::default() };
-        let engine = Engine::new(graph, &self.known.start(scene, &session));
-        engine.map(|engine| engine.with_settings(settings)).map_err(|wrong| Problem {
+        let start = self.known.start(scene, &session);
+        let engine = Engine::new(graph, &start);
+        let ready = |engine: Engine| (engine.with_settings(settings).with_capabilities(can), start);
+        engine.map(ready).map_err(|wrong| Problem {
             kind: Kind::ActionFailed,
             question: wrong.first().map_or_else(|| "the graph is not valid".to_owned(), ToString::to_string),
             options: Vec::new(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_runtime::{Control, Effect, Event, Refusal, RunEnd, Time};
+use motet_runtime::{Control, Driver, Effect, Engine, Event, Onlooker, Refusal, RunEnd, StartState, Time};
 
 use super::problem::Problem;
 use crate::builtin::Answered;
@@ -27,6 +27,10 @@ impl Person for Nobody {
 
 /// Looks on, and brings new requests.
 pub trait Watcher {
+    /// Who writes down the run that is about to begin, where somebody does. The engine has not taken in anything yet.
+    fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn Scribe>> {
+        None
+    }
     /// A policy is about to run, or to take over.
     fn planned(&mut self, _answered: &Answered, _graph: &Arc<Graph>) {}
     /// An event is about to be handled.
@@ -63,3 +67,15 @@ pub trait Watcher {
 
 /// Looks on without a word.
 impl Watcher for () {}
+
+/// Writes down one run.
+pub trait Scribe {
+    /// Runs an engine to its end as [`motet_runtime::run`] does, and writes down what it takes in and gives out.
+    fn run(
+        self: Box<Self>,
+        engine: &mut Engine,
+        driver: &mut dyn Driver,
+        onlooker: &mut dyn Onlooker,
+        from: Time,
+    ) -> RunEnd;
+}
