@@ -2,8 +2,8 @@
 """A driver for Motet that moves nothing: it takes its time over every goal and says that it did it.
 
 It speaks the driver protocol, version 1 (docs/drivers.md), on standard input and output, or with --port on a TCP port of this
-machine, one connection at a time. Goals outlast a connection, so a host that crashed can ask what became of them. Needs
-nothing but Python 3.8 and its standard library; to make a driver of it, put your robot's calls into `Robot`.
+machine, one connection at a time. Goals outlast a connection for a while, so a host that crashed can ask what became of them; who
+does not come back leaves a robot alone, and it stops. Needs nothing but Python 3.8 and its standard library; to make a driver of it, put your robot's calls into `Robot`.
 """
 
 import argparse
@@ -18,6 +18,9 @@ PROTOCOL = 1
 REFUSED = 1
 METHOD_NOT_FOUND = -32601
 INVALID_PARAMS = -32602
+
+# A host says something every second; after so many seconds without a word it has vanished.
+SILENCE = 5.0
 
 
 class Robot:
@@ -223,12 +226,15 @@ def serve(driver, read_fd, write):
     selector = selectors.DefaultSelector()
     selector.register(read_fd, selectors.EVENT_READ)
     rest = b""
+    heard = time.monotonic()
     while True:
-        ready = selector.select(driver.next_due())
+        left = heard + SILENCE - time.monotonic()
+        ready = selector.select(max(0.0, earliest(driver.next_due(), left)))
         driver.finish_due()
-        if not ready:
+        if not ready and left > 0.0:
             continue
-        data = os.read(read_fd, 65536)
+        data = os.read(read_fd, 65536) if ready else b""
+        heard = time.monotonic()
         if not data:
             driver.say = lambda message: None
             return False
@@ -238,24 +244,37 @@ def serve(driver, read_fd, write):
                 return True
 
 
-def listen(driver, port):
-    """Serves one TCP connection of this machine after the other."""
+def earliest(*seconds):
+    """The least of them that is not None; None if all are."""
+    return min((one for one in seconds if one is not None), default=None)
+
+
+def listen(driver, port, grace):
+    """Serves one TCP connection of this machine after the other. What runs has `grace` seconds without one."""
     with socket.create_server(("127.0.0.1", port)) as server:
         print("listening on tcp://127.0.0.1:%d" % server.getsockname()[1], flush=True)
+        alone = None  # since when a host is missed
         while True:
-            # What runs goes on while nobody is connected.
-            server.settimeout(driver.next_due())
+            left = None if alone is None else max(0.0, alone + grace - time.monotonic())
+            server.settimeout(earliest(driver.next_due(), left))
             try:
                 connection, _ = server.accept()
-            except (TimeoutError, socket.timeout):
+            except (TimeoutError, socket.timeout, BlockingIOError):
                 driver.finish_due()
+                if left == 0.0:
+                    driver.stop_all()
+                    alone = None
                 continue
+            alone = None
             with connection:
                 connection.setblocking(True)
                 try:
-                    serve(driver, connection.fileno(), connection.sendall)
+                    said_bye = serve(driver, connection.fileno(), connection.sendall)
                 except OSError:
                     driver.say = lambda message: None
+                    said_bye = False
+            if not said_bye:
+                alone = time.monotonic()
 
 
 def main():
@@ -263,10 +282,11 @@ def main():
     parser.add_argument("--seconds", type=float, default=0.2, help="how long every goal takes")
     parser.add_argument("--refuse", action="append", default=[], metavar="PRIMITIVE", help="a primitive to refuse")
     parser.add_argument("--port", type=int, help="a TCP port instead of standard input and output; 0 takes a free one")
+    parser.add_argument("--grace", type=float, default=10.0, help="seconds that goals go on for without a host, with --port")
     args = parser.parse_args()
     driver = Driver(Robot(args.seconds, args.refuse))
     if args.port is not None:
-        listen(driver, args.port)
+        listen(driver, args.port, args.grace)
         return
 
     def write(data):

@@ -8,8 +8,11 @@
 )]
 
 use crate::support::{GOOD, Place, eventually};
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
+use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 /// A policy that goes once.
 pub(crate) const AWAY: &str = "policy away for hsr {\n    go(kitchen_table)\n}\n";
@@ -166,13 +169,48 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
     assert_eq!(text.matches("{\"ended\":{\"goal\":").count(), 5, "five ends");
 }
 
+/// A driver on a port outlives its host, but what it does not for long.
+#[test]
+fn a_driver_that_lost_its_host_stops_by_itself() {
+    if !has_python() {
+        return;
+    }
+    let mut echo = Echo::start_with(&["--seconds", "600", "--grace", "0.2"]);
+    let address = echo.address();
+    let port = address.strip_prefix("tcp://").unwrap();
+    let say = |calls: &[&str]| {
+        let mut stream = TcpStream::connect(port).unwrap();
+        for (id, call) in calls.iter().enumerate() {
+            writeln!(stream, "{{\"jsonrpc\": \"2.0\", \"id\": {id}, {call}}}").unwrap();
+        }
+        let lines = BufReader::new(stream).lines().take(calls.len());
+        lines.map(Result::unwrap).collect::<Vec<String>>()
+    };
+    let hello =
+        r#""method": "hello", "params": {"protocol": 1, "robot": "hsr", "policy": "p", "primitives": []}"#;
+    let start =
+        r#""method": "start", "params": {"goal": 7, "command": {"primitive": "go", "args": [], "uses": []}}"#;
+    let status = r#""method": "status", "params": {"goals": [7]}"#;
+    let said = say(&[hello, start, status]);
+    assert!(said.iter().any(|line| line.contains("\"running\"")), "{said:?}");
+    // Nobody says goodbye, and nobody comes back in time.
+    sleep(Duration::from_secs(1));
+    let said = say(&[hello, status]);
+    assert!(said.iter().any(|line| line.contains("\"stopped\"")), "{said:?}");
+}
+
 /// The example driver on a port of its own.
 struct Echo(Child);
 
 impl Echo {
     fn start() -> Self {
+        Self::start_with(&["--seconds", "0.4"])
+    }
+
+    fn start_with(args: &[&str]) -> Self {
         let child = Command::new("python3")
-            .args([ECHO, "--seconds", "0.4", "--port", "0"])
+            .args([ECHO, "--port", "0"])
+            .args(args)
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();

@@ -32,6 +32,7 @@ pub struct RemoteDriver {
     /// Goals whose safe stop was asked for and is not acknowledged.
     stopping: BTreeSet<u64>,
     heard_at: Instant,
+    said_at: Instant,
     restarts: u32,
     last: Time,
     note: Box<dyn FnMut(&str)>,
@@ -73,6 +74,7 @@ impl RemoteDriver {
             watches: Vec::new(),
             stopping: BTreeSet::new(),
             heard_at: Instant::now(),
+            said_at: Instant::now(),
             restarts: patience.restarts,
             last: from,
             note,
@@ -178,6 +180,7 @@ impl RemoteDriver {
     fn call_again(&mut self, call: Call, sayings: u32) {
         let Some(link) = &self.link else { return };
         let said = link.say(say(self.next_id, &call));
+        self.said_at = Instant::now();
         let id = self.id();
         match said {
             Ok(()) => {

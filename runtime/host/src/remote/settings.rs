@@ -22,7 +22,7 @@ pub struct Patience {
     pub greeting: Duration,
     /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
     pub answer: Duration,
-    /// How long it may be silent before it is asked for a sign of life.
+    /// How long it, or the host, may be silent before it is asked for a sign of life.
     pub heartbeat: Duration,
     /// How long it may be silent before it counts as gone.
     pub silence: Duration,

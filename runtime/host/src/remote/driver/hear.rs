@@ -157,9 +157,11 @@ impl RemoteDriver {
             }
         }
         let silent = self.heard_at.elapsed();
+        // A driver that hears nothing stops by itself, so it is spoken to also where it says much.
+        let quiet = silent.max(self.said_at.elapsed());
         if silent >= self.patience.silence {
             self.broke(&Breakage::Silent(silent));
-        } else if silent >= self.patience.heartbeat
+        } else if quiet >= self.patience.heartbeat
             && !self.waiting.values().any(|waiting| matches!(waiting.call, Call::Ping(_)))
         {
             self.call(Call::Ping(Nothing {}));
