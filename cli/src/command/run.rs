@@ -19,12 +19,13 @@ mod world;
 
 use std::path::Path;
 
+use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::guard::Guard;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, Event, Settings, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Faults, Options, Sim};
 use motet_syntax::{Parsed, Severity};
 
 use crate::args::{Format, RunArgs, RunFormat, SimulatedArgs, Speed};
@@ -156,19 +157,23 @@ pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Spe
     Pace::new(play::view(format, graph, colors, Clock::Simulated), speed)
 }
 
-/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known.
+/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known. What
+/// faults may name is what the session knows.
 ///
 /// # Errors
 ///
-/// The faults cannot be read or have a mistake.
+/// The faults cannot be read, have a mistake, or name what is not there.
 pub(super) fn simulator(
     robot: &Robot,
     scene: &Scene,
+    known: &Session,
     eye: Option<[f64; 3]>,
     args: &SimulatedArgs,
     report: &mut Report,
 ) -> Result<Sim, Trouble> {
-    let faults = args.faults.as_deref().map(|path| world::faults(path, report)).transpose()?;
-    let faults = faults.map(|(faults, _)| faults).unwrap_or_default();
+    let faults = match &args.faults {
+        Some(path) => world::fitting_faults(path, &known.signatures(), report)?,
+        None => Faults::default(),
+    };
     Ok(Sim::new(robot, scene, Options { seed: args.seed, faults, eye, ..Options::default() }))
 }

@@ -68,6 +68,11 @@ fn ends_with_the_right_code() {
             ],
         ),
         (
+            format!("do go_to_the_counter --robot hsr {max} --ask never --faults far_faults.json"),
+            2,
+            &["err:far_faults.json:2:17: there is no primitive `pik`: did you mean `pick`?"],
+        ),
+        (
             format!("run retries.motet {max} --faults faults.json"),
             0,
             &["out:retry 1  slipped\n", "out:attempt 2 of 2", "out:of simulated time"],

@@ -82,12 +82,23 @@ impl Choices {
 }
 
 /// Reads faults.
-pub(super) fn faults(path: &Path, report: &mut Report) -> Result<(Faults, Source), Trouble> {
+fn faults(path: &Path, report: &mut Report) -> Result<(Faults, Source), Trouble> {
     let (_, source) = read::<Faults>(path, "file of faults", report)?;
     // The shape is right; what is left is whether numbers are in range.
     let faults = Faults::from_json(&source.text);
     let faults = faults.map_err(|error| Trouble::Other(format!("`{}`: {error}", path.display())))?;
     Ok((faults, source))
+}
+
+/// Reads faults that name only what is there.
+pub(super) fn fitting_faults(
+    path: &Path,
+    known: &Signatures,
+    report: &mut Report,
+) -> Result<Faults, Trouble> {
+    let (faults, source) = faults(path, report)?;
+    fit(&source, known)?;
+    Ok(faults)
 }
 
 /// Whether what a file of faults names is there.
