@@ -2,7 +2,7 @@
 
 use clap::{Args, Subcommand, ValueEnum};
 
-use super::{Form, WorldArgs};
+use super::{Form, KnownArgs};
 
 /// `motet grammar`
 #[derive(Args, Debug)]
@@ -21,7 +21,7 @@ pub(crate) struct GrammarArgs {
     pub(crate) command: Option<GrammarCommand>,
     /// For which robot and room.
     #[command(flatten)]
-    pub(crate) world: WorldArgs,
+    pub(crate) known: KnownArgs,
     /// The notation; JSON Schema where not given, GBNF of the text form
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) format: Option<GrammarFormat>,

@@ -49,6 +49,13 @@ pub(crate) struct WorldArgs {
     pub(crate) effort: u16,
 }
 
+impl From<KnownArgs> for WorldArgs {
+    /// For what asks for no motions.
+    fn from(known: KnownArgs) -> Self {
+        Self { known, max_duration: None, no_geometry: true, effort: 1 }
+    }
+}
+
 /// The form of diagnostics.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct FormatArgs {

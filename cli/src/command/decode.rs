@@ -33,13 +33,7 @@ pub(crate) fn run(args: &DecodeArgs, colors: Colors) -> Result<Exit, Trouble> {
 }
 
 fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let world = WorldArgs {
-        known: args.known.clone(),
-        // Nothing here asks for motions.
-        no_geometry: true,
-        effort: 1,
-        ..WorldArgs::default()
-    };
+    let world = WorldArgs::from(args.known.clone());
     let mut bench = Workbench::open(&world, report)?;
     let session = bench.setting(&File::default(), report)?.session.clone();
     let mut begun = read(&args.path)?;

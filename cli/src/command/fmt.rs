@@ -30,10 +30,8 @@ pub(crate) fn run(args: &FmtArgs, colors: Colors) -> Result<Exit, Trouble> {
 
 fn fmt(args: &FmtArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let inputs = input::collect(&args.documents.paths)?;
-    let world = WorldArgs {
-        known: KnownArgs { robot: args.robot.clone(), domain: args.domain.clone(), ..KnownArgs::default() },
-        ..WorldArgs::default()
-    };
+    let known = KnownArgs { robot: args.robot.clone(), domain: args.domain.clone(), ..KnownArgs::default() };
+    let world = WorldArgs::from(known);
     let mut bench = Workbench::open(&world, report)?;
     let mut tally = Tally { is_batch: is_batch(&inputs.inputs), ..Tally::default() };
     for input in &inputs.inputs {

@@ -8,7 +8,7 @@ use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Pro
 use motet_decode::{Modifiers, Surface};
 use motet_syntax::ast::File;
 
-use crate::args::{Form, Format, GrammarArgs, GrammarCommand, GrammarFormat, Server};
+use crate::args::{Form, Format, GrammarArgs, GrammarCommand, GrammarFormat, Server, WorldArgs};
 use crate::exit::{Exit, Trouble};
 use crate::out::{Colors, note};
 use crate::report::Report;
@@ -33,7 +33,8 @@ pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, Trouble> {
 }
 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
-    let mut bench = Workbench::open(&args.world, report)?;
+    let world = WorldArgs::from(args.known.clone());
+    let mut bench = Workbench::open(&world, report)?;
     let signatures = bench.setting(&File::default(), report)?.session.signatures();
     let surface = Surface {
         form: match args.surface {
@@ -44,8 +45,11 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
         depth: args.depth,
     };
     let offer = Offer::new(&signatures, surface);
-    for warning in export::warnings(&offer) {
-        note(&format!("warning: {warning}"));
+    if args.llguidance && (args.request.is_some() || notation(args) != Notation::Lark) {
+        return Err(Trouble::Other("`--llguidance` is of Lark alone: give `--format lark` too".to_owned()));
+    }
+    for warning in export::warnings(&offer).iter().filter(|warning| concerns(args, warning.server)) {
+        note(&format!("warning: {}", warning.text));
     }
     let text = match args.request {
         Some(server) => {
@@ -62,6 +66,17 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
     };
     report.out.text(&text);
     Ok(Exit::Clean)
+}
+
+/// Whether who reads what is printed may be a server.
+fn concerns(args: &GrammarArgs, server: Option<Dialect>) -> bool {
+    let Some(server) = server else { return true };
+    match (args.request, notation(args)) {
+        (Some(asked), _) => dialect(asked) == server,
+        (None, Notation::JsonSchema) => true,
+        (None, Notation::Gbnf) => server == Dialect::LlamaCpp,
+        (None, Notation::Lark | Notation::RegexFreeEbnf) => false,
+    }
 }
 
 fn text_form(who: &str) -> Trouble {

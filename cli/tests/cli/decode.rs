@@ -27,6 +27,11 @@ fn what_must_follow_and_what_may() {
 }
 
 #[test]
+fn an_encoding_has_an_end_of_its_own() {
+    decode("decode_end", "--tokenizer cl100k --end x", "{").check(2, &["err:`--end` is of a file"]);
+}
+
+#[test]
 fn words_are_explained() {
     let held = format!("{HEAD}{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"");
     let ran = decode("decode_calls", "--explain", &held);

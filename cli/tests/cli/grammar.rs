@@ -49,6 +49,10 @@ fn what_a_server_cannot_take_is_said() {
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert!(ran.stderr.contains("values of enumerations; OpenAI takes 1000"), "{}", ran.stderr);
     assert!(ran.stderr.contains("Ollama"), "{}", ran.stderr);
+    // Of the limits of others nothing is said to who asks one server.
+    let ran = place.run("grammar --robot hsr --domain many.motet --request vllm");
+    assert!(ran.code == Some(0) && !ran.stderr.contains("OpenAI takes"), "{}", ran.stderr);
+    place.run("grammar --robot hsr --llguidance").check(2, &["err:give `--format lark` too"]);
 }
 
 /// A server that answers one request with a chat message; its address.
@@ -109,6 +113,11 @@ fn a_probe_tells_a_server_that_obeys_from_one_that_does_not() {
         ran.stdout,
         ran.stderr
     );
+    // What may still become the answer tells nothing.
+    let cut = r#"{"choices": [{"finish_reason": "length", "message": {"content": "{ \"prob"}}]}"#;
+    place
+        .run(&format!("grammar probe {} --dialect vllm", server("200 OK", cut)))
+        .check(2, &["err:broke its answer off at `{ \"prob`"]);
     let ran = place
         .run(&format!("grammar probe {}/v1", server("400 Bad Request", r#"{"error": "no such field"}"#)));
     assert_eq!((ran.code, ran.stderr.contains("no such field")), (Some(2), true), "{}", ran.stderr);

@@ -221,7 +221,7 @@ impl Mistake for NoDocument {
         "there is no policy in this text".into()
     }
     fn help(&self) -> Option<String> {
-        Some("a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`; declarations such as `fluent clean(what: Object)` may stand beside it or alone".into())
+        Some("a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`".into())
     }
 }
 

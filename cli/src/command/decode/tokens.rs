@@ -20,6 +20,9 @@ const SHOWN: usize = 32;
 pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Trouble> {
     let wrong = |error: motet_decode::VocabularyError| Trouble::Other(format!("`{name}`: {error}"));
     if let Some(encoding) = Encoding::named(name) {
+        if end.is_some() {
+            return Err(Trouble::Other(format!("`{name}` has an end of its own: `--end` is of a file")));
+        }
         return Vocabulary::of_encoding(encoding).map_err(wrong);
     }
     let end = match end {

@@ -27,6 +27,12 @@ pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
     let said = content(&answer)
         .ok_or_else(|| Trouble::Other(format!("`{url}` did not answer with a chat message")))?;
     let is_held = serde_json::from_str::<Value>(said.trim()).is_ok_and(|answer| answer == demanded);
+    if !is_held && is_cut(said, &demanded) {
+        return Err(Trouble::Other(format!(
+            "`{url}` broke its answer off at `{}`: whether it holds the model to the grammar cannot be told",
+            said.trim()
+        )));
+    }
     let mut out = Out::default();
     let exit = if is_held {
         out.line(&format!("{url}: the model is held to the grammar"));
@@ -39,6 +45,12 @@ pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
         Exit::Findings
     };
     crate::report::close(&mut out, Ok(exit))
+}
+
+/// Whether an answer is the beginning of what the grammar demands, and no more.
+fn is_cut(said: &str, demanded: &Value) -> bool {
+    let bare = |text: &str| text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>();
+    bare(&demanded.to_string()).starts_with(&bare(said))
 }
 
 fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, Trouble> {

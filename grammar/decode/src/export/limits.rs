@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::offer::Offer;
-use super::request::schema_of;
+use super::request::{Dialect, schema_of};
 
 /// The most properties of all objects together that OpenAI takes.
 const OPENAI_PROPERTIES: usize = 5_000;
@@ -16,10 +16,20 @@ const LLAMA_REPETITIONS: u32 = 2_000;
 /// A schema of this many bytes makes Ollama, which turns it into a grammar for each request, slow to answer.
 const OLLAMA_BYTES: usize = 64 * 1024;
 
-/// The limits that the grammars of an offer exceed, a sentence each.
+/// A limit that a grammar exceeds.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Warning {
+    /// Whose limit it is; none where it is everyone's.
+    pub server: Option<Dialect>,
+    /// What is too much, and how much of it.
+    pub text: String,
+}
+
+/// The limits that the grammars of an offer exceed.
 #[must_use]
-pub fn warnings(offer: &Offer) -> Vec<String> {
+pub fn warnings(offer: &Offer) -> Vec<Warning> {
     let mut found = Vec::new();
+    let mut warn = |server, text| found.push(Warning { server, text });
     if let Some(schema) = schema_of(offer) {
         let mut count = Count::default();
         count.value(&schema, 0);
@@ -30,24 +40,26 @@ pub fn warnings(offer: &Offer) -> Vec<String> {
         ];
         for (what, actual, most) in openai {
             if actual > most {
-                found.push(format!("the JSON Schema has {actual} {what}; OpenAI takes {most}"));
+                let text = format!("the JSON Schema has {actual} {what}; OpenAI takes {most}");
+                warn(Some(Dialect::OpenAi), text);
             }
         }
         let bytes = schema.to_string().len();
         if bytes > OLLAMA_BYTES {
             let (kib, most) = (bytes / 1024, OLLAMA_BYTES / 1024);
-            found.push(format!("the JSON Schema has {kib} KiB; above {most} KiB Ollama is slow to begin"));
+            let text = format!("the JSON Schema has {kib} KiB; above {most} KiB Ollama is slow to begin");
+            warn(Some(Dialect::Ollama), text);
         }
     }
     let grammar = super::grammar(offer);
     let most = grammar.rules.iter().map(|rule| repetitions(&rule.body)).max().unwrap_or(0);
     if most > LLAMA_REPETITIONS {
-        found
-            .push(format!("the grammar repeats something {most} times; llama.cpp takes {LLAMA_REPETITIONS}"));
+        let text = format!("the grammar repeats something {most} times; llama.cpp takes {LLAMA_REPETITIONS}");
+        warn(Some(Dialect::LlamaCpp), text);
     }
     let names: usize = offer.lists.iter().map(Vec::len).sum();
     if offer.surface.form == motet_syntax::Form::Text && names > super::offer::MAX_EXCLUDED {
-        found.push(format!("there are {names} entities: a name that the policy gives may be one of theirs"));
+        warn(None, format!("there are {names} entities: a name that the policy gives may be one of theirs"));
     }
     found
 }

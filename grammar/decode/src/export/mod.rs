@@ -27,7 +27,7 @@ mod word;
 
 pub use grammar::{Expr, Grammar, Rule, RuleId};
 pub use lark::Header;
-pub use limits::warnings;
+pub use limits::{Warning, warnings};
 pub use offer::Offer;
 pub use request::{
     Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
