@@ -205,6 +205,10 @@ fn help_says_what_to_write() {
         "if mug_1.colour < 1 m { say(\"x\") }",
         &["M0211: `Object` has no field `colour`; its fields are `width` and `mass`"],
     );
+    text(
+        "if counter.mass < 1 kg { say(\"x\") }",
+        &["M0211: `Surface` has no field `mass`; it is a field of `Object`; `Surface` has none"],
+    );
     let found = errors(
         r#"{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{"do": "turn", "by": "90 degrees"}]}"#,
     );

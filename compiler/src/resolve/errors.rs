@@ -128,11 +128,12 @@ motet_syntax::mistakes! {
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
     /// A field that the entity's kind does not have.
-    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }
+    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String, owners: String }
     message(m) { format!("{} has no field `{}`", m.of, m.name) }
     help(m) {
         write(m.near.as_ref()).or_else(|| {
-            Some(if m.known.is_empty() { "it has none".to_owned() } else { format!("its fields are {}", m.known) })
+            let own = if m.known.is_empty() { format!("{} has none", m.of) } else { format!("its fields are {}", m.known) };
+            Some(if m.owners.is_empty() { own } else { format!("it is a field of {}; {own}", m.owners) })
         })
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }

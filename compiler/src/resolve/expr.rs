@@ -220,8 +220,9 @@ impl<'a> Resolver<'a> {
         let Some(kind) = ty.kind() else {
             if ty.base != Base::Unknown {
                 let of = library.type_name(ty);
-                let known = String::new();
-                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near: None, known });
+                let (known, owners) = (String::new(), String::new());
+                let (span, name) = (name.span, name.text.clone());
+                self.say(UnknownField { span, name, of, near: None, known, owners });
             }
             return (Term::Unknown, Ty::UNKNOWN);
         };
@@ -229,15 +230,16 @@ impl<'a> Resolver<'a> {
             Some(ty) => (Term::Field(Box::new(term), name.text.clone()), ty),
             None => {
                 let robot = (term == Term::Entity(ROBOT)).then(|| library.numbers.keys());
-                let fields =
-                    library.kinds.iter().flat_map(|def| def.fields.keys()).chain(robot.into_iter().flatten());
+                let fields = library.fields_of(kind).chain(robot.into_iter().flatten());
                 let near = near(&name.text, fields.map(SmolStr::as_str));
+                let owners = library.kinds.iter().filter(|def| def.fields.contains_key(&name.text));
+                let owners = list(owners.map(|def| def.name.clone()));
                 let of = format_smolstr!("`{}`", library.type_name(ty)).to_string();
                 let known = match term {
                     Term::Entity(ROBOT) => list(library.numbers.keys().cloned()),
                     _ => list(library.fields_of(kind).cloned()),
                 };
-                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near, known });
+                self.say(UnknownField { span: name.span, name: name.text.clone(), of, near, known, owners });
                 (Term::Unknown, Ty::UNKNOWN)
             }
         }

@@ -85,13 +85,15 @@ pub(super) struct Table {
     patterns: usize,
     /// Patterns whose first argument is `any`.
     wide: Vec<Cell>,
+    /// The bits of the arguments that are `any` in some pattern that was ever there.
+    places: u64,
     /// What is known of the rest, where nothing lies below.
     pub(super) default: Value,
 }
 
 impl Table {
     pub(super) fn new(default: Value) -> Self {
-        Self { rows: Rows::One(Row::new()), patterns: 0, wide: Vec::new(), default }
+        Self { rows: Rows::One(Row::new()), patterns: 0, wide: Vec::new(), places: 0, default }
     }
 
     /// Whether nothing was written that is still there.
@@ -116,8 +118,19 @@ impl Table {
         self.entry(key).or_else(|| self.covering(key))
     }
 
+    /// Whether there is a pattern.
+    #[inline]
+    fn has_patterns(&self) -> bool {
+        self.patterns > 0 || !self.wide.is_empty()
+    }
+
     /// What the latest pattern says that covers a fact, whatever its own entry.
+    #[inline]
     pub(super) fn covering(&self, key: Key) -> Option<Value> {
+        if self.has_patterns() { self.latest_covering(key) } else { None }
+    }
+
+    fn latest_covering(&self, key: Key) -> Option<Value> {
         let mut latest: Option<&Cell> = None;
         let row = if self.patterns > 0 { self.row(key) } else { &[] };
         for cells in [row, &self.wide] {
@@ -150,7 +163,15 @@ impl Table {
     }
 
     /// Hands out what a pattern shares with each other pattern that crosses it.
-    pub(super) fn crossings(&self, pattern: Key, mut take: impl FnMut(Key)) {
+    #[inline]
+    pub(super) fn crossings(&self, pattern: Key, take: impl FnMut(Key)) {
+        // Only what is `any` in a place where this one is not.
+        if self.places & !pattern.any() != 0 {
+            self.each_crossing(pattern, take);
+        }
+    }
+
+    fn each_crossing(&self, pattern: Key, mut take: impl FnMut(Key)) {
         let any = pattern.any();
         let mut visit = |cells: &[Cell]| {
             // Most share nothing with it, or one covers the other: `any` in neither place alone tells.
@@ -171,6 +192,7 @@ impl Table {
 
     /// Writes the entry of a fact or a pattern, and returns the one that it replaces.
     pub(super) fn put(&mut self, cell: Cell) -> Option<Cell> {
+        self.places |= cell.key.any();
         match cell.key.head() {
             Some(head) => {
                 let old = self.rows.with_mut(head).and_then(|row| replace(row, cell));
