@@ -130,6 +130,7 @@ impl Watcher for Eyes<'_> {
             let is_newer = record.revision > self.revision;
             self.revision = record.revision;
             if let Some((text, graph)) = self.next.take_if(|_| is_newer) {
+                self.pace.iter_mut().for_each(|pace| pace.leave(now));
                 self.stage(&text, &graph);
             }
         }

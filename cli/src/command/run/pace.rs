@@ -61,6 +61,11 @@ impl Pace {
         effects.iter().for_each(|effect| self.view.past(now, effect));
     }
 
+    /// Another policy takes over, which is shown elsewhere.
+    pub(crate) fn leave(&mut self, now: Time) {
+        self.view.leave(now);
+    }
+
     /// Takes in what came of its policy after it was replaced.
     pub(crate) fn late(&mut self, now: Time, effect: &Effect) {
         self.view.late(now, effect);

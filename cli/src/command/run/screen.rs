@@ -111,6 +111,10 @@ impl View for Screen {
         }
     }
 
+    fn leave(&mut self, now: Time) {
+        self.draw(now);
+    }
+
     fn late(&mut self, _now: Time, _effect: &Effect) {
         // What stands above the other plan stays as it is.
     }

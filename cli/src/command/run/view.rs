@@ -24,6 +24,8 @@ pub(super) trait View {
     fn effect(&mut self, now: Time, effect: &Effect);
     /// An effect was carried out before the process began; a view that shows a state takes it in without a word.
     fn past(&mut self, now: Time, effect: &Effect);
+    /// Another policy takes over, which another view will show.
+    fn leave(&mut self, _now: Time) {}
     /// An effect came of a policy that was replaced: of this view's, beside which another one shows already.
     fn late(&mut self, now: Time, effect: &Effect) {
         self.effect(now, effect);
