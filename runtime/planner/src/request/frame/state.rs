@@ -42,7 +42,7 @@ pub(super) fn thing_before(
 
 /// What is wanted, and where the words for it that are still to be read begin.
 pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, usize)> {
-    let skipped = ["back", "all", "wide", "safely"];
+    let skipped = ["back", "all", "wide", "safely", "standing", "left", "kept", "properly"];
     let word = tokens.get(at)?.word();
     let at = if skipped.contains(&word) && tokens.get(at + 1).is_some() { at + 1 } else { at };
     let word = tokens.get(at)?.word();
