@@ -155,6 +155,7 @@ fn a_place_can_come_first_or_without_a_verb() {
             "Let's have the sponge on the counter from now on.",
             "Stick the sponge up on the counter where I can see it.",
             "Carry the sponge to the counter and set it on top.",
+            "I want the sponge kept on the counter.",
         ],
     );
     not_taken(&[

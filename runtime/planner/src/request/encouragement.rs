@@ -305,7 +305,7 @@ pub fn encourages(answer: &str) -> Option<String> {
             (0..clause.len()).any(|at| of(clause, at, AGAIN) || of(clause, at, AGREES)) && is_plain(clause);
         let is_denied = !is_beside
             && clause.iter().any(|token| DENIES.contains(&token.word()))
-            && !(is_agreed && !negates(clause));
+            && (!is_agreed || negates(clause));
         if is_denied {
             return None;
         }

@@ -234,7 +234,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let is_back = back.iter().any(|back| stands(tokens, at + by, back).is_some());
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
-            is_back && !begins_clause && sentence.windows(2).any(|two| is_state(two))
+            is_back && !begins_clause && sentence.windows(2).any(is_state)
         }
         _ => false,
     };
