@@ -33,6 +33,14 @@ pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &S
     let meaning = |said: &str| {
         if is_done(said) { Answer::NotUnderstood } else { meaning(said, problem, request, situation) }
     };
+    let retries = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
+    let about = Situation { spoken_of: spoken(problem, situation), ..situation.clone() };
+    if retries
+        && request::encourages(answer).is_some_and(|beside| request::named(&beside, situation).is_empty())
+        && request::told(answer, &about).is_empty()
+    {
+        return Answer::Again;
+    }
     match polarity(answer) {
         Polarity::Stop => Answer::GiveUp,
         // Who says no, and more that is not understood, still said no.

@@ -23,6 +23,11 @@ const YES: &[&str] = &[
     "yup",
     "sure",
     "of course",
+    "absolutely",
+    "definitely",
+    "by all means",
+    "sure thing",
+    "go for it",
     "certainly",
     "ok",
     "okay",
@@ -82,11 +87,10 @@ const STOP: &[&str] = &[
     "skip that",
     "neither",
     "none",
-    "nobody",
 ];
 /// These end it only where nothing else is said.
 const STOP_ALONE: &[&str] =
-    &["nothing", "nothing at all", "leave", "skip", "i'll do it myself", "i will do it myself"];
+    &["nothing", "nothing at all", "nobody", "leave", "skip", "i'll do it myself", "i will do it myself"];
 /// What a robot that moves is told so that it does not.
 const HOLD: &[&str] = &["wait", "hold on", "hold it", "freeze", "pause", "careful", "watch out", "look out"];
 /// Words for not knowing.

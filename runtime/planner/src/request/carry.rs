@@ -5,7 +5,7 @@ use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
 use super::Puzzle;
-use super::command::{Command, WANTED};
+use super::command::{BELONGS, Command, KEPT, WANTED};
 use super::errand::{all_of, any_of, hold_on, question};
 use super::meaning::{HOLDERS, OBJECTS, Reader};
 use super::noun::{Noun, Which};
@@ -41,7 +41,16 @@ impl Reader<'_> {
         for item in &items {
             let choices = self.choices(item, from.as_deref())?;
             for choice in choices {
+                // `the coke belongs in the fridge, put it back where it belongs`
+                if command.has(BELONGS) && matches!(target, Target::None) && self.has_its_place(&choice) {
+                    continue;
+                }
                 self.carry_one(act, &choice, &target, later)?;
+                if let Some(aim) =
+                    self.said.aims.last_mut().filter(|aim| command.has(KEPT) && aim.name.starts_with("put_"))
+                {
+                    aim.name = aim.name.replacen("put_", "keep_", 1);
+                }
             }
         }
         Ok(())
@@ -71,6 +80,8 @@ impl Reader<'_> {
             Act::Fetch if command.to_whom.is_some() => true,
             // `I want the mug on the table`
             Act::Fetch if command.has(WANTED) => false,
+            // `get it on the table`: who says `it` need not say which.
+            Act::Fetch if command.items.iter().all(|item| matches!(item, Noun::Before(_))) => false,
             Act::Fetch => !to.moves(),
             Act::Pick | Act::Lift => true,
             // `gather all toys in the basket` asks for something else than `take the mug on the table`.
@@ -173,6 +184,12 @@ impl Reader<'_> {
             || self.are_there(command, place)
     }
 
+    /// Whether it was said before where a thing shall be.
+    fn has_its_place(&self, choice: &[SmolStr]) -> bool {
+        let [thing] = choice else { return false };
+        self.said.aims.iter().any(|aim| aim.name == format!("keep_{thing}"))
+    }
+
     /// One thing, or any one of several.
     fn carry_one(
         &mut self,
@@ -184,6 +201,16 @@ impl Reader<'_> {
         let name = choice.first().cloned().unwrap_or_default();
         let any = |goal: &dyn Fn(&str) -> Expr| any_of(choice.iter().map(|id| goal(id)).collect());
         let user = SmolStr::new_static("user");
+        // Who wants a thing where it is taken to be already may know better: it is looked at.
+        if let (
+            Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
+            Target::To(to),
+            [thing],
+        ) = (act, target, choice)
+            && self.is_taken_to_be(thing, to)
+        {
+            self.look_at(thing);
+        }
         let (verb, goal, lasts) = match (act, target) {
             (Act::Discard, target) => {
                 let bin = match target {
@@ -215,6 +242,12 @@ impl Reader<'_> {
         self.said.spoken_of.extend(choice.iter().rev().cloned());
         self.aim(format!("{verb}_{name}"), goal, lasts);
         Ok(())
+    }
+
+    /// Whether a thing is believed to be somewhere already, and no part of the request takes it there.
+    fn is_taken_to_be(&self, thing: &SmolStr, place: &SmolStr) -> bool {
+        let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.as_ref());
+        support == Some(place) && self.situation.holding.as_ref() != Some(thing) && self.said.aims.is_empty()
     }
 
     /// What a thing is called.

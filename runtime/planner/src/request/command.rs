@@ -1,7 +1,8 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
-use super::lead::{contrasts, skip_leads, thanks};
+use super::lead::{contrasts, thanks};
 use super::noun::{Noun, noun};
+use super::remark::{beside, is_boundary};
 use super::spot::{Relation, Spot, is_way, located, spot, way};
 use super::token::{Token, stands};
 use super::verb::{Act, begins, is_want, verb};
@@ -27,122 +28,29 @@ pub(super) struct Command {
 /// Among what a verb goes with: it is done only where it is not so yet.
 pub(super) const ONLY_IF: &str = "only if";
 
+/// Among what a verb goes with: where it belongs, which was said or has to be.
+pub(super) const BELONGS: &str = "belongs";
+
+/// Among what a verb goes with: it shall stay there, since it belongs there.
+pub(super) const KEPT: &str = "kept";
+
 /// Among what a verb goes with: it is no verb, but somebody says that they want something.
 pub(super) const WANTED: &str = "wanted";
 
-/// What somebody says beside what they ask for.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct Statement {
-    /// The tokens.
-    pub(super) tokens: Vec<Token>,
-}
-
-/// What a request comes to.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Spoken {
-    pub(super) commands: Vec<Command>,
-    pub(super) statements: Vec<Statement>,
-}
-
-/// Reads a request. An error is the part that is not understood.
-pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
-    let mut spoken = Spoken::default();
-    let mut at = 0;
-    while at < tokens.len() {
-        if matches!(tokens.get(at), Some(Token::Stop | Token::Comma)) {
-            at += 1;
-            continue;
-        }
-        let begin = skip_leads(tokens, at);
-        if begin >= tokens.len() || matches!(tokens.get(begin), Some(Token::Stop)) {
-            at = begin + 1;
-            continue;
-        }
-        let word = tokens.get(begin).map_or("", Token::word);
-        if let Some(count) = thanks(tokens, begin) {
-            at = begin + count;
-            continue;
-        }
-        if matches!(word, "not" | "never")
-            || contrasts(tokens, begin)
-            || stands(tokens, begin, "do not").is_some()
-        {
-            return Err(words(tokens, begin, tokens.len()));
-        }
-        if verb(tokens, begin).is_some() {
-            at = command(tokens, begin, &mut spoken.commands)?;
-            continue;
-        }
-        let end = statement_end(tokens, begin);
-        if !is_statement(tokens, begin) {
-            return Err(words(tokens, begin, end));
-        }
-        let said = tokens.get(begin..end).unwrap_or_default().to_vec();
-        spoken.statements.push(Statement { tokens: said });
-        at = end;
-    }
-    Ok(spoken)
-}
-
-/// A statement goes on to the end of its sentence, or to a comma or an `and` behind which something is asked for.
-fn statement_end(tokens: &[Token], begin: usize) -> usize {
-    let mut at = begin;
-    while let Some(token) = tokens.get(at) {
-        let is_joint = matches!(token, Token::Comma) || matches!(token.word(), "and" | "so" | "but");
-        if matches!(token, Token::Stop) || (at > begin && is_joint && begins(tokens, at + 1)) {
-            break;
-        }
-        at += 1;
-    }
-    at
-}
-
-/// A statement has a subject before its verb; anything else that is no command is not understood.
-fn is_statement(tokens: &[Token], begin: usize) -> bool {
-    let word = tokens.get(begin).map_or("", Token::word);
-    let is_subject = matches!(
-        word,
-        "i" | "we"
-            | "my"
-            | "our"
-            | "there"
-            | "it"
-            | "the"
-            | "this"
-            | "that"
-            | "he"
-            | "she"
-            | "they"
-            | "someone"
-            | "somebody"
-            | "a"
-            | "an"
-            | "some"
-            | "these"
-            | "those"
-            | "its"
-            | "in"
-            | "on"
-            | "inside"
-            | "at"
-    );
-    let is_short = tokens.get(begin + 1).is_none();
-    let asks_where =
-        matches!(word, "where") && matches!(tokens.get(begin + 1).map_or("", Token::word), "is" | "are");
-    (is_subject || asks_where) && !is_short
-}
-
-fn words(tokens: &[Token], begin: usize, end: usize) -> String {
+pub(super) fn words(tokens: &[Token], begin: usize, end: usize) -> String {
     let words: Vec<_> = tokens.get(begin..end).unwrap_or_default().iter().map(Token::word).collect();
     words.join(" ").trim().to_owned()
 }
 
 /// Reads one command, or several that share a verb; where the next thing begins.
-fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
+pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
     let mut now = Command::new(act);
     if is_want(tokens, begin) {
         now.with.push(WANTED.to_owned());
+    }
+    if stands(tokens, begin, "keep").is_some() {
+        now.with.push(KEPT.to_owned());
     }
     loop {
         match tokens.get(at) {
@@ -178,9 +86,20 @@ fn skip_and(tokens: &[Token], mut at: usize) -> usize {
     at
 }
 
+/// Behind a noun these begin what is told of it.
+const PREDICATES: &[&str] = &[
+    "is", "are", "was", "were", "has", "have", "had", "will", "would", "should", "does", "did", "looks",
+    "seems", "needs",
+];
+
 /// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a command of its own.
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
-    let another = noun(tokens, at).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_) | Noun::Before(_)));
+    // `… and do not let go`, `…, it is hot`: a clause of its own.
+    let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.contains(&token.word()));
+    let is_clause = ["do not", "never", "not"].iter().any(|not| stands(tokens, at, not).is_some());
+    let another = noun(tokens, at).is_some_and(|(noun, after)| {
+        matches!(noun, Noun::Phrase(_) | Noun::Before(_)) && !is(after) && !is_clause
+    });
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
     if !(another || is_place) {
@@ -215,7 +134,43 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     if contrasts(tokens, at) {
         return Err(lost());
     }
+    // `because I am thirsty`, and how long it is held
+    if let Some(end) = beside(tokens, at, now.act) {
+        return Ok(end);
+    }
     let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
+    // `carry it to the table and set it on top`
+    if let Some(count) = ["on top", "on it", "up there", "over there", "right there"]
+        .iter()
+        .find_map(|words| stands(tokens, at, words))
+        && is_boundary(tokens, at + count)
+        && !now.items.is_empty()
+    {
+        // Of what is not put anywhere it tells where it is.
+        if !matches!(
+            now.act,
+            Act::Fetch | Act::Pick | Act::Lift | Act::Open | Act::Close | Act::Discard | Act::Find
+        ) {
+            now.to.get_or_insert(there("", Relation::To, Noun::There));
+        }
+        return Ok(at + count);
+    }
+    // `get it out of my sight`
+    if let Some(count) = [
+        "out of my sight",
+        "out of my way",
+        "out of the way",
+        "out of my face",
+        "out of here",
+        "off my hands",
+    ]
+    .iter()
+    .find_map(|words| stands(tokens, at, words))
+        && matches!(now.act, Act::Fetch | Act::Take | Act::Put | Act::Move)
+    {
+        now.act = Act::Stow;
+        return Ok(at + count);
+    }
     if let Some(count) = ["from off", "from on top of", "from inside", "from", "off of", "off", "out of"]
         .iter()
         .filter_map(|words| stands(tokens, at, words))
@@ -281,6 +236,21 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
             now.to_whom.get_or_insert(whom);
         }
         return Ok(after);
+    }
+    // `put it back where it belongs`
+    if let Some(count) = [
+        "to where it belongs",
+        "where it belongs",
+        "to where it goes",
+        "where it goes",
+        "where it lives",
+        "in its place",
+    ]
+    .iter()
+    .find_map(|words| stands(tokens, at, words))
+    {
+        now.with.extend(["back".to_owned(), BELONGS.to_owned()]);
+        return Ok(at + count);
     }
     // `open it and put the mug inside`
     if word == "inside" {

@@ -125,12 +125,17 @@ impl Reader<'_> {
         let found = self.things(item, OBJECTS, from.as_deref())?;
         for thing in found {
             if later.is_empty() {
-                self.go_and_look(&thing);
-                self.aim(format!("find_{thing}"), fact("visible", &[&thing]), Lasts::Once);
+                self.look_at(&thing);
             }
             self.said.spoken_of.push(thing);
         }
         Ok(())
+    }
+
+    /// A thing is looked for where it is taken to be, until it is seen.
+    pub(super) fn look_at(&mut self, thing: &SmolStr) {
+        self.go_and_look(thing);
+        self.aim(format!("find_{thing}"), fact("visible", &[thing]), Lasts::Once);
     }
 
     /// To find a thing is to go to where it is taken to be, and to open what it is shut in.
@@ -170,6 +175,12 @@ impl Command {
     /// The verb with its small words.
     pub(super) fn act(&self) -> Act {
         match self.act {
+            // `keep it in your hand`
+            Act::Put | Act::Fetch if self.has("hand") && self.to.is_none() && self.to_whom.is_none() => {
+                Act::Pick
+            }
+            // `stand the bottle on the table`
+            Act::Go if !self.items.is_empty() && self.to.is_some() => Act::Put,
             Act::Put if self.has("away") || (self.has("back") && self.to.is_none()) => Act::Stow,
             Act::Put if self.has("down") && self.to.is_none() => Act::Release,
             Act::Take if self.has("out") && self.from.is_none() && self.to.is_none() => Act::Pick,

@@ -29,6 +29,35 @@ const PARTICIPLES: &[(&str, &str)] = &[
     ("slid", "slide"),
 ];
 
+/// Pasts that are neither made by a rule nor participles.
+const PASTS: &[(&str, &str)] = &[
+    ("took", "take"),
+    ("threw", "throw"),
+    ("gave", "give"),
+    ("hid", "hide"),
+    ("got", "get"),
+    ("went", "go"),
+    ("came", "come"),
+    ("drove", "drive"),
+    ("ran", "run"),
+    ("stood", "stand"),
+    ("sent", "send"),
+    ("set", "set"),
+    ("put", "put"),
+    ("shut", "shut"),
+    ("let", "let"),
+    ("made", "make"),
+    ("hung", "hang"),
+];
+
+/// The verb of a request of which a word is the past: `if you took it`.
+pub(super) fn of_past(word: &str) -> Option<String> {
+    if let Some((_, verb)) = PASTS.iter().find(|(known, _)| *known == word) {
+        return Some((*verb).to_owned());
+    }
+    base(word).filter(|(_, form)| *form == Form::Participle).map(|(verb, _)| verb)
+}
+
 /// A verb of a request by one of its forms.
 pub(super) fn base(word: &str) -> Option<(String, Form)> {
     if let Some((_, verb)) = PARTICIPLES.iter().find(|(known, _)| *known == word) {

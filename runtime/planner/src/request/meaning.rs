@@ -4,8 +4,9 @@ use motet_compiler::plan::{Goal, Lasts};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
-use super::command::{Command, Spoken};
+use super::command::Command;
 use super::noun::{Noun, Phrase};
+use super::spoken::Spoken;
 use super::token::Token;
 use super::verb::Act;
 use super::vocabulary::{Role, Vocabulary};
@@ -102,7 +103,11 @@ impl Command {
 
     /// `get the mug and leave it on the table`: getting it is taking it, where nobody is named who gets it.
     fn only_takes(&mut self) {
-        if matches!(self.act(), Act::Fetch | Act::Take) && self.to.is_none() && self.to_whom.is_none() {
+        // `get it out of my sight, put it in the drawer`
+        if matches!(self.act(), Act::Fetch | Act::Take | Act::Stow)
+            && self.to.is_none()
+            && self.to_whom.is_none()
+        {
             self.act = Act::Pick;
         }
     }

@@ -5,6 +5,7 @@
 mod carry;
 mod clash;
 mod command;
+mod encouragement;
 mod errand;
 mod frame;
 mod inflection;
@@ -12,11 +13,15 @@ mod knowledge;
 mod lead;
 mod meaning;
 mod noun;
+mod opening;
 mod pick;
 mod puzzle;
 mod reference;
+mod remark;
+mod spoken;
 mod spot;
 mod statement;
+mod telling;
 mod token;
 mod verb;
 mod vocabulary;
@@ -25,6 +30,7 @@ mod whereabouts;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
+pub use encouragement::encourages;
 pub use meaning::Understood;
 pub use pick::{called, choose, named, pick};
 pub use puzzle::Puzzle;
@@ -71,7 +77,7 @@ pub fn told(answer: &str, situation: &Situation<'_>) -> Vec<Located> {
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
-    meaning::told(&token::tokens(answer), situation)
+    meaning::told(&frame::without_courtesy(&token::tokens(answer)), situation)
 }
 
 /// Whether an answer is a bare noun, such as completes a request: "the cupboard", "the red one, please".
@@ -96,6 +102,6 @@ pub fn understand(request: &str, situation: &Situation<'_>) -> Result<Understood
         return Err(Puzzle::Unfit { why });
     }
     let tokens = frame::plain(&token::tokens(request));
-    let spoken = command::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
+    let spoken = spoken::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)
 }

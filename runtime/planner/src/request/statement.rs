@@ -3,9 +3,9 @@
 use smol_str::SmolStr;
 
 use super::Located;
-use super::command::{Spoken, Statement};
 use super::meaning::{ANYWHERE, OBJECTS, Reader};
 use super::noun::{Noun, Phrase, Which, noun};
+use super::spoken::{Spoken, Statement};
 use super::spot::spot;
 use super::token::{Token, stands};
 use super::vocabulary::Role;

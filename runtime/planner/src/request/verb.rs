@@ -79,6 +79,36 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("make your way", Act::Go),
     ("position yourself", Act::Go),
     ("move yourself", Act::Go),
+    ("nip", Act::Go),
+    ("nip over", Act::Go),
+    ("pop over", Act::Go),
+    ("pop across", Act::Go),
+    ("pop along", Act::Go),
+    ("pop round", Act::Go),
+    ("hop", Act::Go),
+    ("hop over", Act::Go),
+    ("scoot", Act::Go),
+    ("trot", Act::Go),
+    ("dash", Act::Go),
+    ("zip", Act::Go),
+    ("scurry", Act::Go),
+    ("stroll", Act::Go),
+    ("toddle", Act::Go),
+    ("trundle", Act::Go),
+    ("waddle", Act::Go),
+    ("march", Act::Go),
+    ("swing by", Act::Go),
+    ("make for", Act::Go),
+    ("make a beeline for", Act::Go),
+    ("make tracks for", Act::Go),
+    ("set off", Act::Go),
+    ("report", Act::Go),
+    ("relocate yourself", Act::Go),
+    ("work your way", Act::Go),
+    ("take up position", Act::Go),
+    ("take your place", Act::Go),
+    ("see me", Act::Go),
+    ("remain", Act::Go),
     ("come", Act::Come),
     ("move", Act::Move),
     ("bring", Act::Fetch),
@@ -94,7 +124,46 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("serve", Act::Fetch),
     ("find me", Act::Fetch),
     ("retrieve", Act::Fetch),
+    ("send", Act::Fetch),
+    ("send over", Act::Fetch),
+    ("bring along", Act::Fetch),
+    ("bring over", Act::Fetch),
+    ("reach me", Act::Fetch),
+    ("come back with", Act::Fetch),
+    ("be back with", Act::Fetch),
+    ("return with", Act::Fetch),
     ("carry", Act::Take),
+    ("haul", Act::Take),
+    ("lug", Act::Take),
+    ("cart", Act::Take),
+    ("nab", Act::Take),
+    ("snatch", Act::Take),
+    ("snag", Act::Take),
+    ("scoop up", Act::Pick),
+    ("snatch up", Act::Pick),
+    ("gather up", Act::Pick),
+    ("get a grip on", Act::Pick),
+    ("get a grip of", Act::Pick),
+    ("get a hold of", Act::Pick),
+    ("get a good hold of", Act::Pick),
+    ("get a good grip on", Act::Pick),
+    ("get your hands on", Act::Pick),
+    ("lay your hands on", Act::Pick),
+    ("take a hold of", Act::Pick),
+    ("catch hold of", Act::Pick),
+    ("grab a hold of", Act::Pick),
+    ("keep a hold of", Act::Pick),
+    ("keep a grip on", Act::Pick),
+    ("keep a tight grip on", Act::Pick),
+    ("hold onto", Act::Pick),
+    ("hang onto", Act::Pick),
+    ("cling to", Act::Pick),
+    ("hold up", Act::Pick),
+    ("keep holding", Act::Pick),
+    ("keep holding on to", Act::Pick),
+    ("keep holding onto", Act::Pick),
+    ("keep carrying", Act::Pick),
+    ("hoist", Act::Lift),
     ("take", Act::Take),
     ("take hold of", Act::Pick),
     ("grab", Act::Take),
@@ -138,6 +207,30 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("shove", Act::Put),
     ("dump", Act::Put),
     ("plonk", Act::Put),
+    ("plonk down", Act::Put),
+    ("plop", Act::Put),
+    ("plunk", Act::Put),
+    ("bung", Act::Put),
+    ("whack", Act::Put),
+    ("slap", Act::Put),
+    ("settle", Act::Put),
+    ("install", Act::Put),
+    ("lodge", Act::Put),
+    ("nestle", Act::Put),
+    ("load", Act::Put),
+    ("squeeze", Act::Put),
+    ("sit", Act::Put),
+    ("ditch", Act::Discard),
+    ("scrap", Act::Discard),
+    ("junk", Act::Discard),
+    ("get shot of", Act::Discard),
+    ("do away with", Act::Discard),
+    ("fling out", Act::Discard),
+    ("sling out", Act::Discard),
+    ("fling", Act::Throw),
+    ("sling", Act::Throw),
+    ("lob", Act::Throw),
+    ("pitch", Act::Throw),
     ("locate", Act::Find),
     ("find", Act::Find),
     ("look for", Act::Find),
@@ -175,7 +268,24 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("pull open", Act::Open),
     ("close", Act::Close),
     ("shut", Act::Close),
+    ("crack open", Act::Open),
+    ("throw open", Act::Open),
+    ("fling open", Act::Open),
+    ("swing open", Act::Open),
+    ("slide open", Act::Open),
+    ("pop open", Act::Open),
+    ("prop open", Act::Open),
+    ("unlatch", Act::Open),
     ("close up", Act::Close),
+    ("push shut", Act::Close),
+    ("push to", Act::Close),
+    ("pull shut", Act::Close),
+    ("pull closed", Act::Close),
+    ("swing shut", Act::Close),
+    ("slide shut", Act::Close),
+    ("slam", Act::Close),
+    ("slam shut", Act::Close),
+    ("seal", Act::Close),
     ("push closed", Act::Close),
 ];
 
@@ -187,14 +297,57 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     {
         return None;
     }
+    // `take care of it` says nothing of what to do with it.
+    if [
+        "take care",
+        "take a look",
+        "hold on a",
+        "set about",
+        "get ready",
+        "come to think",
+        "run out",
+        "pass by",
+    ]
+    .iter()
+    .any(|words| stands(tokens, at, words).is_some())
+    {
+        return None;
+    }
     let wants = WANTS.iter().filter_map(|want| Some((Act::Fetch, at + stands(tokens, at, want)?)));
+    let wants = wants.filter(|(_, after)| !is_no_thing(tokens, *after));
     let verbs = VERBS.iter().filter_map(|(verb, act)| Some((*act, at + stands(tokens, at, verb)?)));
     verbs.chain(wants).max_by_key(|(_, after)| *after)
 }
 
+/// What somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your help`.
+fn is_no_thing(tokens: &[Token], at: usize) -> bool {
+    let whose = matches!(tokens.get(at).map_or("", Token::word), "your" | "some" | "a" | "more" | "any");
+    let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
+    tokens.get(at).is_some_and(|token| token.word() == "to")
+        || matches!(
+            what,
+            "help"
+                | "hand"
+                | "look"
+                | "chat"
+                | "peek"
+                | "think"
+                | "seat"
+                | "assistance"
+                | "advice"
+                | "favor"
+                | "favour"
+                | "word"
+                | "break"
+                | "rest"
+                | "room"
+                | "space"
+        )
+}
+
 /// Whether it is a wish that stands here, and no verb.
 pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
-    WANTS.iter().any(|want| stands(tokens, at, want).is_some())
+    WANTS.iter().any(|want| stands(tokens, at, want).is_some_and(|count| !is_no_thing(tokens, at + count)))
 }
 
 /// Whether a request begins here, after what politeness puts before it.

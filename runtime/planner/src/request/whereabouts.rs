@@ -8,6 +8,7 @@ use super::Located;
 use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
+use super::telling::{BEFORE, BEHIND, DENIES, HAS, HOW, IS, LOOK, PUT, WHO};
 use super::token::{Token, stands};
 use super::vocabulary::Role;
 
@@ -17,197 +18,6 @@ pub(super) enum Clause {
     Answer,
     Statement,
 }
-
-/// What stands before such a clause and takes nothing from it.
-const BEFORE: &[&str] = &[
-    "maybe",
-    "perhaps",
-    "probably",
-    "possibly",
-    "i think",
-    "i guess",
-    "i believe",
-    "i suppose",
-    "i would say",
-    "i am sure",
-    "i am pretty sure",
-    "i am quite sure",
-    "as far as i know",
-    "well",
-    "oh",
-    "ah",
-    "sorry",
-    "no",
-    "yes",
-    "yeah",
-    "ok",
-    "okay",
-    "please",
-    "then",
-    "and",
-    "or",
-    "so",
-    "that",
-    "actually",
-    "you could",
-    "you can",
-    "you should",
-    "you might",
-    "now",
-    "first",
-    "it was",
-    "either",
-];
-/// What stands behind it.
-const BEHIND: &[&str] = &[
-    "i think",
-    "i guess",
-    "i believe",
-    "i suppose",
-    "probably",
-    "maybe",
-    "perhaps",
-    "now",
-    "right now",
-    "yesterday",
-    "today",
-    "earlier",
-    "this morning",
-    "this afternoon",
-    "last night",
-    "again",
-    "please",
-    "somewhere",
-    "there",
-    "already",
-    "instead",
-    "first",
-    "for you",
-    "before",
-    "a while ago",
-    "just now",
-    "recently",
-    "i am sure",
-    "as usual",
-    "next",
-    "too",
-    "as well",
-    "then",
-    "last time",
-];
-/// What stands between a thing and where it is.
-const IS: &[&str] = &[
-    "is",
-    "are",
-    "was",
-    "were",
-    "must be",
-    "should be",
-    "might be",
-    "may be",
-    "could be",
-    "can be",
-    "has to be",
-    "will be",
-    "would be",
-    "ought to be",
-    "should still be",
-    "lies",
-    "stands",
-    "sits",
-    "is lying",
-    "is standing",
-    "is sitting",
-    "was put",
-    "was left",
-    "was moved",
-    "has been moved",
-    "has been put",
-    "got moved",
-    "is kept",
-    "is stored",
-    "can be found",
-    "should be found",
-    "went",
-];
-/// Behind these and before the place.
-const HOW: &[&str] = &[
-    "now",
-    "probably",
-    "maybe",
-    "perhaps",
-    "likely",
-    "still",
-    "actually",
-    "right",
-    "usually",
-    "back",
-    "over",
-    "somewhere",
-    "again",
-    "over there",
-    "there",
-];
-/// Where to look. Of an answer only: else it asks for something.
-const LOOK: &[&str] = &[
-    "look",
-    "look again",
-    "have a look",
-    "take a look",
-    "try",
-    "try looking",
-    "try to look",
-    "check",
-    "search",
-    "see",
-    "go and look",
-    "go look",
-    "look first",
-    "find it",
-];
-/// Who has put or seen it.
-const WHO: &[&str] = &["i", "we", "you", "he", "she", "they", "someone", "somebody", "my", "our", "people"];
-/// Between them and that: nothing that is still to come, but that it will be found.
-const HAS: &[&str] = &[
-    "have",
-    "has",
-    "had",
-    "just",
-    "must have",
-    "might have",
-    "may have",
-    "could have",
-    "probably",
-    "already",
-    "also",
-    "think i",
-    "will",
-];
-/// What they have done with it.
-const PUT: &[&str] = &[
-    "put", "left", "placed", "stored", "moved", "saw", "seen", "dropped", "kept", "keep", "laid", "set",
-    "took", "taken", "brought", "stuck", "hid", "hidden", "stowed", "found", "find", "leave", "see",
-];
-/// Words of a clause that takes back or restricts what it says.
-const DENIES: &[&str] = &[
-    "not",
-    "never",
-    "nothing",
-    "nowhere",
-    "none",
-    "neither",
-    "nor",
-    "but",
-    "except",
-    "unless",
-    "if",
-    "without",
-    "anywhere",
-    "instead of",
-    "empty",
-    "gone",
-    "whether",
-];
 
 impl Reader<'_> {
     /// What an answer says of where things are. Of the same thing more than one place is where to look first, then next.
@@ -231,8 +41,15 @@ impl Reader<'_> {
 
     /// What one clause says of where something is; nothing where it says something else.
     pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<Located> {
-        let begin = skip(tokens, 0, BEFORE);
-        if denies(tokens) || begin >= tokens.len() {
+        let begin = reported(tokens, skip(tokens, 0, BEFORE), clause);
+        // `is it not in the fridge?` proposes it.
+        let proposes = clause == Clause::Answer
+            && stands_any(tokens, begin, LOOK)
+                .is_some_and(|count| !denies(tokens.get(begin + count..).unwrap_or_default()));
+        // Who says beside a request where something is kept as a rule does not say that it is there.
+        let is_habit = clause == Clause::Statement
+            && tokens.iter().any(|token| matches!(token.word(), "always" | "usually" | "normally"));
+        if is_habit || (denies(tokens) && !proposes) || begin >= tokens.len() {
             return Vec::new();
         }
         let Some((thing, spots)) = said(tokens, begin, clause) else { return Vec::new() };
@@ -275,6 +92,10 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
         // `look for it in the cupboard`
         let for_it = stands(tokens, at + count, "for it").unwrap_or(0);
         return Some((it(), spots(tokens, at + count + for_it, true)?));
+    }
+    // `should be in the fridge`
+    if let (true, Some(count)) = (is_answer, stands_any(tokens, at, IS)) {
+        return Some((it(), spots(tokens, skip(tokens, at + count, HOW), false)?));
     }
     // `there is a can in the fridge`
     let there = ["there is", "there should be", "there might be", "there must be", "there was"];
@@ -320,7 +141,8 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
         let (spot, after) = spot(tokens, at).or_else(|| way(tokens, at)).or_else(bare)?;
         spots.push(spot);
         at = skip(whole, after, BEHIND);
-        if at >= whole.len() {
+        let goes_on = ["when", "while", "because", "since", "where", "so"];
+        if at >= whole.len() || (at > 0 && stands_any(whole, at, &goes_on).is_some()) {
             return Some(spots);
         }
         at += stands_any(whole, at, NEXT)?;
@@ -341,6 +163,25 @@ fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
         at += count;
     }
     at
+}
+
+/// `my wife tells me it is …`: where what somebody else knows begins.
+fn reported(tokens: &[Token], at: usize, clause: Clause) -> usize {
+    let says = [
+        "says",
+        "said",
+        "thinks",
+        "tells me",
+        "told me",
+        "reckons",
+        "swears",
+        "is sure",
+        "told us",
+        "mentioned",
+    ];
+    let is_said = |end: usize| stands_any(tokens, end, &says).map(|count| skip(tokens, end + count, BEFORE));
+    let found = (at + 1..=at + 2).find_map(is_said);
+    found.filter(|_| clause == Clause::Answer).unwrap_or(at)
 }
 
 fn is_one_of(tokens: &[Token], at: usize, words: &[&str]) -> bool {

@@ -43,27 +43,59 @@ const TROUBLES: &[&[Kind]] = &[
     &[Kind::AmbiguousTask, Kind::NotReachable],
 ];
 
-/// How a person says where a thing is; `{at}` is the place with its preposition.
+/// What a person says beside the task, where a file does not tell: where a thing is, `{at}` being the place with its
+/// preposition, that it shall be tried again, yes, and that something shall be done with `{thing}`.
 const WHERE: &[&str] =
     &["It is {at}.", "I put it {at}.", "Look {at}.", "It should be {at}, I think.", "{at}"];
 const AGAIN: &[&str] = &["Please try again.", "Try once more.", "yes, try again", "Again, please."];
 const YES: &[&str] = &["Yes.", "yes please", "Please try again.", "sure"];
+const VAGUE: &[&str] = &["Do something about {thing}."];
 
-/// All cases of a wordings file, in order. The wordings with a failure are every third.
+/// What a person says beside the task.
+struct Sayings<'w> {
+    places: Vec<&'w str>,
+    again: Vec<&'w str>,
+    yes: Vec<&'w str>,
+    vague: Vec<&'w str>,
+}
+
+impl<'w> Sayings<'w> {
+    /// Those of a file's lines; where it has none of a kind, the ones above.
+    fn of(lines: &[(&str, &'w str)]) -> Self {
+        let of = |name: &str, or: &[&'static str]| {
+            let own: Vec<&'w str> =
+                lines.iter().filter(|(known, _)| *known == name).map(|(_, said)| *said).collect();
+            if own.is_empty() { or.to_vec() } else { own }
+        };
+        Self {
+            places: of("where", WHERE),
+            again: of("again", AGAIN),
+            yes: of("yes", YES),
+            vague: of("vague", VAGUE),
+        }
+    }
+}
+
+/// All cases of a wordings file, in order: each wording without a failure, and with one of the troubles in turn. A file may
+/// have answers beside the tasks: `where`, `again`, `yes`, and requests that do not say what to do: `vague`.
 #[must_use]
 pub fn cases(wordings: &str) -> Vec<Case> {
     let lines = wordings.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let lines: Vec<(&str, &str)> = lines
+        .filter_map(|line| line.split_once(':').map(|(name, said)| (name.trim(), said.trim())))
+        .collect();
+    let sayings = Sayings::of(&lines);
+    let tasks = lines.iter().filter(|(name, _)| !matches!(*name, "where" | "again" | "yes" | "vague"));
     let mut cases = Vec::new();
-    for (index, line) in lines.enumerate() {
-        let Some((task, wording)) = line.split_once(':') else { continue };
+    for (index, (task, wording)) in tasks.enumerate() {
         for (number, robot) in ["hsr", "anymal_z1"].into_iter().enumerate() {
             for room in ROOMS {
                 let turn = index + number;
-                cases.extend(case(robot, room, task.trim(), wording.trim(), turn, &[]));
-                let carries = !matches!(task.trim(), "go" | "open" | "close");
+                cases.extend(case((robot, room), (task, wording), turn, &[], &sayings));
+                let carries = !matches!(*task, "go" | "open" | "close");
                 if carries {
                     let trouble = TROUBLES.get(1 + turn % (TROUBLES.len() - 1)).copied().unwrap_or_default();
-                    cases.extend(case(robot, room, task.trim(), wording.trim(), turn, trouble));
+                    cases.extend(case((robot, room), (task, wording), turn, trouble, &sayings));
                 }
             }
         }
@@ -75,7 +107,15 @@ fn pick<T: Copy>(from: &[T], turn: usize) -> Option<T> {
     from.get(turn % from.len().max(1)).copied()
 }
 
-fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failures: &[Kind]) -> Option<Case> {
+fn case(
+    (robot, room): (&str, &Room),
+    (task, wording): (&str, &str),
+    turn: usize,
+    failures: &[Kind],
+    sayings: &Sayings<'_>,
+) -> Option<Case> {
+    // The trouble comes round with the turn: what is said then has to go on from one round to the next.
+    let said = |from: &[&str]| pick(from, turn + turn / (TROUBLES.len() - 1)).map(str::to_owned);
     let mut thing: Named = pick(room.things, turn)?;
     let mut answers = Vec::new();
     if failures.contains(&Kind::AmbiguousReference) {
@@ -106,7 +146,7 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
     if failures.contains(&Kind::AmbiguousTask) {
         // Something shall be done with the thing, and it is not said what; the answer is the wording.
         answers.push((Kind::AmbiguousTask, request));
-        request = format!("Do something about {}.", thing.1);
+        request = said(&sayings.vague)?.replace("{thing}", thing.1);
     }
     let mut hidden = None;
     if failures.contains(&Kind::NotFound) {
@@ -121,14 +161,14 @@ fn case(robot: &str, room: &Room, task: &str, wording: &str, turn: usize, failur
             ),
         };
         let at = format!("{fluent} {}", spot.1);
-        answers.push((Kind::NotFound, pick(WHERE, turn)?.replace("{at}", &at)));
+        answers.push((Kind::NotFound, said(&sayings.places)?.replace("{at}", &at)));
         hidden = Some((fluent, spot.0.to_owned()));
     }
     if failures.contains(&Kind::NotReachable) {
-        answers.push((Kind::NotReachable, pick(AGAIN, turn)?.to_owned()));
+        answers.push((Kind::NotReachable, said(&sayings.again)?));
     }
     if failures.contains(&Kind::ActionFailed) {
-        answers.push((Kind::ActionFailed, pick(YES, turn)?.to_owned()));
+        answers.push((Kind::ActionFailed, said(&sayings.yes)?));
     }
     Some(Case {
         robot: robot.to_owned(),
@@ -187,7 +227,8 @@ impl Case {
     }
 
     /// What the person answers.
-    pub(super) fn answers(&self) -> Vec<(Kind, String)> {
+    #[must_use]
+    pub fn answers(&self) -> Vec<(Kind, String)> {
         self.answers.clone()
     }
 }

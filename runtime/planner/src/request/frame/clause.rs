@@ -1,6 +1,7 @@
 //! Clauses that ask without an imperative: predicates, wishes, causatives, and what stands before its verb.
 
 use super::ONLY_IF_SO;
+use super::placed::{sent, with_it};
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
 use crate::request::lead::skip_leads;
@@ -42,7 +43,18 @@ const SHALL: &[&str] = &[
     "could be",
     "may go",
     "might go",
+    "is meant to be",
+    "is meant to go",
+    "is to go",
+    "ought to end up",
+    "needs to end up",
+    "has to end up",
+    "would be better off",
+    "is better off",
+    "stays",
 ];
+/// Behind this only `open` and `closed` ask for something: `it stays on the table` tells where it is.
+const STAYS: &str = "stays";
 /// The same as a question: between the auxiliary and the state stands the thing.
 const SHALL_IT: &[&str] = &["be", "go", "get", "stay", "end up"];
 const WANT: &[&str] = &[
@@ -56,6 +68,10 @@ const WANT: &[&str] = &[
     "we want",
     "we need",
     "we would like",
+    "i would want",
+    "i would need",
+    "i still want",
+    "let us have",
 ];
 const DO_NOT_WANT: &[&str] =
     &["i do not want", "we do not want", "i would not like", "do not leave", "do not keep", "never leave"];
@@ -85,9 +101,23 @@ const IS: &[&str] = &[
     "is put",
     "is left",
     "is placed",
+    "ended up",
+    "was",
+    "were",
+    "went",
+    "got",
+    "stayed",
+    "could be",
+    "would be",
+    "could go",
+    "was put",
+    "were put",
 ];
 /// Verbs that bring about a state: `get the fridge open`.
-const CAUSE: &[&str] = &["get", "have", "leave", "keep", "make", "pull", "push", "swing", "slide", "set"];
+const CAUSE: &[&str] = &[
+    "get", "have", "leave", "keep", "make", "pull", "push", "swing", "slide", "set", "crack", "prop", "pop",
+    "throw", "fling", "slam", "ease", "nudge", "yank", "shove", "bump", "press", "roll", "tug",
+];
 
 /// One clause said plainly, and where what follows it begins.
 pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> Option<(Vec<Token>, usize)> {
@@ -100,6 +130,8 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
         .or_else(|| cause(tokens_here, begin))
         .or_else(|| self_moved(tokens_here, begin))
         .or_else(|| fronted(tokens_here, begin))
+        .or_else(|| with_it(tokens_here, begin))
+        .or_else(|| sent(tokens_here, begin))
         .or_else(|| unless_so(tokens, begin, limit))
         .or_else(|| begins_sentence.then(|| bare(tokens, begin, limit)).flatten())
 }
@@ -114,7 +146,8 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         (None, None) => (begin, SHALL),
     };
     let is_seen_to = asks.is_none() && sees.is_some();
-    thing_before(tokens, begin, |at| {
+    let belongs = asks.is_none() && sees.is_none();
+    let (mut said, after) = thing_before(tokens, begin, |at| {
         let count = links.iter().filter_map(|link| stands(tokens, at, link)).max();
         let none = ["should not be", "is not", "needs"].iter().find_map(|link| stands(tokens, at, link));
         let (count, is_wanted) = match (count, none) {
@@ -125,8 +158,15 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         };
         let needs = stands(tokens, at, "needs") == Some(count);
         let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
+        if stands(tokens, at, STAYS) == Some(count) && opposite_name(&state).is_none() {
+            return None;
+        }
         Some((if is_wanted { state } else { opposite(state)? }, after))
-    })
+    })?;
+    if let Some(verb) = said.first_mut().filter(|verb| belongs && verb.word() == "put") {
+        *verb = Token::Word("keep".to_owned());
+    }
+    Some((said, after))
 }
 
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
@@ -171,7 +211,27 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
 
 /// `take yourself to the door`
 fn self_moved(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let moves = matches!(tokens.get(begin)?.word(), "take" | "get" | "bring" | "move" | "drive" | "park");
+    let moves = matches!(
+        tokens.get(begin)?.word(),
+        "take"
+            | "get"
+            | "bring"
+            | "move"
+            | "drive"
+            | "park"
+            | "roll"
+            | "drag"
+            | "haul"
+            | "wheel"
+            | "shift"
+            | "plant"
+            | "place"
+            | "put"
+            | "position"
+            | "station"
+            | "steer"
+            | "carry"
+    );
     let is_self = matches!(tokens.get(begin + 1)?.word(), "yourself");
     (moves && is_self).then(|| (words("go"), begin + 2))
 }

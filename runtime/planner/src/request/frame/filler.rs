@@ -1,5 +1,6 @@
-//! Words of a request that say how or when it is convenient, and not what: they are left out.
+//! Words of a request that say how, why or when it is convenient, and not what: they are left out.
 
+use crate::request::inflection::{Form, base};
 use crate::request::token::{Token, stands};
 
 /// Words that say how or when and not what.
@@ -8,6 +9,7 @@ const FILLERS: &[&str] = &[
     "right away",
     "any more",
     "anymore",
+    "any longer",
     "really",
     "simply",
     "maybe",
@@ -15,27 +17,112 @@ const FILLERS: &[&str] = &[
     "possibly",
     "carefully",
     "gently",
+    "slowly",
+    "softly",
+    "neatly",
+    "nicely",
+    "quietly",
+    "properly",
+    "nice and gently",
+    "nice and carefully",
+    "nice and slowly",
+    "nice and neatly",
+    "nice and easy",
     "straight away",
     "at once",
     "at some point",
     "at your convenience",
+    "at your leisure",
+    "at your earliest convenience",
     "for a moment",
+    "for just a moment",
     "for a second",
+    "for a sec",
     "for a minute",
     "for a while",
+    "for a little while",
     "for a bit",
+    "for a little bit",
     "for now",
+    "for the moment",
+    "for the time being",
+    "for good",
+    "for once",
+    "for a change",
+    "for weeks",
+    "for days",
+    "for ages",
+    "for hours",
+    "for months",
+    "for years",
+    "from now on",
     "in the meantime",
+    "once and for all",
+    "this time",
+    "this instant",
+    "by any chance",
+    "by myself",
+    "all by myself",
+    "on my own",
+    "anyway",
+    "finally",
+    "already",
+    "kinda",
+    "sorta",
+    "basically",
+    "literally",
+    "real quick",
+    "really quick",
+    "nice and tight",
+    "nice and safe",
+    "ever so",
+    "everso",
+    "as per usual",
+    "without further ado",
 ];
+/// Before these `right` and `straight` only stress what follows.
+const STRESSED: &[&str] = &[
+    "here", "there", "up", "down", "to", "on", "in", "into", "onto", "inside", "over", "next", "back", "by",
+    "at", "beside", "where",
+];
+/// Who does something in a clause that says why or by when. The robot is not among them: what it shall do is a request.
+const OTHERS: &[&str] = &[
+    "i",
+    "we",
+    "he",
+    "she",
+    "it",
+    "they",
+    "nobody",
+    "no one",
+    "somebody",
+    "someone",
+    "everybody",
+    "everyone",
+    "people",
+    "my",
+    "our",
+    "the",
+    "that",
+    "this",
+];
+/// Verbs of a state in which something shall be until something happens.
+const LASTING: &[&str] =
+    &["hold", "hang", "keep", "stay", "wait", "stand", "leave", "carry", "grip", "holding", "remain"];
 
 /// A request without them.
 pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
-    let mut kept = Vec::with_capacity(tokens.len());
+    let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while at < tokens.len() {
         if let Some(count) = FILLERS.iter().filter_map(|filler| stands(tokens, at, filler)).max() {
             at += count;
-        } else if let Some(count) = tag(tokens, at).or_else(|| leisure(tokens, at)) {
+        } else if let Some(count) = leisure(tokens, at).or_else(|| aim(tokens, at, &kept)) {
+            at += count;
+        } else if is_stress(tokens, at) {
+            at += 1;
+        } else if let Some((count, word)) = at_speaker(tokens, at) {
+            kept.push(Token::Word(word.to_owned()));
             at += count;
         } else {
             kept.extend(tokens.get(at).cloned());
@@ -45,28 +132,156 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
     kept
 }
 
-/// `…, will you?`: how many words the question at the end takes.
-fn tag(tokens: &[Token], at: usize) -> Option<usize> {
-    let comma = usize::from(tokens.get(at) == Some(&Token::Comma));
-    let ask = ["will you please", "would you please", "will you", "would you", "can you", "could you"];
-    let count = comma + ask.iter().find_map(|ask| stands(tokens, at + comma, ask))?;
-    (at > 0 && matches!(tokens.get(at + count), None | Some(Token::Stop))).then_some(count)
+/// `right here`, `straight into the drawer`, `i still need`
+fn is_stress(tokens: &[Token], at: usize) -> bool {
+    let word = |at: Option<usize>| at.and_then(|at| tokens.get(at)).map_or("", Token::word);
+    let (before, here, next) = (word(at.checked_sub(1)), word(Some(at)), word(Some(at + 1)));
+    match here {
+        "right" | "straight" => before != "the" && STRESSED.contains(&next),
+        "still" => matches!(before, "i" | "we" | "you"),
+        _ => false,
+    }
 }
 
-/// `when you get a moment`, `if it is not too much trouble`: how many words it takes.
+/// `where I am sitting`, `here with me`: where the person is.
+fn at_speaker(tokens: &[Token], at: usize) -> Option<(usize, &'static str)> {
+    if let Some(count) =
+        ["over here with me", "here with me", "over here by me", "here by me", "by my side", "to my side"]
+            .iter()
+            .find_map(|words| stands(tokens, at, words))
+    {
+        return Some((count, "here"));
+    }
+    let count = ["where i am", "where we are", "where i sit", "where i stand"]
+        .iter()
+        .find_map(|words| stands(tokens, at, words))?;
+    let how = ["sitting", "standing", "lying", "at", "now", "stuck", "resting"];
+    let is_how = tokens.get(at + count).is_some_and(|token| how.contains(&token.word()));
+    let count = count + usize::from(is_how);
+    matches!(tokens.get(at + count), None | Some(Token::Comma | Token::Stop)).then_some((count, "me"))
+}
+
+/// `so I can see it`, `before the kids see it`, `where I can reach it`, `until I say so`: what for, which changes nothing of
+/// what is done now. How many words it takes.
+fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
+    let other = |at: usize| OTHERS.iter().filter_map(|who| stands(tokens, at, who)).max();
+    let can = |at: usize| {
+        let can = [
+            "can",
+            "could",
+            "can not",
+            "could not",
+            "will not",
+            "would not",
+            "do not",
+            "does not",
+            "am not",
+            "is not",
+        ];
+        can.iter().filter_map(|can| stands(tokens, at, can)).max()
+    };
+    // `the` and `my` have a noun before the verb.
+    let then_can = |who: usize| (who + 1..=who + 3).find_map(|at| Some(at + can(at)?));
+    let clause = |who: usize| -> Option<usize> {
+        other(who)?;
+        let after = then_can(who)?;
+        // `so it can go in the bin` asks for it.
+        let next = tokens.get(after).map_or("", Token::word);
+        (!matches!(next, "go" | "be" | "get" | "stay" | "end" | "live" | "have")).then_some(after)
+    };
+    let begins_clause = matches!(kept.last(), None | Some(Token::Stop));
+    let is_aim = match tokens.get(at)?.word() {
+        "so" => {
+            let that = stands(tokens, at, "so that").unwrap_or(1);
+            !begins_clause && clause(at + that).is_some()
+        }
+        "where" => !begins_clause && clause(at + 1).is_some(),
+        // The state in which it is now is no other thing.
+        "instead" => {
+            let state = [
+                "out",
+                "lying",
+                "sitting",
+                "standing",
+                "hanging",
+                "lounging",
+                "rolling",
+                "cluttering",
+                "gathering",
+            ];
+            stands(tokens, at, "instead of").is_some()
+                && tokens.get(at + 2).is_some_and(|token| state.contains(&token.word()))
+                && !begins_clause
+        }
+        "before" => other(at + 1).is_some(),
+        "until" | "till" => {
+            let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+            other(at + 1).is_some() && sentence.iter().any(|token| LASTING.contains(&token.word()))
+        }
+        "when" | "by" => {
+            let by = stands(tokens, at, "by the time").unwrap_or(1);
+            let back = [
+                "i get",
+                "i am",
+                "i come",
+                "i return",
+                "we get",
+                "we are",
+                "we come",
+                "they get",
+                "they come",
+            ];
+            let is_back = back.iter().any(|back| stands(tokens, at + by, back).is_some());
+            let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+            // Who wants something to be so by then wants it done before.
+            is_back && !begins_clause && sentence.windows(2).any(is_state)
+        }
+        _ => false,
+    };
+    let rest = tokens.get(at..).unwrap_or_default();
+    is_aim.then(|| {
+        rest.iter().position(|token| matches!(token, Token::Comma | Token::Stop)).unwrap_or(rest.len())
+    })
+}
+
+fn is_state(two: &[Token]) -> bool {
+    matches!(two, [to, be] if matches!(to.word(), "to" | "should" | "must") && matches!(be.word(), "be" | "stay"))
+}
+
+/// `when you get a moment`, `if it is not too much trouble`, `when you are done with that`: how many words it takes.
 fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
     const LEISURE: &[&str] = &[
-        "when", "whenever", "if", "once", "as", "soon", "you", "get", "got", "have", "find", "can", "could",
-        "are", "would", "not", "too", "much", "trouble", "is", "it", "a", "the", "some", "spare", "free",
-        "moment", "minute", "second", "time", "chance", "ready", "able", "so", "kind", "do", "mind", "like",
+        "when", "whenever", "if", "once", "as", "soon", "you", "get", "got", "have", "has", "find", "can",
+        "could", "are", "would", "not", "too", "much", "trouble", "is", "it", "a", "the", "some", "spare",
+        "free", "at", "up", "moment", "minute", "second", "sec", "time", "chance", "ready", "able", "so",
+        "kind", "do", "mind", "like", "good", "there", "that", "next", "around", "about", "by", "manage",
+        "bother", "to", "ask", "okay", "getting", "doing", "bringing", "fetching", "passing", "reaching",
+        "helping", "me", "anyway", "feel",
     ];
+    let starts = ["when", "whenever", "if", "once", "as soon as", "while", "since", "as"];
     let subject = |begin: &str| stands(tokens, at, &format!("{begin} you"));
-    let count = ["when", "whenever", "if", "once", "as soon as"].iter().find_map(|begin| subject(begin));
-    let count = count.or_else(|| stands(tokens, at, "if it is not"))?;
+    let count = starts.iter().find_map(|begin| subject(begin));
+    let count = count
+        .or_else(|| ["if it is not", "if that is not"].iter().find_map(|begin| stands(tokens, at, begin)))?;
     let mut end = at + count;
+    if let Some(done) = ["are done", "are finished", "have finished", "are through"]
+        .iter()
+        .find_map(|done| stands(tokens, end, done))
+    {
+        end += done;
+        // What it is done with may be another task, which is not asked for; `done putting the mug away` asks for more.
+        while tokens.get(end).is_some_and(|token| !token.word().is_empty() && !is_task(token.word())) {
+            end += 1;
+        }
+    }
     while tokens.get(end).is_some_and(|token| LEISURE.contains(&token.word())) {
         end += 1;
     }
     let is_whole = matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
     (is_whole && end > at + count).then_some(end - at)
+}
+
+/// Whether a word is a verb of requests, in any form.
+fn is_task(word: &str) -> bool {
+    base(word).is_some_and(|(_, form)| matches!(form, Form::Base | Form::Gerund | Form::Participle))
 }

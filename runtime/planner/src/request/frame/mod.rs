@@ -5,10 +5,18 @@
 //! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
 
 mod clause;
+mod courtesy;
+mod delegate;
+mod favour;
 mod filler;
+mod placed;
 mod state;
 
 use self::clause::{cause, clause};
+pub(super) use self::courtesy::without_courtesy;
+pub(super) use self::delegate::asks_for_it;
+use self::delegate::delegated;
+use self::favour::{favour, in_series, stressed, told_when_done};
 use self::filler::without_fillers;
 use super::inflection::{Form, base};
 use super::lead::skip_leads;
@@ -40,6 +48,22 @@ const SET_OUT: &[&str] = &[
     "hurry and",
     "come and",
     "head over and",
+    "head on over and",
+    "pop over and",
+    "pop across and",
+    "nip over and",
+    "get up and",
+    "run along and",
+    "go right ahead and",
+    "go on over and",
+    "go over there and",
+    "come over and",
+    "come over here and",
+    "come here and",
+    "make sure to",
+    "make sure you",
+    "be sure to",
+    "take care to",
     "go",
     "run",
     "come",
@@ -52,7 +76,9 @@ pub(super) const ONLY_IF_SO: &str = "if it is open";
 
 /// A request with its frames said plainly.
 pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
-    let mut tokens = without_fillers(tokens);
+    // What is left out may stand between other words that are.
+    let mut tokens = without_courtesy(&without_fillers(&without_courtesy(tokens)));
+    tokens = delegated(&tokens);
     let mut said = Vec::with_capacity(tokens.len());
     let (mut at, mut starts, mut begins_sentence) = (0, true, true);
     // Every rewriting takes words away or goes on behind what it wrote: the bound only guards against a slip of that.
@@ -63,6 +89,11 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
             let begin = skip_leads(&tokens, at);
             if let Some((from, words)) = unwrapped(&tokens, begin) {
                 tokens.splice(begin..from, words);
+                continue;
+            }
+            if let Some((from, words)) = favour(&tokens, begin) {
+                tokens.splice(begin..from, words);
+                in_series(&mut tokens, begin);
                 continue;
             }
             if let Some((words, after)) = clause(&tokens, begin, begins_sentence) {
@@ -95,6 +126,9 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
         && let Some((verb, Form::Gerund)) = base(tokens.get(at + count)?.word())
     {
         return Some((at + count + 1, vec![Token::Word(verb)]));
+    }
+    if let Some(found) = told_when_done(tokens, at).or_else(|| stressed(tokens, at)) {
+        return Some(found);
     }
     let set_out = SET_OUT.iter().filter_map(|out| stands(tokens, at, out)).max()?;
     let next = tokens.get(at + set_out)?.word();

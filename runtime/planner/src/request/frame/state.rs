@@ -42,9 +42,12 @@ pub(super) fn thing_before(
 
 /// What is wanted, and where the words for it that are still to be read begin.
 pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, usize)> {
-    let skipped = ["back", "all", "wide", "safely"];
+    let skipped = ["back", "all", "wide", "safely", "properly"];
     let word = tokens.get(at)?.word();
-    let at = if skipped.contains(&word) && tokens.get(at + 1).is_some() { at + 1 } else { at };
+    // `standing open`
+    let is_door = tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "open" | "closed" | "shut"));
+    let skips = skipped.contains(&word) || (is_door && matches!(word, "standing" | "left" | "kept"));
+    let at = if skips && tokens.get(at + 1).is_some() { at + 1 } else { at };
     let word = tokens.get(at)?.word();
     let is_last = tokens.get(at + 1).is_none_or(|next| {
         matches!(next, Token::Comma | Token::Stop)

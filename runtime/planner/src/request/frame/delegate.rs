@@ -1,0 +1,211 @@
+//! What somebody says that they have to do, cannot do or forgot, and then asks for: `I forgot to close the fridge, could you
+//! do that for me?`
+
+use crate::request::lead::skip_leads;
+use crate::request::spot::spot;
+use crate::request::token::{Token, stands};
+use crate::request::verb::verb;
+
+/// What asks for what was spoken of.
+const DO_IT: &[&str] = &[
+    "do it",
+    "do that",
+    "do this",
+    "do so",
+    "do the job",
+    "see to it",
+    "see to that",
+    "see to this",
+    "take care of it",
+    "take care of that",
+    "take care of this",
+    "handle it",
+    "handle that",
+    "manage that",
+    "manage it",
+    "sort it out",
+    "sort that out",
+    "arrange that",
+    "make that happen",
+    "make it happen",
+    "help me",
+    "help me out",
+    "help me with that",
+    "help me with it",
+    "help",
+    "help out",
+    "lend me a hand",
+    "give me a hand",
+    "give me a hand with that",
+    "give me a hand with it",
+    "make it so",
+];
+/// What may follow that.
+const BEHIND: &[&str] = &[
+    "for me",
+    "for us",
+    "instead",
+    "now",
+    "please",
+    "then",
+    "too",
+    "quickly",
+    "yourself",
+    "today",
+    "in my place",
+    "soon",
+];
+/// What somebody has to do, or cannot, stands behind these.
+const TO_DO: &[&str] = &[
+    "have to",
+    "has to",
+    "need to",
+    "needs to",
+    "have got to",
+    "ought to",
+    "am supposed to",
+    "was supposed to",
+    "have been meaning to",
+    "meant to",
+    "wanted to",
+    "want to",
+    "was going to",
+    "am going to",
+    "was about to",
+    "forgot to",
+    "have forgotten to",
+    "keep forgetting to",
+    "can not manage to",
+    "could not manage to",
+    "am not able to",
+    "am unable to",
+    "was not able to",
+    "have been trying to",
+    "am trying to",
+    "tried to",
+    "have no time to",
+    "do not have time to",
+    "do not have the time to",
+    "do not have the strength to",
+    "am too tired to",
+    "am too lazy to",
+    "am too busy to",
+    "i should",
+    "i must",
+    "i can not",
+    "i could not",
+    "someone should",
+    "somebody should",
+    "someone must",
+    "somebody must",
+    "someone has to",
+    "somebody has to",
+    "it is time to",
+    "would love to",
+    "would like to",
+];
+/// None of it is meant behind these: `I do not have to close it`.
+const NOT_TO: &[&str] = &[
+    "do not have to",
+    "do not need to",
+    "do not want to",
+    "does not have to",
+    "does not need to",
+    "never wanted to",
+    "never meant to",
+    "did not want to",
+    "did not mean to",
+    "do not want you to",
+    "would not like to",
+    "would not want to",
+];
+
+/// A request with what is delegated in the place of what asks for it.
+pub(super) fn delegated(tokens: &[Token]) -> Vec<Token> {
+    let mut tokens = tokens.to_vec();
+    let mut at = 0;
+    while at < tokens.len() {
+        if let Some((from, to, said)) = asked_for(&tokens, at).or_else(|| met(&tokens, at)) {
+            tokens.splice(from..to, said);
+            at = from;
+        }
+        at += 1;
+    }
+    tokens
+}
+
+/// Whether a clause asks for what was spoken of; where it ends.
+pub(in crate::request) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
+    let end = clause_end(tokens, at);
+    let here = tokens.get(..end)?;
+    let mut last = end;
+    while let Some(count) = BEHIND.iter().filter_map(|words| ends_with(here, last, words)).max() {
+        last -= count;
+    }
+    let begin =
+        DO_IT.iter().filter_map(|words| ends_with(here, last, words)).map(|count| last - count).min()?;
+    (begin >= at && skip_leads(here.get(..begin)?, at) == begin).then_some(end)
+}
+
+/// How many words stand before a place, where they do.
+fn ends_with(tokens: &[Token], end: usize, words: &str) -> Option<usize> {
+    let count = words.split(' ').count();
+    stands(tokens, end.checked_sub(count)?, words)
+}
+
+fn clause_end(tokens: &[Token], at: usize) -> usize {
+    let is_end = |at: &usize| matches!(tokens.get(*at), Some(Token::Comma | Token::Stop));
+    (at..tokens.len()).find(is_end).unwrap_or(tokens.len())
+}
+
+/// Where the clause before a place begins that may say what has to be done: with its sentence.
+fn before(tokens: &[Token], at: usize) -> usize {
+    let mut begin = at.saturating_sub(1);
+    while begin > 0 && tokens.get(begin - 1) != Some(&Token::Stop) {
+        begin -= 1;
+    }
+    begin
+}
+
+fn is_joint(token: Option<&Token>) -> bool {
+    matches!(token, Some(Token::Comma | Token::Stop))
+        || token.is_some_and(|token| matches!(token.word(), "but" | "so" | "and"))
+}
+
+/// `I have to open it, but can you do it for me?`: from where to where `open it` takes their place.
+fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> {
+    if at == 0 || !is_joint(tokens.get(at - 1)) {
+        return None;
+    }
+    let end = asks_for_it(tokens, at)?;
+    let begin = before(tokens, at);
+    let said = tokens.get(..at - 1)?;
+    if (begin..said.len()).any(|at| NOT_TO.iter().any(|not| stands(said, at, not).is_some())) {
+        return None;
+    }
+    let to_do = |at: usize| Some(at + TO_DO.iter().filter_map(|to_do| stands(said, at, to_do)).max()?);
+    let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()))?;
+    let until = (task..said.len())
+        .find(|at| {
+            matches!(said.get(*at), Some(Token::Comma | Token::Stop))
+                || matches!(said.get(*at).map_or("", Token::word), "but" | "so")
+        })
+        .unwrap_or(said.len());
+    Some((begin, end, said.get(task..until)?.to_vec()))
+}
+
+/// `I will meet you at the door, you go ahead`
+fn met(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> {
+    let meets = ["i will meet you", "i will see you", "i will join you", "we will meet you", "let us meet"];
+    let place = at + meets.iter().find_map(|meets| stands(tokens, at, meets))?;
+    let (_, after) = spot(tokens, place)?;
+    let next = clause_end(tokens, place) + 1;
+    let ahead = ["you go ahead", "go ahead", "go on ahead", "you go on ahead", "you go first", "go there"];
+    let end = next + ahead.iter().filter_map(|ahead| stands(tokens, next, ahead)).max()?;
+    if end != clause_end(tokens, next) {
+        return None;
+    }
+    let mut said = vec![Token::Word("go".to_owned())];
+    said.extend_from_slice(tokens.get(place..after)?);
+    Some((at, end, said))
+}

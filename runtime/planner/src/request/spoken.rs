@@ -1,0 +1,82 @@
+//! A request as its commands and the remarks beside them, in order.
+
+use super::command::{Command, command, words};
+use super::frame::asks_for_it;
+use super::lead::{contrasts, skip_leads, thanks};
+use super::remark::{caution, is_question, is_remark, remark_end, stays_put};
+use super::token::{Token, stands};
+use super::verb::verb;
+
+/// What somebody says beside what they ask for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Statement {
+    /// The tokens.
+    pub(super) tokens: Vec<Token>,
+}
+
+/// What a request comes to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Spoken {
+    pub(super) commands: Vec<Command>,
+    pub(super) statements: Vec<Statement>,
+}
+
+/// Reads a request. An error is the part that is not understood.
+pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
+    let mut spoken = Spoken::default();
+    let mut asked_whether = false;
+    let mut at = 0;
+    while at < tokens.len() {
+        if matches!(tokens.get(at), Some(Token::Stop | Token::Comma)) {
+            at += 1;
+            continue;
+        }
+        let begin = skip_leads(tokens, at);
+        if begin >= tokens.len() || matches!(tokens.get(begin), Some(Token::Stop)) {
+            at = begin + 1;
+            continue;
+        }
+        let word = tokens.get(begin).map_or("", Token::word);
+        if let Some(count) = thanks(tokens, begin) {
+            at = begin + count;
+            continue;
+        }
+        if let Some(end) = caution(tokens, begin, spoken.commands.last().map(Command::act)) {
+            at = end;
+            continue;
+        }
+        // Who asked whether something is so, and goes on with `then`, means: if it is.
+        if asked_whether && stands(tokens, at, "then").is_some() {
+            return Err(words(tokens, at, tokens.len()));
+        }
+        if matches!(word, "not" | "never")
+            || contrasts(tokens, begin)
+            || stands(tokens, begin, "do not").is_some()
+        {
+            return Err(words(tokens, begin, tokens.len()));
+        }
+        // `the sponge should go in the drawer, can you do that for me?`
+        if let (Some(end), false) = (asks_for_it(tokens, begin), spoken.commands.is_empty()) {
+            at = end;
+            continue;
+        }
+        if let (Some(end), false) = (stays_put(tokens, begin), spoken.commands.is_empty()) {
+            at = end;
+            continue;
+        }
+        asked_whether = false;
+        if verb(tokens, begin).is_some() {
+            at = command(tokens, begin, &mut spoken.commands)?;
+            continue;
+        }
+        let end = remark_end(tokens, begin);
+        if !is_remark(tokens, begin, end) {
+            return Err(words(tokens, begin, end));
+        }
+        asked_whether = is_question(tokens, begin);
+        let said = tokens.get(begin..end).unwrap_or_default().to_vec();
+        spoken.statements.push(Statement { tokens: said });
+        at = end;
+    }
+    Ok(spoken)
+}

@@ -1,0 +1,284 @@
+//! How people speak: what is said around a request is passed over, and what only sounds like one is not taken for it.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use motet_planner::request::{self, Puzzle, Situation};
+use motet_syntax::print;
+use motet_tests::setup;
+
+fn goals(request: &str) -> Result<Vec<String>, Puzzle> {
+    let scene = setup::scene("kitchen");
+    let understood = request::understand(request, &Situation::new(&scene))?;
+    Ok(understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect())
+}
+
+/// Each request comes to these goals.
+#[track_caller]
+fn mean(wanted: &[&str], requests: &[&str]) {
+    let wrong: Vec<_> = requests
+        .iter()
+        .filter_map(|request| match goals(request) {
+            Ok(found) if found == wanted => None,
+            found => Some(format!("{request}: {found:?}")),
+        })
+        .collect();
+    assert!(wrong.is_empty(), "not {wanted:?}:\n{}", wrong.join("\n"));
+}
+
+/// None of them is taken for a request that is understood.
+#[track_caller]
+fn not_taken(requests: &[&str]) {
+    let taken: Vec<_> = requests
+        .iter()
+        .filter_map(|request| {
+            Some(format!("{request}: {:?}", goals(request).ok().filter(|aims| !aims.is_empty())?))
+        })
+        .collect();
+    assert!(taken.is_empty(), "{}", taken.join("\n"));
+}
+
+#[test]
+fn whom_one_speaks_to_and_what_one_thinks_meanwhile_is_passed_over() {
+    mean(
+        &["at(coke, user)"],
+        &[
+            "Hey mate, grab me the coke, yeah?",
+            "Darling, would you bring me the coke?",
+            "Um, the, uh, coke, please.",
+            "Bring me the coke, there's a good lad.",
+            "Could you, er, fetch me the coke, sweetie?",
+            "Bring me the coke. Cheers!",
+            "Oh, I could murder the coke right now, love.",
+            "Well, you know, I'd like the coke, if that's okay.",
+            "Bring me the coke, will you, pal? Thanks a million.",
+            "Excuse me, robot, might you bring me the coke, if it's not too much trouble?",
+        ],
+    );
+    // These are things and no names.
+    not_taken(&["Bring me the milk, honey and bread.", "Bring me the pet."]);
+}
+
+#[test]
+fn reasons_stand_before_or_behind_what_is_asked_for() {
+    mean(
+        &["at(bottle, user)"],
+        &[
+            "I'm parched. Get me the water bottle, would you?",
+            "Since you're over there, bring me the water bottle.",
+            "Bring me the water bottle because I can't get up.",
+            "My back is killing me, so please bring me the water bottle.",
+            "The doctor says I need to drink more. Bring me the water bottle, please.",
+            "Bring me the water bottle so I can take my pills.",
+            "Before I forget, bring me the water bottle.",
+            "Dinner is ready, so bring me the water bottle, please.",
+            "When you're finished over there, could you bring me the water bottle?",
+            "Could you bring me the water bottle? I'm too tired to get up.",
+        ],
+    );
+    not_taken(&[
+        "My mum says: bring me the coke.",
+        "He told me, put the sponge in the sink.",
+        "Tomorrow, bring me the coke.",
+        "When the guests arrive, bring me the coke.",
+        "If it rains, close the cupboard.",
+        "Is the fridge open? Then bring me the coke.",
+        "You must not open the fridge. Bring me the coke.",
+        "I don't want you to go near the sink. Go to the kitchen table.",
+        "Wash the dishes that are in the sink and bring me the coke.",
+        "Put the mug on the counter before you open the drawer.",
+        "Bring me the coke when I get back.",
+    ]);
+}
+
+#[test]
+fn what_somebody_cannot_do_or_forgot_is_done_where_they_ask_for_it() {
+    mean(
+        &["not open(fridge_1)"],
+        &[
+            "I forgot to close the fridge. Could you do that for me?",
+            "I have to close the fridge, but can you do it instead?",
+            "I can't close the fridge. Help me out, please.",
+            "Somebody has to close the fridge, would you see to it?",
+            "The fridge should be closed. Please see to that.",
+            "I'd feel better if you closed the fridge.",
+            "It would be lovely if the fridge were shut.",
+            "Let me know once you have closed the fridge.",
+            "Is the fridge open? Please close it.",
+            "Why's the fridge open? Shut it, please!",
+        ],
+    );
+    mean(
+        &["in(sponge, drawer_1)"],
+        &["I've been meaning to put the sponge in the top drawer. Would you do it?"],
+    );
+    not_taken(&[
+        "Could you do that for me?",
+        "I forgot to close the fridge.",
+        "I have to close the fridge.",
+        "I don't have to close the fridge. Could you do it?",
+        "I do not want to close the fridge. Would you see to it?",
+        "Is the drawer open?",
+        "Why is the fridge closed?",
+        "Did my wife put the sponge in the drawer?",
+        "My mum put the sponge in the drawer.",
+        "I need to get into the fridge.",
+        "I want to put the sponge in the drawer.",
+        "Let's have a look inside the fridge.",
+        "The fridge must be open.",
+        "It would be nice if it rained.",
+    ]);
+}
+
+#[test]
+fn a_place_can_come_first_or_without_a_verb() {
+    mean(
+        &["in(apple, trash)"],
+        &["The apple is rotten, into the bin with it!", "Into the trash with the apple."],
+    );
+    mean(
+        &["at(robot, sink)"],
+        &[
+            "Off to the sink with you!",
+            "Off you go to the sink.",
+            "Next stop is the sink.",
+            "I'd like you to be at the sink.",
+            "I'll meet you at the sink, you go ahead.",
+            "Why don't you go and wait by the sink?",
+            "Pop over to the sink for a sec.",
+            "Park yourself at the sink and stay there.",
+        ],
+    );
+    mean(
+        &["on(sponge, counter)"],
+        &[
+            "The sponge goes on the counter, so put it there, would you?",
+            "I'd like the sponge to be on the counter when I get back.",
+            "Let's have the sponge on the counter from now on.",
+            "Stick the sponge up on the counter where I can see it.",
+            "Carry the sponge to the counter and set it on top.",
+            "I want the sponge kept on the counter.",
+        ],
+    );
+    not_taken(&[
+        "I don't want the sponge on the counter.",
+        "The sponge is on the counter.",
+        "The sponge stays on the counter.",
+        "Don't put the sponge on the counter.",
+        "I'll meet you at the sink.",
+        "You could have put the sponge on the counter.",
+        "Put the sponge back where it belongs.",
+        "Put the sponge on the counter and then put it back where it belongs.",
+        "Get the sponge out of my sight.",
+    ]);
+}
+
+#[test]
+fn what_is_held_is_held() {
+    mean(
+        &["holding(bottle)"],
+        &[
+            "Grab the water bottle and don't let go.",
+            "Pick up the water bottle and hang on to it until I say so.",
+            "Take the water bottle in your hand and stay there with it.",
+            "Get hold of the water bottle. Don't put it down yet.",
+            "Hold the water bottle for me while I look for the lid.",
+        ],
+    );
+    mean(
+        &["holding(bottle)", "holding(bottle)"],
+        &["Pick the water bottle up, and keep it in your gripper."],
+    );
+    mean(
+        &["at(bottle, user)"],
+        &["Bring me the water bottle, but don't spill it!", "Don't worry, just bring me the water bottle."],
+    );
+    not_taken(&[
+        "Don't let go.",
+        "Bring me the water bottle and don't let go.",
+        "Do not pick up the water bottle.",
+    ]);
+}
+
+#[test]
+fn what_shall_be_done_with_it_is_asked_where_it_is_not_said() {
+    for request in [
+        "Would you mind taking care of the sponge for me?",
+        "I need your help with the sponge.",
+        "Deal with the sponge, please.",
+        "Do the thing with the sponge.",
+        "Something has to happen with the sponge.",
+    ] {
+        let found = goals(request);
+        assert!(matches!(found, Err(Puzzle::NotUnderstood { .. })), "{request}: {found:?}");
+    }
+}
+
+#[test]
+fn a_thing_that_is_wanted_where_it_is_believed_to_be_is_looked_at() {
+    mean(&["at(robot, counter)", "visible(coke)", "on(coke, counter)"], &["put the coke on the counter"]);
+    mean(&["on(coke, sink)"], &["put the coke on the sink"]);
+}
+
+#[test]
+fn who_wants_another_try_says_so_in_many_ways() {
+    for answer in [
+        "Give it another shot.",
+        "don't give up, try again!",
+        "Never mind, have another go",
+        "It can't hurt to try again, can it?",
+        "Yeah, go for it.",
+        "Of course you should!",
+        "Oh, would you? That would be lovely.",
+        "okay, but be careful this time",
+        "No worries. One more time, please.",
+        "why don't you try once more?",
+    ] {
+        assert_eq!(request::encourages(answer).as_deref().map(str::trim), Some(""), "{answer}");
+    }
+    for answer in [
+        "Don't try again.",
+        "no",
+        "Stop.",
+        "yes, but not now",
+        "try the other one again",
+        "I don't want you to try again",
+        "okay, forget it",
+        "Sure, bring me the apple.",
+        "Try again later.",
+        "never again",
+        "would you bring me the apple?",
+        "it is in the fridge",
+    ] {
+        assert_eq!(request::encourages(answer), None, "{answer}");
+    }
+}
+
+/// Where an answer says that the coke is.
+fn told(answer: &str) -> Vec<String> {
+    let scene = setup::scene("kitchen");
+    let situation = Situation { spoken_of: vec!["coke".into()], ..Situation::new(&scene) };
+    let told = request::told(answer, &situation);
+    told.iter().map(|one| format!("{} {}", one.relation, one.place)).collect()
+}
+
+#[test]
+fn where_a_thing_is_is_told_in_many_ways() {
+    for answer in [
+        "Isn't it in the fridge?",
+        "My wife tells me it's in the fridge now.",
+        "Uh, should be in the fridge, I guess",
+        "Did you check in the fridge? That's where I saw it last.",
+        "We always keep it in the fridge, so look there.",
+        "I could have sworn I left it in the fridge, dear.",
+        "Chances are it's in the fridge.",
+    ] {
+        assert_eq!(told(answer), ["in fridge_1"], "{answer}");
+    }
+    for answer in [
+        "It isn't in the fridge.",
+        "Is the fridge open?",
+        "I did not put it in the fridge.",
+        "Don't look in the fridge.",
+    ] {
+        assert!(told(answer).is_empty(), "{answer}: {:?}", told(answer));
+    }
+}
