@@ -8,6 +8,7 @@ mod after;
 mod answer;
 mod arm;
 mod around;
+mod cells;
 mod connect;
 mod excursion;
 mod follow;

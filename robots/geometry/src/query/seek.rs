@@ -26,6 +26,8 @@ pub(super) const LAST: f64 = 0.65;
 const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
+/// Cells for each candidate of a budget that may be looked at to prove that there is no state.
+const CELLS: usize = 256;
 /// States that are looked at at a time for what they touch.
 const BATCH: usize = 8;
 
@@ -289,6 +291,15 @@ impl Room<'_> {
             let reason = Reason::NoFreePose { by: search.hands.most() };
             let certified = sought.is_all && !sought.tips.is_empty();
             return Err(Answer::Infeasible(Infeasible { reason, change: None, certified }));
+        }
+        // Where a state was found none of this is worth it.
+        if sought.is_all && search.tried == 0 {
+            let tips: Vec<_> = search.tips.iter().map(|(_, tip, _)| *tip).collect();
+            let cells = budget.candidates.saturating_mul(CELLS);
+            if sought.around.is_free_nowhere(sought.hand, &tips, sought.allowed, cells) {
+                let reason = Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) };
+                return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: true }));
+            }
         }
         Err(exhausted(search.tried > 0 || search.is_cut_off, &search.poses, &search.ways))
     }
