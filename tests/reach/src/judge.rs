@@ -10,7 +10,7 @@ use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
 use serde::Serialize;
 
-use crate::check::faults;
+use crate::check::{faults, is_free_at};
 use crate::export;
 use crate::model::{Model, robot};
 use crate::report::Table;
@@ -187,7 +187,9 @@ impl Judged<'_> {
                 continue;
             };
             let found = faults(self.model, self.scene, &world, witness);
-            answered.faults.extend(found.first().map(|fault| format!("{name}: the witness does not hold: {fault}")));
+            answered
+                .faults
+                .extend(found.first().map(|fault| format!("{name}: the witness does not hold: {fault}")));
             if let Some(out) = &mut out.witnesses {
                 writeln!(out, "{}", subject.witness(&name, witness)).map_err(|error| error.to_string())?;
             }
@@ -205,9 +207,16 @@ impl Judged<'_> {
             let (answer, took) = timed(|| room.answer(&query, Budget::default()));
             let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
             let name = format!("{} {} {target}", self.name, self.seed);
-            let truth = self
+            let mut truth = self
                 .cache
                 .truth(&name, self.scene, || searched(self.model, self.scene, &target, self.seed, effort));
+            // A search that ends finds none of the states that are few; one that was found is there.
+            if let (Truth::NoState, Answer::Infeasible(why)) = (truth, &answer)
+                && let Some(state) = &why.state
+                && is_free_at(self.model, self.scene, &world, state, &target)
+            {
+                truth = Truth::NoWay;
+            }
             let (mut found, mut reason) = (Vec::new(), None);
             match &answer {
                 Answer::Feasible(witness) => found = faults(self.model, self.scene, &world, witness),

@@ -49,9 +49,9 @@ impl Solid {
     /// other. What is nearer by less than a millionth of that may count as farther.
     pub(crate) fn is_nearer(&self, other: &Self, metres: f64) -> bool {
         match (&self.shape, &other.shape) {
-            (Shape::HalfSpace, _) | (_, Shape::HalfSpace) | (Shape::Capsule { .. }, Shape::Capsule { .. }) => {
-                self.distance(other) <= metres
-            }
+            (Shape::HalfSpace, _)
+            | (_, Shape::HalfSpace)
+            | (Shape::Capsule { .. }, Shape::Capsule { .. }) => self.distance(other) <= metres,
             _ => are_nearer(self, other, metres + self.rim() + other.rim()),
         }
     }

@@ -15,6 +15,7 @@ use super::around::Around;
 use super::machine::Hand;
 use super::room::GAP;
 use super::solver::Solver;
+use super::state::State;
 use super::touch::Allowed;
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::{Cell, Drift, Over, Stretch};
@@ -25,6 +26,8 @@ use crate::kinematics::Rig;
 const SLACK: f64 = 1e-5;
 /// Below this a cell is looked at for a free state, in m that something goes in it.
 const SMALL: f64 = 0.05;
+/// So many pairs that touched lately are looked at before all others.
+const KNOWN: usize = 8;
 /// Below this a cell is given up.
 const LEAST: f64 = 5e-4;
 
@@ -103,18 +106,34 @@ struct Cover<'a, 'r, 'w> {
     things: Vec<f64>,
 }
 
+/// What is known of all states with the hand's tip at any of some poses.
+pub(super) enum Covered {
+    /// None is free, for certain.
+    Nowhere,
+    /// One is: with the tip at the pose of this index.
+    Free(usize, State),
+    /// Not as much.
+    Open,
+}
+
 impl Around<'_, '_> {
-    /// Whether it is proven that the robot is free in no state with the hand's tip at any of some poses, with at most so many cells.
-    pub(super) fn is_free_nowhere(
+    /// What cells tell of the states with the hand's tip at some poses, at most so many cells.
+    pub(super) fn covered(
         &self,
         hand: &Hand,
         tips: &[Isometry3<f64>],
         allowed: Allowed,
         mut cells: usize,
-    ) -> bool {
-        let Some(cover) = Cover::new(self, hand, allowed) else { return false };
+    ) -> Covered {
+        let Some(cover) = Cover::new(self, hand, allowed) else { return Covered::Open };
         let roots = cover.family.cells();
-        !roots.is_empty() && tips.iter().all(|tip| cover.is_covered(tip, &roots, &mut cells))
+        if roots.is_empty() {
+            return Covered::Open;
+        }
+        let mut culprits = Vec::new();
+        let mut of_tips =
+            tips.iter().zip(0..).map(|(tip, at)| cover.covered((at, tip), &roots, &mut culprits, &mut cells));
+        of_tips.find(|covered| !matches!(covered, Covered::Nowhere)).unwrap_or(Covered::Nowhere)
     }
 }
 
@@ -156,37 +175,51 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         Some(Self { around, hand, family, allowed, rig, joints, arm, limbs, pairs, things })
     }
 
-    /// Whether no state with the tip at a pose is free, for certain.
-    fn is_covered(&self, tip: &Isometry3<f64>, roots: &[Cell], cells: &mut usize) -> bool {
+    /// What cells tell of the states with the tip at a pose; what touched lately comes first.
+    fn covered(
+        &self,
+        (at, tip): (usize, &Isometry3<f64>),
+        roots: &[Cell],
+        culprits: &mut Vec<Culprit>,
+        cells: &mut usize,
+    ) -> Covered {
         let weights = self.family.weights();
-        let mut culprit = None;
         let mut open: Vec<Cell> = roots.to_vec();
         while let Some(cell) = open.pop() {
-            let Some(left) = cells.checked_sub(1) else { return false };
+            let Some(left) = cells.checked_sub(1) else { return Covered::Open };
             *cells = left;
             let stretch = match self.family.over(tip, &cell) {
                 Over::Nothing => continue,
-                Over::Unclear => return false,
+                Over::Unclear => return Covered::Open,
                 Over::Near(stretch) => stretch,
             };
             let placed = self.placed(&stretch);
-            let is_known = culprit.is_some_and(|culprit| self.touches(&placed, culprit));
-            if !is_known {
-                match self.culprit(&placed) {
-                    Some(found) => culprit = Some(found),
-                    None => {
-                        let sizes = weights.iter().zip(cell.half).map(|(weight, half)| weight * half);
-                        let widest = sizes.zip(0..).fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
-                        let (size, across) = widest;
-                        if size < LEAST || (size < SMALL && self.is_free_at(tip, &stretch, &cell)) {
-                            return false;
-                        }
-                        open.extend(cell.halves(across));
-                    }
-                }
+            if let Some(known) = culprits.iter().rposition(|culprit| self.touches(&placed, *culprit)) {
+                // What touches often stands at the end.
+                let next = (known + 1).min(culprits.len() - 1);
+                culprits.swap(known, next);
+                continue;
             }
+            if let Some(found) = self.culprit(&placed) {
+                if culprits.len() == KNOWN {
+                    culprits.remove(0);
+                }
+                culprits.push(found);
+                continue;
+            }
+            let sizes = weights.iter().zip(cell.half).map(|(weight, half)| weight * half).zip(0..);
+            let (size, across) = sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
+            if size < SMALL
+                && let Some(state) = self.free_in(tip, &stretch, &cell)
+            {
+                return Covered::Free(at, state);
+            }
+            if size < LEAST {
+                return Covered::Open;
+            }
+            open.extend(cell.halves(across));
         }
-        true
+        Covered::Nowhere
     }
 
     /// The parts in the middle of a cell, and how far each can be from there.
@@ -224,9 +257,8 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
 
     /// What touches throughout.
     fn culprit(&self, placed: &[Placed]) -> Option<Culprit> {
-        let counts = |part: usize| self.around.limbs.get(part).filter(|limb| limb.counts);
-        let of_scene = placed.iter().zip(0..).filter_map(|(_, part)| Some((counts(part)?, part)));
-        let all = of_scene.flat_map(|(limb, part)| {
+        let limbs = self.around.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts);
+        let all = limbs.flat_map(|(limb, part)| {
             let things = self.around.things.iter().zip(0..);
             let things = things.filter(|(near, _)| !limb.may_touch(near.entity, self.allowed));
             let things = things.map(move |(_, at)| Culprit::Thing(part, at));
@@ -240,7 +272,9 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     fn touches(&self, placed: &[Placed], culprit: Culprit) -> bool {
         let (part, other) = match culprit {
             Culprit::Thing(part, at) => {
-                let Some((near, inner)) = self.around.things.get(at).zip(self.things.get(at)) else { return false };
+                let Some((near, inner)) = self.around.things.get(at).zip(self.things.get(at)) else {
+                    return false;
+                };
                 (part, Placed { solid: near.solid, inner: *inner, reach: near.reach, drift: 0.0 })
             }
             Culprit::Own(part, at) => {
@@ -248,16 +282,16 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 (part, *other)
             }
             Culprit::Floor(part) => {
-                return placed.get(part).is_some_and(|own| {
-                    super::around::above_floor(&own.solid) + own.drift + SLACK <= GAP
-                });
+                return placed
+                    .get(part)
+                    .is_some_and(|own| super::around::above_floor(&own.solid) + own.drift + SLACK <= GAP);
             }
         };
         placed.get(part).is_some_and(|own| own.touches(&other))
     }
 
-    /// Whether a state in the middle of a cell, or near it, is free.
-    fn is_free_at(&self, tip: &Isometry3<f64>, stretch: &Stretch, cell: &Cell) -> bool {
+    /// A free state in the middle of a cell, or with the base there.
+    fn free_in(&self, tip: &Isometry3<f64>, stretch: &Stretch, cell: &Cell) -> Option<State> {
         let room = self.around.room;
         let states: Vec<_> = match self.family {
             Family::Lift(arm) => {
@@ -270,7 +304,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 found.map(|values| room.with(self.hand, stretch.base, &values)).collect()
             }
         };
-        states.iter().any(|state| self.around.touch(state, self.allowed).is_none())
+        states.into_iter().find(|state| self.around.touch(state, self.allowed).is_none())
     }
 }
 

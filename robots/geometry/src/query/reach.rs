@@ -120,5 +120,5 @@ struct Goal<'a> {
 }
 
 pub(super) fn certain(reason: Reason, change: Option<String>) -> Answer {
-    Answer::Infeasible(Infeasible { reason, change, certified: true })
+    Answer::Infeasible(Infeasible::proven(reason, change))
 }

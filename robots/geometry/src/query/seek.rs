@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::around::Around;
+use super::cells::Covered;
 use super::machine::Hand;
 use super::palm::Palm;
 use super::room::Room;
@@ -14,7 +15,7 @@ use super::screen::{Draft, Group, Screen, Seen};
 use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::{Tally, Unfolding, exhausted};
+use super::travel::{Tally, Unfolding};
 use crate::inverse::manifold::LANES;
 
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
@@ -81,6 +82,8 @@ struct Search<'a, 'r, 'w> {
     batch: Vec<Candidate>,
     /// Free states to which no simple way leads.
     left: Vec<Candidate>,
+    /// A free state.
+    met: Option<State>,
 }
 
 impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
@@ -96,6 +99,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             is_cut_off: false,
             batch: Vec::with_capacity(BATCH),
             left: vec![],
+            met: None,
         }
     }
 
@@ -237,6 +241,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                 continue;
             }
             self.tried += 1;
+            self.met.get_or_insert_with(|| candidate.state.clone());
             let Candidate { at, tip, state } = &candidate;
             if let Some(path) = self.sought.way_to(tip, state, Unfolding::Simple, &mut self.ways) {
                 return ControlFlow::Break(Ok((*at, path)));
@@ -255,6 +260,16 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// A way to a free state that no candidate was.
+    fn last(&mut self, at: usize, state: &State) -> Option<(usize, Vec<State>)> {
+        let (at, tip, _) = self.tips.get(at).copied()?;
+        if !self.sought.around.room.is_near_drivable(state.base) {
+            return None;
+        }
+        let mut way = |unfolding| self.sought.way_to(&tip, state, unfolding, &mut self.ways);
+        Some((at, way(Unfolding::Simple).or_else(|| way(Unfolding::Searched))?))
     }
 
     /// A way that a search finds to one of the states that are left.
@@ -290,18 +305,34 @@ impl Room<'_> {
         if search.tips.is_empty() {
             let reason = Reason::NoFreePose { by: search.hands.most() };
             let certified = sought.is_all && !sought.tips.is_empty();
-            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified }));
+            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified, state: None }));
         }
-        // Where a state was found none of this is worth it.
-        if sought.is_all && search.tried == 0 {
+        let mut state = search.met.take();
+        // Where a free state was found there is nothing to prove.
+        if sought.is_all && state.is_none() {
             let tips: Vec<_> = search.tips.iter().map(|(_, tip, _)| *tip).collect();
             let cells = budget.candidates.saturating_mul(CELLS);
-            if sought.around.is_free_nowhere(sought.hand, &tips, sought.allowed, cells) {
-                let reason = Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) };
-                return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: true }));
+            match sought.around.covered(sought.hand, &tips, sought.allowed, cells) {
+                Covered::Nowhere => {
+                    let reason = Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) };
+                    return Err(Answer::Infeasible(Infeasible::proven(reason, None)));
+                }
+                Covered::Free(at, free) => {
+                    if let Some(found) = search.last(at, &free) {
+                        return Ok(found);
+                    }
+                    state = Some(free);
+                }
+                Covered::Open => {}
             }
         }
-        Err(exhausted(search.tried > 0 || search.is_cut_off, &search.poses, &search.ways))
+        let is_met = state.is_some() || search.is_cut_off;
+        let reason = match is_met {
+            true => Reason::BlockedPath { by: search.ways.most() },
+            false => Reason::NoFreePose { by: search.poses.most() },
+        };
+        let state = state.map(Box::new);
+        Err(Answer::Infeasible(Infeasible { state, ..Infeasible::exhausted(reason) }))
     }
 
     /// How far the base can be from the tip of a hand, in m.

@@ -29,8 +29,7 @@ impl LiftArm {
     pub(crate) fn over(&self, map_from_tip: &Isometry3<f64>, cell: &Cell) -> Over {
         let ([yaw, value, _], [yaws, values, _]) = (cell.middle, cell.half);
         let Some(joint) = self.chain.joints.get(1) else { return Over::Unclear };
-        let (angle, bends) =
-            (joint.driver.position(&[0.0, value]), values * joint.driver.multiplier.abs());
+        let (angle, bends) = (joint.driver.position(&[0.0, value]), values * joint.driver.multiplier.abs());
         let Shoulder { axis, point, to_wrist } = self.shoulder;
         let centre = self.centre(map_from_tip).coords;
         let arm = turned(&axis, angle, &to_wrist);

@@ -49,7 +49,8 @@ impl ParallelArm {
         let (end, fore) = (turned(&across, sum, &to_centre), turned(&across, lean, &to_four));
         let [end_long, fore_long, long] =
             [&to_centre, &to_four, &to_three].map(|vector| across.cross(vector).norm());
-        let rises = wave(across.cross(&end).z, end_long, sums) + wave(across.cross(&fore).z, fore_long, leans);
+        let rises =
+            wave(across.cross(&end).z, end_long, sums) + wave(across.cross(&fore).z, fore_long, leans);
         let rise = centre.z - height - self.first.z - to_two.z - end.z - fore.z;
         let (low, high) = ((rise - rises) / long, (rise + rises) / long);
         if low > 1.0 + ROUNDED || high < -1.0 - ROUNDED {
@@ -59,8 +60,7 @@ impl ParallelArm {
         let ahead = across.cross(&Vector3::z());
         let upright = atan2(to_three.dot(&ahead), to_three.z);
         let sign = if cell.way & 2 == 0 { 1.0 } else { -1.0 };
-        let (raise, raises) =
-            (sign * (least + greatest) / 2.0 - upright, (greatest - least) / 2.0 + 1e-7);
+        let (raise, raises) = (sign * (least + greatest) / 2.0 - upright, (greatest - least) / 2.0 + 1e-7);
         let upper = turned(&across, raise, &to_three);
         let [_, third, fourth] = self.signs;
         let positions = [
