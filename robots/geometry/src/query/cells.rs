@@ -1,29 +1,36 @@
-//! That no state of the robot is free with the hand's tip at a pose, proven: the family of all solutions of the arm is covered by cells,
-//! and in each a joint is beyond its limits throughout, or two solids touch throughout.
+//! That no state of the robot in which its hand holds a thing is free, proven: all ways to grip the thing are covered by patches, and
+//! for each the family of all solutions of the arm by cells, and in each a joint is beyond its limits throughout, or two solids
+//! touch throughout.
 //!
 //! Two solids touch in all of a cell where they do in its middle, each smaller by as much as it can be off. Let a point
 //! of the one go no farther than `d` and one of the other no farther than `e`. If a point is so deep within both that the depths add
 //! up to `d + e`, then the balls of these depths around it, which go along with their solids, still meet. What counts as a
 //! touch is what does for a state of a way, [`GAP`] between everything.
 //!
-//! A cell of which that is not known is cut across the parameter for which most moves. It ends where one is free in a state
+//! A cell of which that is not known is cut across the parameter for which most moves, until it is as small as the patch; then the patch
+//! is cut, and what is left of its cells is looked at for each half. It ends where one is free in a state
 //! in it, or where as many cells as were allowed have been looked at.
+
+use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
 use super::around::Around;
+use super::grip::{Grips, Patch};
 use super::machine::Hand;
 use super::room::GAP;
 use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::{Cell, Drift, Over, Stretch};
+use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 use crate::inverse::{LiftArm, ParallelArm};
 use crate::kinematics::Rig;
 
 /// What may be off of places and lengths, in m: far more than rounding, and than what the axes of a URDF are off.
 const SLACK: f64 = 1e-5;
+/// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
+const COARSE: f64 = 0.1;
 /// Below this a cell is looked at for a free state, in m that something goes in it.
 const SMALL: f64 = 0.05;
 /// So many pairs that touched lately are looked at before all others.
@@ -37,6 +44,8 @@ enum Family<'a> {
     Lift(&'a LiftArm),
     /// With the height of the base's link above the floor.
     Parallel(&'a ParallelArm, f64),
+    /// None that is known: nothing is told but of the hand alone.
+    Any,
 }
 
 impl Family<'_> {
@@ -44,6 +53,7 @@ impl Family<'_> {
         match self {
             Self::Lift(arm) => arm.cells(),
             Self::Parallel(arm, _) => arm.cells(),
+            Self::Any => vec![Cell { way: 0, middle: [0.0; 3], half: [0.0; 3] }],
         }
     }
 
@@ -51,13 +61,15 @@ impl Family<'_> {
         match self {
             Self::Lift(arm) => arm.weights(),
             Self::Parallel(arm, _) => arm.weights(),
+            Self::Any => [0.0; 3],
         }
     }
 
-    fn over(self, map_from_tip: &Isometry3<f64>, cell: &Cell) -> Over {
+    fn over(self, tips: &Tips, cell: &Cell) -> Over {
         match self {
-            Self::Lift(arm) => arm.over(map_from_tip, cell),
-            Self::Parallel(arm, height) => arm.over(map_from_tip, height, cell),
+            Self::Lift(arm) => arm.over(tips, cell),
+            Self::Parallel(arm, height) => arm.over(tips, height, cell),
+            Self::Any => Over::Unclear,
         }
     }
 }
@@ -106,39 +118,97 @@ struct Cover<'a, 'r, 'w> {
     things: Vec<f64>,
 }
 
-/// What is known of all states with the hand's tip at any of some poses.
+/// What is known of all states in which a hand holds a thing.
 pub(super) enum Covered {
     /// None is free, for certain.
     Nowhere,
-    /// One is: with the tip at the pose of this index.
-    Free(usize, State),
+    /// One is: this.
+    Free(State),
     /// Not as much.
     Open,
 }
 
 impl Around<'_, '_> {
-    /// What cells tell of the states with the hand's tip at some poses, at most so many cells.
+    /// What cells tell of the states in which a hand grips a thing in any way there is, at most so many cells.
     pub(super) fn covered(
         &self,
         hand: &Hand,
-        tips: &[Isometry3<f64>],
+        grips: &Grips<'_>,
         allowed: Allowed,
         mut cells: usize,
     ) -> Covered {
         let Some(cover) = Cover::new(self, hand, allowed) else { return Covered::Open };
-        let roots = cover.family.cells();
-        if roots.is_empty() {
+        let roots: Rc<[Cell]> = cover.family.cells().into();
+        let mut known = Known::default();
+        let mut open: Vec<(Patch, Rc<[Cell]>)> =
+            grips.patches().into_iter().map(|patch| (patch, Rc::clone(&roots))).collect();
+        if roots.is_empty() || open.is_empty() {
             return Covered::Open;
         }
-        let mut culprits = Vec::new();
-        let mut of_tips =
-            tips.iter().zip(0..).map(|(tip, at)| cover.covered((at, tip), &roots, &mut culprits, &mut cells));
-        of_tips.find(|covered| !matches!(covered, Covered::Nowhere)).unwrap_or(Covered::Nowhere)
+        while let Some((patch, left)) = open.pop() {
+            let Some(fewer) = cells.checked_sub(1) else { return Covered::Open };
+            cells = fewer;
+            let Some((map_from_tip, drift)) = grips.over(&patch) else { continue };
+            let tips = Tips { map_from_tip, drift };
+            let sizes = grips.sizes(&patch);
+            let (size, across) = widest(&sizes);
+            if cover.is_hand_stuck(&tips, &mut known) {
+                continue;
+            }
+            let is_hand_free = || {
+                let middle = Tips { drift: Drift::none(), ..tips };
+                !cover.is_hand_stuck(&middle, &mut Known::default())
+            };
+            let left = if size > COARSE {
+                left
+            } else if matches!(cover.family, Family::Any) && !is_hand_free() {
+                // In a smaller patch it may touch throughout.
+                left
+            } else {
+                match cover.left(&tips, size, &left, &mut known, &mut cells) {
+                    Ok(left) if left.is_empty() => continue,
+                    Ok(left) => left.into(),
+                    Err(ended) => return ended,
+                }
+            };
+            if size < LEAST {
+                return Covered::Open;
+            }
+            open.extend(patch.halves(across).map(|half| (half, Rc::clone(&left))));
+        }
+        Covered::Nowhere
+    }
+}
+
+/// The largest of some sizes, and which it is.
+fn widest(sizes: &[f64]) -> (f64, usize) {
+    let all = sizes.iter().copied().zip(0..);
+    all.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
+}
+
+/// Pairs that touched lately; those that did often stand at the end.
+#[derive(Default)]
+struct Known(Vec<Culprit>);
+
+impl Known {
+    fn add(&mut self, culprit: Culprit) {
+        if self.0.len() == KNOWN {
+            self.0.remove(0);
+        }
+        self.0.push(culprit);
+    }
+
+    /// Whether one of them is so.
+    fn any(&mut self, is: impl Fn(Culprit) -> bool) -> bool {
+        let Some(at) = self.0.iter().rposition(|culprit| is(*culprit)) else { return false };
+        let next = (at + 1).min(self.0.len() - 1);
+        self.0.swap(at, next);
+        true
     }
 }
 
 impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
-    /// `None` where the solutions of the arm have no cells.
+    /// `None` where the robot is not simple enough.
     fn new(around: &'a Around<'r, 'w>, hand: &'a Hand, allowed: Allowed) -> Option<Self> {
         let (room, machine) = (around.room, around.room.machine);
         let family = match &hand.solver {
@@ -146,7 +216,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             Solver::Parallel(arm) if machine.drives() => {
                 Family::Parallel(arm, room.map_from_base([0.0; 3]).translation.z)
             }
-            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => return None,
+            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => Family::Any,
         };
         let chain = hand.solver.chain();
         let joints = room.with(hand, [0.0; 3], &[]).joints;
@@ -175,51 +245,78 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         Some(Self { around, hand, family, allowed, rig, joints, arm, limbs, pairs, things })
     }
 
-    /// What cells tell of the states with the tip at a pose; what touched lately comes first.
-    fn covered(
+    /// Whether the hand alone touches something with its tip at any of some poses.
+    fn is_hand_stuck(&self, tips: &Tips, known: &mut Known) -> bool {
+        let last = self.arm.last().copied().unwrap_or_default();
+        let tip_from_frame =
+            self.rig.links.get(self.hand.tip).map(|(_, pose)| pose.inverse()).unwrap_or_default();
+        let pose = tips.map_from_tip * tip_from_frame;
+        let limbs = self.limbs.iter().map(|limb| {
+            let is_own = limb.frame == last;
+            let solid = if is_own { limb.solid.moved(&pose) } else { limb.solid };
+            // What is elsewhere is not known to be anywhere.
+            let drift = if is_own { tips.drift.of(&solid) } else { f64::INFINITY };
+            Placed { solid, inner: limb.inner, reach: limb.reach, drift }
+        });
+        let placed: Vec<Placed> = limbs.collect();
+        let is_own = |culprit: &Culprit| match culprit {
+            Culprit::Thing(part, _) | Culprit::Floor(part) => {
+                self.limbs.get(*part).is_some_and(|limb| limb.frame == last)
+            }
+            Culprit::Own(..) => false,
+        };
+        if known.any(|culprit| is_own(&culprit) && self.touches(&placed, culprit)) {
+            return true;
+        }
+        let found = self.of_scene().filter(is_own).find(|culprit| self.touches(&placed, *culprit));
+        found.into_iter().for_each(|culprit| known.add(culprit));
+        found.is_some()
+    }
+
+    /// Of some cells those parts, no larger than the tips are far from each other, of which it is not known that no state is free; or what
+    /// ends the search.
+    fn left(
         &self,
-        (at, tip): (usize, &Isometry3<f64>),
-        roots: &[Cell],
-        culprits: &mut Vec<Culprit>,
+        tips: &Tips,
+        enough: f64,
+        all: &[Cell],
+        known: &mut Known,
         cells: &mut usize,
-    ) -> Covered {
+    ) -> Result<Vec<Cell>, Covered> {
         let weights = self.family.weights();
-        let mut open: Vec<Cell> = roots.to_vec();
+        let mut open: Vec<Cell> = all.to_vec();
+        let mut left = Vec::new();
         while let Some(cell) = open.pop() {
-            let Some(left) = cells.checked_sub(1) else { return Covered::Open };
-            *cells = left;
-            let stretch = match self.family.over(tip, &cell) {
+            *cells = cells.checked_sub(1).ok_or(Covered::Open)?;
+            let stretch = match self.family.over(tips, &cell) {
                 Over::Nothing => continue,
-                Over::Unclear => return Covered::Open,
+                Over::Unclear => return Err(Covered::Open),
                 Over::Near(stretch) => stretch,
             };
             let placed = self.placed(&stretch);
-            if let Some(known) = culprits.iter().rposition(|culprit| self.touches(&placed, *culprit)) {
-                // What touches often stands at the end.
-                let next = (known + 1).min(culprits.len() - 1);
-                culprits.swap(known, next);
+            if known.any(|culprit| self.touches(&placed, culprit)) {
                 continue;
             }
             if let Some(found) = self.culprit(&placed) {
-                if culprits.len() == KNOWN {
-                    culprits.remove(0);
-                }
-                culprits.push(found);
+                known.add(found);
                 continue;
             }
-            let sizes = weights.iter().zip(cell.half).map(|(weight, half)| weight * half).zip(0..);
-            let (size, across) = sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
-            if size < SMALL
-                && let Some(state) = self.free_in(tip, &stretch, &cell)
+            let sizes: [f64; 3] = std::array::from_fn(|at: usize| {
+                weights.get(at).zip(cell.half.get(at)).map_or(0.0, |(weight, half)| weight * half)
+            });
+            let (size, across) = widest(&sizes);
+            if size.max(enough) < SMALL
+                && let Some(state) = self.free_in(&tips.map_from_tip, &stretch, &cell)
             {
-                return Covered::Free(at, state);
+                return Err(Covered::Free(state));
             }
-            if size < LEAST {
-                return Covered::Open;
+            if size < enough.max(LEAST) {
+                left.push(cell);
+            } else {
+                open.extend(cell.halves(across));
             }
-            open.extend(cell.halves(across));
         }
-        Covered::Nowhere
+        Ok(left)
     }
 
     /// The parts in the middle of a cell, and how far each can be from there.
@@ -255,17 +352,21 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         placed.collect()
     }
 
-    /// What touches throughout.
-    fn culprit(&self, placed: &[Placed]) -> Option<Culprit> {
+    /// All that may not touch what stands around.
+    fn of_scene(&self) -> impl Iterator<Item = Culprit> + '_ {
         let limbs = self.around.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts);
-        let all = limbs.flat_map(|(limb, part)| {
+        limbs.flat_map(move |(limb, part)| {
             let things = self.around.things.iter().zip(0..);
             let things = things.filter(|(near, _)| !limb.may_touch(near.entity, self.allowed));
             let things = things.map(move |(_, at)| Culprit::Thing(part, at));
             things.chain(limb.is_carried.then_some(Culprit::Floor(part)))
-        });
+        })
+    }
+
+    /// What touches throughout.
+    fn culprit(&self, placed: &[Placed]) -> Option<Culprit> {
         let own = self.pairs.iter().map(|[one, other]| Culprit::Own(*one, *other));
-        all.chain(own).find(|culprit| self.touches(placed, *culprit))
+        self.of_scene().chain(own).find(|culprit| self.touches(placed, *culprit))
     }
 
     /// Whether a pair touches throughout.
@@ -303,6 +404,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 let found = arm.solve(&(room.map_from_base(stretch.base).inverse() * tip)).into_iter();
                 found.map(|values| room.with(self.hand, stretch.base, &values)).collect()
             }
+            Family::Any => vec![],
         };
         states.into_iter().find(|state| self.around.touch(state, self.allowed).is_none())
     }
@@ -313,7 +415,8 @@ impl Placed {
     fn touches(&self, other: &Self) -> bool {
         let off = self.drift + other.drift + SLACK;
         let from_other = (off - self.inner).max(0.0);
-        if from_other >= other.inner {
+        // What is not known at all is off by more than any number.
+        if off.is_nan() || from_other >= other.inner {
             return false;
         }
         let wide = self.reach + other.reach + GAP - off;
@@ -346,3 +449,7 @@ fn within(solid: &Solid, depth: f64) -> Solid {
     };
     Solid { shape, ..*solid }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+mod tests;

@@ -14,6 +14,7 @@ mod excursion;
 mod follow;
 mod go;
 mod grasp;
+mod grip;
 mod look;
 mod machine;
 mod map;

@@ -71,7 +71,7 @@ impl Room<'_> {
             hand: held.hand,
             palm: self.palm(held.hand, &tips, allowed),
             tips,
-            is_all: false,
+            grips: None,
             allowed,
             around: &around,
             backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),

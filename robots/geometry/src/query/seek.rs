@@ -8,6 +8,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::around::Around;
 use super::cells::Covered;
+use super::grip::Grips;
 use super::machine::Hand;
 use super::palm::Palm;
 use super::room::Room;
@@ -37,8 +38,9 @@ pub(super) struct Sought<'a, 'r, 'w> {
     pub(super) hand: &'a Hand,
     /// Poses of its tip in the map, the likeliest first.
     pub(super) tips: Vec<Isometry3<f64>>,
-    /// Whether there are no others, so that it is proven that there is no way where the hand alone is free in none.
-    pub(super) is_all: bool,
+    /// All ways in which the hand may hold something, of which the poses are some, where these are all that are considered: so it is
+    /// proven that there is no way where the hand alone is free in none.
+    pub(super) grips: Option<&'a Grips<'a>>,
     /// What may touch there and on the last line to it.
     pub(super) allowed: Allowed,
     pub(super) palm: Palm<'r, 'w>,
@@ -262,16 +264,6 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         ControlFlow::Continue(())
     }
 
-    /// A way to a free state that no candidate was.
-    fn last(&mut self, at: usize, state: &State) -> Option<(usize, Vec<State>)> {
-        let (at, tip, _) = self.tips.get(at).copied()?;
-        if !self.sought.around.room.is_near_drivable(state.base) {
-            return None;
-        }
-        let mut way = |unfolding| self.sought.way_to(&tip, state, unfolding, &mut self.ways);
-        Some((at, way(Unfolding::Simple).or_else(|| way(Unfolding::Searched))?))
-    }
-
     /// A way that a search finds to one of the states that are left.
     fn searched(&mut self) -> Option<(usize, Vec<State>)> {
         self.left.drain(..).find_map(|Candidate { at, tip, state }| {
@@ -302,34 +294,24 @@ impl Room<'_> {
         if let Some(found) = search.searched() {
             return Ok(found);
         }
-        if search.tips.is_empty() {
-            let reason = Reason::NoFreePose { by: search.hands.most() };
-            let certified = sought.is_all && !sought.tips.is_empty();
-            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified, state: None }));
-        }
         let mut state = search.met.take();
         // Where a free state was found there is nothing to prove.
-        if sought.is_all && state.is_none() {
-            let tips: Vec<_> = search.tips.iter().map(|(_, tip, _)| *tip).collect();
+        if let (Some(grips), None) = (sought.grips, &state) {
             let cells = budget.candidates.saturating_mul(CELLS);
-            match sought.around.covered(sought.hand, &tips, sought.allowed, cells) {
+            match sought.around.covered(sought.hand, grips, sought.allowed, cells) {
                 Covered::Nowhere => {
-                    let reason = Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) };
+                    let by = search.poses.most().or(search.hands.most());
+                    let reason = Reason::NoFreePose { by };
                     return Err(Answer::Infeasible(Infeasible::proven(reason, None)));
                 }
-                Covered::Free(at, free) => {
-                    if let Some(found) = search.last(at, &free) {
-                        return Ok(found);
-                    }
-                    state = Some(free);
-                }
+                Covered::Free(free) => state = Some(free),
                 Covered::Open => {}
             }
         }
         let is_met = state.is_some() || search.is_cut_off;
         let reason = match is_met {
             true => Reason::BlockedPath { by: search.ways.most() },
-            false => Reason::NoFreePose { by: search.poses.most() },
+            false => Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) },
         };
         let state = state.map(Box::new);
         Err(Answer::Infeasible(Infeasible { state, ..Infeasible::exhausted(reason) }))

@@ -33,6 +33,13 @@ pub(crate) struct Cell {
     pub(crate) half: [f64; 3],
 }
 
+/// Poses of the tip that are near to one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tips {
+    pub(crate) map_from_tip: Isometry3<f64>,
+    pub(crate) drift: Drift,
+}
+
 /// What is known of a cell.
 pub(crate) enum Over {
     /// No member is within the limits.

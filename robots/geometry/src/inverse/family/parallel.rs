@@ -7,9 +7,9 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Vector3;
 
-use super::{Cell, Drift, Over, Stretch, based, frames, values_over, wave, wrist_over};
+use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_over};
 use crate::inverse::ParallelArm;
 use crate::inverse::screw::ROUNDED;
 use crate::inverse::subproblem::turned;
@@ -33,15 +33,18 @@ impl ParallelArm {
     }
 
     /// What is known of a cell, with the base so high above the floor.
-    pub(crate) fn over(&self, map_from_tip: &Isometry3<f64>, height: f64, cell: &Cell) -> Over {
+    pub(crate) fn over(&self, tips: &Tips, height: f64, cell: &Cell) -> Over {
+        let map_from_tip = &tips.map_from_tip;
         let ([heading, lean, yaw], [headings, leans, yaws]) = (cell.middle, cell.half);
         let [_, across, _, _, five, six] = self.axes;
         let [to_two, to_three, to_four, to_centre] = self.offsets;
         let centre = (map_from_tip * nalgebra::Point3::from(self.centre_in_tip)).coords;
+        // The wrist's centre may be off as well, and the hand turned.
+        let (moves, tilts) = (tips.drift.point(&centre, 0.0), tips.drift.turn);
         let facing = crate::trigonometry::turn(&Vector3::z_axis(), heading);
         let left = facing.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
         let Some([[sum, sums], fifth, sixth]) =
-            wrist_over(&[across, five, six], &left, headings, cell.way & 1)
+            wrist_over(&[across, five, six], &left, headings + tilts, cell.way & 1)
         else {
             return Over::Unclear;
         };
@@ -88,18 +91,18 @@ impl ParallelArm {
         let out = libm::hypot(out.x, out.y) + flat;
         let roll = self.chain.joints.get(5).zip(placed.get(5));
         let axis = roll.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner());
-        let (heads, [_, rolls]) = (Drift::upright(centre, headings), sixth);
+        let (heads, [_, rolls]) = (Drift::upright(centre, headings).shifted(moves), sixth);
         let drifts = [
             heads.shifted(flat),
             heads.turned(elbow, raises).shifted(end_long * sums.min(2.0) + fore_long * leans.min(2.0)),
             heads.turned(four, leans).shifted(end_long * sums.min(2.0)),
             heads.turned(centre, sums),
-            Drift { axis, ..Drift::upright(centre, rolls) },
-            Drift::none(),
+            Drift { axis, ..Drift::upright(centre, rolls).shifted(moves).turned(centre, tilts) },
+            tips.drift,
         ];
         Over::Near(Box::new(Stretch {
             base,
-            base_drift: Drift::upright(first, yaws).shifted(flat + headings.min(2.0) * out),
+            base_drift: Drift::upright(first, yaws).shifted(moves + flat + headings.min(2.0) * out),
             frames: placed.into_iter().zip(drifts).collect(),
             values,
         }))
