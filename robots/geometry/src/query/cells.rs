@@ -19,16 +19,15 @@ use super::around::Around;
 use super::grip::{Grips, Patch};
 use super::machine::Hand;
 use super::room::GAP;
+use super::shrunk::{Placed, SLACK, inner};
 use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
-use crate::collision::{Shape, Solid};
+use crate::collision::Solid;
 use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 use crate::inverse::{LiftArm, ParallelArm};
 use crate::kinematics::Rig;
 
-/// What may be off of places and lengths, in m: far more than rounding, and than what the axes of a URDF are off.
-const SLACK: f64 = 1e-5;
 /// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
 const COARSE: f64 = 0.1;
 /// Below this a cell is looked at for a free state, in m that something goes in it.
@@ -81,15 +80,6 @@ struct Limb {
     solid: Solid,
     inner: f64,
     reach: f64,
-}
-
-/// A part where it is in the middle of a cell, and how far it can be from there.
-#[derive(Clone, Copy)]
-struct Placed {
-    solid: Solid,
-    inner: f64,
-    reach: f64,
-    drift: f64,
 }
 
 /// What touches throughout a cell, and perhaps in the next as well.
@@ -371,24 +361,20 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
 
     /// Whether a pair touches throughout.
     fn touches(&self, placed: &[Placed], culprit: Culprit) -> bool {
-        let (part, other) = match culprit {
+        match culprit {
             Culprit::Thing(part, at) => {
-                let Some((near, inner)) = self.around.things.get(at).zip(self.things.get(at)) else {
-                    return false;
-                };
-                (part, Placed { solid: near.solid, inner: *inner, reach: near.reach, drift: 0.0 })
+                let pair = placed.get(part).zip(self.around.things.get(at).zip(self.things.get(at)));
+                pair.is_some_and(|(own, (near, inner))| {
+                    own.touches(&near.solid, *inner, near.reach, own.drift)
+                })
             }
-            Culprit::Own(part, at) => {
-                let Some(other) = placed.get(at) else { return false };
-                (part, *other)
-            }
-            Culprit::Floor(part) => {
-                return placed
-                    .get(part)
-                    .is_some_and(|own| super::around::above_floor(&own.solid) + own.drift + SLACK <= GAP);
-            }
-        };
-        placed.get(part).is_some_and(|own| own.touches(&other))
+            Culprit::Own(part, at) => placed.get(part).zip(placed.get(at)).is_some_and(|(own, other)| {
+                own.touches(&other.solid, other.inner, other.reach, own.drift + other.drift)
+            }),
+            Culprit::Floor(part) => placed
+                .get(part)
+                .is_some_and(|own| super::around::above_floor(&own.solid) + own.drift + SLACK <= GAP),
+        }
     }
 
     /// A free state in the middle of a cell, or with the base there.
@@ -410,46 +396,12 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     }
 }
 
-impl Placed {
-    /// Whether two solids touch wherever they are within their drifts.
-    fn touches(&self, other: &Self) -> bool {
-        let off = self.drift + other.drift + SLACK;
-        let from_other = (off - self.inner).max(0.0);
-        // What is not known at all is off by more than any number.
-        if off.is_nan() || from_other >= other.inner {
-            return false;
-        }
-        let wide = self.reach + other.reach + GAP - off;
-        if wide < 0.0 || (self.solid.centre - other.solid.centre).norm_squared() > wide * wide {
-            return false;
-        }
-        let (one, far) = (within(&self.solid, off.min(self.inner)), within(&other.solid, from_other));
-        one.is_nearer(&far, GAP)
-    }
-}
-
-/// The radius of the greatest ball within a solid.
-fn inner(solid: &Solid) -> f64 {
-    match solid.shape {
-        Shape::Box(half) => half.min(),
-        Shape::Cylinder { radius, half } => radius.min(half),
-        Shape::Capsule { radius, .. } => radius,
-        Shape::HalfSpace => 0.0,
-    }
-}
-
-/// The points of a solid that are so deep within it, at most as deep as the greatest ball.
-fn within(solid: &Solid, depth: f64) -> Solid {
-    let less = |length: f64| (length - depth).max(0.0);
-    let shape = match solid.shape {
-        Shape::Box(half) => Shape::Box(half.map(less)),
-        Shape::Cylinder { radius, half } => Shape::Cylinder { radius: less(radius), half: less(half) },
-        Shape::Capsule { radius, half } => Shape::Capsule { radius: less(radius), half },
-        Shape::HalfSpace => Shape::HalfSpace,
-    };
-    Solid { shape, ..*solid }
-}
-
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
+#[allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    reason = "a test fails by panicking"
+)]
 mod tests;

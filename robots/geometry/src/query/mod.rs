@@ -33,6 +33,7 @@ mod reach;
 mod room;
 mod screen;
 mod seek;
+mod shrunk;
 mod shut;
 mod solver;
 mod span;

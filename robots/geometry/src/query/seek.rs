@@ -29,7 +29,7 @@ const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
 /// Cells for each candidate of a budget that may be looked at to prove that there is no state.
-const CELLS: usize = 256;
+const CELLS: usize = 64;
 /// States that are looked at at a time for what they touch.
 const BATCH: usize = 8;
 

@@ -7,6 +7,7 @@ use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
+use super::super::answer::Side;
 use super::super::machine::{Hand, Machine};
 use super::super::room::Room;
 use super::super::state::State;
@@ -145,7 +146,7 @@ fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Optio
     let room = Room::new(&machine, scene, &world);
     let hand = machine.hand().unwrap();
     let (tips, allowed, thing) = poses(&room, hand, scene);
-    let around = room.around([1.5, 0.0], 3.0);
+    let around = room.around([2.0, 0.0], 4.0);
     let grips = Grips::new(hand, &thing, None, world.robot.base);
     let said = match around.covered(hand, &grips, allowed, cells) {
         Covered::Nowhere => !tips.is_empty(),
@@ -213,17 +214,63 @@ proptest! {
     }
 }
 
+/// Grips that a search goes through are where the patches say.
+#[test]
+fn a_grip_is_in_its_patch() {
+    let machine = machine("hsr");
+    let hand = machine.hand().unwrap();
+    let shapes = [
+        Shape::Cylinder { radius: 0.03, half: 0.08 },
+        Shape::Cylinder { radius: 0.05, half: 0.02 },
+        Shape::Capsule { radius: 0.03, half: 0.06 },
+        Shape::Capsule { radius: 0.04, half: 0.0 },
+        Shape::Box(Vector3::new(0.02, 0.05, 0.09)),
+    ];
+    let lean = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.2, 1.0);
+    let upright = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, 1.0);
+    for (shape, rotation) in shapes.into_iter().flat_map(|shape| [(shape, upright), (shape, lean)]) {
+        let pose = Isometry3::from_parts(nalgebra::Translation3::new(1.0, 0.3, 0.8), rotation);
+        let thing = Solid::new(&pose, shape);
+        for side in [None, Some(Side::Top), Some(Side::Side), Some(Side::Front)] {
+            let grips = Grips::new(hand, &thing, side, [0.0; 3]);
+            let (holds, _) = super::super::grasp::holds(hand, &thing, side, [0.0; 3]);
+            assert!(side.is_some() || !holds.is_empty(), "{shape:?}");
+            // Small ones, so that how far they say they go is not more than a hand is long.
+            let (mut open, mut patches) = (grips.patches(), vec![]);
+            while let Some(patch) = open.pop() {
+                let (size, across) = super::widest(&grips.sizes(&patch));
+                if size > 0.08 {
+                    open.extend(patch.halves(across));
+                } else {
+                    patches.push(patch);
+                }
+            }
+            let tips: Vec<_> = patches.iter().filter_map(|patch| grips.over(patch)).collect();
+            for hold in &holds {
+                let is_in = |(tip, drift): &(Isometry3<f64>, Drift)| {
+                    [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].iter().all(|at| {
+                        let at = nalgebra::Point3::from(at * 0.2);
+                        let (one, other) = (hold.map_from_tip * at, tip * at);
+                        let ball = Shape::Capsule { radius: 0.0, half: 0.0 };
+                        let place = Isometry3::from_parts(other.coords.into(), upright);
+                        (one - other).norm() <= drift.of(&Solid::new(&place, ball)) + 1e-6
+                    })
+                };
+                assert!(tips.iter().any(is_in), "{shape:?}, {side:?}: {hold:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
     let draws: Vec<[f64; 4]> = (0..200)
         .map(|at| [1, 2, 3, 4].map(|n| super::super::arm::part(at, n, super::super::arm::SPACE)))
         .collect();
-    for name in ["hsr", "anymal_z1"] {
-        // Low and deep: the hand has room, and what carries it has none.
-        let deep = niche([0.4, 0.2, 0.9], 0.3, [1.0, 0.5]);
-        assert_eq!(covered(name, &deep, 200_000, &draws), Some(true), "{name}");
-        assert_eq!(covered(name, &deep, 20, &draws), None, "{name}");
-        let open = niche([0.6, 0.6, 0.4], 0.5, [0.0, 0.5]);
-        assert_eq!(covered(name, &open, 200_000, &draws), Some(false), "{name}");
-    }
+    // Low and deep: the hand has room, and what carries it has none.
+    let deep = niche([0.6, 0.4, 1.8], 0.3, [1.0, 0.5]);
+    assert_eq!(covered("hsr", &deep, 200_000, &draws), Some(true));
+    assert_eq!(covered("hsr", &deep, 20, &draws), None);
+    let open = niche([1.2, 0.8, 0.4], 0.5, [0.0, 0.5]);
+    assert_eq!(covered("hsr", &open, 200_000, &draws), Some(false));
 }
