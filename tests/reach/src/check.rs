@@ -1,6 +1,6 @@
 //! Whether a witness holds: limits, the grasp, and that nothing touches at samples no farther than 5 mm and 0.6° apart.
 
-use motet_geometry::query::{Witness, World};
+use motet_geometry::query::{State, Witness, World};
 use motet_robots::scene::Scene;
 
 use crate::model::Model;
@@ -63,4 +63,16 @@ pub fn faults(model: &Model, scene: &Scene, world: &World, witness: &Witness) ->
         }
     }
     faults
+}
+
+/// Whether a state is within the limits and touches nothing, the hand at a thing, which it may touch.
+#[must_use]
+pub(crate) fn is_free_at(model: &Model, scene: &Scene, world: &World, state: &State, target: &str) -> bool {
+    let known = model.machine.hand().zip(Scenery::new(scene, world)).zip(scene.entities.get_full(target));
+    let Some(((hand, scenery), (index, _, entity))) = known else { return false };
+    let Some(at) = world.pose(entity) else { return false };
+    let far = (model.links(state)[hand.tip].translation.vector - at.translation.vector).norm();
+    far < 0.3
+        && model.machine.tree().allows(&state.joints)
+        && scenery.touch(model, state, Some(index), GAP).is_none()
 }

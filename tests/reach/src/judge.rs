@@ -10,7 +10,7 @@ use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
 use serde::Serialize;
 
-use crate::check::faults;
+use crate::check::{faults, is_free_at};
 use crate::export;
 use crate::model::{Model, robot};
 use crate::report::Table;
@@ -31,6 +31,8 @@ pub struct Settings {
     pub scene: Option<String>,
     /// Search for the truth only shortly.
     pub is_quick: bool,
+    /// Ask for no truth: only what is answered, and whether the witnesses hold.
+    pub is_unjudged: bool,
     /// A folder for what the truth was found to be.
     pub cache: Option<PathBuf>,
     /// A file for the witnesses, a JSON object a line.
@@ -59,7 +61,7 @@ pub struct Case {
 }
 
 /// The kinds of answers.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Said {
     /// With a witness.
@@ -83,7 +85,7 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
     for name in &settings.robots {
         let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
         let mut cache = Cache::read(settings, &model, name);
-        let mut cases = Vec::new();
+        let (mut cases, mut answered) = (Vec::new(), Answered::default());
         for seed in settings.seed..settings.seed + settings.rooms {
             let scene = match &settings.scene {
                 Some(text) => scene::read(&Source::new("scene.json", text.as_str()), FileId(0))
@@ -92,11 +94,19 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
                 None => room_of(&model, seed),
             };
             let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
+            if settings.is_unjudged {
+                room.answers(&mut out, &mut answered)?;
+                continue;
+            }
             cases.extend(room.cases(settings, &mut out)?);
             cache.write();
             if settings.scene.is_some() {
                 break;
             }
+        }
+        if settings.is_unjudged {
+            lines.extend(answered.lines(name));
+            continue;
         }
         lines.extend(cases.iter().filter_map(Case::line));
         tables.push(Table::new(name, &cases));
@@ -127,6 +137,31 @@ fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
     path.as_ref().map(create).transpose()
 }
 
+/// What was answered where the truth is not asked for.
+#[derive(Default)]
+struct Answered {
+    kinds: BTreeMap<Said, usize>,
+    faults: Vec<String>,
+    negative: Vec<Duration>,
+}
+
+impl Answered {
+    fn lines(mut self, name: &str) -> Vec<String> {
+        let faulty = self.faults.len();
+        let kinds: Vec<String> =
+            self.kinds.iter().map(|(said, count)| format!("{said:?} {count}").to_lowercase()).collect();
+        self.negative.sort_unstable();
+        let most = self.negative.last().copied().unwrap_or_default();
+        let middle = self.negative.get(self.negative.len() / 2).copied().unwrap_or_default();
+        let mut lines = std::mem::take(&mut self.faults);
+        lines.push(format!(
+            "{name}: {}; witnesses that do not hold {faulty}; of a negative {middle:?} at the median, {most:?} at most",
+            kinds.join(", ")
+        ));
+        lines
+    }
+}
+
 struct Judged<'a> {
     model: &'a Model,
     scene: &'a Scene,
@@ -136,6 +171,32 @@ struct Judged<'a> {
 }
 
 impl Judged<'_> {
+    /// Answers and witnesses without the truth.
+    fn answers(&mut self, out: &mut Out, answered: &mut Answered) -> Result<(), String> {
+        let world = World::new(&self.model.machine, self.scene);
+        let room = Room::new(&self.model.machine, self.scene, &world).ready();
+        let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
+        for target in targets(self.scene) {
+            let begin = clock();
+            let answer = room.answer(&Query::Reach(target.clone(), None), Budget::default());
+            let took = clock().saturating_sub(begin);
+            let name = format!("{} {} {target}", self.name, self.seed);
+            *answered.kinds.entry(Said::of(&answer)).or_default() += 1;
+            let Answer::Feasible(witness) = &answer else {
+                answered.negative.push(took);
+                continue;
+            };
+            let found = faults(self.model, self.scene, &world, witness);
+            answered
+                .faults
+                .extend(found.first().map(|fault| format!("{name}: the witness does not hold: {fault}")));
+            if let Some(out) = &mut out.witnesses {
+                writeln!(out, "{}", subject.witness(&name, witness)).map_err(|error| error.to_string())?;
+            }
+        }
+        Ok(())
+    }
+
     fn cases(&mut self, settings: &Settings, out: &mut Out) -> Result<Vec<Case>, String> {
         let world = World::new(&self.model.machine, self.scene);
         let make = || Room::new(&self.model.machine, self.scene, &world).ready();
@@ -146,24 +207,23 @@ impl Judged<'_> {
             let (answer, took) = timed(|| room.answer(&query, Budget::default()));
             let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
             let name = format!("{} {} {target}", self.name, self.seed);
-            let truth = self
+            let mut truth = self
                 .cache
                 .truth(&name, self.scene, || searched(self.model, self.scene, &target, self.seed, effort));
+            // A search that ends finds none of the states that are few; one that was found is there.
+            if let (Truth::NoState, Answer::Infeasible(why)) = (truth, &answer)
+                && let Some(state) = &why.state
+                && is_free_at(self.model, self.scene, &world, state, &target)
+            {
+                truth = Truth::NoWay;
+            }
             let (mut found, mut reason) = (Vec::new(), None);
-            let said = match &answer {
-                Answer::Feasible(witness) => {
-                    found = faults(self.model, self.scene, &world, witness);
-                    Said::Feasible
-                }
-                Answer::Infeasible(why) => {
-                    reason = Some(why.reason.to_string());
-                    if why.certified { Said::Certified } else { Said::Exhausted }
-                }
-                Answer::Unknown(why) => {
-                    reason = Some(format!("{why:?}"));
-                    Said::Unknown
-                }
-            };
+            match &answer {
+                Answer::Feasible(witness) => found = faults(self.model, self.scene, &world, witness),
+                Answer::Infeasible(why) => reason = Some(why.reason.to_string()),
+                Answer::Unknown(why) => reason = Some(format!("{why:?}")),
+            }
+            let said = Said::of(&answer);
             let case = Case { name, truth, said, took, set_up, faults: found, reason };
             let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
             let write = |out: &mut Option<std::fs::File>, line: &dyn Fn() -> serde_json::Value| match out {
@@ -183,10 +243,6 @@ impl Judged<'_> {
 /// The median of some runs, or the one where it takes long: the time of the processor that this thread took, so that what else
 /// the machine does counts little.
 fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
-    let clock = || {
-        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-        Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
-    };
     let begin = clock();
     let value = run();
     let mut times = vec![clock().saturating_sub(begin)];
@@ -199,6 +255,23 @@ fn timed<T>(run: impl Fn() -> T) -> (T, Duration) {
     }
     times.sort_unstable();
     (value, times[times.len() / 2])
+}
+
+/// The time of the processor that this thread has taken.
+fn clock() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
+}
+
+impl Said {
+    fn of(answer: &Answer) -> Self {
+        match answer {
+            Answer::Feasible(_) => Self::Feasible,
+            Answer::Infeasible(why) if why.certified => Self::Certified,
+            Answer::Infeasible(_) => Self::Exhausted,
+            Answer::Unknown(_) => Self::Unknown,
+        }
+    }
 }
 
 impl Case {

@@ -14,6 +14,7 @@ fn witnesses_hold() {
         seed: 3,
         scene: None,
         is_quick: true,
+        is_unjudged: false,
         cache: None,
         witnesses: None,
         targets: None,

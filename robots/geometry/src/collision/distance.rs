@@ -45,6 +45,17 @@ impl Solid {
         self.told(reach, other, other_reach, Told { enough, least: Some(least) }, axis)
     }
 
+    /// Whether the distance is at most `metres`, for certain but for what a number rounds: a place on each is that near to the
+    /// other. What is nearer by less than a millionth of that may count as farther.
+    pub(crate) fn is_nearer(&self, other: &Self, metres: f64) -> bool {
+        match (&self.shape, &other.shape) {
+            (Shape::HalfSpace, _)
+            | (_, Shape::HalfSpace)
+            | (Shape::Capsule { .. }, Shape::Capsule { .. }) => self.distance(other) <= metres,
+            _ => are_nearer(self, other, metres + self.rim() + other.rim()),
+        }
+    }
+
     fn told(&self, reach: f64, other: &Self, other_reach: f64, told: Told, axis: &mut Vector3<f64>) -> f64 {
         let enough = told.enough;
         let wide = reach + other_reach + enough;
@@ -247,6 +258,27 @@ fn cores(one: &impl Convex, other: &Solid, told: Told, axis: &mut Vector3<f64>) 
         nearest = next;
     }
     below
+}
+
+/// Whether two places within the cores of two solids are so near to each other.
+fn are_nearer(one: &Solid, other: &Solid, metres: f64) -> bool {
+    let mut nearest = one.centre - other.centre;
+    let mut simplex = Simplex::empty();
+    for _ in 0..STEPS {
+        let length = nearest.norm();
+        if length <= metres {
+            return true;
+        }
+        let support = one.support(&-nearest) - other.support(&nearest);
+        if nearest.dot(&support) > metres * length || simplex.contains(&support) {
+            return false;
+        }
+        simplex.push(support);
+        let Some((next, rest)) = simplex.nearest() else { return true };
+        simplex = rest;
+        nearest = next;
+    }
+    false
 }
 
 /// The distance between two segments (Ericson 2005, 5.1.9).

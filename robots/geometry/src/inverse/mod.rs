@@ -6,6 +6,7 @@
 //! takes any chain. What is returned is within the limits, and
 //! forward kinematics confirms it.
 
+pub(crate) mod family;
 mod lanes;
 mod lift_arm;
 pub mod manifold;

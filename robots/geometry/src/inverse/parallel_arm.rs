@@ -18,19 +18,19 @@ use crate::trigonometry::turn;
 /// The solver of one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ParallelArm {
-    chain: Chain,
+    pub(super) chain: Chain,
     /// Directions of the six axes at positions 0, in the base's frame.
-    axes: [Vector3<f64>; 6],
+    pub(super) axes: [Vector3<f64>; 6],
     /// For the parallel joints 1 where they turn with the second axis, −1 where against it.
-    signs: [f64; 3],
+    pub(super) signs: [f64; 3],
     /// A point on the first axis.
-    first: Vector3<f64>,
+    pub(super) first: Vector3<f64>,
     /// From that point to the second axis, from axis to axis, and from the fourth to where the last two meet.
-    offsets: [Vector3<f64>; 4],
+    pub(super) offsets: [Vector3<f64>; 4],
     /// That point, in the tip's frame.
-    centre_in_tip: Vector3<f64>,
+    pub(super) centre_in_tip: Vector3<f64>,
     /// The tip's rotation at positions 0, in the base's frame.
-    base_from_tip: UnitQuaternion<f64>,
+    pub(super) base_from_tip: UnitQuaternion<f64>,
 }
 
 impl ParallelArm {

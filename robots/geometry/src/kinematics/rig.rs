@@ -1,8 +1,9 @@
 //! The joints that some variables move, with all that others hold still folded into the poses between them.
 
-use nalgebra::{Isometry3, Unit, Vector3};
+use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::tree::{Driver, Motion, Tree};
+use crate::trigonometry::turn;
 
 /// A robot of which only some joints move. Frame 0 is the root's, frame `n` + 1 that of joint `n`.
 #[derive(Clone, Debug)]
@@ -26,6 +27,17 @@ pub(crate) struct RigJoint {
     pub(crate) slides: bool,
     /// Its position in terms of the tree's variables.
     pub(crate) driver: Driver,
+}
+
+impl RigJoint {
+    /// The joint's motion at a position.
+    pub(crate) fn motion(&self, position: f64) -> Isometry3<f64> {
+        if self.slides {
+            Translation3::from(self.axis.into_inner() * position).into()
+        } else {
+            Isometry3::from_parts(Translation3::identity(), turn(&self.axis, position))
+        }
+    }
 }
 
 impl Tree {

@@ -176,6 +176,21 @@ pub struct Infeasible {
     pub change: Option<String>,
     /// Whether it is proven, for every grasp that is considered; else the search ended without finding anything.
     pub certified: bool,
+    /// A free state with the hand where it is wanted, where one was found to which no way was; never where it is proven that there
+    /// is none.
+    pub state: Option<Box<State>>,
+}
+
+impl Infeasible {
+    /// What is proven.
+    pub(super) fn proven(reason: Reason, change: Option<String>) -> Self {
+        Self { reason, change, certified: true, state: None }
+    }
+
+    /// What a search that ended says.
+    pub(super) fn exhausted(reason: Reason) -> Self {
+        Self { reason, change: None, certified: false, state: None }
+    }
 }
 
 /// The reasons of the language.

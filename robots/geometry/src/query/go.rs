@@ -90,7 +90,7 @@ impl Room<'_> {
         let reason =
             if is_free_somewhere { Reason::BlockedPath { by: None } } else { Reason::NoFreePose { by } };
         let certified = self.is_shut_off([centre.x, centre.y], reach, far);
-        Answer::Infeasible(Infeasible { reason, change: None, certified })
+        Answer::Infeasible(Infeasible { reason, change: None, certified, state: None })
     }
 
     /// The arm to a posture of the card, the base where it is.
@@ -106,11 +106,7 @@ impl Room<'_> {
         let mut met = Tally::default();
         match self.unfold(start, &goal, &mut met) {
             Some(path) => self.gone(path),
-            None => Answer::Infeasible(Infeasible {
-                reason: Reason::BlockedPath { by: met.most() },
-                change: None,
-                certified: false,
-            }),
+            None => Answer::Infeasible(Infeasible::exhausted(Reason::BlockedPath { by: met.most() })),
         }
     }
 

@@ -13,10 +13,13 @@ use crate::collision::{Shape, Solid};
 use crate::trigonometry::{sin_cos, turn};
 
 /// How far the fingers have to reach along a thing with flat faces, in m.
-const GRIP: f64 = 0.01;
+pub(super) const GRIP: f64 = 0.01;
 /// How far they may stay behind the widest place of a round thing, as a share of its radius: the sine of the angle of friction
 /// of rubber on most things, with some to spare.
-const SHORT: f64 = 0.35;
+pub(super) const SHORT: f64 = 0.35;
+
+/// What points down more than this comes from above: the cosine of 35°.
+pub(super) const TOP: f64 = -0.819;
 
 /// A pose of the hand.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -168,7 +171,7 @@ impl Found<'_> {
         if depth > most {
             return;
         }
-        let side = if approach.z < -0.819 { Side::Top } else { Side::Side };
+        let side = if approach.z < TOP { Side::Top } else { Side::Side };
         let rotation = self.hand.turned(approach, along);
         // From above the finger tips may have to stay above what the thing stands on.
         let shallow = (side == Side::Top && most > depth + 0.005).then_some(most);

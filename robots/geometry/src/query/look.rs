@@ -76,7 +76,7 @@ impl Room<'_> {
             (false, true) => Reason::OutOfReach { what: "sight", needs: away, reach: camera.range_m },
             (false, false) => Reason::NotInView { by: hides.most() },
         };
-        Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+        Answer::Infeasible(Infeasible::exhausted(reason))
     }
 
     /// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.

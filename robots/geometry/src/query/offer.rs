@@ -51,7 +51,7 @@ impl Room<'_> {
         if far > tip_reach + REACH[1] {
             let reason = Reason::OutOfReach { what: "distance", needs: far - REACH[1], reach: tip_reach };
             let change = Some(format!("go to `{to}` before"));
-            return Answer::Infeasible(Infeasible { reason, change, certified: false });
+            return Answer::Infeasible(Infeasible { reason, change, certified: false, state: None });
         }
         let (mut poses, mut ways, mut tried) = (Tally::default(), Tally::default(), 0);
         for at in 0..budget.candidates.saturating_mul(8) {

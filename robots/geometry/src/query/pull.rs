@@ -96,7 +96,12 @@ impl Room<'_> {
         let free: Vec<&Hold> = all.iter().filter(is_free).collect();
         if free.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
-            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified: !all.is_empty() }));
+            return Err(Answer::Infeasible(Infeasible {
+                reason,
+                change: None,
+                certified: !all.is_empty(),
+                state: None,
+            }));
         }
         Ok(free)
     }

@@ -71,7 +71,7 @@ impl Room<'_> {
         }
         if ends.is_empty() {
             let reason = Reason::BlockedPath { by: met.most() };
-            return Answer::Infeasible(Infeasible { reason, change: None, certified: true });
+            return Answer::Infeasible(Infeasible::proven(reason, None));
         }
         let allowed = Allowed { hand: Some(index), held: None };
         let (mut poses, mut ways, mut tried) = (Tally::default(), Tally::default(), 0);

@@ -58,7 +58,7 @@ impl Room<'_> {
         if places.is_empty() {
             let reason = Reason::NoFreePose { by: met.most() };
             let certified = self.is_full(&held, &support, index);
-            return Answer::Infeasible(Infeasible { reason, change: None, certified });
+            return Answer::Infeasible(Infeasible { reason, change: None, certified, state: None });
         }
         let tip_from_place = held.tip_from_object.inverse();
         let face = support.map_from_face.translation;
@@ -71,7 +71,7 @@ impl Room<'_> {
             hand: held.hand,
             palm: self.palm(held.hand, &tips, allowed),
             tips,
-            is_all: false,
+            grips: None,
             allowed,
             around: &around,
             backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),
@@ -118,7 +118,7 @@ impl Room<'_> {
         if entity.travel.is_some() && !self.world.is_open(entity) {
             let reason = Reason::NoFreePose { by: Some(entity.id.clone()) };
             let change = Some(format!("open `{}` before", entity.id));
-            return Err(Answer::Infeasible(Infeasible { reason, change, certified: true }));
+            return Err(Answer::Infeasible(Infeasible::proven(reason, change)));
         }
         let (face, inset) = match &entity.travel {
             // Inside, on its bottom.

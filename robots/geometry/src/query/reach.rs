@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::around::Around;
 use super::grasp::{Hold, holds};
+use super::grip::Grips;
 use super::machine::Hand;
 use super::obstacle::solid_shape;
 use super::pull::away;
@@ -58,11 +59,12 @@ impl Room<'_> {
         let centre = goal.pose.translation;
         let grasp = hand.palm.abs().max(hand.fingers.abs()) + goal.thing.reach();
         let around = self.around([centre.x, centre.y], self.farthest(hand) + grasp + LAST);
+        let grips = Grips::new(hand, &goal.thing, side, self.world.robot.base);
         let sought = Sought {
             hand,
             palm: self.palm(hand, &tips, goal.allowed),
             tips,
-            is_all: true,
+            grips: Some(&grips),
             allowed: goal.allowed,
             around: &around,
             backs: &|tip| BACK.map(|back| away(tip, hand, back)).to_vec(),
@@ -120,5 +122,5 @@ struct Goal<'a> {
 }
 
 pub(super) fn certain(reason: Reason, change: Option<String>) -> Answer {
-    Answer::Infeasible(Infeasible { reason, change, certified: true })
+    Answer::Infeasible(Infeasible::proven(reason, change))
 }

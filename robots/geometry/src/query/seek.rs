@@ -7,6 +7,8 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::around::Around;
+use super::cells::Covered;
+use super::grip::Grips;
 use super::machine::Hand;
 use super::palm::Palm;
 use super::room::Room;
@@ -14,7 +16,7 @@ use super::screen::{Draft, Group, Screen, Seen};
 use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
-use super::travel::{Tally, Unfolding, exhausted};
+use super::travel::{Tally, Unfolding};
 use crate::inverse::manifold::LANES;
 
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
@@ -26,6 +28,8 @@ pub(super) const LAST: f64 = 0.65;
 const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
+/// Cells for each candidate of a budget that may be looked at to prove that there is no state.
+const CELLS: usize = 64;
 /// States that are looked at at a time for what they touch.
 const BATCH: usize = 8;
 
@@ -34,8 +38,9 @@ pub(super) struct Sought<'a, 'r, 'w> {
     pub(super) hand: &'a Hand,
     /// Poses of its tip in the map, the likeliest first.
     pub(super) tips: Vec<Isometry3<f64>>,
-    /// Whether there are no others, so that it is proven that there is no way where the hand alone is free in none.
-    pub(super) is_all: bool,
+    /// All ways in which the hand may hold something, of which the poses are some, where these are all that are considered: so it is
+    /// proven that there is no way where the hand alone is free in none.
+    pub(super) grips: Option<&'a Grips<'a>>,
     /// What may touch there and on the last line to it.
     pub(super) allowed: Allowed,
     pub(super) palm: Palm<'r, 'w>,
@@ -79,6 +84,8 @@ struct Search<'a, 'r, 'w> {
     batch: Vec<Candidate>,
     /// Free states to which no simple way leads.
     left: Vec<Candidate>,
+    /// A free state.
+    met: Option<State>,
 }
 
 impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
@@ -94,6 +101,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             is_cut_off: false,
             batch: Vec::with_capacity(BATCH),
             left: vec![],
+            met: None,
         }
     }
 
@@ -235,6 +243,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                 continue;
             }
             self.tried += 1;
+            self.met.get_or_insert_with(|| candidate.state.clone());
             let Candidate { at, tip, state } = &candidate;
             if let Some(path) = self.sought.way_to(tip, state, Unfolding::Simple, &mut self.ways) {
                 return ControlFlow::Break(Ok((*at, path)));
@@ -285,12 +294,27 @@ impl Room<'_> {
         if let Some(found) = search.searched() {
             return Ok(found);
         }
-        if search.tips.is_empty() {
-            let reason = Reason::NoFreePose { by: search.hands.most() };
-            let certified = sought.is_all && !sought.tips.is_empty();
-            return Err(Answer::Infeasible(Infeasible { reason, change: None, certified }));
+        let mut state = search.met.take();
+        // Where a free state was found there is nothing to prove.
+        if let (Some(grips), None) = (sought.grips, &state) {
+            let cells = budget.candidates.saturating_mul(CELLS);
+            match sought.around.covered(sought.hand, grips, sought.allowed, cells) {
+                Covered::Nowhere => {
+                    let by = search.poses.most().or(search.hands.most());
+                    let reason = Reason::NoFreePose { by };
+                    return Err(Answer::Infeasible(Infeasible::proven(reason, None)));
+                }
+                Covered::Free(free) => state = Some(free),
+                Covered::Open => {}
+            }
         }
-        Err(exhausted(search.tried > 0 || search.is_cut_off, &search.poses, &search.ways))
+        let is_met = state.is_some() || search.is_cut_off;
+        let reason = match is_met {
+            true => Reason::BlockedPath { by: search.ways.most() },
+            false => Reason::NoFreePose { by: search.poses.most().or(search.hands.most()) },
+        };
+        let state = state.map(Box::new);
+        Err(Answer::Infeasible(Infeasible { state, ..Infeasible::exhausted(reason) }))
     }
 
     /// How far the base can be from the tip of a hand, in m.

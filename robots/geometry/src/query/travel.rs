@@ -55,7 +55,7 @@ impl Tally {
 pub(super) fn exhausted(found: bool, poses: &Tally, ways: &Tally) -> Answer {
     let reason =
         if found { Reason::BlockedPath { by: ways.most() } } else { Reason::NoFreePose { by: poses.most() } };
-    Answer::Infeasible(Infeasible { reason, change: None, certified: false })
+    Answer::Infeasible(Infeasible::exhausted(reason))
 }
 
 impl Room<'_> {

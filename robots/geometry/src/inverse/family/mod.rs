@@ -1,0 +1,143 @@
+//! Cells of the family of solutions of an arm whose tip is at a pose: over a box of the family's free parameters, between which
+//! values each joint is, and how far each frame can be from where it is in the middle of the box.
+//!
+//! Nothing here looks at what stands around. What is said holds for every member of the family whose parameters are in the
+//! box, so that a box in which a joint is beyond its limits throughout has no state, and what a frame carries can be looked at
+//! in the middle, smaller by as much as it can be off. Which arms have such cells: [`LiftArm`](super::LiftArm), by the base's yaw and
+//! the shoulder; [`ParallelArm`](super::ParallelArm) on a base that drives, by the heading of the arm, the lean of the forearm,
+//! and the base's yaw.
+
+mod drift;
+mod lift;
+mod parallel;
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+pub(crate) use drift::Drift;
+
+use super::lift_arm::wrist;
+use crate::kinematics::{Chain, planar};
+use crate::trigonometry::acos;
+
+/// How far, in rad or m, a value may be beyond a limit and still be rounding.
+const SLACK: f64 = 1e-5;
+
+/// A box of free parameters, and one of the ways in which the rest follows from them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    pub(crate) way: u8,
+    pub(crate) middle: [f64; 3],
+    /// Half of each side; 0 for a parameter that the family does not have.
+    pub(crate) half: [f64; 3],
+}
+
+/// Poses of the tip that are near to one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tips {
+    pub(crate) map_from_tip: Isometry3<f64>,
+    pub(crate) drift: Drift,
+}
+
+/// What is known of a cell.
+pub(crate) enum Over {
+    /// No member is within the limits.
+    Nothing,
+    /// All members are as near to this as it says.
+    Near(Box<Stretch>),
+    /// Nothing is known.
+    Unclear,
+}
+
+/// The middle of a cell, and how far its members can be from it.
+pub(crate) struct Stretch {
+    /// x, y and yaw of the base.
+    pub(crate) base: [f64; 3],
+    pub(crate) base_drift: Drift,
+    /// The frame after each joint, in the map.
+    pub(crate) frames: Vec<(Isometry3<f64>, Drift)>,
+    /// Of each variable its value, and how far it can be from there.
+    pub(crate) values: Vec<[f64; 2]>,
+}
+
+impl Cell {
+    /// The two halves of a cell, cut across a parameter.
+    pub(crate) fn halves(&self, across: usize) -> [Self; 2] {
+        let mut halves = [*self; 2];
+        for (half, sign) in halves.iter_mut().zip([-0.5, 0.5]) {
+            if let (Some(middle), Some(side)) = (half.middle.get_mut(across), half.half.get_mut(across)) {
+                *middle += sign * *side;
+                // The halves overlap by what rounding may take.
+                *side = 0.5 * *side + 1e-12;
+            }
+        }
+        halves
+    }
+}
+
+/// The angles about three axes, each square to the next, that make up a rotation, in one of two ways, and how far each can be from
+/// there where the rotation is off by some angle.
+fn wrist_over(
+    axes: &[Vector3<f64>; 3],
+    rotation: &UnitQuaternion<f64>,
+    off: f64,
+    way: u8,
+) -> Option<[[f64; 2]; 3]> {
+    let [one, _, three] = axes;
+    let [first, middle, last] = *wrist(axes, rotation).get(usize::from(way))?;
+    // The third axis is this far from the first, and that changes by no more than the rotation does; so does the middle angle.
+    let polar = acos(one.dot(&(rotation * three)));
+    let around = azimuth(polar, off);
+    Some([[first, around], [middle, off], [last, around]])
+}
+
+/// How far the direction in which a vector leans away from an axis can turn about it, where the vector is so far from the axis and
+/// is turned by no more than `off`.
+fn azimuth(polar: f64, off: f64) -> f64 {
+    let room = polar.min(PI - polar) - 1e-6;
+    if off >= room { PI } else { libm::asin((libm::sin(off) / libm::sin(polar)).min(1.0)) + 1e-9 }
+}
+
+/// How far the component of a vector can go in a direction while it turns about an axis to which both are square: the vector is so long,
+/// and its component across the direction is `slope`.
+fn wave(slope: f64, long: f64, off: f64) -> f64 {
+    (slope.abs() * off + 0.5 * long * off * off).min(2.0 * long)
+}
+
+/// Values of a chain's variables for positions of its joints, each with how far it can be off; `None` where one is beyond its
+/// limits throughout.
+fn values_over(chain: &Chain, positions: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
+    let joints = chain.joints.iter().zip(&chain.variables).zip(positions);
+    let values = joints.map(|((joint, variable), [position, off])| {
+        let size = joint.driver.multiplier.abs();
+        let (mut value, off) = ((position - joint.driver.offset) / joint.driver.multiplier, off / size);
+        let Some((lower, upper)) = variable.limits else { return Some([value, off]) };
+        let (least, greatest) = (lower - off - SLACK, upper + off + SLACK);
+        if !joint.slides {
+            // The first of the values that differ by full turns and are not too small.
+            let turn = TAU / size;
+            value += turn * libm::ceil((least - value) / turn);
+        }
+        (least <= value && value <= greatest).then_some([value, off])
+    });
+    values.collect()
+}
+
+/// The frames after the joints, in the map, for values of the variables.
+fn frames(chain: &Chain, map_from_base: Isometry3<f64>, values: &[[f64; 2]]) -> Vec<Isometry3<f64>> {
+    let values: Vec<f64> = values.iter().map(|[value, _]| *value).collect();
+    let mut pose = map_from_base;
+    let placed = chain.joints.iter().map(|joint| {
+        pose = pose * joint.before * joint.motion(joint.driver.position(&values));
+        pose
+    });
+    placed.collect()
+}
+
+/// The pose of a base's link so high above the floor.
+fn based([x, y, yaw]: [f64; 3], height: f64) -> Isometry3<f64> {
+    let mut pose = planar(x, y, yaw);
+    pose.translation.z = height;
+    pose
+}

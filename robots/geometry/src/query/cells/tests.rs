@@ -1,0 +1,276 @@
+//! What cells say of a robot holds for every one of its states, and what is covered has no free one.
+
+use motet_robots::card;
+use motet_robots::scene::{Entity, Placement, Scene, Shape as Listed};
+use motet_robots::urdf;
+use motet_syntax::{FileId, Source};
+use nalgebra::{Isometry3, Vector3};
+use proptest::prelude::*;
+
+use super::super::answer::Side;
+use super::super::machine::{Hand, Machine};
+use super::super::room::Room;
+use super::super::state::State;
+use super::super::touch::Allowed;
+use super::super::world::World;
+use super::{Cover, Covered, Family, Grips, Placed};
+use crate::collision::{Shape, Solid};
+use crate::inverse::family::{Cell, Drift, Over, Tips};
+use crate::trigonometry::wrapped;
+
+fn machine(name: &str) -> Machine {
+    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    Machine::new(&card, &urdf)
+}
+
+/// A state with the arm's joints at shares of their ranges.
+fn state(room: &Room<'_>, hand: &Hand, base: [f64; 3], shares: &[f64]) -> (State, Vec<f64>) {
+    let variables = &hand.solver.chain().variables;
+    let values: Vec<f64> = variables
+        .iter()
+        .zip(shares)
+        .map(|(variable, share)| {
+            let (lower, upper) = variable.limits.unwrap();
+            lower + share * (upper - lower)
+        })
+        .collect();
+    (room.with(hand, base, &values), values)
+}
+
+/// The free parameters of a state, and whether each is an angle of which full turns do not matter.
+fn parameters(family: Family<'_>, yaw: f64, values: &[f64]) -> [f64; 3] {
+    match family {
+        Family::Lift(_) => [yaw, values[1], 0.0],
+        // All axes of the Z1's parallel joints point alike.
+        Family::Parallel(..) => [wrapped(yaw + values[0]), wrapped(values[1] + values[2]), yaw],
+        Family::Any => [0.0; 3],
+    }
+}
+
+/// How far the farthest point of a part is off where a cell puts it.
+fn off(one: &Placed, other: &Placed) -> f64 {
+    let along = |solid: &Solid| match solid.shape {
+        Shape::Capsule { half, .. } | Shape::Cylinder { half, .. } => solid.axes[2] * half,
+        Shape::Box(_) | Shape::HalfSpace => Vector3::zeros(),
+    };
+    let ends = [1.0, -1.0].map(|sign| {
+        let (one, other) = (&one.solid, &other.solid);
+        (one.centre + along(one) * sign - other.centre - along(other) * sign).norm()
+    });
+    ends[0].max(ends[1])
+}
+
+fn a_state_is_in_its_cell(name: &str, base: [f64; 3], shares: &[f64], places: [f64; 3], size: f64) {
+    let machine = machine(name);
+    let scene = Scene::default();
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let hand = machine.hand().unwrap();
+    let around = room.around([0.0; 2], 10.0);
+    let cover = Cover::new(&around, hand, Allowed::default()).unwrap();
+    let (state, values) = state(&room, hand, base, shares);
+    let tip = machine.map_from_links(&state)[hand.tip];
+    let middle = parameters(cover.family, base[2], &values);
+    let roots = cover.family.cells();
+    let tips = Tips { map_from_tip: tip, drift: Drift::none() };
+    let mut nearest = (f64::INFINITY, String::new());
+    for root in &roots {
+        let half = root.half.map(|half| half * size);
+        let middle = [0, 1, 2].map(|at: usize| middle[at] + (2.0 * places[at] - 1.0) * half[at]);
+        let Over::Near(stretch) = cover.family.over(&tips, &Cell { way: root.way, middle, half }) else {
+            continue;
+        };
+        let placed = cover.placed(&stretch);
+        let poses = machine.map_from_links(&state);
+        let solids = room.body.placed(&poses);
+        let beyond = placed.iter().zip(&solids).map(|(placed, solid)| {
+            let there = Placed { solid: *solid, ..*placed };
+            off(placed, &there) - placed.drift
+        });
+        let beyond = beyond.fold(f64::NEG_INFINITY, f64::max);
+        let joints = stretch.values.iter().zip(&values).zip(&hand.solver.chain().variables);
+        let joints = joints.map(|(([middle, far], value), variable)| {
+            let off = if variable.name.contains("lift") { value - middle } else { wrapped(value - middle) };
+            off.abs() - far
+        });
+        let beyond = beyond.max(joints.fold(f64::NEG_INFINITY, f64::max));
+        if beyond < nearest.0 {
+            nearest = (beyond, format!("way {}", root.way));
+        }
+    }
+    assert!(nearest.0 < 1e-5, "{name}, {values:?}: {} m or rad beyond, {}", nearest.0, nearest.1);
+}
+
+/// A can in a box without a front: walls, a floor and a ceiling, so wide, high and deep inside, and so high above the floor.
+fn niche([wide, high, deep]: [f64; 3], up: f64, [x, y]: [f64; 2]) -> Scene {
+    let mut scene = Scene::default();
+    let mut add = |id: &str, kind: &str, xyz: [f64; 3], shape: Listed| {
+        let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0; 3] });
+        entity.kind = kind.into();
+        entity.shape = Some(shape);
+        scene.entities.insert(id.into(), entity);
+    };
+    let ahead = 1.5;
+    let middle = ahead + deep / 2.0;
+    add("below", "Place", [middle, 0.0, up / 2.0], Listed::Box([deep, wide + 0.3, up]));
+    add("above", "Place", [middle, 0.0, up + high + 0.1], Listed::Box([deep, wide + 0.3, 0.2]));
+    add("back", "Place", [ahead + deep + 0.1, 0.0, up + high / 2.0], Listed::Box([0.2, wide + 0.3, high]));
+    for (id, side) in [("left", 0.5), ("right", -0.5)] {
+        let aside = side * (wide + 0.15);
+        add(id, "Place", [middle, aside, up + high / 2.0], Listed::Box([deep, 0.15, high]));
+    }
+    let (radius, height) = (0.03, 0.1);
+    let at = [ahead + 0.04 + x * (deep - 0.08), (y - 0.5) * (wide - 0.08), up + height / 2.0 + 0.001];
+    add("can", "Object", at, Listed::Cylinder { radius, height });
+    scene
+}
+
+/// Poses in which the hand alone is free.
+fn poses(room: &Room<'_>, hand: &Hand, scene: &Scene) -> (Vec<Isometry3<f64>>, Allowed, Solid) {
+    let (index, _, entity) = scene.entities.get_full("can").unwrap();
+    let allowed = Allowed { hand: Some(index), held: None };
+    let pose = room.world.pose(entity).unwrap();
+    let thing = Solid::new(&pose, super::super::obstacle::solid_shape(entity).unwrap());
+    let (holds, _) = super::super::grasp::holds(hand, &thing, None, room.world.robot.base);
+    let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
+    let palm = room.palm(hand, &tips, allowed);
+    (tips.into_iter().filter(|tip| palm.touch(tip).is_none()).collect(), allowed, thing)
+}
+
+/// Whether it is covered that no state is free in a niche, with so many cells; draws states at random to contradict it.
+fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Option<bool> {
+    let machine = machine(name);
+    let world = World::new(&machine, scene);
+    let room = Room::new(&machine, scene, &world);
+    let hand = machine.hand().unwrap();
+    let (tips, allowed, thing) = poses(&room, hand, scene);
+    let around = room.around([2.0, 0.0], 4.0);
+    let grips = Grips::new(hand, &thing, None, world.robot.base);
+    let said = match around.covered(hand, &grips, allowed, cells) {
+        Covered::Nowhere => !tips.is_empty(),
+        Covered::Free(state) => {
+            assert!(machine.tree().allows(&state.joints));
+            assert_eq!(around.touch_exactly(&state, allowed), None);
+            return Some(false);
+        }
+        Covered::Open => return None,
+    };
+    let cover = Cover::new(&around, hand, allowed).unwrap();
+    for (tip, [a, b, c, d]) in tips.iter().flat_map(|tip| draws.iter().map(move |draw| (tip, draw))) {
+        let yaw = a * std::f64::consts::TAU;
+        let states: Vec<State> = match cover.family {
+            Family::Lift(arm) => arm
+                .solve(tip, yaw, -2.62 * b)
+                .iter()
+                .map(|placed| room.with(hand, placed.base, &placed.values))
+                .collect(),
+            Family::Parallel(arm, _) => {
+                let (sin, cos) = (c * std::f64::consts::TAU).sin_cos();
+                let base = [tip.translation.x + d * cos, tip.translation.y + d * sin, yaw];
+                let found = arm.solve(&(room.map_from_base(base).inverse() * tip));
+                found.iter().map(|values| room.with(hand, base, values)).collect()
+            }
+            Family::Any => vec![],
+        };
+        for state in states {
+            assert!(around.touch_exactly(&state, allowed).is_some(), "{name}: {state:?} is free");
+        }
+    }
+    Some(said)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn a_state_of_the_hsr_is_in_its_cell(
+        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 5),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+    ) {
+        a_state_is_in_its_cell("hsr", base, &shares, places, size);
+    }
+
+    #[test]
+    fn a_state_of_the_anymal_is_in_its_cell(
+        base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 6),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+    ) {
+        a_state_is_in_its_cell("anymal_z1", base, &shares, places, size);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn no_state_that_is_drawn_is_free_where_none_is_said_to_be(
+        size in [0.15..0.6_f64, 0.12..0.5_f64, 0.2..0.8_f64], up in 0.05..1.1_f64, place in [0.0..1.0_f64, 0.0..1.0_f64],
+        draws in prop::collection::vec([0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], 60),
+        name in prop::sample::select(vec!["hsr", "anymal_z1"]),
+    ) {
+        covered(name, &niche(size, up, place), 20_000, &draws);
+    }
+}
+
+/// Grips that a search goes through are where the patches say.
+#[test]
+fn a_grip_is_in_its_patch() {
+    let machine = machine("hsr");
+    let hand = machine.hand().unwrap();
+    let shapes = [
+        Shape::Cylinder { radius: 0.03, half: 0.08 },
+        Shape::Cylinder { radius: 0.05, half: 0.02 },
+        Shape::Capsule { radius: 0.03, half: 0.06 },
+        Shape::Capsule { radius: 0.04, half: 0.0 },
+        Shape::Box(Vector3::new(0.02, 0.05, 0.09)),
+    ];
+    let lean = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.2, 1.0);
+    let upright = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, 1.0);
+    for (shape, rotation) in shapes.into_iter().flat_map(|shape| [(shape, upright), (shape, lean)]) {
+        let pose = Isometry3::from_parts(nalgebra::Translation3::new(1.0, 0.3, 0.8), rotation);
+        let thing = Solid::new(&pose, shape);
+        for side in [None, Some(Side::Top), Some(Side::Side), Some(Side::Front)] {
+            let grips = Grips::new(hand, &thing, side, [0.0; 3]);
+            let (holds, _) = super::super::grasp::holds(hand, &thing, side, [0.0; 3]);
+            assert!(side.is_some() || !holds.is_empty(), "{shape:?}");
+            // Small ones, so that how far they say they go is not more than a hand is long.
+            let (mut open, mut patches) = (grips.patches(), vec![]);
+            while let Some(patch) = open.pop() {
+                let (size, across) = super::widest(&grips.sizes(&patch));
+                if size > 0.08 {
+                    open.extend(patch.halves(across));
+                } else {
+                    patches.push(patch);
+                }
+            }
+            let tips: Vec<_> = patches.iter().filter_map(|patch| grips.over(patch)).collect();
+            for hold in &holds {
+                let is_in = |(tip, drift): &(Isometry3<f64>, Drift)| {
+                    [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].iter().all(|at| {
+                        let at = nalgebra::Point3::from(at * 0.2);
+                        let (one, other) = (hold.map_from_tip * at, tip * at);
+                        let ball = Shape::Capsule { radius: 0.0, half: 0.0 };
+                        let place = Isometry3::from_parts(other.coords.into(), upright);
+                        (one - other).norm() <= drift.of(&Solid::new(&place, ball)) + 1e-6
+                    })
+                };
+                assert!(tips.iter().any(is_in), "{shape:?}, {side:?}: {hold:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
+    let draws: Vec<[f64; 4]> = (0..200)
+        .map(|at| [1, 2, 3, 4].map(|n| super::super::arm::part(at, n, super::super::arm::SPACE)))
+        .collect();
+    // Low and deep: the hand has room, and what carries it has none.
+    let deep = niche([0.6, 0.4, 1.8], 0.3, [1.0, 0.5]);
+    assert_eq!(covered("hsr", &deep, 200_000, &draws), Some(true));
+    assert_eq!(covered("hsr", &deep, 20, &draws), None);
+    let open = niche([1.2, 0.8, 0.4], 0.5, [0.0, 0.5]);
+    assert_eq!(covered("hsr", &open, 200_000, &draws), Some(false));
+}

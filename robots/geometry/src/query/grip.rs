@@ -1,0 +1,294 @@
+//! All ways to hold a thing, and not only those that a search goes through: families of poses of the hand with up to four parameters,
+//! which a proof that there is no way has to cover. What makes a pose a grasp is what does in `grasp`.
+
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
+
+use nalgebra::{Isometry3, Translation3, Unit, Vector3};
+
+use super::answer::Side;
+use super::grasp::{GRIP, SHORT, TOP};
+use super::machine::Hand;
+use crate::collision::{Shape, Solid};
+use crate::inverse::family::Drift;
+use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
+
+/// What rounding may take of an angle or a length.
+const SLACK: f64 = 1e-6;
+
+/// The ways to hold a thing with a hand.
+pub(super) struct Grips<'a> {
+    hand: &'a Hand,
+    thing: &'a Solid,
+    side: Option<Side>,
+    /// From the base to the thing, in the plane.
+    ahead: [f64; 2],
+    slots: Vec<Slot>,
+}
+
+/// A part of the poses of a family.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patch {
+    slot: usize,
+    /// The angle about the thing's axis, how far the fingers are bent down, where along the thing in −1..=1, and how far from as deep as
+    /// can be to as shallow as can be.
+    middle: [f64; 4],
+    half: [f64; 4],
+}
+
+/// A family of poses.
+#[derive(Clone, Copy)]
+struct Slot {
+    kind: Kind,
+    width: f64,
+    /// Along which the place goes, and how far.
+    along: Vector3<f64>,
+    low: [f64; 4],
+    high: [f64; 4],
+    /// Whether poses are from above; `None` where some are.
+    is_top: Option<bool>,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    /// Around an axis from its side: downwards along it, and a direction square to it; closing to one side or the other.
+    Around { down: Vector3<f64>, first: Vector3<f64>, sign: f64 },
+    /// Along an axis, turned about it.
+    End { down: Vector3<f64>, first: Vector3<f64>, is_round: bool },
+    /// From the side of a disc, across its height.
+    Rim { first: Vector3<f64>, across: Vector3<f64> },
+    /// Straight.
+    Flat { approach: Vector3<f64>, across: Vector3<f64> },
+}
+
+impl<'a> Grips<'a> {
+    /// The ways to hold a thing from a side, with the base where it is.
+    pub(super) fn new(hand: &'a Hand, thing: &'a Solid, side: Option<Side>, [x, y, _]: [f64; 3]) -> Self {
+        let ahead = [thing.centre.x - x, thing.centre.y - y];
+        let mut grips = Self { hand, thing, side, ahead, slots: vec![] };
+        let [x, _, z] = thing.axes;
+        match thing.shape {
+            Shape::Box(half) => grips.of_box(&half),
+            Shape::Cylinder { radius, half } => {
+                grips.around(&z, radius, half);
+                for across in [z, -z] {
+                    grips.add(Kind::Rim { first: x, across }, 2.0 * half, [PI, 0.0, 0.0], None);
+                }
+            }
+            Shape::Capsule { radius, half } if half > 0.0 => grips.around(&z, radius, half),
+            Shape::Capsule { radius, .. } => grips.around(&Vector3::z(), radius, 0.0),
+            Shape::HalfSpace => {}
+        }
+        grips
+    }
+
+    fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
+        let down = if axis.z > 0.0 { -axis } else { *axis };
+        let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
+        let first = square.normalize();
+        let along = if half > 0.03 { axis * (half * 0.5) } else { Vector3::zeros() };
+        let places = if half > 0.03 { 1.0 } else { 0.0 };
+        for sign in [1.0, -1.0] {
+            let kind = Kind::Around { down, first, sign };
+            let spans = [PI, FRAC_PI_3, places];
+            self.add(kind, 2.0 * radius, spans, Some(along));
+        }
+        let kind = Kind::End { down, first, is_round: half == 0.0 };
+        self.add(kind, 2.0 * radius, [PI, 0.0, 0.0], None);
+    }
+
+    fn of_box(&mut self, half: &Vector3<f64>) {
+        let [x, y, z] = self.thing.axes;
+        let axes = [(x, half.x), (y, half.y), (z, half.z)];
+        for (at, (across, wide)) in axes.iter().enumerate() {
+            for (other, (approach, _)) in axes.iter().enumerate() {
+                let third = axes.iter().enumerate().find(|(third, _)| *third != at && *third != other);
+                let Some((_, (direction, long))) = third.filter(|_| other != at) else { continue };
+                let places = if *long > 0.04 { 1.0 } else { 0.0 };
+                for (approach, across) in
+                    [(*approach, *across), (*approach, -across), (-approach, *across), (-approach, -across)]
+                {
+                    let along = Some(direction * (long * 0.5));
+                    self.add(Kind::Flat { approach, across }, 2.0 * wide, [0.0, 0.0, places], along);
+                }
+            }
+        }
+    }
+
+    /// Adds a family whose angle about the axis goes so far to both sides, whose fingers are bent so far down, and whose place goes so
+    /// far to both sides.
+    fn add(&mut self, kind: Kind, width: f64, [about, bend, places]: [f64; 3], along: Option<Vector3<f64>>) {
+        if width > self.hand.card.opening_m {
+            return;
+        }
+        let along = along.unwrap_or_default();
+        let whole = Slot {
+            kind,
+            width,
+            along,
+            low: [-about, 0.0, -places, 0.0],
+            high: [about, bend, places, 1.0],
+            is_top: None,
+        };
+        let is_upright = |axis: &Vector3<f64>| axis.z.abs() > 1.0 - 1e-9;
+        let level =
+            |slot: Slot| Slot { high: [about, slot.high[1], places, 0.0], is_top: Some(false), ..slot };
+        match kind {
+            Kind::Around { down, .. } if is_upright(&down) => {
+                // From where on they come from above.
+                let bent = libm::asin(-TOP);
+                let [_, most, ..] = whole.high;
+                let side = Slot { high: [about, (bent + SLACK).min(most), places, 1.0], ..whole };
+                self.slots.push(level(side));
+                if bent < most {
+                    let low = [-about, bent - SLACK, -places, 0.0];
+                    self.slots.push(Slot { low, is_top: Some(true), ..whole });
+                }
+            }
+            Kind::Around { .. } => self.slots.push(whole),
+            Kind::Rim { across, .. } if is_upright(&across) => self.slots.push(level(whole)),
+            Kind::Rim { .. } => self.slots.push(whole),
+            Kind::End { down: approach, .. } | Kind::Flat { approach, .. } => {
+                if approach.z < TOP {
+                    self.slots.push(Slot { is_top: Some(true), ..whole });
+                } else {
+                    self.slots.push(level(whole));
+                }
+            }
+        }
+    }
+
+    /// Patches that hold all poses.
+    pub(super) fn patches(&self) -> Vec<Patch> {
+        let slots = self.slots.iter().zip(0..).filter(|(slot, _)| match self.side {
+            None => true,
+            Some(Side::Top) => slot.is_top != Some(false),
+            Some(Side::Side | Side::Front) => slot.is_top != Some(true),
+        });
+        let patches = slots.map(|(Slot { low, high, .. }, slot)| {
+            let each = |of: fn(f64, f64) -> f64| {
+                std::array::from_fn(|at: usize| {
+                    low.get(at).zip(high.get(at)).map_or(0.0, |(low, high)| of(*low, *high))
+                })
+            };
+            Patch {
+                slot,
+                middle: each(|low, high| (low + high) / 2.0),
+                half: each(|low, high| (high - low) / 2.0),
+            }
+        });
+        patches.collect()
+    }
+
+    /// How far the hand goes for the half of each side of a patch, about, in m.
+    pub(super) fn sizes(&self, patch: &Patch) -> [f64; 4] {
+        let [about, bend, place, deep] = patch.half;
+        let Some(slot) = self.slots.get(patch.slot) else { return [0.0; 4] };
+        let far = self.hand.palm.abs() + self.thing.reach() + 0.1;
+        let deep = deep * (self.hand.fingers - self.hand.palm).abs();
+        [about * far, bend * far, place * slot.along.norm(), deep]
+    }
+
+    /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
+    pub(super) fn over(&self, patch: &Patch) -> Option<(Isometry3<f64>, Drift)> {
+        let slot = self.slots.get(patch.slot)?;
+        let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
+        let (approach, across) = slot.kind.directions(about, bend);
+        let turns = match slot.kind {
+            Kind::Flat { .. } => 0.0,
+            Kind::Around { .. } | Kind::End { .. } | Kind::Rim { .. } => abouts + bends,
+        };
+        // From below there is no way for a hand.
+        if approach.z - turns - SLACK > 0.5 || self.is_behind(slot, &approach, abouts + bends) {
+            return None;
+        }
+        let ([near, far], is_round) = self.extents(slot, &approach, bend, bends);
+        let palm = |half: f64| (self.hand.palm + half).max(0.0);
+        let most = if is_round {
+            self.hand.fingers + SHORT * slot.width / 2.0
+        } else {
+            self.hand.fingers + far - GRIP.min(far)
+        };
+        let (least, greatest) = (palm(near), palm(far).min(most));
+        if least > most + SLACK {
+            return None;
+        }
+        let mix = |from: f64, share: f64| from + (most - from) * share;
+        let (first, last) = (mix(least, (deep - deeps).max(0.0)), mix(greatest, (deep + deeps).min(1.0)));
+        let depth = (first + last) / 2.0;
+        let middle = self.thing.centre + slot.along * place;
+        let at = middle - approach * depth - across * self.hand.middle(slot.width);
+        let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
+        let shift = slot.along.norm() * places + (last - first).abs() / 2.0 + SLACK;
+        Some((tip, Drift::none().shifted(shift).turned(middle, turns)))
+    }
+
+    /// Whether no pose of a patch is from the robot's side, where that is asked for.
+    fn is_behind(&self, slot: &Slot, approach: &Vector3<f64>, off: f64) -> bool {
+        let is_level = matches!(slot.kind, Kind::Flat { .. })
+            || matches!(slot.kind, Kind::Around { down: axis, .. } | Kind::Rim { across: axis, .. }
+                if axis.z.abs() > 1.0 - 1e-9);
+        let [x, y] = self.ahead;
+        let angle = wrapped(atan2(approach.y, approach.x) - atan2(y, x));
+        self.side == Some(Side::Front) && is_level && angle.abs() > FRAC_PI_4 + off + SLACK
+    }
+
+    /// Between which lengths the thing extends against the fingers, and whether it is round there.
+    fn extents(&self, slot: &Slot, approach: &Vector3<f64>, bend: f64, bends: f64) -> ([f64; 2], bool) {
+        let flat = self.thing.extent(approach);
+        let radius = slot.width / 2.0;
+        match slot.kind {
+            Kind::Flat { .. } | Kind::Rim { .. } | Kind::End { is_round: false, .. } => ([flat, flat], false),
+            Kind::End { .. } => ([radius, radius], true),
+            Kind::Around { .. } => {
+                let (half, is_flat) = match self.thing.shape {
+                    Shape::Cylinder { half, .. } => (half, true),
+                    Shape::Capsule { half, .. } => (half, false),
+                    Shape::Box(_) | Shape::HalfSpace => (0.0, false),
+                };
+                if half == 0.0 {
+                    return ([radius, radius], true);
+                }
+                let (low, high) = ((bend - bends).max(0.0), bend + bends);
+                let (sin, cos) = (libm::sin, libm::cos);
+                // The line of the hand meets the side later and the end sooner, the more it is bent.
+                let side = |bend: f64| radius / cos(bend).max(1e-6);
+                let end = |bend: f64| half / sin(bend).max(1e-9);
+                let whole = |bend: f64| half * sin(bend) + if is_flat { radius * cos(bend) } else { radius };
+                let least = side(low).min(end(high)).min(whole(low)).min(whole(high));
+                let greatest = side(high).min(end(low)).min(whole(bend) + (half + radius) * bends);
+                ([radius.max(least), radius.max(greatest)], true)
+            }
+        }
+    }
+}
+
+impl Kind {
+    /// Where the fingers point, and across what they close.
+    fn directions(&self, about: f64, bend: f64) -> (Vector3<f64>, Vector3<f64>) {
+        match self {
+            Self::Around { down, first, sign } => {
+                let axis = if *sign > 0.0 { *down } else { -down };
+                let out = turn(&Unit::new_unchecked(*down), about) * first;
+                let (sin, cos) = sin_cos(bend);
+                (down * sin - out * cos, axis.cross(&out))
+            }
+            Self::End { down, first, .. } => (*down, turn(&Unit::new_unchecked(*down), about) * first),
+            Self::Rim { first, across } => (-(turn(&Unit::new_unchecked(*across), about) * first), *across),
+            Self::Flat { approach, across } => (*approach, *across),
+        }
+    }
+}
+
+impl Patch {
+    /// The two halves of a patch, cut across a parameter.
+    pub(super) fn halves(&self, across: usize) -> [Self; 2] {
+        let mut halves = [*self; 2];
+        for (half, sign) in halves.iter_mut().zip([-0.5, 0.5]) {
+            if let (Some(middle), Some(side)) = (half.middle.get_mut(across), half.half.get_mut(across)) {
+                *middle += sign * *side;
+                *side = 0.5 * *side + 1e-12;
+            }
+        }
+        halves
+    }
+}

@@ -1,0 +1,76 @@
+//! Whether two solids touch wherever they are within some distance of where they are known to be: each is made smaller by as much as it
+//! can be off.
+
+use nalgebra::Vector3;
+
+use super::room::GAP;
+use crate::collision::{Shape, Solid};
+
+/// What may be off of places and lengths, in m: far more than rounding, and than what the axes of a URDF are off.
+pub(super) const SLACK: f64 = 1e-5;
+
+/// A part where it is in the middle of a cell, and how far it can be from there.
+#[derive(Clone, Copy)]
+pub(super) struct Placed {
+    pub(super) solid: Solid,
+    pub(super) inner: f64,
+    pub(super) reach: f64,
+    pub(super) drift: f64,
+}
+
+impl Placed {
+    /// Whether it touches another solid, in which so large a ball is and which is in so large a one, wherever both are within their drifts.
+    #[inline]
+    pub(super) fn touches(&self, other: &Solid, inner: f64, reach: f64, drift: f64) -> bool {
+        let off = drift + SLACK;
+        let from_other = (off - self.inner).max(0.0);
+        // What is not known at all is off by more than any number.
+        if off.is_nan() || from_other >= inner {
+            return false;
+        }
+        let (wide, between) = (self.reach + GAP - off.min(self.inner), self.solid.centre - other.centre);
+        let most = wide + reach - from_other;
+        if wide < 0.0 || between.norm_squared() > most * most || beyond(other, &between, wide - from_other) {
+            return false;
+        }
+        let (one, far) = (within(&self.solid, off.min(self.inner)), within(other, from_other));
+        one.is_nearer(&far, GAP)
+    }
+}
+
+/// Whether a place, seen from the centre of a solid, is farther from it than `far`, by the directions of a box: a ball there is
+/// not near it.
+#[inline]
+fn beyond(solid: &Solid, between: &Vector3<f64>, far: f64) -> bool {
+    let Shape::Box(half) = solid.shape else { return false };
+    let [x, y, z] = &solid.axes;
+    let out = |axis: &Vector3<f64>, half: f64| between.dot(axis).abs() - half;
+    let (x, y, z) = (out(x, half.x), out(y, half.y), out(z, half.z));
+    if far < 0.0 {
+        return x > far || y > far || z > far;
+    }
+    let (x, y, z) = (x.max(0.0), y.max(0.0), z.max(0.0));
+    x * x + y * y + z * z > far * far
+}
+
+/// The radius of the greatest ball within a solid.
+pub(super) fn inner(solid: &Solid) -> f64 {
+    match solid.shape {
+        Shape::Box(half) => half.min(),
+        Shape::Cylinder { radius, half } => radius.min(half),
+        Shape::Capsule { radius, .. } => radius,
+        Shape::HalfSpace => 0.0,
+    }
+}
+
+/// The points of a solid that are so deep within it, at most as deep as the greatest ball.
+fn within(solid: &Solid, depth: f64) -> Solid {
+    let less = |length: f64| (length - depth).max(0.0);
+    let shape = match solid.shape {
+        Shape::Box(half) => Shape::Box(half.map(less)),
+        Shape::Cylinder { radius, half } => Shape::Cylinder { radius: less(radius), half: less(half) },
+        Shape::Capsule { radius, half } => Shape::Capsule { radius: less(radius), half },
+        Shape::HalfSpace => Shape::HalfSpace,
+    };
+    Solid { shape, ..*solid }
+}
