@@ -60,7 +60,7 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             at = end;
             continue;
         }
-        if let (Some(end), false) = (stays_put(tokens, begin), spoken.commands.is_empty()) {
+        if let Some(end) = spoken.commands.last().and_then(|last| stays_put(tokens, begin, last.act())) {
             at = end;
             continue;
         }
