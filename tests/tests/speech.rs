@@ -271,6 +271,8 @@ fn what_is_wished_is_done_where_it_is_asked_for() {
         "I'd rather have the sponge in the drawer, but don't do that.",
         "I'd like to open the fridge, but that is up to you.",
         "Go to the sink. Stop!",
+        "Bring me the coke, no, the apple.",
+        "Bring me the coke. No, the apple.",
         "Bring me the water bottle, and no putting it down!",
         "I bet you can't pick up the water bottle!",
         "Put the sponge on the counter in two minutes.",
