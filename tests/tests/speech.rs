@@ -172,6 +172,130 @@ fn a_place_can_come_first_or_without_a_verb() {
 }
 
 #[test]
+fn children_and_foreigners_say_who_shall_do_it() {
+    mean(
+        &["at(coke, user)"],
+        &[
+            "Please, you bring to me the coke.",
+            "You bring me the coke now, okay?",
+            "I wish somebody would bring me the coke.",
+            "Any chance of you bringing me the coke sometime today?",
+            "Might I trouble you to fetch me the coke?",
+            "Would you mind going to get the coke for me?",
+            "By the way, bring me the coke. Pretty please?",
+        ],
+    );
+    mean(&["holding(coke)", "at(coke, user)"], &["I am needing the coke, you can give me?"]);
+    mean(
+        &["not open(fridge_1)"],
+        &["The fridge is open, is not good. You close.", "Please, the fridge, you close it."],
+    );
+    mean(&["open(cupboard_1)"], &["Please, the cupboard, you make open for me.", "You open the cupboard!"]);
+    mean(
+        &["in(sponge, trash)"],
+        &[
+            "The sponge is garbage. You throw away.",
+            "I think the sponge has had its day, it can go out with the rubbish.",
+        ],
+    );
+    mean(&["at(robot, sink)"], &["You drive to the sink and then you stop!", "You go now to the sink, yes?"]);
+    not_taken(&[
+        "You always close the fridge.",
+        "You put the sponge on the counter.",
+        "You keep the fridge open.",
+        "You brought me the coke.",
+        "You open the fridge when I am asleep.",
+        "My mum says, you bring me the coke.",
+        "You throw away.",
+        "If it rains, you close the fridge.",
+        "When the guests arrive, you bring me the coke.",
+        "You can give me.",
+        "Would you mind going to the doctor?",
+    ]);
+}
+
+#[test]
+fn what_is_wished_is_done_where_it_is_asked_for() {
+    mean(
+        &["in(sponge, drawer_1)"],
+        &[
+            "I'd rather have the sponge in the top drawer, out of sight. Do that for me.",
+            "I promised I'd put the sponge in the top drawer, but I am too small. You do it!",
+            "I meant to put the sponge in the top drawer this morning and never got round to it. Can you do it?",
+            "Hide the sponge in the top drawer before anyone sees it.",
+            "Shove the sponge in the top drawer so I don't get yelled at.",
+            "Please to put the sponge in the top drawer.",
+        ],
+    );
+    mean(
+        &["on(sponge, counter)"],
+        &[
+            "I'd like to see the sponge on the counter. Would you do that?",
+            "On the counter, that's where I want the sponge.",
+            "It would look nicer if the sponge were on the counter. Could you see to that?",
+            "Make the sponge go on the counter!",
+            "Would it be possible to have the sponge waiting on the counter when I return?",
+            "Can the sponge please go on the counter?",
+            "I need the sponge on the counter in two minutes.",
+            "Leave the sponge on the counter where I'll see it.",
+            "Stick the sponge on the counter, whatever, anywhere on it is fine.",
+        ],
+    );
+    mean(
+        &["open(fridge_1)"],
+        &[
+            "I'd open the fridge myself, but I am tired, so that's your job.",
+            "I should like the fridge opened.",
+            "I need the fridge open now!",
+        ],
+    );
+    mean(
+        &["holding(bottle)"],
+        &[
+            "I bet you can't pick up the water bottle! Show me, and no putting it down!",
+            "Get hold of the water bottle, dear, and don't let go of it.",
+            "Take the water bottle in your hand and keep it there until I say so.",
+            "You take the water bottle in hand and don't put down.",
+        ],
+    );
+    mean(
+        &["at(robot, sink)"],
+        &["I need you over at the sink.", "I'm going to want your help at the sink shortly, so go on ahead."],
+    );
+    not_taken(&[
+        "I'd like to see the sponge on the counter.",
+        "I'd rather have the sponge in the drawer.",
+        "I promised I'd put the sponge in the top drawer.",
+        "I'd open the fridge myself.",
+        "I'd like to see the sponge on the counter. Show me.",
+        "I'd rather have the sponge in the drawer, but don't do that.",
+        "I'd like to open the fridge, but that is up to you.",
+        "Go to the sink. Stop!",
+        "Bring me the coke, no, the apple.",
+        "Bring me the coke. No, the apple.",
+        "Bring me the water bottle, and no putting it down!",
+        "I bet you can't pick up the water bottle!",
+        "Put the sponge on the counter in two minutes.",
+        "That's where I want the sponge.",
+        "I'm going to want your help at the sink.",
+        "Could you see to the sponge, please?",
+        "I meant to put the sponge in the drawer and never got round to it.",
+    ]);
+}
+
+#[test]
+fn what_is_spoken_of_and_not_clear_is_asked_of_and_not_guessed() {
+    for request in [
+        "You know the mug lives in the top drawer, so pop it back in there for me.",
+        "I'll tell you later where the mug goes, for now just pick it up.",
+    ] {
+        let found = goals(request);
+        assert!(matches!(found, Err(Puzzle::AmbiguousReference { .. })), "{request}: {found:?}");
+    }
+    mean(&["holding(sponge)"], &["I'll tell you later where the sponge goes, for now just pick it up."]);
+}
+
+#[test]
 fn what_is_held_is_held() {
     mean(
         &["holding(bottle)"],
@@ -231,6 +355,9 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "okay, but be careful this time",
         "No worries. One more time, please.",
         "why don't you try once more?",
+        "Would you be so kind as to make a second attempt?",
+        "If you would, please.",
+        "Well, I can't do it myself, so please keep trying.",
     ] {
         assert_eq!(request::encourages(answer).as_deref().map(str::trim), Some(""), "{answer}");
     }
@@ -244,6 +371,8 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "okay, forget it",
         "Sure, bring me the apple.",
         "Try again later.",
+        "If you would wait.",
+        "I can't do it myself.",
         "never again",
         "would you bring me the apple?",
         "it is in the fridge",
@@ -270,6 +399,16 @@ fn where_a_thing_is_is_told_in_many_ways() {
         "We always keep it in the fridge, so look there.",
         "I could have sworn I left it in the fridge, dear.",
         "Chances are it's in the fridge.",
+        "Hang on, let me think. Yes, in the fridge, that's where it is.",
+        "It is in the fridge, yes, I see it there before.",
+        "Sorry, my fault, I moved it. It's in the fridge now.",
+        "It's where it always is, in the fridge.",
+        "Dunno, probably in the fridge?",
+        "I believe it was last seen in the fridge.",
+        "Did you check in the fridge? It must be there.",
+        "Oh, it should be in the fridge, dear, that's where I put it this morning.",
+        "I saw it in the fridge a minute ago.",
+        "You will find it in the fridge.",
     ] {
         assert_eq!(told(answer), ["in fridge_1"], "{answer}");
     }

@@ -96,7 +96,9 @@ const PREDICATES: &[&str] = &[
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
     // `… and do not let go`, `…, it is hot`: a clause of its own.
     let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.contains(&token.word()));
-    let is_clause = ["do not", "never", "not"].iter().any(|not| stands(tokens, at, not).is_some());
+    let is_clause = ["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"]
+        .iter()
+        .any(|not| stands(tokens, at, not).is_some());
     let another = noun(tokens, at).is_some_and(|(noun, after)| {
         matches!(noun, Noun::Phrase(_) | Noun::Before(_)) && !is(after) && !is_clause
     });

@@ -192,6 +192,8 @@ const PLAIN: &[&str] = &[
     "quick",
     "hurry",
     "once",
+    "as",
+    "make",
 ];
 /// What says no in form and not in meaning, or is only said beside it.
 const BESIDE: &[&str] = &[
@@ -229,7 +231,11 @@ const BESIDE: &[&str] = &[
     "there is no hurry",
     "there is no harm",
     "i do not mind",
+    "i can not do it myself",
+    "i can not get it myself",
+    "i can not reach it myself",
     "i need it",
+    "i still need it",
     "i really need it",
     "i do need it",
     "i want it",
@@ -259,6 +265,8 @@ const BESIDE: &[&str] = &[
     "not your fault",
     "it is not your fault",
 ];
+/// What agrees by itself, though it begins like a condition.
+const IF_YOU: &[&str] = &["if you would", "if you could", "if you can", "if you please", "if you like"];
 /// Words that take back, restrict or put off what is agreed to.
 const DENIES: &[&str] = &[
     "no",
@@ -300,9 +308,16 @@ pub fn encourages(answer: &str) -> Option<String> {
             agrees |= (0..clause.len()).any(|at| of(clause, at, AGREES));
             continue;
         }
+        // `if you would, thank you`
+        if IF_YOU.iter().any(|words| stands(clause, begin, words) == Some(clause.len() - begin)) {
+            agrees = true;
+            continue;
+        }
         let is_beside = of(clause, begin, BESIDE);
         let is_agreed =
             (0..clause.len()).any(|at| of(clause, at, AGAIN) || of(clause, at, AGREES)) && is_plain(clause);
+        // `I cannot do it myself` says why.
+        let is_agreed = is_agreed && stands(clause, begin, "i can not").is_none();
         let is_denied = !is_beside
             && clause.iter().any(|token| DENIES.contains(&token.word()))
             && (!is_agreed || negates(clause));

@@ -6,6 +6,11 @@ use super::verb::VERBS;
 
 /// What someone says who wants to have something.
 pub(super) const WANTS: &[&str] = &[
+    "i could do with having",
+    "i should like to have",
+    "i should like",
+    "i am needing",
+    "i am wanting",
     "i would like to have",
     "i would like to get",
     "i would like",

@@ -2,6 +2,21 @@
 
 /// What may stand before a verb and asks for no more than that it is done. Longer ones first where one begins another.
 pub(super) const LEADS: &[&str] = &[
+    "might i trouble you to",
+    "would you be good enough to",
+    "be good enough to",
+    "what i would like is for you to",
+    "what i would love is for you to",
+    "i wish somebody would",
+    "i wish someone would",
+    "i do wish somebody would",
+    "i do wish someone would",
+    "i do wish you would",
+    "by the way",
+    "please to",
+    "kindly to",
+    "let us play",
+    "let us play a game",
     "how would you",
     "how will you",
     "how do you",

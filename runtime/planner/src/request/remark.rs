@@ -61,6 +61,10 @@ const ASKS: &[&str] = &[
     "why does",
     "why has",
     "why do i",
+    "why do not i",
+    "why do not we have",
+    "why have i not",
+    "why can not i",
     "why have",
     "how come",
     "how many times",
@@ -273,6 +277,7 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
         "let go",
         "let it go",
         "put it down",
+        "put down",
         "set it down",
         "put it anywhere",
         "give it back",
@@ -281,6 +286,17 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
         "move",
         "go anywhere",
     ];
+    // `no putting it down`: the `no` was passed over.
+    let is_no = begin.checked_sub(1).is_some_and(|at| stands(tokens, at, "no").is_some());
+    if let (true, Some(count)) = (
+        is_no,
+        ["putting it down", "letting go", "dropping it", "giving it back"]
+            .iter()
+            .find_map(|words| stands(tokens, begin, words)),
+    ) {
+        let is_held = matches!(before, Some(Act::Pick | Act::Lift));
+        return (is_held && is_boundary(tokens, begin + count)).then_some(begin + count);
+    }
     let at = begin
         + ["do not you dare", "do not you", "do not", "never", "try not to", "careful not to"]
             .iter()
@@ -332,7 +348,20 @@ pub(super) fn is_boundary(tokens: &[Token], at: usize) -> bool {
 }
 
 /// `just stay there with it`: where the robot is once it has done what it was asked for. Where it ends.
-pub(super) fn stays_put(tokens: &[Token], begin: usize) -> Option<usize> {
+pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<usize> {
+    // `take it in your hand and keep it there`, `drive there and then stop`
+    let joined = begin.checked_sub(1).and_then(|at| tokens.get(at));
+    let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
+    let same: &[&str] = match before {
+        Act::Pick | Act::Lift => &["keep it there", "hold it there"],
+        Act::Go if is_joined => &["stop", "stop there"],
+        _ => &[],
+    };
+    if let Some(count) = same.iter().filter_map(|stay| stands(tokens, begin, stay)).max()
+        && is_boundary(tokens, begin + count)
+    {
+        return Some(begin + count);
+    }
     let stays =
         ["stay", "wait", "stand", "remain", "sit"].iter().find_map(|stay| stands(tokens, begin, stay))?;
     let there = ["there", "put", "still", "where you are", "right where you are", "over there"];

@@ -3,6 +3,7 @@
 use super::command::{Command, command, words};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
+use super::noun::noun;
 use super::remark::{caution, is_question, is_remark, remark_end, stays_put};
 use super::token::{Token, stands};
 use super::verb::verb;
@@ -60,7 +61,7 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             at = end;
             continue;
         }
-        if let (Some(end), false) = (stays_put(tokens, begin), spoken.commands.is_empty()) {
+        if let Some(end) = spoken.commands.last().and_then(|last| stays_put(tokens, begin, last.act())) {
             at = end;
             continue;
         }
@@ -70,6 +71,12 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             continue;
         }
         let end = remark_end(tokens, begin);
+        // `bring me the mug. No, the cup`: what was asked for is taken back.
+        let is_no = tokens.get(at..begin).is_some_and(|led| led.iter().any(|token| token.word() == "no"));
+        if is_no && !spoken.commands.is_empty() && noun(tokens, begin).is_some_and(|(_, after)| after == end)
+        {
+            return Err(words(tokens, at, end));
+        }
         if !is_remark(tokens, begin, end) {
             return Err(words(tokens, begin, end));
         }

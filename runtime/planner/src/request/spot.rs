@@ -36,6 +36,9 @@ const STATIC: &[(&str, Relation)] = &[
     ("inside", Relation::In),
     ("at", Relation::At),
     ("upon", Relation::On),
+    ("over at", Relation::At),
+    ("over on", Relation::On),
+    ("over in", Relation::In),
 ];
 /// Prepositions of where to, and of near by.
 const OTHER: &[(&str, Relation)] = &[

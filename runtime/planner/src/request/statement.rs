@@ -73,8 +73,15 @@ impl Reader<'_> {
                 self.vocabulary.meant(words, OBJECTS).iter().map(|thing| thing.id.clone()).collect();
             if !found.is_empty() {
                 // `it` is then as ambiguous as what it stands for.
-                if found.len() > 1 && phrase.which == Which::The && !phrase.is_plural {
-                    self.left = Some(Phrase { words: words.to_vec(), ..phrase.clone() });
+                // The plural is of its last word: `the mug lives there` is of one.
+                let is_plural = phrase.is_plural && words.last() == phrase.words.last();
+                if found.len() > 1 && phrase.which == Which::The && !is_plural {
+                    let said = if words.len() == count {
+                        phrase.said.clone()
+                    } else {
+                        format!("the {}", words.join(" "))
+                    };
+                    self.left = Some(Phrase { words: words.to_vec(), said, is_plural, ..phrase.clone() });
                 }
                 self.said.spoken_of.extend(found);
                 return;

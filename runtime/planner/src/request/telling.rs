@@ -152,6 +152,7 @@ pub(super) const IS: &[&str] = &[
     "must have ended up",
     "is supposed to be",
     "was last seen",
+    "last seen",
     "should have been",
     "got put",
     "got left",

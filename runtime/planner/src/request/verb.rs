@@ -321,7 +321,8 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
 
 /// What somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your help`.
 fn is_no_thing(tokens: &[Token], at: usize) -> bool {
-    let whose = matches!(tokens.get(at).map_or("", Token::word), "your" | "some" | "a" | "more" | "any");
+    let whose =
+        matches!(tokens.get(at).map_or("", Token::word), "your" | "some" | "a" | "more" | "any" | "the");
     let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
     tokens.get(at).is_some_and(|token| token.word() == "to")
         || matches!(

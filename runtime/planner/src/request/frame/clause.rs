@@ -71,6 +71,7 @@ const WANT: &[&str] = &[
     "i would want",
     "i would need",
     "i still want",
+    "i should like",
     "let us have",
 ];
 const DO_NOT_WANT: &[&str] =
@@ -148,7 +149,13 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let is_seen_to = asks.is_none() && sees.is_some();
     let belongs = asks.is_none() && sees.is_none();
     let (mut said, after) = thing_before(tokens, begin, |at| {
-        let count = links.iter().filter_map(|link| stands(tokens, at, link)).max();
+        // `can it please go there`
+        let please = if asks.is_some() { stands(tokens, at, "please").unwrap_or(0) } else { 0 };
+        let count = links
+            .iter()
+            .filter_map(|link| stands(tokens, at + please, link))
+            .max()
+            .map(|count| count + please);
         let none = ["should not be", "is not", "needs"].iter().find_map(|link| stands(tokens, at, link));
         let (count, is_wanted) = match (count, none) {
             (Some(count), _) => (count, true),
@@ -202,6 +209,14 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
         return None;
     }
     thing_before(tokens, begin + 1, |at| {
+        // `make it go on the table`
+        if let ("make", Some(goes)) = (verb, stands(tokens, at, "go")) {
+            return is_place(tokens, at + goes).then_some((State::At, at + goes));
+        }
+        // `have it waiting on the table`
+        if let ("have", "waiting" | "ready") = (verb, tokens.get(at)?.word()) {
+            return is_place(tokens, at + 1).then_some((State::At, at + 1));
+        }
         let (state, after) = state(tokens, at, Form::Participle)?;
         let is_open_or_closed = opposite_name(&state).is_some();
         (is_open_or_closed || (matches!(verb, "get" | "have") && matches!(state, State::Done(_))))
@@ -276,6 +291,10 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         return None;
     }
     let (_, after) = noun(tokens.get(..limit)?, begin)?;
+    // `see to the can` says nothing of what to do with it.
+    if matches!(tokens.get(begin)?.word(), "see" | "attend" | "tend" | "look") {
+        return None;
+    }
     let is_named = tokens.get(begin).is_some_and(|token| !is_pronoun(token.word()));
     let please = |at: usize| stands(tokens, at, "please").is_some();
     if is_named && (please(after) || (after == limit && please(limit + 1))) {

@@ -1,11 +1,13 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
 use crate::request::token::{Token, stands};
+use crate::request::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
 const SOUNDS: &[&str] = &[
     "um", "umm", "uh", "uhm", "er", "erm", "hm", "hmm", "mm", "ugh", "ah", "aah", "oh", "ooh", "aw", "gosh",
-    "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh",
+    "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh", "yuck", "ew", "eww", "yikes", "ouch",
+    "yay", "wow", "oof", "jeez", "sheesh", "brr",
 ];
 /// Set off by commas on both sides.
 const ASIDES: &[&str] = &[
@@ -46,6 +48,7 @@ const ASIDES: &[&str] = &[
     "no offence",
     "no offense",
     "pretty please",
+    "by the way",
 ];
 /// Who is spoken to.
 const NAMES: &[&str] = &[
@@ -107,6 +110,15 @@ const CALLS: &[&str] = &[
 ];
 /// At the end of a clause, with or without a comma.
 const TAGS: &[&str] = &[
+    "pretty please",
+    "anywhere is fine",
+    "anywhere on it is fine",
+    "anywhere in it is fine",
+    "anywhere will do",
+    "anywhere on it will do",
+    "anywhere in it will do",
+    "give me some room",
+    "give me some space",
     "will you please",
     "would you please",
     "could you please",
@@ -227,6 +239,8 @@ const TAGS: &[&str] = &[
 ];
 /// The same, but only behind a comma or as a sentence: without one they may belong to what is asked for.
 const APART: &[&str] = &[
+    "whatever",
+    "come on",
     "okay",
     "ok",
     "alright",
@@ -243,7 +257,6 @@ const APART: &[&str] = &[
     "deal",
     "go on",
     "go on then",
-    "come on",
     "i am afraid",
     "i think",
     "i guess",
@@ -301,6 +314,13 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     // `milk, honey, and bread` names three things.
     let goes_on = tokens.get(end) == Some(&Token::Comma)
         && matches!(tokens.get(end + 1).map_or("", Token::word), "and" | "or");
+    // `take it, dear, and do not let go`
+    let is_thing = matches!(
+        tokens.get(end - 1).map_or("", Token::word),
+        "honey" | "duck" | "pet" | "treasure" | "machine"
+    );
+    let goes_on =
+        goes_on && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
     let is_called = match kept.last() {
         _ if comma == 1 => !kept.is_empty() && !goes_on,
         None | Some(Token::Stop) => tokens.get(end).is_some(),

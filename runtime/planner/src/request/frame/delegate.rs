@@ -2,6 +2,7 @@
 //! do that for me?`
 
 use crate::request::lead::skip_leads;
+use crate::request::noun::noun;
 use crate::request::spot::spot;
 use crate::request::token::{Token, stands};
 use crate::request::verb::verb;
@@ -39,6 +40,8 @@ const DO_IT: &[&str] = &[
     "give me a hand with that",
     "give me a hand with it",
     "make it so",
+    "that is your job",
+    "it is your job",
 ];
 /// What may follow that.
 const BEHIND: &[&str] = &[
@@ -103,7 +106,27 @@ const TO_DO: &[&str] = &[
     "it is time to",
     "would love to",
     "would like to",
+    "promised to",
+    "promised i would",
+    "promised that i would",
+    "i would get up and",
+    "i would",
+    "bet you can not",
 ];
+/// Behind these stands how things shall be.
+const WISHED: &[&str] = &[
+    "i would like to see",
+    "i would love to see",
+    "i want to see",
+    "i would rather have",
+    "i would sooner have",
+    "i would rather see",
+    "i would prefer to have",
+    "i would prefer to see",
+];
+/// What tells when somebody meant to do it, or who.
+const ASIDE: &[&str] =
+    &["this morning", "this afternoon", "yesterday", "last night", "earlier", "last week", "myself", "today"];
 /// None of it is meant behind these: `I do not have to close it`.
 const NOT_TO: &[&str] = &[
     "do not have to",
@@ -144,7 +167,10 @@ pub(in crate::request) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usi
     }
     let begin =
         DO_IT.iter().filter_map(|words| ends_with(here, last, words)).map(|count| last - count).min()?;
-    (begin >= at && skip_leads(here.get(..begin)?, at) == begin).then_some(end)
+    let led = skip_leads(here.get(..begin)?, at);
+    // `you do it!`
+    let led = led + stands(here.get(..begin)?, led, "you").unwrap_or(0);
+    (begin >= at && led == begin).then_some(end)
 }
 
 /// How many words stand before a place, where they do.
@@ -177,29 +203,66 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
     if at == 0 || !is_joint(tokens.get(at - 1)) {
         return None;
     }
-    let end = asks_for_it(tokens, at)?;
     let begin = before(tokens, at);
     let said = tokens.get(..at - 1)?;
+    // `I bet you cannot open it. Show me!`
+    let is_bet = (begin..said.len()).any(|at| stands(said, at, "bet you can not").is_some());
+    let shows = ["show me", "prove it", "go on"].iter().find_map(|show| stands(tokens, at, show));
+    let shown = shows.map(|count| at + count).filter(|end| is_bet && *end == clause_end(tokens, at));
+    let end = shown.or_else(|| asks_for_it(tokens, at))?;
     if (begin..said.len()).any(|at| NOT_TO.iter().any(|not| stands(said, at, not).is_some())) {
         return None;
     }
     let to_do = |at: usize| Some(at + TO_DO.iter().filter_map(|to_do| stands(said, at, to_do)).max()?);
-    let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()))?;
+    let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()));
+    let Some(task) = task else { return wished_for(said, begin).map(|said| (begin, end, said)) };
     let until = (task..said.len())
         .find(|at| {
             matches!(said.get(*at), Some(Token::Comma | Token::Stop))
                 || matches!(said.get(*at).map_or("", Token::word), "but" | "so")
+                // `and never got round to it`
+                || (stands(said, *at, "and").is_some() && verb(said, *at + 1).is_none())
         })
         .unwrap_or(said.len());
-    Some((begin, end, said.get(task..until)?.to_vec()))
+    let aside = ASIDE.iter().filter_map(|aside| ends_with(said.get(..until)?, until, aside)).max();
+    Some((begin, end, said.get(task..until - aside.unwrap_or(0))?.to_vec()))
+}
+
+/// `I would rather have it in the drawer. Do that for me.`: seen to.
+fn wished_for(said: &[Token], begin: usize) -> Option<Vec<Token>> {
+    let at = (begin..said.len())
+        .find_map(|at| Some(at + WISHED.iter().filter_map(|wish| stands(said, at, wish)).max()?))?;
+    let limit = clause_end(said, at);
+    let (thing, place) = (at + 1..limit).find_map(|end| {
+        let (_, after) = noun(said.get(..end)?, at)?;
+        let (_, to) = spot(said.get(..limit)?, end)?;
+        (after == end && to == limit).then_some((at..end, end..limit))
+    })?;
+    let mut wanted = vec![Token::Word("put".to_owned())];
+    wanted.extend_from_slice(said.get(thing)?);
+    wanted.extend_from_slice(said.get(place)?);
+    Some(wanted)
 }
 
 /// `I will meet you at the door, you go ahead`
 fn met(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> {
-    let meets = ["i will meet you", "i will see you", "i will join you", "we will meet you", "let us meet"];
+    let meets = [
+        "i will meet you",
+        "i will see you",
+        "i will join you",
+        "we will meet you",
+        "let us meet",
+        "i am going to want your help",
+        "i am going to need your help",
+        "i am going to need you",
+        "i will want your help",
+        "i will need your help",
+        "i will need you",
+    ];
     let place = at + meets.iter().find_map(|meets| stands(tokens, at, meets))?;
     let (_, after) = spot(tokens, place)?;
     let next = clause_end(tokens, place) + 1;
+    let next = next + stands(tokens, next, "so").unwrap_or(0);
     let ahead = ["you go ahead", "go ahead", "go on ahead", "you go on ahead", "you go first", "go there"];
     let end = next + ahead.iter().filter_map(|ahead| stands(tokens, next, ahead)).max()?;
     if end != clause_end(tokens, next) {

@@ -21,6 +21,10 @@ const BEGINS: &[&str] = &[
 /// What is said of it before the `if`.
 const NICE: &[&str] = &[
     "be",
+    "look",
+    "nicer",
+    "tidier",
+    "neater",
     "feel",
     "love",
     "like",

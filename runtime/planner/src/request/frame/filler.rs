@@ -6,6 +6,11 @@ use crate::request::token::{Token, stands};
 /// Words that say how or when and not what.
 const FILLERS: &[&str] = &[
     "right now",
+    "sometime today",
+    "shortly",
+    "sometime soon",
+    "some time today",
+    "at some point today",
     "right away",
     "any more",
     "anymore",
@@ -99,6 +104,8 @@ const OTHERS: &[&str] = &[
     "someone",
     "everybody",
     "everyone",
+    "anybody",
+    "anyone",
     "people",
     "my",
     "our",
@@ -117,7 +124,9 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
     while at < tokens.len() {
         if let Some(count) = FILLERS.iter().filter_map(|filler| stands(tokens, at, filler)).max() {
             at += count;
-        } else if let Some(count) = leisure(tokens, at).or_else(|| aim(tokens, at, &kept)) {
+        } else if let Some(count) =
+            leisure(tokens, at).or_else(|| aim(tokens, at, &kept)).or_else(|| deadline(tokens, at, &kept))
+        {
             at += count;
         } else if is_stress(tokens, at) {
             at += 1;
@@ -145,10 +154,20 @@ fn is_stress(tokens: &[Token], at: usize) -> bool {
 
 /// `where I am sitting`, `here with me`: where the person is.
 fn at_speaker(tokens: &[Token], at: usize) -> Option<(usize, &'static str)> {
-    if let Some(count) =
-        ["over here with me", "here with me", "over here by me", "here by me", "by my side", "to my side"]
-            .iter()
-            .find_map(|words| stands(tokens, at, words))
+    if let Some(count) = [
+        "over here with me",
+        "here with me",
+        "over here by me",
+        "here by me",
+        "over here next to me",
+        "here next to me",
+        "over here beside me",
+        "here beside me",
+        "by my side",
+        "to my side",
+    ]
+    .iter()
+    .find_map(|words| stands(tokens, at, words))
     {
         return Some((count, "here"));
     }
@@ -187,7 +206,9 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         let after = then_can(who)?;
         // `so it can go in the bin` asks for it.
         let next = tokens.get(after).map_or("", Token::word);
-        (!matches!(next, "go" | "be" | "get" | "stay" | "end" | "live" | "have")).then_some(after)
+        let is_person = tokens.get(who).is_some_and(|token| matches!(token.word(), "i" | "we"));
+        (is_person || !matches!(next, "go" | "be" | "get" | "stay" | "end" | "live" | "have"))
+            .then_some(after)
     };
     let begins_clause = matches!(kept.last(), None | Some(Token::Stop));
     let is_aim = match tokens.get(at)?.word() {
@@ -195,7 +216,12 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let that = stands(tokens, at, "so that").unwrap_or(1);
             !begins_clause && clause(at + that).is_some()
         }
-        "where" => !begins_clause && clause(at + 1).is_some(),
+        "where" => {
+            let will = ["i will", "we will", "i am sure to", "i am going to"];
+            !begins_clause
+                && (clause(at + 1).is_some()
+                    || will.iter().any(|will| stands(tokens, at + 1, will).is_some()))
+        }
         // The state in which it is now is no other thing.
         "instead" => {
             let state = [
@@ -234,7 +260,8 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let is_back = back.iter().any(|back| stands(tokens, at + by, back).is_some());
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
-            is_back && !begins_clause && sentence.windows(2).any(is_state)
+            let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"));
+            is_back && !begins_clause && (waits || sentence.windows(2).any(is_state))
         }
         _ => false,
     };
@@ -242,6 +269,19 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     is_aim.then(|| {
         rest.iter().position(|token| matches!(token, Token::Comma | Token::Stop)).unwrap_or(rest.len())
     })
+}
+
+/// `I need it there in two minutes`: by when. Of what somebody is told to do it says when, and stays.
+fn deadline(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
+    const COUNTS: &[&str] = &["a", "one", "two", "three", "five", "ten", "a few", "a couple of"];
+    let count = stands(tokens, at, "in").or_else(|| stands(tokens, at, "within"))?;
+    let count = count + COUNTS.iter().filter_map(|many| stands(tokens, at + count, many)).max()?;
+    let unit = tokens.get(at + count)?.word();
+    let is_unit = matches!(unit, "second" | "seconds" | "minute" | "minutes" | "moment");
+    let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+    let clause = sentence.rsplit(|token| *token == Token::Comma).next().unwrap_or_default();
+    let needs = ["i need", "we need", "i want", "we want"];
+    (is_unit && needs.iter().any(|need| stands(clause, 0, need).is_some())).then_some(count + 1)
 }
 
 fn is_state(two: &[Token]) -> bool {

@@ -4,6 +4,7 @@
 //! The frames are constructions with places for nouns, after Goldberg, Constructions (1995): a predicate of place or state
 //! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
 
+mod addressed;
 mod clause;
 mod courtesy;
 mod delegate;
@@ -12,12 +13,14 @@ mod filler;
 mod placed;
 mod state;
 
+use self::addressed::told_you;
 use self::clause::{cause, clause};
 pub(super) use self::courtesy::without_courtesy;
 pub(super) use self::delegate::asks_for_it;
 use self::delegate::delegated;
 use self::favour::{favour, in_series, stressed, told_when_done};
 use self::filler::without_fillers;
+use self::placed::wanted_there;
 use super::inflection::{Form, base};
 use super::lead::skip_leads;
 use super::token::{Token, stands};
@@ -30,6 +33,9 @@ const MIND: &[&str] = &[
     "mind",
     "how about",
     "what about",
+    "any chance of you",
+    "is there any chance of you",
+    "what are the chances of you",
     "any chance of",
     "is there any chance of",
     "i would appreciate you",
@@ -87,6 +93,10 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
         left -= 1;
         if starts {
             let begin = skip_leads(&tokens, at);
+            if let Some((from, words)) = told_you(&tokens, begin).or_else(|| wanted_there(&tokens, begin)) {
+                tokens.splice(begin..from, words);
+                continue;
+            }
             if let Some((from, words)) = unwrapped(&tokens, begin) {
                 tokens.splice(begin..from, words);
                 continue;
@@ -129,6 +139,13 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     }
     if let Some(found) = told_when_done(tokens, at).or_else(|| stressed(tokens, at)) {
         return Some(found);
+    }
+    // `would you mind going to get it`
+    if let Some(count) = stands(tokens, at, "go to").or_else(|| stands(tokens, at, "go over to"))
+        && let "get" | "fetch" | "grab" | "bring" | "pick" | "open" | "close" | "shut" =
+            tokens.get(at + count)?.word()
+    {
+        return Some((at + count, Vec::new()));
     }
     let set_out = SET_OUT.iter().filter_map(|out| stands(tokens, at, out)).max()?;
     let next = tokens.get(at + set_out)?.word();

@@ -75,3 +75,29 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
     let is_there = is_place(tokens, be) || located(tokens, be).is_some();
     is_there.then(|| (words("go"), be))
 }
+
+/// `on the table, that is where I want it`: up to where `put it on the table` takes the place of it.
+pub(super) fn wanted_there(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
+    let (place, after) = spot(tokens, begin).or_else(|| way(tokens, begin))?;
+    if !matches!(place.noun, Noun::Phrase(_)) || place.relation == Relation::Beside {
+        return None;
+    }
+    let at = after + usize::from(tokens.get(after) == Some(&Token::Comma));
+    let at = at + stands(tokens, at, "that is where").or_else(|| stands(tokens, at, "this is where"))?;
+    let wants = ["i want", "i would like", "i need", "we want", "we would like", "we need"];
+    if let Some(count) = wants.iter().find_map(|want| stands(tokens, at, want)) {
+        let (thing, end) = noun(tokens, at + count)?;
+        if matches!(thing, Noun::Speaker) || !is_over(tokens, end) {
+            return None;
+        }
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(at + count..end)?);
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((end, said));
+    }
+    None
+}
+
+fn is_over(tokens: &[Token], at: usize) -> bool {
+    matches!(tokens.get(at), None | Some(Token::Comma | Token::Stop))
+}

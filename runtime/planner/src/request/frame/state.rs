@@ -51,12 +51,17 @@ pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, u
     let word = tokens.get(at)?.word();
     let is_last = tokens.get(at + 1).is_none_or(|next| {
         matches!(next, Token::Comma | Token::Stop)
-            || matches!(next.word(), "and" | "for" | "please" | "again")
+            || matches!(next.word(), "and" | "for" | "please" | "again" | "now")
     });
     match word {
         "open" if is_last => return Some((State::Open, at + 1)),
         "closed" | "shut" if is_last => return Some((State::Closed, at + 1)),
         _ => {}
+    }
+    // `it can go out with the rubbish`
+    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
+    if let Some(count) = rubbish.iter().find_map(|out| stands(tokens, at, out)) {
+        return Some((State::Done("discard".to_owned()), at + count));
     }
     if is_place(tokens, at) {
         return Some((State::At, at));
