@@ -374,6 +374,8 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "If you would wait.",
         "I can't do it myself.",
         "never again",
+        "you can let it be",
+        "you may give up",
         "would you bring me the apple?",
         "it is in the fridge",
     ] {

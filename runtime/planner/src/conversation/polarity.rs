@@ -110,6 +110,23 @@ const IGNORANT: &[&str] = &[
 /// Politeness, which says nothing.
 const COURTESY: &[&str] =
     &["please", "thanks", "thank you", "oh", "well", "hm", "hmm", "then", "so", "just", "actually"];
+/// Who asks for it begins so: "could you stop that".
+const ASKING: &[&str] = &[
+    "would you",
+    "could you",
+    "can you",
+    "will you",
+    "you can",
+    "you may",
+    "you could",
+    "you should",
+    "you must",
+    "you'd better",
+    "go ahead and",
+    "i want you to",
+    "i'd like you to",
+    "i would like you to",
+];
 /// Behind `stop` and `leave it` these begin a place: "stop at the table".
 const PLACES: &[&str] = &["at", "by", "in", "on", "near", "next", "beside", "behind", "with", "under"];
 
@@ -119,7 +136,8 @@ pub(super) fn polarity(said: &str) -> Polarity<'_> {
     if let Some(left) = skip(rest, IGNORANT) {
         return if is_done(left) { Polarity::Ignorant } else { Polarity::Neither };
     }
-    if skip(rest, STOP).is_some_and(|left| !begins_place(left)) {
+    let asked = skip_all(skip_all(rest, ASKING), COURTESY);
+    if skip(asked, STOP).is_some_and(|left| !begins_place(left)) {
         return Polarity::Stop;
     }
     if skip(rest, STOP_ALONE).is_some_and(|left| is_done(skip_all(left, COURTESY))) {
@@ -223,6 +241,9 @@ mod tests {
             "nothing, thanks",
             "leave it",
             "I'll do it myself",
+            "would you stop that",
+            "you can stop now, please",
+            "go ahead and cancel it",
         ] {
             assert_eq!(polarity(said), Polarity::Stop, "{said}");
         }
@@ -249,6 +270,8 @@ mod tests {
             "wait a moment",
             "what?",
             "stop at the table",
+            "would you stop by the table",
+            "you can leave it on the table",
             "please bring me the cup",
         ] {
             assert_eq!(polarity(said), Polarity::Neither, "{said}");

@@ -265,6 +265,18 @@ const BESIDE: &[&str] = &[
     "not your fault",
     "it is not your fault",
 ];
+/// What gives it up, in words that agree by themselves.
+const GIVES_UP: &[&str] = &[
+    "let it be",
+    "let it go",
+    "let that be",
+    "let that go",
+    "give up",
+    "give it up",
+    "give that up",
+    "call it a day",
+    "make do",
+];
 /// What agrees by itself, though it begins like a condition.
 const IF_YOU: &[&str] = &["if you would", "if you could", "if you can", "if you please", "if you like"];
 /// Words that take back, restrict or put off what is agreed to.
@@ -314,6 +326,9 @@ pub fn encourages(answer: &str) -> Option<String> {
             continue;
         }
         let is_beside = of(clause, begin, BESIDE);
+        if !is_beside && (0..clause.len()).any(|at| of(clause, at, GIVES_UP)) {
+            return None;
+        }
         let is_agreed =
             (0..clause.len()).any(|at| of(clause, at, AGAIN) || of(clause, at, AGREES)) && is_plain(clause);
         // `I cannot do it myself` says why.
