@@ -70,7 +70,7 @@ def served(server, path, log):
 def held(binary, world):
     """The fields of a request that hold a model to a policy, by name."""
     robot, scene, request = world
-    flags = ["--robot", robot, "--scene", scene, "--no-geometry", "--depth", "2"]
+    flags = ["--robot", robot, "--scene", scene, "--depth", "2"]
     of = lambda *more: motet(binary, "grammar", *flags, *more).stdout  # noqa: E731
     whole = json.loads(of("--request", "llamacpp", "--ask", request))
     return {

@@ -31,7 +31,7 @@ def main():
             parameters = write(folder, seed, tokenizer)
             for world in WORLDS:
                 robot, scene, request = world
-                flags = ["--robot", robot, "--scene", scene, "--no-geometry", "--depth", "2"]
+                flags = ["--robot", robot, "--scene", scene, "--depth", "2"]
                 lark = motet(binary, "grammar", *flags, "--format", "lark", "--llguidance").stdout
                 model, log = Model(folder, lark), []
                 server, url = serve(model, log)
