@@ -4,7 +4,7 @@ use super::lead::{contrasts, thanks};
 use super::noun::{Noun, noun};
 use super::remark::{beside, is_boundary};
 use super::spot::{Relation, Spot, is_way, located, spot, way};
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::verb::{Act, begins, is_want, verb};
 
 /// One thing that is asked for.
@@ -96,9 +96,12 @@ const PREDICATES: &[&str] = &[
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
     // `… and do not let go`, `…, it is hot`: a clause of its own.
     let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.contains(&token.word()));
-    let is_clause = ["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"]
-        .iter()
-        .any(|not| stands(tokens, at, not).is_some());
+    let is_clause = longest(
+        tokens,
+        at,
+        &["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"],
+    )
+    .is_some();
     let another = noun(tokens, at).is_some_and(|(noun, after)| {
         matches!(noun, Noun::Phrase(_) | Noun::Before(_)) && !is(after) && !is_clause
     });
@@ -120,7 +123,7 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
 /// One part of a command: where the next begins.
 fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {
     // `grab the mug for me`: who takes something for somebody brings it.
-    let for_me = ["for me", "for us"].iter().find_map(|words| stands(tokens, at, words));
+    let for_me = longest(tokens, at, &["for me", "for us"]);
     if let (Some(count), Act::Take) = (for_me, now.act) {
         // `take the mug to the sink for me` asks for a favour.
         if now.to.as_ref().is_none_or(|to| !to.moves()) {
@@ -142,9 +145,7 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     }
     let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
     // `carry it to the table and set it on top`
-    if let Some(count) = ["on top", "on it", "up there", "over there", "right there"]
-        .iter()
-        .find_map(|words| stands(tokens, at, words))
+    if let Some(count) = longest(tokens, at, &["on top", "on it", "up there", "over there", "right there"])
         && is_boundary(tokens, at + count)
         && !now.items.is_empty()
     {
@@ -173,10 +174,8 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         now.act = Act::Stow;
         return Ok(at + count);
     }
-    if let Some(count) = ["from off", "from on top of", "from inside", "from", "off of", "off", "out of"]
-        .iter()
-        .filter_map(|words| stands(tokens, at, words))
-        .max()
+    if let Some(count) =
+        longest(tokens, at, &["from off", "from on top of", "from inside", "from", "off of", "off", "out of"])
     {
         let Some((source, after)) = noun(tokens, at + count) else {
             now.with.push(word.to_owned());
@@ -215,7 +214,7 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         "if it is not open",
         "if it is shut",
     ];
-    if let Some(count) = conditions.iter().filter_map(|words| stands(tokens, at, words)).max()
+    if let Some(count) = longest(tokens, at, &conditions)
         && matches!(now.act, Act::Open | Act::Close)
     {
         now.with.push(ONLY_IF.to_owned());

@@ -1,7 +1,7 @@
 //! Whether somebody who was asked whether to try again says so, in whatever words: `give it another shot`, `it cannot hurt`.
 
 use super::lead::skip_leads;
-use super::token::{Token, stands, tokens};
+use super::token::{Token, longest, stands, tokens};
 use super::verb::verb;
 
 /// What says so.
@@ -317,7 +317,7 @@ pub fn encourages(answer: &str) -> Option<String> {
     for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {
         let begin = skip_soft(clause, 0);
         if clause.get(begin..).is_none_or(<[Token]>::is_empty) {
-            agrees |= (0..clause.len()).any(|at| of(clause, at, AGREES));
+            agrees |= (0..clause.len()).any(|at| longest(clause, at, AGREES).is_some());
             continue;
         }
         // `if you would, thank you`
@@ -325,12 +325,13 @@ pub fn encourages(answer: &str) -> Option<String> {
             agrees = true;
             continue;
         }
-        let is_beside = of(clause, begin, BESIDE);
-        if !is_beside && (0..clause.len()).any(|at| of(clause, at, GIVES_UP)) {
+        let is_beside = longest(clause, begin, BESIDE).is_some();
+        if !is_beside && (0..clause.len()).any(|at| longest(clause, at, GIVES_UP).is_some()) {
             return None;
         }
-        let is_agreed =
-            (0..clause.len()).any(|at| of(clause, at, AGAIN) || of(clause, at, AGREES)) && is_plain(clause);
+        let is_agreed = (0..clause.len())
+            .any(|at| longest(clause, at, AGAIN).is_some() || longest(clause, at, AGREES).is_some())
+            && is_plain(clause);
         // `I cannot do it myself` says why.
         let is_agreed = is_agreed && stands(clause, begin, "i can not").is_none();
         let is_denied = !is_beside
@@ -374,10 +375,6 @@ fn is_plain(clause: &[Token]) -> bool {
         }
     }
     true
-}
-
-fn of(clause: &[Token], at: usize, table: &[&str]) -> bool {
-    table.iter().any(|words| stands(clause, at, words).is_some())
 }
 
 /// Past words that only soften.

@@ -1,7 +1,7 @@
 //! What stands before a verb out of politeness, and what someone says who wants to have something.
 
 use super::opening::LEADS;
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::verb::VERBS;
 
 /// What someone says who wants to have something.
@@ -78,10 +78,9 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
         if contrasts(tokens, at) {
             return at;
         }
-        let lead =
-            LEADS.iter().filter_map(|lead| stands(tokens, at, lead)).max().or_else(|| be_kind(tokens, at));
+        let lead = longest(tokens, at, LEADS).or_else(|| be_kind(tokens, at));
         // `let us have the coke` is a wish, and no `let us`.
-        let want = WANTS.iter().filter_map(|want| stands(tokens, at, want)).max();
+        let want = longest(tokens, at, WANTS);
         // `hang on to it` is no `hang on`.
         let verb = VERBS.iter().filter_map(|(verb, _)| stands(tokens, at, verb)).max();
         match lead.filter(|lead| want.max(verb).is_none_or(|longer| longer <= *lead)) {
@@ -140,7 +139,7 @@ fn be_kind(tokens: &[Token], at: usize) -> Option<usize> {
     while tokens.get(end).is_some_and(|token| KIND.contains(&token.word())) {
         end += 1;
     }
-    let joint = ["as to", "and"].iter().find_map(|joint| stands(tokens, end, joint))?;
+    let joint = longest(tokens, end, &["as to", "and"])?;
     (end > begin).then_some(end + joint - at)
 }
 
@@ -149,7 +148,7 @@ pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
     if contrasts(tokens, at) {
         return None;
     }
-    [
+    let soft = [
         "thank you very much",
         "thank you so much",
         "thank you",
@@ -178,15 +177,12 @@ pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
         "today",
         "instead",
         "rather",
-    ]
-    .iter()
-    .filter_map(|words| stands(tokens, at, words))
-    .max()
+    ];
+    longest(tokens, at, &soft)
 }
 
 /// `instead of the wrench`, `rather than there`: what follows is not wanted.
 pub(super) fn contrasts(tokens: &[Token], at: usize) -> bool {
-    ["instead of", "rather than", "and not", "but not", "in place of", "in lieu of"]
-        .iter()
-        .any(|words| stands(tokens, at, words).is_some())
+    longest(tokens, at, &["instead of", "rather than", "and not", "but not", "in place of", "in lieu of"])
+        .is_some()
 }

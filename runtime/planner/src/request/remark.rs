@@ -1,6 +1,6 @@
 //! What is said beside a request and asks for nothing: how things are, why, what somebody wonders, and what to mind.
 
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::verb::{Act, begins};
 
 /// Who or what may be spoken of at the beginning.
@@ -166,8 +166,8 @@ pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
 /// not understood, nor what forbids something or quotes somebody.
 pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     let here = tokens.get(..end).unwrap_or_default();
-    let of = |table: &[&str]| table.iter().any(|words| stands(here, begin, words).is_some());
-    let matters = (begin..end).any(|at| MATTERS.iter().any(|words| stands(here, at, words).is_some()));
+    let of = |table: &[&str]| longest(here, begin, table).is_some();
+    let matters = (begin..end).any(|at| longest(here, at, MATTERS).is_some());
     if end < begin + 2 || matters || quotes(tokens, here) {
         return false;
     }
@@ -191,7 +191,7 @@ pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
 
 /// `since you are up anyway, …`: a whole clause, behind which something is asked for.
 fn reason(tokens: &[Token], begin: usize, end: usize) -> bool {
-    let Some(count) = REASONS.iter().filter_map(|words| stands(tokens, begin, words)).max() else {
+    let Some(count) = longest(tokens, begin, REASONS) else {
         return false;
     };
     let is_subject = tokens.get(begin + count).is_some_and(|token| SUBJECTS.contains(&token.word()));
@@ -288,21 +288,19 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
     ];
     // `no putting it down`: the `no` was passed over.
     let is_no = begin.checked_sub(1).is_some_and(|at| stands(tokens, at, "no").is_some());
-    if let (true, Some(count)) = (
-        is_no,
-        ["putting it down", "letting go", "dropping it", "giving it back"]
-            .iter()
-            .find_map(|words| stands(tokens, begin, words)),
-    ) {
+    if let (true, Some(count)) =
+        (is_no, longest(tokens, begin, &["putting it down", "letting go", "dropping it", "giving it back"]))
+    {
         let is_held = matches!(before, Some(Act::Pick | Act::Lift));
         return (is_held && is_boundary(tokens, begin + count)).then_some(begin + count);
     }
     let at = begin
-        + ["do not you dare", "do not you", "do not", "never", "try not to", "careful not to"]
-            .iter()
-            .filter_map(|not| stands(tokens, begin, not))
-            .max()?;
-    let of = |table: &[&str]| table.iter().any(|words| stands(tokens, at, words).is_some());
+        + longest(
+            tokens,
+            begin,
+            &["do not you dare", "do not you", "do not", "never", "try not to", "careful not to"],
+        )?;
+    let of = |table: &[&str]| longest(tokens, at, table).is_some();
     // `do not forget the mug` may ask for it, `do not forget!` minds what was said.
     let forgets = stands(tokens, at, "forget").is_some();
     let end = remark_end(tokens, at);
@@ -357,19 +355,17 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
         Act::Go if is_joined => &["stop", "stop there"],
         _ => &[],
     };
-    if let Some(count) = same.iter().filter_map(|stay| stands(tokens, begin, stay)).max()
+    if let Some(count) = longest(tokens, begin, same)
         && is_boundary(tokens, begin + count)
     {
         return Some(begin + count);
     }
-    let stays =
-        ["stay", "wait", "stand", "remain", "sit"].iter().find_map(|stay| stands(tokens, begin, stay))?;
+    let stays = longest(tokens, begin, &["stay", "wait", "stand", "remain", "sit"])?;
     let there = ["there", "put", "still", "where you are", "right where you are", "over there"];
     let mut at = begin + stays;
-    at += there.iter().filter_map(|there| stands(tokens, at, there)).max()?;
-    while let Some(count) = ["with it", "with them", "for me", "for us", "for now", "please"]
-        .iter()
-        .find_map(|words| stands(tokens, at, words))
+    at += longest(tokens, at, &there)?;
+    while let Some(count) =
+        longest(tokens, at, &["with it", "with them", "for me", "for us", "for now", "please"])
     {
         at += count;
     }

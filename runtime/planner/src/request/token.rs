@@ -195,3 +195,8 @@ pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> 
     }
     Some(count)
 }
+
+/// The same of the longest of several that stands there.
+pub(super) fn longest(tokens: &[Token], at: usize, table: &[&str]) -> Option<usize> {
+    table.iter().filter_map(|words| stands(tokens, at, words)).max()
+}

@@ -1,7 +1,7 @@
 //! The verbs of household requests.
 
 use super::lead::{WANTS, skip_leads};
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 
 /// What is asked for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -298,7 +298,7 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
         return None;
     }
     // `take care of it` says nothing of what to do with it.
-    if [
+    let vague = [
         "take care",
         "take a look",
         "hold on a",
@@ -307,10 +307,8 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
         "come to think",
         "run out",
         "pass by",
-    ]
-    .iter()
-    .any(|words| stands(tokens, at, words).is_some())
-    {
+    ];
+    if longest(tokens, at, &vague).is_some() {
         return None;
     }
     let wants = WANTS.iter().filter_map(|want| Some((Act::Fetch, at + stands(tokens, at, want)?)));

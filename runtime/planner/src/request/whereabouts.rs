@@ -9,7 +9,7 @@ use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
 use super::telling::{BEFORE, BEHIND, DENIES, HAS, HOW, IS, LOOK, PUT, WHO};
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::vocabulary::Role;
 
 /// Whether a clause answers the question where something is, so that a bare place is one.
@@ -44,7 +44,7 @@ impl Reader<'_> {
         let begin = reported(tokens, skip(tokens, 0, BEFORE), clause);
         // `is it not in the fridge?` proposes it.
         let proposes = clause == Clause::Answer
-            && stands_any(tokens, begin, LOOK)
+            && longest(tokens, begin, LOOK)
                 .is_some_and(|count| !denies(tokens.get(begin + count..).unwrap_or_default()));
         // Who says beside a request where something is kept as a rule does not say that it is there.
         let is_habit = clause == Clause::Statement
@@ -87,14 +87,14 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     if let Some(spots) = spots(tokens, at, false) {
         return Some((it(), spots));
     }
-    let look = LOOK.iter().filter_map(|look| stands(tokens, at, look)).max().filter(|_| is_answer);
+    let look = longest(tokens, at, LOOK).filter(|_| is_answer);
     if let Some(count) = look {
         // `look for it in the cupboard`
         let for_it = stands(tokens, at + count, "for it").unwrap_or(0);
         return Some((it(), spots(tokens, at + count + for_it, true)?));
     }
     // `should be in the fridge`
-    if let (true, Some(count)) = (is_answer, stands_any(tokens, at, IS)) {
+    if let (true, Some(count)) = (is_answer, longest(tokens, at, IS)) {
         return Some((it(), spots(tokens, skip(tokens, at + count, HOW), false)?));
     }
     // `there is a can in the fridge`
@@ -116,7 +116,7 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
         return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
     }
     let (thing, after) = noun(tokens, at)?;
-    let count = IS.iter().filter_map(|is| stands(tokens, after, is)).max()?;
+    let count = longest(tokens, after, IS)?;
     Some((thing, spots(tokens, skip(tokens, after + count, HOW), false)?))
 }
 
@@ -128,7 +128,7 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
         let whole = tokens;
         let is_end = |end: &usize| {
             let after = skip(whole, *end, BEHIND);
-            after > *end && (after == whole.len() || stands_any(whole, after, NEXT).is_some())
+            after > *end && (after == whole.len() || longest(whole, after, NEXT).is_some())
         };
         let end = (at + 1..whole.len()).find(is_end).unwrap_or(whole.len());
         let tokens = whole.get(..end)?;
@@ -142,10 +142,10 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
         spots.push(spot);
         at = skip(whole, after, BEHIND);
         let goes_on = ["when", "while", "because", "since", "where", "so"];
-        if at >= whole.len() || (at > 0 && stands_any(whole, at, &goes_on).is_some()) {
+        if at >= whole.len() || (at > 0 && longest(whole, at, &goes_on).is_some()) {
             return Some(spots);
         }
-        at += stands_any(whole, at, NEXT)?;
+        at += longest(whole, at, NEXT)?;
         at = skip(whole, at, LOOK);
     }
 }
@@ -154,12 +154,8 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
 const NEXT: &[&str] =
     &["or else", "or maybe", "or perhaps", "or", "and then", "and after that", "and", "then"];
 
-fn stands_any(tokens: &[Token], at: usize, words: &[&str]) -> Option<usize> {
-    words.iter().filter_map(|words| stands(tokens, at, words)).max()
-}
-
 fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
-    while let Some(count) = stands_any(tokens, at, skipped) {
+    while let Some(count) = longest(tokens, at, skipped) {
         at += count;
     }
     at
@@ -179,7 +175,7 @@ fn reported(tokens: &[Token], at: usize, clause: Clause) -> usize {
         "told us",
         "mentioned",
     ];
-    let is_said = |end: usize| stands_any(tokens, end, &says).map(|count| skip(tokens, end + count, BEFORE));
+    let is_said = |end: usize| longest(tokens, end, &says).map(|count| skip(tokens, end + count, BEFORE));
     let found = (at + 1..=at + 2).find_map(is_said);
     found.filter(|_| clause == Clause::Answer).unwrap_or(at)
 }
@@ -189,5 +185,5 @@ fn is_one_of(tokens: &[Token], at: usize, words: &[&str]) -> bool {
 }
 
 fn denies(tokens: &[Token]) -> bool {
-    (0..tokens.len()).any(|at| DENIES.iter().any(|word| stands(tokens, at, word).is_some()))
+    (0..tokens.len()).any(|at| longest(tokens, at, DENIES).is_some())
 }

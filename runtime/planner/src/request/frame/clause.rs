@@ -7,7 +7,7 @@ use crate::request::inflection::Form;
 use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::spot::located;
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
 
 /// What stands between a thing and where it shall be, or what shall be done with it.
@@ -139,8 +139,8 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
 
 /// `the coke belongs in the fridge`, `can the coke go in the fridge`, `make sure that the drawer is shut`
 fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let asks = ["can", "could", "may", "would"].iter().find_map(|ask| stands(tokens, begin, ask));
-    let sees = SEE_TO.iter().filter_map(|see| stands(tokens, begin, see)).max();
+    let asks = longest(tokens, begin, &["can", "could", "may", "would"]);
+    let sees = longest(tokens, begin, SEE_TO);
     let (begin, links) = match (asks, sees) {
         (Some(count), _) => (begin + count, SHALL_IT),
         (None, Some(count)) => (begin + count, IS),
@@ -151,12 +151,8 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let (mut said, after) = thing_before(tokens, begin, |at| {
         // `can it please go there`
         let please = if asks.is_some() { stands(tokens, at, "please").unwrap_or(0) } else { 0 };
-        let count = links
-            .iter()
-            .filter_map(|link| stands(tokens, at + please, link))
-            .max()
-            .map(|count| count + please);
-        let none = ["should not be", "is not", "needs"].iter().find_map(|link| stands(tokens, at, link));
+        let count = longest(tokens, at + please, links).map(|count| count + please);
+        let none = longest(tokens, at, &["should not be", "is not", "needs"]);
         let (count, is_wanted) = match (count, none) {
             (Some(count), _) => (count, true),
             (None, Some(1)) => (1, true),
@@ -179,7 +175,7 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
 fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
-    let wants = WANT.iter().filter_map(|want| stands(tokens, begin, want)).max();
+    let wants = longest(tokens, begin, WANT);
     if let Some(count) = wants
         && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
         && is_place(tokens, begin + count + you)
@@ -188,15 +184,15 @@ fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     }
     if let Some(count) = wants {
         return thing_before(tokens, begin + count, |at| {
-            let to_be = TO_BE.iter().filter_map(|to_be| stands(tokens, at, to_be)).max();
+            let to_be = longest(tokens, at, TO_BE);
             let found = state(tokens, at + to_be.unwrap_or(0), Form::Participle)?;
             // `I want the mug on the table` is left to who knows where the mug is.
             (to_be.is_some() || !matches!(found.0, State::At)).then_some(found)
         });
     }
-    let count = DO_NOT_WANT.iter().filter_map(|want| stands(tokens, begin, want)).max()?;
+    let count = longest(tokens, begin, DO_NOT_WANT)?;
     thing_before(tokens, begin + count, |at| {
-        let to_be = TO_BE.iter().filter_map(|to_be| stands(tokens, at, to_be)).max().unwrap_or(0);
+        let to_be = longest(tokens, at, TO_BE).unwrap_or(0);
         let (state, after) = state(tokens, at + to_be, Form::Participle)?;
         Some((opposite(state)?, after))
     })
@@ -255,18 +251,18 @@ fn self_moved(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let (_, after) = located(tokens, begin)?;
     let at = after + stands(tokens, after, "is where")?;
-    let at = at + WANT.iter().filter_map(|want| stands(tokens, at, want)).max()?;
+    let at = at + longest(tokens, at, WANT)?;
     let (_, end) = noun(tokens, at)?;
     let mut said = words("put");
     said.extend_from_slice(tokens.get(at..end)?);
     said.extend_from_slice(tokens.get(begin..after)?);
-    let end = end + TO_BE.iter().filter_map(|to_be| stands(tokens, end, to_be)).max().unwrap_or(0);
+    let end = end + longest(tokens, end, TO_BE).unwrap_or(0);
     Some((said, end))
 }
 
 /// `if the drawer is open, close it`: `close the drawer if it is open`.
 fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
-    let at = begin + ["if", "in case", "when"].iter().find_map(|word| stands(tokens, begin, word))?;
+    let at = begin + longest(tokens, begin, &["if", "in case", "when"])?;
     let here = tokens.get(..limit)?;
     let (said, after) = thing_before(here, at, |at| {
         let count =
@@ -302,7 +298,7 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after));
     }
-    let goes = ["over to", "to", "into", "onto"].iter().find_map(|to| stands(tokens, after, to));
+    let goes = longest(tokens, after, &["over to", "to", "into", "onto"]);
     let (_, end) = noun(tokens.get(..limit)?, after + goes?)?;
     if is_named && (please(end) || (end == limit && please(limit + 1))) {
         let mut said = words("put");

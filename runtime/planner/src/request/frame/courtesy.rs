@@ -1,6 +1,6 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
@@ -337,8 +337,4 @@ fn tag(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let apart = longest(tokens, at + comma, APART).filter(|_| is_apart);
     let end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
     (!kept.is_empty() && is_mark(tokens.get(end))).then_some(end)
-}
-
-fn longest(tokens: &[Token], at: usize, phrases: &[&str]) -> Option<usize> {
-    phrases.iter().filter_map(|phrase| stands(tokens, at, phrase)).max()
 }

@@ -4,7 +4,7 @@
 use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::spot::spot;
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 use crate::request::verb::verb;
 
 /// What asks for what was spoken of.
@@ -207,13 +207,13 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
     let said = tokens.get(..at - 1)?;
     // `I bet you cannot open it. Show me!`
     let is_bet = (begin..said.len()).any(|at| stands(said, at, "bet you can not").is_some());
-    let shows = ["show me", "prove it", "go on"].iter().find_map(|show| stands(tokens, at, show));
+    let shows = longest(tokens, at, &["show me", "prove it", "go on"]);
     let shown = shows.map(|count| at + count).filter(|end| is_bet && *end == clause_end(tokens, at));
     let end = shown.or_else(|| asks_for_it(tokens, at))?;
-    if (begin..said.len()).any(|at| NOT_TO.iter().any(|not| stands(said, at, not).is_some())) {
+    if (begin..said.len()).any(|at| longest(said, at, NOT_TO).is_some()) {
         return None;
     }
-    let to_do = |at: usize| Some(at + TO_DO.iter().filter_map(|to_do| stands(said, at, to_do)).max()?);
+    let to_do = |at: usize| Some(at + longest(said, at, TO_DO)?);
     let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()));
     let Some(task) = task else { return wished_for(said, begin).map(|said| (begin, end, said)) };
     let until = (task..said.len())
@@ -230,8 +230,7 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
 
 /// `I would rather have it in the drawer. Do that for me.`: seen to.
 fn wished_for(said: &[Token], begin: usize) -> Option<Vec<Token>> {
-    let at = (begin..said.len())
-        .find_map(|at| Some(at + WISHED.iter().filter_map(|wish| stands(said, at, wish)).max()?))?;
+    let at = (begin..said.len()).find_map(|at| Some(at + longest(said, at, WISHED)?))?;
     let limit = clause_end(said, at);
     let (thing, place) = (at + 1..limit).find_map(|end| {
         let (_, after) = noun(said.get(..end)?, at)?;
@@ -264,7 +263,7 @@ fn met(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> {
     let next = clause_end(tokens, place) + 1;
     let next = next + stands(tokens, next, "so").unwrap_or(0);
     let ahead = ["you go ahead", "go ahead", "go on ahead", "you go on ahead", "you go first", "go there"];
-    let end = next + ahead.iter().filter_map(|ahead| stands(tokens, next, ahead)).max()?;
+    let end = next + longest(tokens, next, &ahead)?;
     if end != clause_end(tokens, next) {
         return None;
     }

@@ -1,7 +1,7 @@
 //! Words of a request that say how, why or when it is convenient, and not what: they are left out.
 
 use crate::request::inflection::{Form, base};
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 
 /// Words that say how or when and not what.
 const FILLERS: &[&str] = &[
@@ -122,7 +122,7 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while at < tokens.len() {
-        if let Some(count) = FILLERS.iter().filter_map(|filler| stands(tokens, at, filler)).max() {
+        if let Some(count) = longest(tokens, at, FILLERS) {
             at += count;
         } else if let Some(count) =
             leisure(tokens, at).or_else(|| aim(tokens, at, &kept)).or_else(|| deadline(tokens, at, &kept))
@@ -171,9 +171,7 @@ fn at_speaker(tokens: &[Token], at: usize) -> Option<(usize, &'static str)> {
     {
         return Some((count, "here"));
     }
-    let count = ["where i am", "where we are", "where i sit", "where i stand"]
-        .iter()
-        .find_map(|words| stands(tokens, at, words))?;
+    let count = longest(tokens, at, &["where i am", "where we are", "where i sit", "where i stand"])?;
     let how = ["sitting", "standing", "lying", "at", "now", "stuck", "resting"];
     let is_how = tokens.get(at + count).is_some_and(|token| how.contains(&token.word()));
     let count = count + usize::from(is_how);
@@ -183,7 +181,7 @@ fn at_speaker(tokens: &[Token], at: usize) -> Option<(usize, &'static str)> {
 /// `so I can see it`, `before the kids see it`, `where I can reach it`, `until I say so`: what for, which changes nothing of
 /// what is done now. How many words it takes.
 fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
-    let other = |at: usize| OTHERS.iter().filter_map(|who| stands(tokens, at, who)).max();
+    let other = |at: usize| longest(tokens, at, OTHERS);
     let can = |at: usize| {
         let can = [
             "can",
@@ -197,7 +195,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             "am not",
             "is not",
         ];
-        can.iter().filter_map(|can| stands(tokens, at, can)).max()
+        longest(tokens, at, &can)
     };
     // `the` and `my` have a noun before the verb.
     let then_can = |who: usize| (who + 1..=who + 3).find_map(|at| Some(at + can(at)?));
@@ -218,9 +216,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         }
         "where" => {
             let will = ["i will", "we will", "i am sure to", "i am going to"];
-            !begins_clause
-                && (clause(at + 1).is_some()
-                    || will.iter().any(|will| stands(tokens, at + 1, will).is_some()))
+            !begins_clause && (clause(at + 1).is_some() || longest(tokens, at + 1, &will).is_some())
         }
         // The state in which it is now is no other thing.
         "instead" => {
@@ -257,7 +253,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
                 "they get",
                 "they come",
             ];
-            let is_back = back.iter().any(|back| stands(tokens, at + by, back).is_some());
+            let is_back = longest(tokens, at + by, &back).is_some();
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
             let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"));
@@ -275,13 +271,13 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
 fn deadline(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     const COUNTS: &[&str] = &["a", "one", "two", "three", "five", "ten", "a few", "a couple of"];
     let count = stands(tokens, at, "in").or_else(|| stands(tokens, at, "within"))?;
-    let count = count + COUNTS.iter().filter_map(|many| stands(tokens, at + count, many)).max()?;
+    let count = count + longest(tokens, at + count, COUNTS)?;
     let unit = tokens.get(at + count)?.word();
     let is_unit = matches!(unit, "second" | "seconds" | "minute" | "minutes" | "moment");
     let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
     let clause = sentence.rsplit(|token| *token == Token::Comma).next().unwrap_or_default();
     let needs = ["i need", "we need", "i want", "we want"];
-    (is_unit && needs.iter().any(|need| stands(clause, 0, need).is_some())).then_some(count + 1)
+    (is_unit && longest(clause, 0, &needs).is_some()).then_some(count + 1)
 }
 
 fn is_state(two: &[Token]) -> bool {
@@ -301,13 +297,9 @@ fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
     let starts = ["when", "whenever", "if", "once", "as soon as", "while", "since", "as"];
     let subject = |begin: &str| stands(tokens, at, &format!("{begin} you"));
     let count = starts.iter().find_map(|begin| subject(begin));
-    let count = count
-        .or_else(|| ["if it is not", "if that is not"].iter().find_map(|begin| stands(tokens, at, begin)))?;
+    let count = count.or_else(|| longest(tokens, at, &["if it is not", "if that is not"]))?;
     let mut end = at + count;
-    if let Some(done) = ["are done", "are finished", "have finished", "are through"]
-        .iter()
-        .find_map(|done| stands(tokens, end, done))
-    {
+    if let Some(done) = longest(tokens, end, &["are done", "are finished", "have finished", "are through"]) {
         end += done;
         // What it is done with may be another task, which is not asked for; `done putting the mug away` asks for more.
         while tokens.get(end).is_some_and(|token| !token.word().is_empty() && !is_task(token.word())) {

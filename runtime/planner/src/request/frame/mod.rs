@@ -23,7 +23,7 @@ use self::filler::without_fillers;
 use self::placed::wanted_there;
 use super::inflection::{Form, base};
 use super::lead::skip_leads;
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::verb::begins;
 
 /// What asks for the form in `-ing`.
@@ -131,7 +131,7 @@ fn is_lead(tokens: &[Token], at: usize) -> bool {
 
 /// A frame around an imperative: what stands for the tokens up to where.
 fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
-    let mind = MIND.iter().filter_map(|mind| stands(tokens, at, mind)).max();
+    let mind = longest(tokens, at, MIND);
     if let Some(count) = mind
         && let Some((verb, Form::Gerund)) = base(tokens.get(at + count)?.word())
     {
@@ -147,7 +147,7 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     {
         return Some((at + count, Vec::new()));
     }
-    let set_out = SET_OUT.iter().filter_map(|out| stands(tokens, at, out)).max()?;
+    let set_out = longest(tokens, at, SET_OUT)?;
     let next = tokens.get(at + set_out)?.word();
     let is_verb = base(next).is_some_and(|(_, form)| form == Form::Base) && begins(tokens, at + set_out);
     let is_verb = is_verb || cause(tokens, at + set_out).is_some();

@@ -3,7 +3,7 @@
 use super::state::{is_place, words};
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, spot, way};
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 
 /// `into the bin with it`, `in the drawer it goes`: what shall be put there.
 pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
@@ -19,7 +19,7 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         (after + 1..end, end)
     } else {
         let (_, end) = noun(tokens, after)?;
-        let goes = ["goes", "go", "belongs"].iter().find_map(|goes| stands(tokens, end, goes))?;
+        let goes = longest(tokens, end, &["goes", "go", "belongs"])?;
         (after..end, end + goes)
     };
     let thing = tokens.get(thing)?;
@@ -36,14 +36,13 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
 pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let off =
         ["off you go", "off with you", "off you pop", "away you go", "away with you", "on you go", "off"];
-    if let Some(count) = off.iter().filter_map(|off| stands(tokens, begin, off)).max() {
+    if let Some(count) = longest(tokens, begin, &off) {
         let at = begin + count;
         let (place, after) = way(tokens, at)?;
         if matches!(place.noun, Noun::Speaker) {
             return None;
         }
-        let with_you =
-            ["with you", "you go", "you pop", "you trot"].iter().find_map(|you| stands(tokens, after, you));
+        let with_you = longest(tokens, after, &["with you", "you go", "you pop", "you trot"]);
         // `off the table` tells where something is.
         if place.relation != Relation::To || (with_you.is_none() && count == 1) {
             return None;
@@ -62,7 +61,7 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         "your place is",
         "your spot is",
     ];
-    if let Some(count) = stop.iter().filter_map(|stop| stands(tokens, begin, stop)).max() {
+    if let Some(count) = longest(tokens, begin, &stop) {
         let at = begin + count;
         let (place, _) = noun(tokens, at)?;
         return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), at));

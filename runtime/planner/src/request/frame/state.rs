@@ -3,7 +3,7 @@
 use crate::request::inflection::{Form, base};
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, way};
-use crate::request::token::{Token, stands};
+use crate::request::token::{Token, longest, stands};
 
 /// What is wanted of something.
 pub(super) enum State {
@@ -84,7 +84,7 @@ pub(super) fn is_place(tokens: &[Token], at: usize) -> bool {
     let to =
         ["into", "onto", "over here", "over there", "here", "next to", "near", "by", "beside", "with me"];
     let is_way = || way(tokens, at).is_some_and(|(spot, _)| spot.relation != Relation::To);
-    located(tokens, at).is_some() || to.iter().any(|to| stands(tokens, at, to).is_some()) || is_way()
+    located(tokens, at).is_some() || longest(tokens, at, &to).is_some() || is_way()
 }
 
 /// What is wanted of a thing of which this is not wanted; none where nothing is the opposite.
