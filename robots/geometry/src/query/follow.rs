@@ -9,11 +9,12 @@ use super::grasp::Hold;
 use super::opening::Opening;
 use super::pull::Pull;
 use super::room::{GAP, Room};
+use super::shrunk::resized;
 use super::state::State;
 use super::things::{Thing, Things};
 use super::touch::{Allowed, Touch};
 use super::travel::{Tally, plane};
-use crate::collision::{Shape, Solid};
+use crate::collision::Solid;
 use crate::inverse::{Tolerance, numeric};
 use crate::trigonometry::turn;
 
@@ -247,12 +248,5 @@ fn carried(state: &State, moved: &Isometry3<f64>) -> State {
 }
 
 fn smaller(solid: &Solid) -> Solid {
-    let less = |half: f64| (half - PLAY).max(half * 0.1);
-    let shape = match solid.shape {
-        Shape::Box(half) => Shape::Box(half.map(less)),
-        Shape::Cylinder { radius, half } => Shape::Cylinder { radius: less(radius), half: less(half) },
-        Shape::Capsule { radius, half } => Shape::Capsule { radius: less(radius), half },
-        Shape::HalfSpace => Shape::HalfSpace,
-    };
-    Solid { shape, ..*solid }
+    resized(solid, |half| (half - PLAY).max(half * 0.1))
 }

@@ -65,11 +65,15 @@ pub(super) fn inner(solid: &Solid) -> f64 {
 
 /// The points of a solid that are so deep within it, at most as deep as the greatest ball.
 fn within(solid: &Solid, depth: f64) -> Solid {
-    let less = |length: f64| (length - depth).max(0.0);
+    resized(solid, |length| (length - depth).max(0.0))
+}
+
+/// A solid with its surface elsewhere: every length from the core of its shape to it is another one.
+pub(super) fn resized(solid: &Solid, length: impl Fn(f64) -> f64) -> Solid {
     let shape = match solid.shape {
-        Shape::Box(half) => Shape::Box(half.map(less)),
-        Shape::Cylinder { radius, half } => Shape::Cylinder { radius: less(radius), half: less(half) },
-        Shape::Capsule { radius, half } => Shape::Capsule { radius: less(radius), half },
+        Shape::Box(half) => Shape::Box(half.map(length)),
+        Shape::Cylinder { radius, half } => Shape::Cylinder { radius: length(radius), half: length(half) },
+        Shape::Capsule { radius, half } => Shape::Capsule { radius: length(radius), half },
         Shape::HalfSpace => Shape::HalfSpace,
     };
     Solid { shape, ..*solid }
