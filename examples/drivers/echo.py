@@ -2,8 +2,9 @@
 """A driver for Motet that moves nothing: it takes its time over every goal and says that it did it.
 
 It speaks the driver protocol, version 1 (docs/drivers.md), on standard input and output, or with --port on a TCP port of this
-machine, one connection at a time. Goals outlast a connection for a while, so a host that crashed can ask what became of them; who
-does not come back leaves a robot alone, and it stops. Needs nothing but Python 3.8 and its standard library; to make a driver of it, put your robot's calls into `Robot`.
+machine, one connection at a time. Goals outlast a connection for a while, so a host that crashed can ask what became of
+them; who does not come back leaves a robot alone, and it stops. Needs nothing but Python 3.8 and its standard library; to
+make a driver of it, put your robot's calls into `Robot`.
 """
 
 import argparse

@@ -54,8 +54,7 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
         None => scene.clone(),
     };
     let eye = geometry.as_ref().and_then(|geometry| geometry.eye());
-    let (there, _) = setting.session.elsewhere(Some(&real), None);
-    let simulator = run::simulator(&robot, &real, &there, eye, &args.simulated, report)?;
+    let simulator = run::simulator((&robot, &setting.session), &real, eye, &args.simulated, report)?;
     let asked = Rc::new(Asked::read(&args.ask)?);
     let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
     let setting = Setting {

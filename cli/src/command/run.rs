@@ -157,22 +157,24 @@ pub(super) fn stage(format: RunFormat, graph: &Graph, colors: Colors, speed: Spe
     Pace::new(play::view(format, graph, colors, Clock::Simulated), speed)
 }
 
-/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known. What
-/// faults may name is what the session knows.
+/// A simulated room, for other commands that run policies, with the camera in the base's frame where that is known. Faults
+/// may name what a session of the robot knows in that room.
 ///
 /// # Errors
 ///
 /// The faults cannot be read, have a mistake, or name what is not there.
 pub(super) fn simulator(
-    robot: &Robot,
+    (robot, session): (&Robot, &Session),
     scene: &Scene,
-    known: &Session,
     eye: Option<[f64; 3]>,
     args: &SimulatedArgs,
     report: &mut Report,
 ) -> Result<Sim, Trouble> {
     let faults = match &args.faults {
-        Some(path) => world::fitting_faults(path, &known.signatures(), report)?,
+        Some(path) => {
+            let (there, _) = session.elsewhere(Some(scene), None);
+            world::fitting_faults(path, &there.signatures(), report)?
+        }
         None => Faults::default(),
     };
     Ok(Sim::new(robot, scene, Options { seed: args.seed, faults, eye, ..Options::default() }))

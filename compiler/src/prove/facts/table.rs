@@ -172,15 +172,8 @@ impl Table {
     }
 
     fn each_crossing(&self, pattern: Key, mut take: impl FnMut(Key)) {
-        let any = pattern.any();
         let mut visit = |cells: &[Cell]| {
-            // Most share nothing with it, or one covers the other: `any` in neither place alone tells.
-            let may_cross = |cell: &&Cell| {
-                let other = cell.key.any();
-                other & !any != 0 && any & !other != 0
-            };
-            let crossing = cells.iter().filter(may_cross).filter_map(|cell| cell.key.crossing(pattern));
-            crossing.for_each(&mut take);
+            cells.iter().filter_map(|cell| cell.key.crossing(pattern)).for_each(&mut take);
         };
         visit(&self.wide);
         match pattern.head() {

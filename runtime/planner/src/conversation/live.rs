@@ -119,8 +119,8 @@ impl<'r, 'a> Live<'r, 'a> {
         let session = self.talk.session(scene, &self.talk.known, driver.base());
         let verifies = self.watcher.verifies();
         self.guard = session.course().map(|course| Guard::new(course, verifies));
-        let verifies = self.guard.is_some();
-        let (mut engine, start) = self.talk.engine(graph, scene, driver.capabilities(), verifies)?;
+        let (mut engine, start) =
+            self.talk.engine(graph, scene, driver.capabilities(), self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);
         self.first = match self.planner.rest(Wait::Not) {
             Rest::Nothing => None,
