@@ -195,7 +195,8 @@ impl Signatures {
         self.entities.iter().filter(move |(_, of)| self.is_kind(*of, kind)).map(|(name, _)| name)
     }
 
-    /// The types that a name of a policy can have: what callables give, and the elements of lists of that.
+    /// The types that a name of a policy can have: what callables give, the elements of lists of that, and the kinds of the
+    /// entities that a loop can list.
     #[must_use]
     pub fn bindable(&self) -> Vec<Type> {
         let mut found: Vec<Type> = Vec::new();
@@ -209,6 +210,12 @@ impl Signatures {
                 if !found.contains(&next) {
                     found.push(next);
                 }
+            }
+        }
+        for kind in (0..self.kinds.len()).filter(|kind| self.entities.iter().any(|(_, of)| of == kind)) {
+            let ty = Type::Entity(kind);
+            if !found.contains(&ty) {
+                found.push(ty);
             }
         }
         found

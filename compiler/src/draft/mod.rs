@@ -17,14 +17,17 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 pub use self::template::Template;
-use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, Term};
+use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
 use crate::prove::Prover;
-use crate::prove::draft::{Mark, Outcome, Parts, Stand};
+use crate::prove::draft::{Mark, Outcome, Parts, Place, Stand};
 use crate::resolve::scope::{self, Scope};
 use crate::session::Session;
 
 /// The place that a step with this span takes is where the next step will stand.
 pub const HOLE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 1, end: u32::MAX };
+
+/// A sequence with this span stands for any one of its steps: see [`Draft::permits_any`].
+pub const CHOICE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 2, end: u32::MAX };
 
 /// An argument of a call that is being written.
 #[derive(Clone, PartialEq, Debug)]
@@ -188,6 +191,15 @@ impl Draft {
         id.is_some() && !outcome.refuted
     }
 
+    /// Whether a step may follow the body as it is, whichever step it is that the sequence in it whose span is [`CHOICE`] stands
+    /// for: one proof for all of them. False does not say that one is an error, true says that none is. Nothing is appended.
+    pub fn permits_any(&mut self, session: &Session, step: &Step) -> bool {
+        let start = self.start();
+        let (id, outcome) = self.prove(session, step, Looks::AtChoice);
+        self.back_to(&start);
+        id.is_some() && !outcome.refuted
+    }
+
     /// Whether the policy may end behind its last step: its goal is not refuted there.
     pub fn permits_end(&mut self, session: &Session) -> bool {
         self.leave();
@@ -337,13 +349,22 @@ impl Draft {
         let is_error = |said: &Diagnostic| said.severity == Severity::Error;
         let is_wrong = said.iter().any(is_error)
             || crate::check::check_from(program, first, library).iter().any(is_error);
-        let steps = program.steps.iter().enumerate().skip(first);
-        let hole = (looks == Looks::Inside)
-            .then(|| steps.into_iter().find(|(_, step)| step.span == HOLE))
-            .flatten()
-            .and_then(|(index, _)| u32::try_from(index).ok())
-            .map(StepId);
-        let mut outcome = proof.step((id, hole), (&*program, library, world));
+        let mark = match looks {
+            Looks::Away => None,
+            Looks::Inside => Some(HOLE),
+            Looks::AtChoice => Some(CHOICE),
+        };
+        let marked = mark.and_then(|mark| {
+            let mut steps = program.steps.iter().zip(0..).skip(first);
+            steps.find(|(step, _)| step.span == mark).map(|(_, index)| StepId(index))
+        });
+        let is_fork = |step: &crate::ir::Step| matches!(step.kind, StepKind::Parallel { .. });
+        let grows = !program.steps.iter().skip(first).any(is_fork);
+        let place = match looks {
+            Looks::AtChoice => Place { hole: None, choice: marked, grows },
+            Looks::Away | Looks::Inside => Place { hole: marked, choice: None, grows },
+        };
+        let mut outcome = proof.step(id, place, (&*program, library, world));
         outcome.refuted |= is_wrong;
         (Some(id), outcome)
     }
@@ -356,9 +377,13 @@ fn condition(fluent: Fluent, args: &[Option<Value>], negated: bool) -> Condition
     if negated { Condition::Not(Box::new(plain)) } else { plain }
 }
 
-/// Whether a proof stops to look at the hole of a step.
+/// What a proof looks for in a step.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Looks {
+    /// Nothing.
     Away,
+    /// The hole in it.
     Inside,
+    /// The choice in it.
+    AtChoice,
 }

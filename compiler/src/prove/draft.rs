@@ -76,6 +76,18 @@ impl Mark {
     }
 }
 
+/// What is special in a step that is proved.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Place {
+    /// The state is remembered before this step.
+    pub(crate) hole: Option<StepId>,
+    /// This sequence stands for any one of its steps.
+    pub(crate) choice: Option<StepId>,
+    /// Whether nothing is known of it that is not known in every later round: no branches run at once, of which one takes as
+    /// unknown what another may change.
+    pub(crate) grows: bool,
+}
+
 /// What proving a step gave.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outcome {
@@ -121,14 +133,14 @@ impl Parts {
     }
 
     /// Proves one step of the body, and looks on the way at the hole in it.
-    pub(crate) fn step(&mut self, (step, hole): (StepId, Option<StepId>), given: Given<'_>) -> Outcome {
+    pub(crate) fn step(&mut self, step: StepId, place: Place, given: Given<'_>) -> Outcome {
         let (program, library, world) = given;
         self.symbols.extend(program, library, world);
         if !self.live {
             return Outcome::default();
         }
         self.with(given, |prover| {
-            prover.hole = hole;
+            prover.place = place;
             prover.step(step);
             Outcome { refuted: prover.is_refuted(), stands: std::mem::take(&mut prover.stands) }
         })
@@ -188,6 +200,7 @@ impl Parts {
             splits: std::mem::take(splits),
             live: self.live,
             fixpoints: 0,
+            rehearsals: 0,
             head,
             aliased: std::mem::take(&mut self.aliased),
             buffers: Default::default(),
@@ -195,7 +208,7 @@ impl Parts {
             proof: Proof::default(),
             offers: Vec::new(),
             mood: Mood::Judge,
-            hole: None,
+            place: Place::default(),
             stands: Vec::new(),
         };
         let answer = run(&mut prover);
@@ -231,13 +244,18 @@ impl Prover<'_> {
 
     /// Forgets what was found since: a run that counts follows.
     pub(crate) fn unsay(&mut self, (diagnostics, stands): (usize, usize)) {
+        if self.is_settled() {
+            return;
+        }
         self.diagnostics.truncate(diagnostics);
         self.stands.truncate(stands);
     }
 
-    /// Whether nothing that follows changes the answer: something is refuted, and by no rehearsal.
+    /// Whether nothing that follows changes the answer: something is refuted, and by no rehearsal. What a round of a loop refutes
+    /// the rounds after it do too, since they begin in all states in which it does.
     pub(crate) fn is_settled(&self) -> bool {
-        self.mood == Mood::Judge && self.fixpoints == 0 && self.hole.is_none() && self.is_refuted()
+        let counts = self.fixpoints == 0 || (self.place.grows && self.rehearsals == 0);
+        self.mood == Mood::Judge && counts && self.place.hole.is_none() && self.is_refuted()
     }
 
     pub(crate) fn is_refuted(&self) -> bool {
@@ -257,6 +275,24 @@ impl Prover<'_> {
             head: self.head,
             calm,
         });
+    }
+
+    /// Goes on where any of some steps leads.
+    pub(crate) fn choose(&mut self, steps: &[StepId]) {
+        let mark = self.facts.mark();
+        let mut ways = Vec::with_capacity(steps.len());
+        for step in steps {
+            self.step(*step);
+            if self.live {
+                ways.push(self.facts.delta(mark));
+            }
+            self.back_to(mark);
+            self.live = true;
+            if self.is_settled() {
+                break;
+            }
+        }
+        self.meet(mark, &ways);
     }
 
     /// Whether a call is refuted here by the first `count` of its needs, taken in their order as a call takes them.

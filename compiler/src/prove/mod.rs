@@ -31,7 +31,7 @@ pub(crate) use self::assume::mentions;
 
 use self::apply::{Change, Lasting};
 use self::collect::Enclosing;
-use self::draft::Stand;
+use self::draft::{Place, Stand};
 use self::facts::{Facts, Key, Split};
 use self::mend::{End, Offer};
 use self::symbols::Symbols;
@@ -97,6 +97,8 @@ pub(crate) struct Prover<'a> {
     /// Whether control gets here at all.
     pub(crate) live: bool,
     pub(crate) fixpoints: usize,
+    /// How many runs around this one only look at what a reaction may do.
+    pub(crate) rehearsals: usize,
     /// Where the round began of the innermost loop around, as a mark of the facts.
     pub(crate) head: Option<usize>,
     /// By fluent: whether a symbol has an entry.
@@ -108,9 +110,9 @@ pub(crate) struct Prover<'a> {
     /// What would mend the findings.
     pub(crate) offers: Vec<Offer>,
     pub(crate) mood: Mood,
-    /// The place of a draft where the next step will stand.
-    pub(crate) hole: Option<StepId>,
-    /// The states in which control gets there.
+    /// What a draft looks for.
+    pub(crate) place: Place,
+    /// The states in which control gets to the hole in it.
     pub(crate) stands: Vec<Stand>,
 }
 
@@ -184,6 +186,7 @@ impl<'a> Prover<'a> {
             splits: Vec::new(),
             live: true,
             fixpoints: 0,
+            rehearsals: 0,
             head: None,
             aliased: vec![false; library.fluents.len()],
             buffers: Default::default(),
@@ -195,7 +198,7 @@ impl<'a> Prover<'a> {
             },
             offers: Vec::new(),
             mood: Mood::Tell,
-            hole: None,
+            place: Place::default(),
             stands: Vec::new(),
         }
     }

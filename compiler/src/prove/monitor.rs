@@ -123,6 +123,7 @@ impl Prover<'_> {
             self.facts.replay(states);
             self.assume(&when.condition, true, Cause::step(id), Frame::default());
             let seen = self.facts.mark();
+            self.rehearsals += 1;
             self.block(body);
             for (fluent, key) in self.facts.touched(seen) {
                 let value = self.facts.get(fluent, key);
@@ -141,6 +142,7 @@ impl Prover<'_> {
             }
             self.back_to(mark);
             self.unsay(said);
+            self.rehearsals -= 1;
             self.live = true;
         }
         grown

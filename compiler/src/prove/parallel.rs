@@ -29,7 +29,7 @@ impl Prover<'_> {
         for (index, branch) in branches.iter().enumerate() {
             let others = changed.iter().enumerate().filter(|(other, _)| *other != index);
             for (fluent, key) in others.flat_map(|(_, touched)| touched) {
-                self.facts.set(*fluent, *key, Value::open(Cause::step(id)));
+                self.disturb_by_branch(id, (*fluent, *key));
             }
             self.block(branch);
             live &= self.live;
@@ -41,6 +41,20 @@ impl Prover<'_> {
         self.fixpoints -= 1;
         self.facts.replay(&joined);
         self.live = live;
+    }
+
+    /// Another branch may change a fact at any moment.
+    fn disturb_by_branch(&mut self, id: StepId, (fluent, key): Atom) {
+        let open = Value::open(Cause::step(id));
+        // Of a choice only one step is there: where it is another, what was known is still so.
+        if self.place.choice.is_none() {
+            self.facts.set(fluent, key, open);
+        } else if key.is_pattern() {
+            self.facts.change(fluent, key, |_, known| known.join(open));
+        } else {
+            let value = self.read(fluent, key).join(open);
+            self.facts.set(fluent, key, value);
+        }
     }
 
     /// The effects of all branches together. Two branches that leave one fact with different values are an error.
@@ -55,7 +69,7 @@ impl Prover<'_> {
                     }
                     Some(first) if first.same_set(value) => {}
                     Some(first) => {
-                        if (first.is_true() && value.is_false()) || (first.is_false() && value.is_true()) {
+                        if self.is_conflict(first, value) || self.is_conflict(value, first) {
                             self.conflict(id, atom, first, value);
                         }
                         written.insert(atom, Value::open(Cause::step(id)));
@@ -64,6 +78,14 @@ impl Prover<'_> {
             }
         }
         Delta::new(written.into_iter())
+    }
+
+    /// Whether one branch leaves a fact true that the other leaves false. Where a step is any of several, whether it may.
+    fn is_conflict(&self, first: Value, second: Value) -> bool {
+        if self.place.choice.is_some() {
+            return first.yes.is_some() && second.no.is_some();
+        }
+        first.is_true() && second.is_false()
     }
 
     fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {

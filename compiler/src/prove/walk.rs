@@ -25,7 +25,7 @@ impl Prover<'_> {
     }
 
     pub(crate) fn step(&mut self, id: StepId) {
-        if self.hole == Some(id) {
+        if self.place.hole == Some(id) {
             self.take_stand();
         }
         let program = self.program;
@@ -35,6 +35,7 @@ impl Prover<'_> {
         }
         match &step.kind {
             StepKind::Call(call) => self.call(id, call, step.span),
+            StepKind::Sequence { body, .. } if self.place.choice == Some(id) => self.choose(body),
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::Inline { body, .. } => self.inline(id, body),
             StepKind::If { condition, then, otherwise, .. } => {

@@ -46,6 +46,10 @@ pub(crate) struct Tokens {
     pub(crate) name_ends: TokTrie,
     /// Those that end a name with a space.
     pub(crate) bare_name_ends: TokTrie,
+    /// By length: tokens that are a space and can begin a name with what is behind it, at most so many bytes.
+    pub(crate) spaced_names: Vec<SimpleVob>,
+    /// Those that are a space and a name that another space ends.
+    pub(crate) spaced_name_ends: TokTrie,
     pub(crate) longest: usize,
     pub(crate) end: u32,
     /// Tokens of the same bytes as one before them, which stands for them in the tries; in the order of their numbers.
@@ -102,28 +106,26 @@ impl Vocabulary {
             bytes.get(..quote)?.iter().all(is_text_byte).then_some((id, bytes.split_at_checked(quote)?))
         });
         let text_tails = Tails::new(ends);
-        let name_ends = |end: u8| {
-            let ends = set(&|bytes| {
-                let before = bytes.iter().take_while(|byte| is_name_byte(byte)).count();
-                bytes.get(before) == Some(&end)
-            });
-            trie.filter(&ends)
+        let ends_name = |bytes: &[u8], end: u8| {
+            let before = bytes.iter().take_while(|byte| is_name_byte(byte)).count();
+            bytes.get(before) == Some(&end)
         };
-        let names = |begins: bool| {
-            let lengths = 0..=MAX_NAME_CHARS;
-            let of_length = lengths.map(|most| {
-                set(&|bytes| {
-                    bytes.len() <= most
-                        && bytes.iter().all(is_name_byte)
-                        && !(begins && bytes.first().is_some_and(u8::is_ascii_digit))
-                })
-            });
-            of_length.collect()
+        let name_ends = |end: u8| trie.filter(&set(&|bytes| ends_name(bytes, end)));
+        let names = |picks: &dyn Fn(&[u8], usize) -> bool| {
+            (0..=MAX_NAME_CHARS).map(|most| set(&|bytes| picks(bytes, most))).collect::<Vec<_>>()
         };
+        let is_name = |bytes: &[u8], most: usize| bytes.len() <= most && bytes.iter().all(is_name_byte);
+        let begins_name = |bytes: &[u8], most: usize| {
+            is_name(bytes, most) && !bytes.first().is_some_and(u8::is_ascii_digit)
+        };
+        let spaced_names =
+            names(&|bytes, most| bytes.strip_prefix(b" ").is_some_and(|name| begins_name(name, most)));
+        let spaced_name_ends =
+            trie.filter(&set(&|bytes| bytes.strip_prefix(b" ").is_some_and(|rest| ends_name(rest, b' '))));
         let text_ends = trie.filter(&text_ends);
         let (name_ends, bare_name_ends) = (name_ends(b'"'), name_ends(b' '));
         let longest = trie.max_token_len();
-        let (first_names, names) = (names(true), names(false));
+        let (first_names, names) = (names(&begins_name), names(&is_name));
         let tree = Tree::new(&trie);
         Self(Arc::new(Tokens {
             trie,
@@ -137,6 +139,8 @@ impl Vocabulary {
             first_names,
             name_ends,
             bare_name_ends,
+            spaced_names,
+            spaced_name_ends,
             longest,
             end,
             twins,

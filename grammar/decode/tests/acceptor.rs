@@ -76,6 +76,45 @@ fn write_at_random(form: Form) {
     );
 }
 
+/// Beside what runs at once many calls are asked in one proof: each is open exactly where it checks alone.
+#[test]
+fn what_may_stand_beside_something_is_what_checks_there() {
+    let session = session("hsr", "kitchen");
+    let prepared = Prepared::new(&session, surface(Modifiers::Default));
+    let near = r#"{"get":"distance","to":"user","is":"less","than":0.5}"#;
+    let restart = format!(
+        r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"restart","at_most":3}}}}],"during":["#
+    );
+    let resume = format!(
+        r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"resume","at_most":3,"steps":[{{"do":"go","to":"sink"}}]}}}}],"during":["#
+    );
+    let branch = r#"{"parallel":[[{"do":"go","to":"fridge_1"}],["#.to_owned();
+    let (mut open, mut closed) = (0, 0);
+    for (begin, end) in [(restart, "]}]}"), (resume, "]}]}"), (branch, "]]}]}")] {
+        let begin = format!(
+            r#"{{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{{"do":"go","to":"fridge_1"}},{begin}"#
+        );
+        for callable in &session.signatures().callables {
+            let [param] = callable.params.as_slice() else { continue };
+            if callable.is_policy || callable.result.is_some() {
+                continue;
+            }
+            for (entity, _) in &session.signatures().entities {
+                let call = format!(r#"{{"do":"{}","{}":"{entity}"}}"#, callable.name, param.name);
+                let text = format!(r#"{begin}{call},{{"end":"fail","why":"no"}}{end}"#);
+                let wrong = errors(&session, &text);
+                let mut acceptor = prepared.acceptor(8000).unwrap();
+                let is_open = acceptor.accept(text.as_bytes()) == text.len();
+                let taken = String::from_utf8_lossy(acceptor.bytes()).into_owned();
+                assert_eq!(is_open, wrong.is_empty(), "{wrong:#?}\n{text}\n{taken}");
+                *if is_open { &mut open } else { &mut closed } += 1;
+            }
+        }
+    }
+    println!("{open} open, {closed} closed");
+    assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
+}
+
 fn last_fails(text: &str) -> bool {
     if !text.starts_with('{') {
         let last = [" fail ", " replan "].iter().filter_map(|word| text.rfind(word)).max();

@@ -31,6 +31,29 @@ fn a_mask_of_text_is_within_that_of_the_grammar() {
     compare(Form::Text);
 }
 
+/// What a loop goes through is bound for its body: a container here, of which no step gives one.
+#[test]
+fn an_item_may_be_an_argument() {
+    let tokens = tokens();
+    let environment = environment(&tokens, END);
+    let session = session("hsr", "living_room");
+    for (form, policy) in [
+        (Form::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
+        (
+            Form::Json,
+            r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
+        ),
+    ] {
+        let surface = Surface { form, ..Surface::default() };
+        let mut matcher = Peer::new(&environment, &session, surface).start();
+        for byte in policy.bytes() {
+            assert!(matcher.consume_token(u32::from(byte)).is_ok(), "`{}` in {policy}", char::from(byte));
+        }
+        let mut acceptor = Prepared::new(&session, surface).acceptor(2000).unwrap();
+        assert_eq!(acceptor.accept(policy.as_bytes()), policy.len(), "{policy}");
+    }
+}
+
 fn compare(form: Form) {
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);

@@ -17,7 +17,7 @@ pub(crate) struct Asked {
     /// Asked of calls.
     place: Follower,
     /// Asked of whole steps.
-    judge: Follower,
+    pub(super) judge: Follower,
     /// The hash of what was said up to where the first of them stands.
     stands: Option<u64>,
 }
@@ -145,8 +145,11 @@ impl Walk {
 
     /// Whether a callable can be called with some arguments.
     pub(crate) fn can_be_called(&mut self, callable: u16, spot: Spot) -> bool {
-        let spot = self.spot_of(callable, spot);
-        spot.is_some_and(|spot| self.completes_call(callable, &mut Vec::new(), spot))
+        let Some(own) = self.spot_of(callable, spot) else { return false };
+        if own.shared {
+            self.foresee_callables(spot);
+        }
+        self.completes_call(callable, &mut Vec::new(), own)
     }
 
     /// Whether a call can be completed from the arguments that are given.
@@ -164,30 +167,11 @@ impl Walk {
         else {
             return false;
         };
-        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
-        for given in &*given {
-            let Some(value) = self.value_of(*given, spot) else { return false };
-            args.push(Some(value));
-        }
-        args.resize_with(signature.params.len(), || None);
-        let permits = self.place(spot.event).is_some_and(|(draft, session)| match made.primitive {
-            Some(primitive) => draft.permits_call(session, primitive, &args),
-            None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
-        });
-        if !permits {
-            return false;
-        }
-        let place = given.len();
-        let Some(param) = signature.params.get(place) else {
+        let Some(args) = self.permitted(callable, given, spot) else { return false };
+        let Some(options) = self.options(index, given.len(), spot) else {
             let events: Vec<Event> = of_call(callable, given).collect();
             return !spot.shared || self.verify(spot.event, &events);
         };
-        let mut options = self.options(index, place, &param.ty, spot);
-        if spot.shared {
-            // Names of the policy's own stand last, and are what is meant more often.
-            options.reverse();
-            options.truncate(MOST_SHARED);
-        }
         for (tried, option) in options.into_iter().enumerate() {
             // Where the first does not do, it may be that none does.
             if tried == 1
@@ -208,6 +192,43 @@ impl Walk {
         false
     }
 
+    /// The arguments of a call, as many as are given, where nothing refutes it at its place.
+    fn permitted(&mut self, callable: u16, given: &[Given], spot: Spot) -> Option<Vec<Option<Value>>> {
+        let machine = std::sync::Arc::clone(&self.machine);
+        let made = machine.program.callables.get(usize::from(callable))?;
+        let signature = machine.program.signatures.callables.get(usize::from(callable))?;
+        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
+        for given in given {
+            args.push(Some(self.value_of(*given, spot)?));
+        }
+        args.resize_with(signature.params.len(), || None);
+        let permits = self.place(spot.event).is_some_and(|(draft, session)| match made.primitive {
+            Some(primitive) => draft.permits_call(session, primitive, &args),
+            None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
+        });
+        permits.then_some(args)
+    }
+
+    /// The call that is the first to be asked of all that runs at once, with these arguments and some behind them: nothing
+    /// refutes it at its place.
+    pub(super) fn likely_call(
+        &mut self,
+        callable: u16,
+        given: &mut Vec<Given>,
+        spot: Spot,
+    ) -> Option<Vec<Event>> {
+        self.permitted(callable, given, spot)?;
+        let Some(options) = self.options(usize::from(callable), given.len(), spot) else {
+            return Some(of_call(callable, given).collect());
+        };
+        options.into_iter().find_map(|option| {
+            given.push(option);
+            let call = self.likely_call(callable, given, spot);
+            given.pop();
+            call
+        })
+    }
+
     /// A text, or what stands for any where it describes nothing and so is as good as any other that does not.
     pub(crate) fn plain_text(&self, text: Event) -> Event {
         let Event::Text(start, len) = text else { return text };
@@ -219,8 +240,20 @@ impl Walk {
         }
     }
 
+    /// What is tried as an argument; none behind the last.
+    fn options(&self, callable: usize, place: usize, spot: Spot) -> Option<Vec<Given>> {
+        let signature = self.machine.program.signatures.callables.get(callable)?;
+        let mut options = self.values_of(callable, place, &signature.params.get(place)?.ty, spot);
+        if spot.shared {
+            // Names of the policy's own stand last, and are what is meant more often.
+            options.reverse();
+            options.truncate(MOST_SHARED);
+        }
+        Some(options)
+    }
+
     /// What can be tried as an argument: every word, and one of all values between which no contract tells.
-    fn options(&self, callable: usize, place: usize, ty: &Type, spot: Spot) -> Vec<Given> {
+    fn values_of(&self, callable: usize, place: usize, ty: &Type, spot: Spot) -> Vec<Given> {
         let made = self.machine.program.callables.get(callable);
         let word = made.and_then(|made| made.words.get(place).copied().flatten());
         let element = made.and_then(|made| made.elements.get(place).copied().flatten());

@@ -1,7 +1,7 @@
 //! From what was said to the policy that it is: the abstract syntax of a step that need not be whole. What is open is
 //! closed in the way that refutes least: every block that is open ends with a `fail`, so that no way leads out of it.
 
-use motet_compiler::draft::HOLE;
+use motet_compiler::draft::{CHOICE, HOLE};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
@@ -21,6 +21,8 @@ pub(crate) struct Builder<'a> {
     /// The bytes of the walk.
     pub(crate) bytes: &'a [u8],
     pub(crate) events: &'a [Event],
+    /// The steps of which any may stand in the hole; it stays one where there are none.
+    pub(crate) choice: &'a [Step],
 }
 
 impl Builder<'_> {
@@ -44,7 +46,12 @@ impl Builder<'_> {
     /// The first step of the events; none where there is none.
     pub(crate) fn step(&mut self) -> Option<Step> {
         let kind = match self.next()? {
-            Event::Hole => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Hole if self.choice.is_empty() => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Hole => {
+                let body = Block { steps: self.choice.to_vec(), span: Span::default() };
+                let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };
+                return Some(Step { kind, span: CHOICE });
+            }
             Event::Open(kind) => self.of_kind(kind),
             _ => return None,
         };

@@ -27,8 +27,13 @@ pub(super) struct Told<'w> {
 
 impl Told<'_> {
     pub(super) fn step(&self, events: &[Event]) -> Option<Step> {
+        self.step_with(events, &[])
+    }
+
+    /// The same with any of some steps in its hole.
+    pub(super) fn step_with(&self, events: &[Event], choice: &[Step]) -> Option<Step> {
         let Self { machine, arenas, bytes } = self;
-        Builder { program: &machine.program, arenas, bytes, events }.step()
+        Builder { program: &machine.program, arenas, bytes, events, choice }.step()
     }
 
     /// Name, robot and goal of the policy, from what was said before its steps.
@@ -45,7 +50,7 @@ impl Told<'_> {
         let program = &machine.program;
         let named = |text: smol_str::SmolStr| ast::Name { text, span: Span::default() };
         let achieves = matches!(rest.first(), Some(Event::Open(_)))
-            .then(|| Builder { program, arenas, bytes, events: rest }.condition());
+            .then(|| Builder { program, arenas, bytes, events: rest, choice: &[] }.condition());
         let robot = Some(&program.signatures.robot).filter(|robot| !robot.is_empty());
         Policy {
             doc: ast::Doc::default(),

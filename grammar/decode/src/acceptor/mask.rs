@@ -66,7 +66,7 @@ impl Decoder {
                 };
                 ends.add_bias(&mut Stepper(walk), set, &[]);
             }
-            None => walk.mask_few(&tokens.tree, set),
+            None => walk.mask_few(tokens, set),
         }
         walk.keep(lengths);
         for (twin, first) in &tokens.twins {
@@ -183,15 +183,35 @@ impl Walk {
     }
 
     /// The tokens that may follow where most may not.
-    fn mask_few(&mut self, tree: &Tree, set: &mut SimpleVob) {
+    fn mask_few(&mut self, tokens: &Tokens, set: &mut SimpleVob) {
+        let tree = &tokens.tree;
         let Some(root) = tree.root() else { return };
-        match self.number() {
-            Some((range, digits)) => {
-                tree.numbers(&range, digits).iter().for_each(|token| set.allow_token(*token));
-                self.tokens_from(tree, root, |child| !child.is_number, set);
-            }
-            None => self.tokens_from(tree, root, |_| true, set),
+        let number = self.number();
+        if let Some((range, digits)) = number {
+            tree.numbers(&range, digits).iter().for_each(|token| set.allow_token(*token));
         }
+        let is_named = self.mask_spaced_name(tokens, set);
+        let is_left = |child: &Node| !(number.is_some() && child.is_number || is_named && child.byte == b' ');
+        self.tokens_from(tree, root, is_left, set);
+    }
+
+    /// The tokens that begin with a space, where a name follows it that has room for any of them; false where none does.
+    fn mask_spaced_name(&mut self, tokens: &Tokens, set: &mut SimpleVob) -> bool {
+        let before = self.bytes.len();
+        if self.machine.program.surface.form == Form::Json || !self.push(b' ') {
+            return false;
+        }
+        let names = match self.free_text(tokens.longest) {
+            Some(Free::Name { pos: 0, most }) => tokens.spaced_names.get(most),
+            _ => None,
+        };
+        if let Some(names) = names {
+            set.or(names);
+            tokens.spaced_name_ends.add_bias(&mut Stepper(self), set, b" ");
+        }
+        // Behind a prefix the trie leaves the last bytes where they are.
+        self.pop(self.bytes.len().saturating_sub(before));
+        names.is_some()
     }
 
     /// The range and the digits so far, where a number is what comes or goes on, whatever else may.

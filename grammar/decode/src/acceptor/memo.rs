@@ -31,6 +31,8 @@ pub(crate) enum Question {
     Test,
     /// Whether a loop may come round where its body ends.
     Round,
+    /// Whether what can be called was asked of all that runs at once.
+    Foreseen,
     /// Whether all is well beside a loop where some test leaves certain facts.
     Beside,
 }

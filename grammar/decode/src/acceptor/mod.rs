@@ -8,6 +8,7 @@ mod build;
 mod bytes;
 mod condition;
 mod follow;
+mod foresee;
 mod mask;
 mod memo;
 mod number;

@@ -216,7 +216,14 @@ impl Walk {
         };
         let mut found: Vec<u32> = Vec::new();
         let mut kind = None;
-        for event in self.words_of(state.op, state.scope, arg) {
+        let words_of = self.words_of(state.op, state.scope, arg);
+        if let (Some((callable, given, _)), Some(spot)) = (&mut call, spot) {
+            self.foresee_values(*callable, given, &words_of, spot);
+        }
+        if words.role == Role::Of && control.flags.has(Flags::STRICT) {
+            self.foresee_asked(state, &words_of);
+        }
+        for event in words_of {
             let (entry, meaning) = match event {
                 Event::Word(_, index) => (index, words.table.get(index).map(|entry| entry.meaning)),
                 Event::Bound(id) => (BOUND | id, None),
@@ -308,7 +315,7 @@ impl Walk {
     }
 
     /// The fluent of the condition that is being written, and how many arguments it has so far.
-    fn fluent_so_far(&self, event: Id) -> Option<(u16, usize)> {
+    pub(super) fn fluent_so_far(&self, event: Id) -> Option<(u16, usize)> {
         let mut at = event;
         let mut given = 0;
         while let Some(said) = self.arenas.said(at).filter(|_| at > 0) {

@@ -32,7 +32,7 @@ impl<'a> Compiler<'a> {
     pub(super) fn new(session: &'a Session, signatures: &'a Signatures, surface: Surface) -> Self {
         Self {
             asm: Assembler::default(),
-            types: types(signatures),
+            types: signatures.bindable(),
             tables: FxHashMap::default(),
             callables: Vec::new(),
             fluents: Vec::new(),
@@ -147,15 +147,6 @@ impl<'a> Compiler<'a> {
         });
         (Arc::clone(&made.0), Arc::clone(&made.1))
     }
-}
-
-/// The types that a name can have.
-fn types(signatures: &Signatures) -> Vec<Type> {
-    let mut types = signatures.bindable();
-    let kinds = (0..signatures.kinds.len()).map(Type::Entity);
-    let others: Vec<Type> = kinds.filter(|ty| !types.contains(ty)).collect();
-    types.extend(others);
-    types
 }
 
 /// What a name that a policy gives may not be: an entity, and in the text form what would mean something else there.

@@ -1,7 +1,7 @@
 //! A small vocabulary: every byte, and pieces that cross the borders of words, texts and steps.
 
 /// Pieces of policies.
-const PIECES: [&str; 70] = [
+const PIECES: [&str; 73] = [
     "{\"",
     "\":\"",
     "\",\"",
@@ -72,6 +72,9 @@ const PIECES: [&str; 70] = [
     "done }",
     "fail \"",
     " r",
+    " r }",
+    " a = ",
+    " mug_1 ",
 ];
 
 /// What ends a sequence: it has no bytes.
