@@ -2,6 +2,7 @@
 //! Each is the join of the states at all points from which control can come.
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::facts::{Atom, Delta, Facts, Key};
 use super::value::Value;
@@ -16,9 +17,9 @@ pub(crate) struct Collector {
     patterns: Vec<Atom>,
     /// Whether any state was seen.
     pub(crate) hit: bool,
-    /// How far the trail has been taken in; only what comes after it can differ, unless the trail was cut back.
-    last: usize,
-    cut: bool,
+    /// The lengths of the trail at which a state was taken in and that it was not cut back below since, in order: only what was written
+    /// after the last of them can be new.
+    seen: SmallVec<[usize; 8]>,
 }
 
 /// What encloses the step that is being proved, and catches what leaves it.
@@ -34,15 +35,17 @@ pub(crate) enum Enclosing {
 
 impl Collector {
     pub(crate) fn new(mark: usize) -> Self {
-        Self { mark, pending: FxHashMap::default(), patterns: Vec::new(), hit: false, last: mark, cut: false }
+        let (pending, patterns, seen) = (FxHashMap::default(), Vec::new(), SmallVec::new());
+        Self { mark, pending, patterns, hit: false, seen }
     }
 
     /// Takes in the state as it is.
     pub(crate) fn see(&mut self, facts: &Facts<'_>) {
-        if self.hit && !self.cut && self.last == facts.mark() {
+        let last = self.seen.last().copied();
+        if last == Some(facts.mark()) {
             return;
         }
-        let from = if self.hit && !self.cut { self.last } else { self.mark };
+        let from = last.unwrap_or(self.mark);
         self.pending.reserve(facts.mark().saturating_sub(from));
         // Single facts first: one that is new here had, until now, the values of the patterns that cover it.
         for patterns in [false, true] {
@@ -60,14 +63,13 @@ impl Collector {
                 self.pending.insert((fluent, key), value);
             }
         }
-        if self.cut {
+        if self.hit && last.is_none() {
             for ((fluent, key), value) in &mut self.pending {
                 *value = value.join(facts.get(*fluent, *key));
             }
         }
         self.hit = true;
-        self.cut = false;
-        self.last = facts.mark();
+        self.seen.push(facts.mark());
     }
 
     /// A fact that is new here had, until now, the values of the patterns that cover it.
@@ -80,8 +82,8 @@ impl Collector {
 
     /// The trail was cut back to `mark`.
     pub(crate) fn cut_to(&mut self, mark: usize) {
-        if self.last > mark {
-            self.cut = true;
+        while self.seen.last().is_some_and(|seen| *seen > mark) {
+            self.seen.pop();
         }
     }
 
