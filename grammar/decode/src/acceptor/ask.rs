@@ -5,7 +5,7 @@ use motet_compiler::Session;
 use motet_compiler::draft::{Draft, Test, Value};
 use motet_compiler::signature::Type;
 
-use super::arena::{Event, Id};
+use super::arena::{Event, Id, mix};
 use super::follow::{Follower, Told};
 use super::memo::Question;
 use super::walk::Walk;
@@ -22,9 +22,10 @@ pub(crate) struct Asked {
     stands: Option<u64>,
 }
 
-/// Where a call takes a proof of all that runs at once, so many values of each argument behind the one in question are
-/// tried. A value that is open here is open when its turn comes, so what is begun can still be completed.
-const MOST_SHARED: usize = 3;
+/// Where a call takes a proof of all that runs at once, so many values are tried of the argument behind those that are given, of
+/// values that nothing refutes at the place; of those behind it one. What is open here is open when its turn comes, so what is
+/// begun can still be completed.
+pub(super) const MOST_SHARED: usize = 3;
 
 /// An argument that is tried.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -42,6 +43,8 @@ pub(crate) struct Spot {
     pub(crate) scope: Id,
     /// Whether what the call does may refute what stands elsewhere.
     pub(crate) shared: bool,
+    /// How many values of the next argument are tried where it may.
+    pub(crate) tries: usize,
 }
 
 impl Walk {
@@ -116,7 +119,7 @@ impl Walk {
         };
         let fluent = machine.program.signatures.fluents.get(usize::from(fluent));
         let (Some(fluent), Some(_)) = (fluent, self.place(event)) else { return None };
-        let spot = Spot { event, scope: 0, shared: false };
+        let spot = Spot { event, scope: 0, shared: false, tries: MOST_SHARED };
         let values = args.iter().map(|arg| match meaning(&machine.program, *arg) {
             Some(Meaning::Any) => Some(None),
             _ => self.value_of(Given::One(*arg), spot).map(Some),
@@ -156,6 +159,7 @@ impl Walk {
     pub(crate) fn completes_call(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> bool {
         let question = if spot.shared { Question::SharedCall } else { Question::Call };
         let key = self.key(question, spot.event, of_call(callable, given));
+        let key = if spot.shared { mix(key, spot.tries as u64) } else { key };
         self.answer(key, |walk| walk.completes_anew(callable, given, spot))
     }
 
@@ -168,7 +172,7 @@ impl Walk {
             return false;
         };
         let Some(args) = self.permitted(callable, given, spot) else { return false };
-        let Some(options) = self.options(index, given.len(), spot) else {
+        let Some(options) = self.options(callable, given, spot) else {
             let events: Vec<Event> = of_call(callable, given).collect();
             return !spot.shared || self.verify(spot.event, &events);
         };
@@ -183,7 +187,7 @@ impl Walk {
                 return false;
             }
             given.push(option);
-            let can = self.completes_call(callable, given, spot);
+            let can = self.completes_call(callable, given, Spot { tries: 1, ..spot });
             given.pop();
             if can {
                 return true;
@@ -218,12 +222,12 @@ impl Walk {
         spot: Spot,
     ) -> Option<Vec<Event>> {
         self.permitted(callable, given, spot)?;
-        let Some(options) = self.options(usize::from(callable), given.len(), spot) else {
+        let Some(options) = self.options(callable, given, spot) else {
             return Some(of_call(callable, given).collect());
         };
         options.into_iter().find_map(|option| {
             given.push(option);
-            let call = self.likely_call(callable, given, spot);
+            let call = self.likely_call(callable, given, Spot { tries: 1, ..spot });
             given.pop();
             call
         })
@@ -241,15 +245,27 @@ impl Walk {
     }
 
     /// What is tried as an argument; none behind the last.
-    fn options(&self, callable: usize, place: usize, spot: Spot) -> Option<Vec<Given>> {
-        let signature = self.machine.program.signatures.callables.get(callable)?;
-        let mut options = self.values_of(callable, place, &signature.params.get(place)?.ty, spot);
-        if spot.shared {
-            // Names of the policy's own stand last, and are what is meant more often.
-            options.reverse();
-            options.truncate(MOST_SHARED);
+    fn options(&mut self, callable: u16, given: &mut Vec<Given>, spot: Spot) -> Option<Vec<Given>> {
+        let index = usize::from(callable);
+        let machine = std::sync::Arc::clone(&self.machine);
+        let ty = &machine.program.signatures.callables.get(index)?.params.get(given.len())?.ty;
+        let options = self.values_of(index, given.len(), ty, spot);
+        if !spot.shared {
+            return Some(options);
         }
-        Some(options)
+        // Names of the policy's own stand last, and are what is meant more often.
+        let mut tried = Vec::with_capacity(spot.tries);
+        for option in options.into_iter().rev() {
+            given.push(option);
+            if self.permitted(callable, given, spot).is_some() {
+                tried.push(option);
+            }
+            given.pop();
+            if tried.len() == spot.tries {
+                break;
+            }
+        }
+        Some(tried)
     }
 
     /// What can be tried as an argument: every word, and one of all values between which no contract tells.

@@ -4,7 +4,7 @@
 use motet_compiler::MAX_FIXPOINTS;
 
 use super::arena::{Event, Flags, Id, State};
-use super::ask::{Given, Spot};
+use super::ask::{Given, MOST_SHARED, Spot};
 use super::walk::{Walk, is_ruled_out};
 use super::word::BOUND;
 use crate::program::{Bound, Guard, Kind, Op, OpId, Role, Slot, Words};
@@ -13,7 +13,7 @@ use crate::surface::{MAX_CONDITION_DEPTH, MAX_STEPS};
 impl Walk {
     fn spot(&self, state: &State, event: Id) -> Spot {
         let shared = self.control(state.control).flags.has(Flags::SHARED);
-        Spot { event, scope: state.scope, shared }
+        Spot { event, scope: state.scope, shared, tries: MOST_SHARED }
     }
 
     /// Whether an alternative that is guarded like this is open.
