@@ -311,6 +311,9 @@ impl Case {
     }
 }
 
+/// Of the search for the truth and of the rooms: what an older one found is searched for again.
+const VERSION: u32 = 2;
+
 /// What the truth was found to be, in a file.
 struct Cache {
     path: Option<PathBuf>,
@@ -324,7 +327,7 @@ impl Cache {
         let path = settings.cache.as_ref().map(|folder| folder.join(format!("{name}{quick}.json")));
         let text = path.as_ref().and_then(|path| std::fs::read_to_string(path).ok());
         let known = text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self { path, known, robot: hash(&format!("{:?}", model.urdf)) }
+        Self { path, known, robot: hash(&format!("{VERSION} {:?} {:?}", model.urdf, model.machine.card())) }
     }
 
     fn truth(&mut self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
