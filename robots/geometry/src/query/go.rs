@@ -100,10 +100,11 @@ impl Room<'_> {
             return Answer::Unknown(Unknown::Because(format!("the card has no posture `{name}`")));
         };
         let goal = State { base: start.base, joints };
-        if let Some(touch) = self.touch(&goal, Allowed::default()) {
-            return certain(Reason::NoFreePose { by: Some(touch.other) }, None);
-        }
         let mut met = Tally::default();
+        if let Some(touch) = self.touch(&goal, Allowed::default()) {
+            met.add(&touch);
+            return certain(Reason::NoFreePose { by: met.most() }, None);
+        }
         match self.unfold(start, &goal, &mut met) {
             Some(path) => self.gone(path),
             None => Answer::Infeasible(Infeasible::exhausted(Reason::BlockedPath { by: met.most() })),
