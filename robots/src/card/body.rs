@@ -149,7 +149,7 @@ impl Fit<'_> {
             let joint = match found(name, span, self.urdf) {
                 Ok(joint) => joint,
                 Err(told) => {
-                    self.numbers.found.push(told);
+                    self.numbers.found.push(told.into());
                     continue;
                 }
             };
@@ -191,7 +191,7 @@ impl Position<'_> {
         }
         match found(self.joint, self.span, urdf) {
             Ok(joint) => self.beyond(joint),
-            Err(told) => Some(told),
+            Err(told) => Some(told.into()),
         }
     }
 
@@ -204,12 +204,12 @@ impl Position<'_> {
 }
 
 /// The joint of a name that moves by itself; else what there is to say.
-fn found<'u>(name: &str, span: Span, urdf: &'u Urdf) -> Result<&'u Joint, Diagnostic> {
+fn found<'u>(name: &str, span: Span, urdf: &'u Urdf) -> Result<&'u Joint, NotInUrdf> {
     let moves = |joint: &&Joint| joint.kind.has_one_position() && joint.mimic.is_none();
     urdf.joints.iter().filter(moves).find(|joint| joint.name == name).ok_or_else(|| {
         let known = urdf.joints.iter().filter(moves).map(|joint| joint.name.as_str());
         let near = suggest::closest(name, known).map(str::to_owned);
         let what = "joint that moves by itself called";
-        NotInUrdf { span, what, name: name.to_owned(), near }.into()
+        NotInUrdf { span, what, name: name.to_owned(), near }
     })
 }
