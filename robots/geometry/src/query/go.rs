@@ -1,5 +1,6 @@
 //! `go_to`: a standing place from which a thing is served, and the way there; `posture`: the arm to a named posture.
 
+use motet_robots::scene::Entity;
 use nalgebra::Vector3;
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown, Witness};
@@ -28,10 +29,7 @@ impl Room<'_> {
         if !self.machine.drives() {
             return unknown("the robot's base does not drive".into());
         }
-        let reach = match (entity.kind.as_str(), self.machine.hand()) {
-            ("Place", _) | (_, None) => AT_PLACE,
-            (_, Some(hand)) => hand.card.reach_m,
-        };
+        let reach = self.served_within(entity);
         // A thing is served by its centre; what things stand on, in or with, by its outline.
         let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
         let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
@@ -91,6 +89,14 @@ impl Room<'_> {
             if is_free_somewhere { Reason::BlockedPath { by: None } } else { Reason::NoFreePose { by } };
         let certified = self.is_shut_off([centre.x, centre.y], reach, far);
         Answer::Infeasible(Infeasible { reason, change: None, certified, state: None })
+    }
+
+    /// How near the base has to be to an entity to serve it, in m.
+    pub(super) fn served_within(&self, entity: &Entity) -> f64 {
+        match (entity.kind.as_str(), self.machine.hand()) {
+            ("Place", _) | (_, None) => AT_PLACE,
+            (_, Some(hand)) => hand.card.reach_m,
+        }
     }
 
     /// The arm to a posture of the card, the base where it is.

@@ -80,7 +80,10 @@ impl Room<'_> {
         };
         let id = { tried }.find(helps)?;
         Some(match query {
-            Query::GoTo(to) => format!("without `{id}` the robot gets to `{to}`"),
+            Query::GoTo(to) => {
+                let reach = self.served_within(self.scene.entities.get(to)?);
+                format!("a place within {reach:.2} m of `{to}` is blocked by `{id}`: take it out of the way")
+            }
             _ => format!("without `{id}` it can be done: take it out of the way"),
         })
     }

@@ -121,7 +121,10 @@ fn what_can_be_taken_away_is_named_where_that_helps() {
     let (_, help) = refused(&machine, &alcove(false), "reach(mug_1)");
     assert_eq!(help.as_deref(), Some("without `chair` it can be done: take it out of the way"));
     let (_, help) = refused(&machine, &alcove(false), "go_to(mug_1)");
-    assert_eq!(help.as_deref(), Some("without `chair` the robot gets to `mug_1`"));
+    assert_eq!(
+        help.as_deref(),
+        Some("a place within 0.60 m of `mug_1` is blocked by `chair`: take it out of the way")
+    );
     // What never moves is not asked away, nor what would not help.
     assert_eq!(refused(&machine, &alcove(true), "reach(mug_1)").1, None);
     let mut both = alcove(false);
