@@ -12,7 +12,7 @@ use std::sync::Arc;
 use motet_compiler::{Geometry, Options, Session, State};
 use motet_geometry::query::Budget;
 use motet_robots::card::Robot;
-use motet_robots::scene::Scene;
+use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::File;
 use motet_syntax::{Diagnostic, FileId, Parsed, Source, Sources};
 
@@ -159,6 +159,7 @@ impl Workbench {
         if let (Some(budget), Some(card), Some(robot), Some(scene)) = (self.effort, &card, &robot, scene)
             && let Some(urdf) = card.body(robot, &mut sources, report)?
         {
+            report.usable("scene", &scene::fit(scene, &urdf), &sources)?;
             let made = Arc::new(Geometry::new(robot, &urdf, scene, state, budget));
             session = session.with_geometry(Arc::clone(&made));
             geometry = Some(made);

@@ -182,6 +182,13 @@ impl Session {
         &self.world
     }
 
+    /// What is wrong with the things that a motion names which is asked for without a policy, each with its place, as a call of a
+    /// primitive with this motion would be told; nothing for a motion that the robot has no primitive with.
+    #[must_use]
+    pub fn check_motion(&self, name: &str, args: &[(SmolStr, Span)]) -> Vec<Diagnostic> {
+        crate::resolve::motion::check_motion(name, args, &self.library, &self.world)
+    }
+
     /// Everything there is to say about a document: its front end's findings and those of every policy in it.
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {

@@ -50,6 +50,38 @@ fn the_head_of_a_scene_is_checked() {
 }
 
 #[test]
+fn joints_are_those_of_the_robot() {
+    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
+    let urdf = motet_robots::urdf::read(&Source::new("robot.urdf", text), FileId(1)).0.unwrap();
+    let fit = |joints: &str| {
+        let text = format!(r#"{{"motet_scene": 1, "robot": {{"joints": {{{joints}}}}}}}"#);
+        let source = Source::new("scene.json", text.as_str());
+        let told = scene::fit(&right(&text), &urdf).into_iter().map(|it| {
+            let help = it.help.map_or(String::new(), |help| format!(" ({help})"));
+            format!("{} {}: {}{help}\n", it.code, source.slice(it.span), it.message)
+        });
+        told.collect::<String>()
+    };
+    assert_eq!(
+        fit(r#""arm_lift_joint": 0.7, "wrist_flex_joint": -1.57"#),
+        "M0428 0.7: joint `arm_lift_joint` is put at 0.7, and goes from 0 to 0.69\n"
+    );
+    assert_eq!(
+        fit(r#""arm_lift": 0.1, "head_pan_joint": 0.2"#),
+        "M0427 0.1: the URDF has no joint that moves by itself called `arm_lift` (did you mean `arm_lift_joint`?)\n"
+    );
+    // It follows the lift of the arm.
+    assert_eq!(
+        fit(r#""torso_lift_joint": 0.1"#),
+        "M0427 0.1: the URDF has no joint that moves by itself called `torso_lift_joint` (did you mean `arm_lift_joint`?)\n"
+    );
+    assert_eq!(fit(r#""arm_lift_joint": 0.69, "hand_motor_joint": 1.24"#), "");
+    // No number of JSON is more than a joint can be put at.
+    let text = r#"{"motet_scene": 1, "robot": {"joints": {"arm_lift_joint": 1e999}}}"#;
+    assert!(said(text).starts_with("M01"), "{}", said(text));
+}
+
+#[test]
 fn ids_are_checked() {
     assert_snapshot!(said(&room(r#"{"id": "a", "kind": "Object"}, {"id": "a", "kind": "Place"}"#)), @r#"
     M0433 "a": the id `a` is taken (give each entity an id of its own)

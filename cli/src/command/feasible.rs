@@ -3,9 +3,10 @@
 mod drawing;
 mod wire;
 
+use motet_compiler::{Options, Session};
 use motet_geometry::query::{Answer, Budget, Machine, Query, Reason, Room, Unknown, World};
-use motet_robots::scene::Scene;
-use motet_syntax::{Sources, suggest};
+use motet_robots::scene::{self, Scene};
+use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
 use smol_str::SmolStr;
 
 use crate::args::{FeasibleArgs, FeasibleFormat, Format};
@@ -37,14 +38,25 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
         return Err(Trouble::Other(format!("the card of `{}` names no URDF under [model]", robot.name)));
     };
     let scene = read_scene(&args.scene, &mut sources, report)?;
+    report.usable("scene", &scene::fit(&scene, &urdf), &sources)?;
     let machine = Machine::new(&robot, &urdf);
     let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions, &machine, &scene)? };
+    let (session, said) =
+        Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources);
+    report.usable("robot or scene", &said, &sources)?;
+    let said: Vec<Diagnostic> =
+        args.motions.iter().flat_map(|motion| kinds(motion, &session, &mut sources)).collect();
+    report.usable("motion", &said, &sources)?;
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);
     let mut found = Vec::new();
     let mut exit = Exit::Clean;
     for query in queries {
-        let answer = room.answer(&query, Budget::default().times(usize::from(args.effort)));
+        let budget = Budget::default().times(usize::from(args.effort));
+        let mut answer = room.answer(&query, budget);
+        if let Answer::Infeasible(why) = &mut answer {
+            why.change = room.help(&query, why, budget);
+        }
         match args.format {
             FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
             FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
@@ -89,6 +101,26 @@ fn asked(motions: &[String], machine: &Machine, scene: &Scene) -> Result<Vec<Que
     parsed.collect()
 }
 
+/// What is wrong with the kinds of the things that a motion names.
+fn kinds(motion: &str, session: &Session, sources: &mut Sources) -> Vec<Diagnostic> {
+    let Some((name, listed)) = motion.split_once('(') else { return vec![] };
+    let file = FileId(u16::try_from(sources.len()).unwrap_or(u16::MAX));
+    sources.add(Source::new("--for", motion));
+    let mut at = name.len() + 1;
+    let mut args = Vec::new();
+    for arg in listed.split(',') {
+        let bare = arg.trim_matches([' ', ')', '`']);
+        let start = at + arg.find(bare).unwrap_or(0);
+        args.push((SmolStr::new(bare), Span::new(file, start, start + bare.len())));
+        at += arg.len() + 1;
+    }
+    // From which side is no thing.
+    if name.trim() == "reach" {
+        args.truncate(1);
+    }
+    session.check_motion(name.trim(), &args)
+}
+
 /// That there is something of a name.
 fn known<'a, I: Iterator<Item = &'a str>>(
     what: &'static str,
@@ -124,7 +156,7 @@ fn told(query: &Query, answer: &Answer) -> String {
             let [x, y, yaw] = witness.path.last().map_or([0.0; 3], |state| state.base);
             let mut line = format!(
                 "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {}, {:.3} m clear",
-                yaw.to_degrees(),
+                degrees(yaw),
                 count(witness.path.len().saturating_sub(1), "leg"),
                 witness.margins.clearance,
             );
@@ -148,6 +180,13 @@ fn told(query: &Query, answer: &Answer) -> String {
     }
 }
 
+/// An angle in degrees within a half turn to either side: along a path a base may turn further than that.
+fn degrees(angle: f64) -> f64 {
+    let rounded = angle.to_degrees().round();
+    let within = (rounded + 180.0).rem_euclid(360.0) - 180.0;
+    if within == -180.0 { 180.0 } else { within }
+}
+
 /// The numbers of a reason, by name.
 fn numbers(reason: &Reason) -> Vec<(&'static str, f64)> {
     match reason {
@@ -155,6 +194,21 @@ fn numbers(reason: &Reason) -> Vec<(&'static str, f64)> {
         Reason::TooHeavy { needs, limit } | Reason::TooWide { needs, limit } => {
             vec![("needs", *needs), ("limit", *limit)]
         }
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } | Reason::NotInView { .. } => vec![],
+        Reason::NotInView { aside: Some(aside), .. } => {
+            vec![("needs", aside.needs.abs()), ("limit", aside.limit)]
+        }
+        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } | Reason::NotInView { aside: None, .. } => {
+            vec![]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn angles_are_told_within_a_half_turn() {
+        for (angle, told) in [(-3.16, 179.0), (3.15, 180.0), (0.0, 0.0), (7.0, 41.0), (-1.57, -90.0)] {
+            assert_eq!(super::degrees(angle), told, "{angle}");
+        }
     }
 }

@@ -43,6 +43,24 @@ fn answers() {
             2,
             &["err:there is no posture `hom`", "err:did you mean `home`?"],
         ),
+        (
+            "feasible --robot hsr --scene kitchen --for offer(mug_1,kitchen_table)",
+            2,
+            &["out:M0301", "out:`to` of `handover` takes a `Person`, not", "out:--for:1:13"],
+        ),
+        (
+            "feasible --robot hsr --scene kitchen --for pull(kitchen_table) --for reach(user,top)",
+            2,
+            &["out:`what` of `open` takes a `Container`", "out:takes an `Object`"],
+        ),
+        (
+            "feasible --robot hsr --scene kitchen --for look(user)",
+            1,
+            &[
+                "out:the robot itself (`head_tilt_link` and `arm_flex_link`)",
+                "out:the posture `start` before",
+            ],
+        ),
         ("feasible --help", 0, &["out:--effort", "out:put(OBJECT, ENTITY)"]),
         (
             "feasible --robot hsr --scene kitchen --for go_to(sink) --for reach(coke) --format json --svg room.svg",
@@ -82,6 +100,29 @@ fn describes_the_formats() {
         assert!(schema["$schema"].is_string(), "{of}");
         assert!(schema["properties"][key].is_object(), "{of} has {key}");
     }
+}
+
+#[test]
+fn joints_of_a_scene_fit_the_robot() {
+    let scene = |joints: &str| {
+        format!(r#"{{"motet_scene": 1, "robot": {{"joints": {{{joints}}}}}, "entities": []}}"#)
+    };
+    let place = Place::new("scene_joints")
+        .file("far.json", scene(r#""arm_lift_joint": 2"#))
+        .file("strange.json", scene(r#""torso_lift_joint": 0.1"#))
+        .file("right.json", scene(r#""head_pan_joint": 0.1"#))
+        .file("wait.motet", "policy idle { home() }\n");
+    for (room, code, text) in
+        [("far.json", 2, "out:M0428"), ("strange.json", 2, "out:M0427"), ("right.json", 0, "out:")]
+    {
+        println!("{room}");
+        place.run(&format!("feasible --robot hsr --scene {room} --for posture(start)")).check(code, &[text]);
+        place.run(&format!("check wait.motet --robot hsr --scene {room}")).check(code, &[text]);
+    }
+    // Of another robot's joints it is said that this one has none.
+    place.run("check wait.motet --robot panda --scene right.json").check(2, &["out:M0427"]);
+    // Without geometry nothing rests on them.
+    place.run("check wait.motet --robot hsr --scene far.json --no-geometry").check(0, &[]);
 }
 
 const URDF: &str = "<robot name='Crane'><link name='base'/><link name='boom'/>

@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use motet_geometry::query::{Answer, Budget, Machine, Maps, Query, Room, State as Placed, Witness, World};
+use motet_geometry::query::{
+    Answer, Budget, Infeasible, Machine, Maps, Query, Room, State as Placed, Witness, World,
+};
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
 use motet_robots::urdf::Urdf;
@@ -30,6 +32,7 @@ pub struct Geometry {
 struct Memo {
     answers: FxHashMap<(Box<[u8]>, Query), Arc<Answer>>,
     after: FxHashMap<(Box<[u8]>, Query, Change), Next>,
+    helps: FxHashMap<(Box<[u8]>, Query), Option<String>>,
 }
 
 /// The world after a motion, where it is known.
@@ -121,6 +124,19 @@ impl Geometry {
             memo.answers.insert(key, Arc::clone(&answer));
         }
         answer
+    }
+
+    /// What would help a motion that is infeasible in a world.
+    pub(super) fn help(&self, at: &Keyed, query: &Query, why: &Infeasible) -> Option<String> {
+        let key = (at.key.clone(), query.clone());
+        if let Some(known) = self.memo().and_then(|memo| memo.helps.get(&key).cloned()) {
+            return known;
+        }
+        let help = self.room(&at.world).help(query, why, self.budget);
+        if let Some(mut memo) = self.memo() {
+            memo.helps.insert(key, help.clone());
+        }
+        help
     }
 
     /// Whether a thing can be grasped from where the robot is; none where neither was proven.

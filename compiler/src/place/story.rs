@@ -22,7 +22,9 @@ impl Walk<'_> {
     ) -> Option<Diagnostic> {
         let span = self.program.steps.get(id.index())?.span;
         let culprit = match &why.reason {
-            Reason::NoFreePose { by } | Reason::BlockedPath { by } | Reason::NotInView { by } => by.as_ref(),
+            Reason::NoFreePose { by } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => {
+                by.as_ref()
+            }
             Reason::OutOfReach { .. } | Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
         };
         let changed = culprit.and_then(|by| Some((by, situation.changer(by)?)));
@@ -46,7 +48,7 @@ impl Walk<'_> {
             motion: query.to_string(),
             says: why.reason.to_string(),
             story,
-            change: why.change.clone(),
+            change: self.geometry.help(&situation.at, query, why),
             is_certified: why.certified,
             since,
         };

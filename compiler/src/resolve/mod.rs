@@ -7,6 +7,7 @@ mod call;
 mod condition;
 pub(crate) mod errors;
 pub(crate) mod expr;
+pub(crate) mod motion;
 mod name;
 pub(crate) mod near;
 pub(crate) mod scope;

@@ -1,4 +1,4 @@
-//! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the same reach among 100
+//! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the same queries among 100
 //! and among 10,000 objects.
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
@@ -77,7 +77,7 @@ fn among(criterion: &mut Criterion) {
         group.bench_function(format!("room, {objects}"), |bencher| {
             bencher.iter(|| Room::new(black_box(&machine), &scene, &world));
         });
-        for query in ["reach(cup_0_0_4)", "reach(cup_0_0_0)"] {
+        for query in ["reach(cup_0_0_4)", "reach(cup_0_0_0)", "go_to(cup_0_0_0)", "look(cup_0_0_4)"] {
             let asked = Query::parse(query).unwrap();
             assert!(matches!(room.answer(&asked, Budget::default()), Answer::Feasible(_)), "{query}");
             group.bench_function(format!("{query}, {objects}"), |bencher| {

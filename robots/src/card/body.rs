@@ -2,7 +2,7 @@
 
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
-use motet_syntax::{Diagnostic, FileId, Source, suggest};
+use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
 use super::errors::{BeyondLimit, NoFile, NoPlace, NotInUrdf, SameAxis, WrongDimension};
@@ -144,15 +144,14 @@ impl Fit<'_> {
     }
 
     fn positions(&mut self, positions: &IndexMap<String, At<Quantity>>) {
-        let moves = |joint: &&Joint| joint.kind.has_one_position() && joint.mimic.is_none();
         for (name, position) in positions {
             let span = self.numbers.span(position);
-            let Some(joint) = self.urdf.joints.iter().filter(moves).find(|joint| joint.name == *name) else {
-                let known = self.urdf.joints.iter().filter(moves).map(|joint| joint.name.as_str());
-                let near = suggest::closest(name, known).map(str::to_owned);
-                let what = "joint that moves by itself called";
-                self.numbers.found.push(NotInUrdf { span, what, name: name.clone(), near }.into());
-                continue;
+            let joint = match found(name, span, self.urdf) {
+                Ok(joint) => joint,
+                Err(told) => {
+                    self.numbers.found.push(told.into());
+                    continue;
+                }
             };
             let Some((value, unit)) = self.numbers.any(name, position) else { continue };
             let dimension = match joint.kind {
@@ -168,11 +167,49 @@ impl Fit<'_> {
                 self.numbers.found.push(WrongDimension { span, key, unit, units }.into());
                 continue;
             }
-            let Some(limits) = joint.limits else { continue };
-            if !(limits.lower..=limits.upper).contains(&value) {
-                let (joint, least, greatest) = (name.clone(), limits.lower, limits.upper);
-                self.numbers.found.push(BeyondLimit { span, joint, value, least, greatest }.into());
-            }
+            self.numbers.found.extend(Position { joint: name, value, span }.beyond(joint));
         }
     }
+}
+
+/// A position that a joint is said to be at, in m or rad, and where that is said.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Position<'a> {
+    pub(crate) joint: &'a str,
+    pub(crate) value: f64,
+    pub(crate) span: Span,
+}
+
+impl Position<'_> {
+    /// What is wrong with it, beside a URDF.
+    pub(crate) fn fault(self, urdf: &Urdf) -> Option<Diagnostic> {
+        // Any place will do for what moves in a plane.
+        let (joint, part) = self.joint.rsplit_once('/').unwrap_or_default();
+        let is_planar = |it: &Joint| it.name == joint && it.kind == JointKind::Planar;
+        if matches!(part, "x" | "y" | "theta") && urdf.joints.iter().any(is_planar) {
+            return None;
+        }
+        match found(self.joint, self.span, urdf) {
+            Ok(joint) => self.beyond(joint),
+            Err(told) => Some(told.into()),
+        }
+    }
+
+    fn beyond(self, joint: &Joint) -> Option<Diagnostic> {
+        let Self { joint: name, value, span } = self;
+        let limits = joint.limits.filter(|limits| !(limits.lower..=limits.upper).contains(&value))?;
+        let (joint, least, greatest) = (name.to_owned(), limits.lower, limits.upper);
+        Some(BeyondLimit { span, joint, value, least, greatest }.into())
+    }
+}
+
+/// The joint of a name that moves by itself; else what there is to say.
+fn found<'u>(name: &str, span: Span, urdf: &'u Urdf) -> Result<&'u Joint, NotInUrdf> {
+    let moves = |joint: &&Joint| joint.kind.has_one_position() && joint.mimic.is_none();
+    urdf.joints.iter().filter(moves).find(|joint| joint.name == name).ok_or_else(|| {
+        let known = urdf.joints.iter().filter(moves).map(|joint| joint.name.as_str());
+        let near = suggest::closest(name, known).map(str::to_owned);
+        let what = "joint that moves by itself called";
+        NotInUrdf { span, what, name: name.to_owned(), near }
+    })
 }

@@ -15,6 +15,7 @@ mod resources;
 mod shape;
 pub mod wire;
 
+pub(crate) use body::Position;
 pub use body::{ModelFile, fit, missing};
 pub use draft::draft;
 pub use embedded::{embedded, embedded_urdf};

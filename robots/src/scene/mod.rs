@@ -13,6 +13,7 @@
 mod check;
 mod embedded;
 mod errors;
+mod fit;
 mod matching;
 pub mod model;
 mod number;
@@ -23,6 +24,7 @@ mod write;
 
 pub use embedded::embedded;
 pub use errors::CODES;
+pub use fit::fit;
 pub use matching::normal;
 pub use model::*;
 pub use read::{MAX_ENTITIES, read};

@@ -27,6 +27,18 @@ pub struct RobotState {
     pub holding: Option<Option<SmolStr>>,
     /// The entity that it stands at so that it serves it, where the scene says.
     pub at: Option<SmolStr>,
+    /// Where the scene's file gives joints.
+    pub written: WrittenJoints,
+}
+
+/// Where each joint was read, by its name. That is no part of where it is, so any two are equal.
+#[derive(Clone, Debug, Default)]
+pub struct WrittenJoints(pub IndexMap<SmolStr, Span>);
+
+impl PartialEq for WrittenJoints {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// One thing, place or person.

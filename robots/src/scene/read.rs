@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 
 use super::check;
 use super::errors::{BadId, DuplicateId, Frame, ReservedId, TooManyEntities, Version};
-use super::model::{Entity, RobotState, Scene};
+use super::model::{Entity, RobotState, Scene, WrittenJoints};
 use super::number::{Numbers, Quantity};
 use super::relations;
 use super::wire;
@@ -89,5 +89,6 @@ fn at_start(robot: &wire::Robot, numbers: &mut Numbers) -> RobotState {
         joints: joints.collect(),
         holding: robot.holding.as_ref().map(|held| held.as_ref().map(|id| id.value.clone())),
         at: robot.at.as_ref().map(|at| at.value.clone()),
+        written: WrittenJoints(robot.joints.iter().map(|(name, value)| (name.clone(), value.span)).collect()),
     }
 }

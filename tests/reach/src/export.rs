@@ -48,8 +48,9 @@ impl Subject<'_> {
         let mut line = self.room(&case.name);
         let machine = &self.model.machine;
         let start = &self.world.robot;
-        let joints = machine.hand().map_or_else(|| start.joints.clone(), |hand| hand.opened(&start.joints));
-        line["start"] = state(&State { base: start.base, joints });
+        line["start"] = state(start);
+        // With the hand open, as it is at a grasp: where the arm is folded there may be no room for that.
+        line["open"] = json!(machine.hand().map(|hand| hand.opened(&start.joints)));
         line["object"] = json!(target);
         let grasps = truth::grasps(self.model, self.scene, target, seed, GRASPS);
         let grasp =

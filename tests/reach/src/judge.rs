@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use motet_geometry::query::{Answer, Budget, Query, Room, World};
@@ -287,6 +287,12 @@ impl Case {
         self.truth == Truth::Reachable || self.holds()
     }
 
+    /// Certified to have no state, and it has one.
+    #[must_use]
+    pub fn is_contradicted(&self) -> bool {
+        self.said == Said::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
+    }
+
     /// What is not as it should be, in a line.
     #[must_use]
     pub fn line(&self) -> Option<String> {
@@ -295,8 +301,8 @@ impl Case {
             return Some(format!("{}: the witness does not hold: {fault}", self.name));
         }
         match (self.truth, self.said) {
-            (Truth::Reachable, Said::Certified) => {
-                Some(format!("{}: reachable, and certified not to be: {reason}", self.name))
+            (Truth::Reachable | Truth::NoWay, Said::Certified) => {
+                Some(format!("{}: certified to have no state, and it has one: {reason}", self.name))
             }
             (Truth::Reachable, Said::Exhausted | Said::Unknown) => {
                 Some(format!("{}: reachable, and missed: {reason}", self.name))
@@ -305,11 +311,14 @@ impl Case {
                 Some(format!("{}: no state, not certified: {reason}", self.name))
             }
             (Truth::Reachable, Said::Feasible)
-            | (Truth::NoWay, _)
+            | (Truth::NoWay, Said::Feasible | Said::Exhausted | Said::Unknown)
             | (Truth::NoState, Said::Feasible | Said::Certified) => None,
         }
     }
 }
+
+/// Of the search for the truth and of the rooms: what an older one found is searched for again.
+const VERSION: u32 = 2;
 
 /// What the truth was found to be, in a file.
 struct Cache {
@@ -322,9 +331,8 @@ impl Cache {
     fn read(settings: &Settings, model: &Model, name: &str) -> Self {
         let quick = if settings.is_quick { "-quick" } else { "" };
         let path = settings.cache.as_ref().map(|folder| folder.join(format!("{name}{quick}.json")));
-        let text = path.as_ref().and_then(|path| std::fs::read_to_string(path).ok());
-        let known = text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-        Self { path, known, robot: hash(&format!("{:?}", model.urdf)) }
+        let known = path.as_deref().map(kept).unwrap_or_default();
+        Self { path, known, robot: hash(&format!("{VERSION} {:?} {:?}", model.urdf, model.machine.card())) }
     }
 
     fn truth(&mut self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
@@ -333,16 +341,27 @@ impl Cache {
         *self.known.entry(key).or_insert_with(find)
     }
 
-    /// A file that cannot be written costs only time.
-    fn write(&self) {
+    /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves what was there. A file that
+    /// cannot be written costs only time.
+    fn write(&mut self) {
         let Some(path) = &self.path else { return };
         if let Some(folder) = path.parent() {
             let _ = std::fs::create_dir_all(folder);
         }
+        for (key, truth) in kept(path) {
+            self.known.entry(key).or_insert(truth);
+        }
+        let new = path.with_extension(format!("{}.new", std::process::id()));
         if let Ok(text) = serde_json::to_string_pretty(&self.known) {
-            let _ = std::fs::write(path, text);
+            let _ = std::fs::write(&new, text).and_then(|()| std::fs::rename(&new, path));
         }
     }
+}
+
+/// What a file has; nothing where it cannot be read.
+fn kept(path: &Path) -> BTreeMap<String, Truth> {
+    let text = std::fs::read_to_string(path).ok();
+    text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
 }
 
 /// FNV-1a.

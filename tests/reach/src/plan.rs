@@ -136,7 +136,8 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether a way leads from one state to another. Both are free.
+    /// Whether a way leads from one state to another. Both are free. The hand may be open in one and not in the other: in between it
+    /// is like in either, and opens or closes on the way.
     pub(crate) fn connects(&self, start: &State, goal: &State, chance: &mut Chance) -> bool {
         let free = |a: &State, b: &State| is_free(self.model, self.scenery, a, b, self.apart, None);
         if free(start, goal) {
@@ -147,7 +148,8 @@ impl Search<'_> {
         let mut trees = [vec![(start.clone(), 0)], vec![(goal.clone(), 0)]];
         for step in 0..self.steps {
             let side = step % 2;
-            let mut aim = scatter(self.model, start, middle, far, chance);
+            let like = if chance.is(0.5) { start } else { goal };
+            let mut aim = scatter(self.model, like, middle, far, chance);
             // The arm as at one end, half of the time: in the open it need not move.
             if chance.is(0.5) && self.model.machine.drives() {
                 aim.joints.clone_from(if chance.is(0.5) { &start.joints } else { &goal.joints });

@@ -74,8 +74,9 @@ struct Target<'a> {
     scenery: Scenery,
     index: usize,
     pose: Isometry3<f64>,
+    /// Where the robot is, its hand as it is: it opens on the way.
     start: &'a State,
-    /// The start with the hand open.
+    /// The same with the hand open.
     open: State,
     members: Vec<(Isometry3<f64>, &'a Solid)>,
     reach: f64,
@@ -114,7 +115,7 @@ impl<'a> Target<'a> {
         if free.is_empty() {
             return Truth::NoState;
         }
-        if !is_free(self.model, &self.scenery, self.start, &self.open, 0.02, None) {
+        if self.scenery.touch(self.model, self.start, None, GAP).is_some() {
             return Truth::NoWay;
         }
         let (mut states, mut ways) = (0, 0);
@@ -156,9 +157,9 @@ impl<'a> Target<'a> {
             }
             let mut first = first;
             let turn = std::f64::consts::TAU;
-            first.base[2] -= turn * ((first.base[2] - self.open.base[2]) / turn).round();
+            first.base[2] -= turn * ((first.base[2] - self.start.base[2]) / turn).round();
             let search = Search { model: self.model, scenery: &self.scenery, steps, apart: 0.015 };
-            search.connects(&self.open, &first, chance)
+            search.connects(self.start, &first, chance)
         })
     }
 }

@@ -219,6 +219,8 @@ pub enum Reason {
     NotInView {
         /// What stands before it most often.
         by: Option<SmolStr>,
+        /// Where it is beyond the camera's view, by how much.
+        aside: Option<Aside>,
     },
     /// It weighs more than the hand carries, both in kg.
     TooHeavy {
@@ -257,16 +259,24 @@ impl std::fmt::Display for Reason {
             Self::OutOfReach { what: "sight", needs, reach } => {
                 write!(f, "is {needs:.2} m away, the camera sees {reach:.2} m")
             }
-            Self::NotInView { by: Some(by) } => write!(f, "`{by}` hides it from the camera"),
-            Self::NotInView { by: None } => f.write_str("the camera does not turn there"),
+            Self::NotInView { by: Some(by), .. } => write!(f, "{} hides it from the camera", named(by)),
+            Self::NotInView { by: None, aside: Some(Aside { needs, limit }) } => {
+                let (to, needs) = (if *needs > 0.0 { "left" } else { "right" }, needs.abs().to_degrees());
+                write!(
+                    f,
+                    "is {needs:.0}° to the {to}, the camera sees {:.0}° to either side",
+                    limit.to_degrees()
+                )
+            }
+            Self::NotInView { by: None, aside: None } => f.write_str("the camera does not turn there"),
             Self::OutOfReach { what, needs, reach } => {
                 write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
             }
             Self::NoFreePose { by: Some(by) } => {
-                write!(f, "no pose of the robot is free, and most often `{by}` is in the way")
+                write!(f, "no pose of the robot is free, and most often {} is in the way", named(by))
             }
             Self::NoFreePose { by: None } => f.write_str("no pose of the robot serves it"),
-            Self::BlockedPath { by: Some(by) } => write!(f, "`{by}` blocks the way"),
+            Self::BlockedPath { by: Some(by) } => write!(f, "{} blocks the way", named(by)),
             Self::BlockedPath { by: None } => f.write_str("no way leads there"),
             Self::TooHeavy { needs, limit } => {
                 write!(f, "weighs {needs:.2} kg, the hand carries {limit:.2} kg")
@@ -277,6 +287,24 @@ impl std::fmt::Display for Reason {
         }
     }
 }
+
+/// How far aside of the direction of the base something is, and how far the camera sees: both in rad, the first positive to the
+/// left, the second to either side.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Aside {
+    /// Where it is.
+    pub needs: f64,
+    /// How far the camera sees.
+    pub limit: f64,
+}
+
+/// What is in the way, as it is written: the robot itself has no name in the scene.
+fn named(by: &str) -> String {
+    if by.starts_with(ITSELF) { by.to_owned() } else { format!("`{by}`") }
+}
+
+/// How the robot is called where it is in its own way.
+pub(super) const ITSELF: &str = "the robot itself";
 
 /// Why nothing is known.
 #[derive(Clone, PartialEq, Eq, Debug)]

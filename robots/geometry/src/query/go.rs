@@ -1,5 +1,6 @@
 //! `go_to`: a standing place from which a thing is served, and the way there; `posture`: the arm to a named posture.
 
+use motet_robots::scene::Entity;
 use nalgebra::Vector3;
 
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown, Witness};
@@ -28,10 +29,7 @@ impl Room<'_> {
         if !self.machine.drives() {
             return unknown("the robot's base does not drive".into());
         }
-        let reach = match (entity.kind.as_str(), self.machine.hand()) {
-            ("Place", _) | (_, None) => AT_PLACE,
-            (_, Some(hand)) => hand.card.reach_m,
-        };
+        let reach = self.served_within(entity);
         // A thing is served by its centre; what things stand on, in or with, by its outline.
         let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
         let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
@@ -93,6 +91,14 @@ impl Room<'_> {
         Answer::Infeasible(Infeasible { reason, change: None, certified, state: None })
     }
 
+    /// How near the base has to be to an entity to serve it, in m.
+    pub(super) fn served_within(&self, entity: &Entity) -> f64 {
+        match (entity.kind.as_str(), self.machine.hand()) {
+            ("Place", _) | (_, None) => AT_PLACE,
+            (_, Some(hand)) => hand.card.reach_m,
+        }
+    }
+
     /// The arm to a posture of the card, the base where it is.
     pub(super) fn to_posture(&self, name: &str) -> Answer {
         let start = &self.world.robot;
@@ -100,10 +106,11 @@ impl Room<'_> {
             return Answer::Unknown(Unknown::Because(format!("the card has no posture `{name}`")));
         };
         let goal = State { base: start.base, joints };
-        if let Some(touch) = self.touch(&goal, Allowed::default()) {
-            return certain(Reason::NoFreePose { by: Some(touch.other) }, None);
-        }
         let mut met = Tally::default();
+        if let Some(touch) = self.touch(&goal, Allowed::default()) {
+            met.add(&touch);
+            return certain(Reason::NoFreePose { by: met.most() }, None);
+        }
         match self.unfold(start, &goal, &mut met) {
             Some(path) => self.gone(path),
             None => Answer::Infeasible(Infeasible::exhausted(Reason::BlockedPath { by: met.most() })),

@@ -1,12 +1,14 @@
 //! `look`: a thing in a camera's view with a free line of sight, the base and the arm where they are.
 //!
-//! A thing counts as in view where the camera looks at it to within [`AIM`], which lies within the view of any camera, is no
-//! farther than the card says that the camera sees, and where nothing stands between the camera and one of its points.
+//! A thing counts as in view where it is no farther than the card says that the camera sees, and where nothing stands between the
+//! camera and one of its points. What is in the view of a camera depends on whether joints turn it: then it has to look at the thing
+//! to within [`AIM`], and the thing may be no farther aside of the base's direction than half of what the card calls its view, which
+//! is with its joints turned; else the whole of the view is its own.
 
 use motet_robots::scene::Entity;
 use nalgebra::Vector3;
 
-use super::answer::{Answer, Budget, Infeasible, Reason, Unknown, Witness};
+use super::answer::{Answer, Aside, Budget, Infeasible, Reason, Unknown, Witness};
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
@@ -14,7 +16,7 @@ use super::travel::Tally;
 use crate::collision::{Shape, Solid};
 use crate::kinematics::{Variable, spread};
 
-/// The greatest angle between the camera's axis and what it looks at, in rad.
+/// The greatest angle between the axis of a camera and what it looks at, in rad; up and down of a camera that nothing turns.
 const AIM: f64 = 0.37;
 /// How far out on a thing points are looked at, as a share of its half extents.
 const OUT: f64 = 0.8;
@@ -39,6 +41,8 @@ impl Room<'_> {
         }
         let start = &self.world.robot;
         let (moving, variables) = self.head(frame);
+        let view =
+            View { frame, range: camera.range_m, half: camera.view_rad / 2.0, is_still: moving.is_empty() };
         let (mut hides, mut ways) = (Tally::default(), Tally::default());
         let mut away = f64::INFINITY;
         let rounds = if moving.is_empty() { 1 } else { budget.candidates.max(1) };
@@ -52,7 +56,7 @@ impl Room<'_> {
                     }
                 }
             }
-            match self.sees(&state, frame, index, &points, camera.range_m) {
+            match self.sees(&state, &view, index, &points) {
                 Sight::Free => {}
                 Sight::Hidden(by) => {
                     hides.add_entity(by);
@@ -73,8 +77,12 @@ impl Room<'_> {
         let is_far = hides.most().is_none() && away.is_finite();
         let reason = match (is_blocked, is_far) {
             (true, _) => Reason::BlockedPath { by: ways.most() },
-            (false, true) => Reason::OutOfReach { what: "sight", needs: away, reach: camera.range_m },
-            (false, false) => Reason::NotInView { by: hides.most() },
+            (false, true) => Reason::OutOfReach { what: "sight", needs: away, reach: view.range },
+            (false, false) => {
+                let by = hides.most();
+                let aside = points.first().filter(|_| by.is_none()).and_then(|it| view.beyond(start, it));
+                Reason::NotInView { by, aside }
+            }
         };
         Answer::Infeasible(Infeasible::exhausted(reason))
     }
@@ -108,18 +116,18 @@ impl Room<'_> {
     }
 
     /// Whether a camera sees one of the points.
-    fn sees(&self, state: &State, frame: usize, index: usize, points: &[Vector3<f64>], range: f64) -> Sight {
+    fn sees(&self, state: &State, view: &View, index: usize, points: &[Vector3<f64>]) -> Sight {
         let poses = self.machine.map_from_links(state);
-        let Some(camera) = poses.get(frame) else { return Sight::Aside };
+        let Some(camera) = poses.get(view.frame) else { return Sight::Aside };
         let (eye, axis) = (camera.translation.vector, camera.rotation * Vector3::z());
         let mut found = Sight::Aside;
         for point in points {
             let way = point - eye;
             let far = way.norm();
-            if far < 1e-6 || axis.dot(&way) < libm::cos(AIM) * far {
+            if far < 1e-6 || !view.holds(&axis, state.base[2], &way) {
                 continue;
             }
-            if far > range {
+            if far > view.range {
                 found = if matches!(found, Sight::Hidden(_)) { found } else { Sight::Far(far) };
                 continue;
             }
@@ -133,6 +141,46 @@ impl Room<'_> {
         }
         found
     }
+}
+
+/// What a camera sees by itself.
+struct View {
+    /// The link that it is.
+    frame: usize,
+    /// How far, in m.
+    range: f64,
+    /// Half of the view that the card gives it, in rad.
+    half: f64,
+    /// Whether no joint turns it.
+    is_still: bool,
+}
+
+impl View {
+    /// Whether what is that way from a camera is in its view, the base heading so.
+    fn holds(&self, axis: &Vector3<f64>, heading: f64, way: &Vector3<f64>) -> bool {
+        let is_within = |angle: f64| axis.dot(way) >= libm::cos(angle) * way.norm();
+        let up = |it: &Vector3<f64>| libm::atan2(it.z, libm::hypot(it.x, it.y));
+        if !self.is_still {
+            return is_within(AIM.min(self.half)) && aside(heading, way).abs() <= self.half;
+        }
+        // To the sides of what looks straight down or up there is nothing to measure from.
+        if up(axis).abs() > 1.0 {
+            return is_within(AIM.min(self.half));
+        }
+        aside(libm::atan2(axis.y, axis.x), way).abs() <= self.half && (up(way) - up(axis)).abs() <= AIM
+    }
+
+    /// How far a place is aside of where a robot heads, where that is beyond the view.
+    fn beyond(&self, state: &State, place: &Vector3<f64>) -> Option<Aside> {
+        let [x, y, heading] = state.base;
+        let needs = aside(heading, &(place - Vector3::new(x, y, 0.0)));
+        (!self.is_still && needs.abs() > self.half).then_some(Aside { needs, limit: self.half })
+    }
+}
+
+/// How far to the left of a direction in the plane a way leads, in rad.
+fn aside(heading: f64, way: &Vector3<f64>) -> f64 {
+    crate::trigonometry::wrapped(libm::atan2(way.y, way.x) - heading)
 }
 
 enum Sight {
@@ -152,4 +200,51 @@ fn segment(from: &Vector3<f64>, to: &Vector3<f64>) -> Solid {
     let first = along.cross(&other).normalize();
     let axes = [first, along.cross(&first), along];
     Solid { centre: (from + to) / 2.0, axes, shape: Shape::Capsule { radius: 0.0, half: length / 2.0 } }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::View;
+
+    /// Whether what is so many degrees to the left and up from a camera that looks along x is in its view, the base heading so.
+    fn sees(view: f64, is_still: bool, heading: f64, [left, up]: [f64; 2]) -> bool {
+        let view = View { frame: 0, range: 5.0, half: view.to_radians() / 2.0, is_still };
+        let (left, up) = (left.to_radians(), up.to_radians());
+        let way = Vector3::new(up.cos() * left.cos(), up.cos() * left.sin(), up.sin());
+        view.holds(&Vector3::x(), heading.to_radians(), &(way * 2.0))
+    }
+
+    #[test]
+    fn the_view_of_a_camera_that_nothing_turns_is_its_own() {
+        for (way, is_seen) in [
+            ([0.0, 0.0], true),
+            ([29.0, 0.0], true),
+            ([-29.0, 20.0], true),
+            ([31.0, 0.0], false),
+            ([0.0, 22.0], false),
+            ([180.0, 0.0], false),
+        ] {
+            assert_eq!(sees(60.0, true, 90.0, way), is_seen, "{way:?}");
+        }
+    }
+
+    #[test]
+    fn a_camera_that_is_turned_looks_at_the_thing_within_its_view() {
+        for (view, heading, way, is_seen) in [
+            (260.0, 0.0, [20.0, 0.0], true),
+            (260.0, 0.0, [23.0, 0.0], false),
+            // Turned to the side as far as the view goes, and further.
+            (260.0, -125.0, [0.0, 0.0], true),
+            (260.0, -135.0, [0.0, 0.0], false),
+            (260.0, 170.0, [0.0, 0.0], false),
+            (360.0, 180.0, [0.0, 0.0], true),
+            // Narrower than what the camera aims at.
+            (30.0, 0.0, [14.0, 0.0], true),
+            (30.0, 0.0, [17.0, 0.0], false),
+        ] {
+            assert_eq!(sees(view, false, heading, way), is_seen, "{view}, {heading}, {way:?}");
+        }
+    }
 }

@@ -15,6 +15,7 @@ mod follow;
 mod go;
 mod grasp;
 mod grip;
+mod help;
 mod look;
 mod machine;
 mod map;
@@ -44,7 +45,7 @@ mod travel;
 mod way;
 mod world;
 
-pub use answer::{Answer, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
+pub use answer::{Answer, Aside, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
 pub use machine::{Hand, Machine};
 pub use opening::Opening;
 pub use room::{GAP, Maps, Room};

@@ -72,6 +72,12 @@ impl Room<'_> {
         let depth = (self.front_around(hand, THICK) - BEYOND).max(hand.palm + THICK / 2.0);
         let pull = Pull { id, hand, opening, parts, depth };
         let all = pull.holds();
+        let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
+        let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
+        let handle = format!("the handle of `{id}`");
+        if let Some((reason, change)) = self.span(hand).beyond_all(&bar, &handle, &tips) {
+            return Answer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
+        }
         match self.free_holds(hand, &all, Allowed::default()) {
             Ok(free) => self.search_pull(&pull, &clear, &free, budget),
             Err(none) => none,

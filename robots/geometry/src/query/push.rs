@@ -54,9 +54,11 @@ impl Room<'_> {
             let stops = (1..=PLACES).find_map(|at| {
                 let gone =
                     Isometry3::from(Translation3::from(along * (FAR * f64::from(at) / f64::from(PLACES))));
-                let others = self.things.iter().filter(|it| it.entity != index && Some(it.entity) != support);
                 let moved = thing.moved(&gone);
-                others.into_iter().find(|it| !moved.is_farther(&it.solid, 0.0)).map(|it| self.name(it.entity))
+                let near = self.things.near([moved.centre.x, moved.centre.y], moved.reach());
+                let mut others =
+                    near.map(|(_, it)| it).filter(|it| it.entity != index && Some(it.entity) != support);
+                others.find(|it| !moved.is_farther(&it.solid, 0.0)).map(|it| self.name(it.entity))
             });
             if let Some(by) = stops {
                 met.add_entity(by);
@@ -72,6 +74,12 @@ impl Room<'_> {
         if ends.is_empty() {
             let reason = Reason::BlockedPath { by: met.most() };
             return Answer::Infeasible(Infeasible::proven(reason, None));
+        }
+        let tips: Vec<_> = ends.iter().map(|(_, end)| *end).collect();
+        if let Some((reason, change)) =
+            self.span(hand).beyond_all(&pose.translation.vector, &format!("`{id}`"), &tips)
+        {
+            return Answer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
         }
         let allowed = Allowed { hand: Some(index), held: None };
         let (mut poses, mut ways, mut tried) = (Tally::default(), Tally::default(), 0);

@@ -8,6 +8,7 @@ use super::arm::{PLANE, part};
 use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
 use super::seek::{LAST, Sought};
+use super::span::Span;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::Tally;
@@ -67,6 +68,12 @@ impl Room<'_> {
         // What comes into a drawer comes from above its walls.
         let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
         let tips: Vec<_> = places.iter().map(|place| place * tip_from_place).collect();
+        // Upright at one height the wrist is at one height too, wherever it stands and however it is turned.
+        let span = self.span(held.hand);
+        if let Some((reason, change)) = span.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
+            let certified = matches!(span, Span::Heights(..));
+            return Answer::Infeasible(Infeasible { reason, change, certified, state: None });
+        }
         let sought = Sought {
             hand: held.hand,
             palm: self.palm(held.hand, &tips, allowed),

@@ -62,13 +62,24 @@ impl Span<'_> {
 
     /// That no arm configuration brings the hand to a thing at a place, where that is certain.
     pub(super) fn beyond(&self, place: &Vector3<f64>, id: &str, holds: &[Hold]) -> Option<Answer> {
-        if holds.is_empty() || holds.iter().any(|hold| self.holds(&hold.map_from_tip)) {
+        let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
+        self.beyond_all(place, &format!("`{id}`"), &tips).map(|(reason, change)| certain(reason, change))
+    }
+
+    /// Why no arm configuration brings the hand to any of some poses, and by how much `what`, which is at a place, is off.
+    pub(super) fn beyond_all(
+        &self,
+        place: &Vector3<f64>,
+        what: &str,
+        tips: &[Isometry3<f64>],
+    ) -> Option<(Reason, Option<String>)> {
+        if tips.is_empty() || tips.iter().any(|tip| self.holds(tip)) {
             return None;
         }
         match self {
             Self::Heights(arm, [least, greatest]) => {
-                let off = holds.iter().map(|hold| {
-                    let height = arm.centre(&hold.map_from_tip).z;
+                let off = tips.iter().map(|tip| {
+                    let height = arm.centre(tip).z;
                     if height > *greatest { height - greatest } else { height - least }
                 });
                 let off = off.reduce(|one, other| if other.abs() < one.abs() { other } else { one })?;
@@ -77,15 +88,15 @@ impl Span<'_> {
                 let change = (place.z - off > 0.0).then(|| {
                     let least = libm::ceil(off.abs() * 100.0) / 100.0;
                     let change = if off > 0.0 { "lower" } else { "higher" };
-                    format!("`{id}` would have to be at least {least:.2} m {change}")
+                    format!("{what} would have to be at least {least:.2} m {change}")
                 });
                 let reason = Reason::OutOfReach { what: "height", needs: place.z, reach: place.z - off };
-                Some(certain(reason, change))
+                Some((reason, change))
             }
             Self::Around(shoulder, reach) => {
-                let needs = holds.iter().map(|hold| (hold.map_from_tip.translation.vector - shoulder).norm());
+                let needs = tips.iter().map(|tip| (tip.translation.vector - shoulder).norm());
                 let needs = needs.fold(f64::INFINITY, f64::min);
-                Some(certain(Reason::OutOfReach { what: "distance", needs, reach: *reach }, None))
+                Some((Reason::OutOfReach { what: "distance", needs, reach: *reach }, None))
             }
             Self::Anywhere => None,
         }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use motet_robots::card::Drive;
-use smol_str::SmolStr;
+use smol_str::{SmolStr, format_smolstr};
 
-use super::answer::{Answer, Infeasible, Reason};
+use super::answer::{Answer, ITSELF, Infeasible, Reason};
 use super::around::Around;
 use super::map::Map;
 use super::room::Room;
@@ -27,28 +27,43 @@ pub(super) enum Unfolding {
 
 /// What is met, and how often.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tally(BTreeMap<SmolStr, usize>);
+pub(super) struct Tally {
+    others: BTreeMap<SmolStr, usize>,
+    /// Of the robot itself, by the two links.
+    own: BTreeMap<[SmolStr; 2], usize>,
+}
 
 impl Tally {
     pub(super) fn add(&mut self, touch: &Touch) {
-        let name = if touch.is_own { SmolStr::new_static("the robot itself") } else { touch.other.clone() };
-        *self.0.entry(name).or_default() += 1;
+        if touch.is_own {
+            *self.own.entry([touch.link.clone(), touch.other.clone()]).or_default() += 1;
+        } else {
+            self.add_entity(touch.other.clone());
+        }
     }
 
     pub(super) fn add_entity(&mut self, name: SmolStr) {
-        *self.0.entry(name).or_default() += 1;
+        *self.others.entry(name).or_default() += 1;
     }
 
-    /// What is met most often; of equals the first by name.
+    /// What is met most often; of equals the first by name. The robot itself counts as one, and is told with the links that meet
+    /// most often.
     pub(super) fn most(&self) -> Option<SmolStr> {
-        let mut most: Option<(&SmolStr, usize)> = None;
-        for (name, count) in &self.0 {
-            if most.is_none_or(|(_, known)| *count > known) {
-                most = Some((name, *count));
-            }
+        let own: usize = self.own.values().sum();
+        match first_most(&self.others) {
+            Some((name, count)) if count >= own => Some(name.clone()),
+            _ => first_most(&self.own)
+                .map(|([one, other], _)| format_smolstr!("{ITSELF} (`{one}` and `{other}`)")),
         }
-        most.map(|(name, _)| name.clone())
     }
+}
+
+/// The key that is counted most often, the first of equals.
+fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
+    counts.iter().fold(None, |most, (name, count)| match most {
+        Some((_, known)) if known >= *count => most,
+        Some(_) | None => Some((name, *count)),
+    })
 }
 
 /// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.

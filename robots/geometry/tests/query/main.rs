@@ -11,6 +11,7 @@
     reason = "a test fails by panicking"
 )]
 
+mod help;
 mod opening;
 mod verify;
 
@@ -221,9 +222,10 @@ fn what_stands_behind_something_is_not_in_view() {
         let shelf = scene.entities["shelf"].pose.unwrap().xyz;
         let mug = scene.entities["mug_1"].pose.as_mut().unwrap();
         mug.xyz = [shelf[0], shelf[1], 0.5];
+        scene.robot.base[2] = f64::atan2(shelf[1], shelf[0]);
     });
     let (why, _) = reason(ask(&hidden, "look(mug_1)"));
-    assert_eq!(why, Reason::NotInView { by: Some("shelf".into()) });
+    assert_eq!(why, Reason::NotInView { by: Some("shelf".into()), aside: None });
     let far = changed(|scene| scene.entities["mug_1"].pose.as_mut().unwrap().xyz = [9.0, 0.0, 0.8]);
     assert!(matches!(reason(ask(&far, "look(mug_1)")).0, Reason::OutOfReach { what: "sight", .. }));
 }
