@@ -287,6 +287,12 @@ impl Case {
         self.truth == Truth::Reachable || self.holds()
     }
 
+    /// Certified to have no state, and it has one.
+    #[must_use]
+    pub fn is_contradicted(&self) -> bool {
+        self.said == Said::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
+    }
+
     /// What is not as it should be, in a line.
     #[must_use]
     pub fn line(&self) -> Option<String> {
@@ -295,8 +301,8 @@ impl Case {
             return Some(format!("{}: the witness does not hold: {fault}", self.name));
         }
         match (self.truth, self.said) {
-            (Truth::Reachable, Said::Certified) => {
-                Some(format!("{}: reachable, and certified not to be: {reason}", self.name))
+            (Truth::Reachable | Truth::NoWay, Said::Certified) => {
+                Some(format!("{}: certified to have no state, and it has one: {reason}", self.name))
             }
             (Truth::Reachable, Said::Exhausted | Said::Unknown) => {
                 Some(format!("{}: reachable, and missed: {reason}", self.name))
@@ -305,7 +311,7 @@ impl Case {
                 Some(format!("{}: no state, not certified: {reason}", self.name))
             }
             (Truth::Reachable, Said::Feasible)
-            | (Truth::NoWay, _)
+            | (Truth::NoWay, Said::Feasible | Said::Exhausted | Said::Unknown)
             | (Truth::NoState, Said::Feasible | Said::Certified) => None,
         }
     }

@@ -114,9 +114,6 @@ impl<'a> Target<'a> {
         if free.is_empty() {
             return Truth::NoState;
         }
-        if !is_free(self.model, &self.scenery, self.start, &self.open, 0.02, None) {
-            return Truth::NoWay;
-        }
         let (mut states, mut ways) = (0, 0);
         while states < effort.states {
             states += 1;
@@ -158,7 +155,8 @@ impl<'a> Target<'a> {
             let turn = std::f64::consts::TAU;
             first.base[2] -= turn * ((first.base[2] - self.open.base[2]) / turn).round();
             let search = Search { model: self.model, scenery: &self.scenery, steps, apart: 0.015 };
-            search.connects(&self.open, &first, chance)
+            // The hand opens on the way: where the robot is there may be no room for it.
+            search.connects(self.start, &first, chance)
         })
     }
 }
