@@ -1,5 +1,5 @@
 //! How a thing can be held, drawn at random from all directions: level to 60° down around what is round, along and across the
-//! sides of a box, from above. What makes it a grasp is the contract of the query: the near face as close to the palm as it
+//! sides of a box, from above; against a jaw that does not move, where the hand has one. What makes it a grasp is the contract of the query: the near face as close to the palm as it
 //! can be, the fingers beyond the widest place of a round thing or 1 cm over a flat one.
 
 use motet_geometry::query::Machine;
@@ -58,7 +58,9 @@ pub(crate) fn draw(
     let own = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
     let wanted = Matrix3::from_columns(&[way.approach, way.along, way.approach.cross(&way.along)]);
     let rotation = Rotation3::from_matrix_unchecked(wanted * own.transpose());
-    let at = pose.translation.vector + way.shift - way.approach * depth;
+    // What a jaw that does not move holds lies against it.
+    let middle = way.along * hand.middle(way.width);
+    let at = pose.translation.vector + way.shift - way.approach * depth - middle;
     let map_from_tip =
         Isometry3::from_parts(Translation3::from(at), UnitQuaternion::from_rotation_matrix(&rotation));
     Some(Grasp { map_from_tip, approach: way.approach })
