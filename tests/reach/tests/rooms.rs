@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, missing_docs, reason = "a test fails by panicking")]
 
+use motet_geometry::query::Budget;
 use motet_reach::{Settings, furnished, robot, run, targets};
 
 #[test]
@@ -14,6 +15,7 @@ fn witnesses_hold() {
         seed: 3,
         scene: None,
         is_quick: true,
+        budget: Budget::default(),
         is_unjudged: false,
         cache: None,
         witnesses: None,
