@@ -136,6 +136,7 @@ fn a_thing_is_shut_in_only_where_it_is_in_all_directions() {
     let add = |scene: &mut scene::Scene, id: &str, xyz: [f64; 3], shape: scene::Shape| {
         let mut entity = scene::Entity::place(id.into(), scene::Placement { xyz, rpy: [0.0; 3] });
         entity.kind = if id == "puck" { "Object".into() } else { "Place".into() };
+        entity.fixed = id != "puck";
         entity.shape = Some(shape);
         scene.entities.insert(entity.id.clone(), entity);
     };
