@@ -10,7 +10,7 @@ use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
 
-const BUDGET: Budget = Budget { candidates: 48, paths: 12 };
+const BUDGET: Budget = Budget { candidates: 48, paths: 12, cells: 3_072 };
 
 fn hsr() -> Machine {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();

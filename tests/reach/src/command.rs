@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use motet_geometry::query::Budget;
+
 use crate::judge::{Settings, run};
 
 /// Runs the evaluation: what to print, and whether every witness holds and nothing reachable is certified not to be.
@@ -16,6 +18,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
         seed: 1,
         scene: None,
         is_quick: false,
+        budget: Budget::default(),
         is_unjudged: false,
         cache: Some(PathBuf::from("target/reach")),
         witnesses: None,
@@ -31,6 +34,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             "--rooms" => settings.rooms = number(value()?)?,
             "--seed" => settings.seed = number(value()?)?,
             "--quick" => settings.is_quick = true,
+            "--cells" => settings.budget.cells = number(value()?)? as usize,
             "--unjudged" => settings.is_unjudged = true,
             "--witnesses" => settings.witnesses = Some(value()?.into()),
             "--targets" => settings.targets = Some(value()?.into()),

@@ -29,6 +29,8 @@ pub struct Settings {
     pub seed: u64,
     /// The text of a scene instead of rooms.
     pub scene: Option<String>,
+    /// How long a query may look.
+    pub budget: Budget,
     /// Search for the truth only shortly.
     pub is_quick: bool,
     /// Ask for no truth: only what is answered, and whether the witnesses hold.
@@ -95,7 +97,7 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
             };
             let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
             if settings.is_unjudged {
-                room.answers(&mut out, &mut answered)?;
+                room.answers(settings.budget, &mut out, &mut answered)?;
                 continue;
             }
             cases.extend(room.cases(settings, &mut out)?);
@@ -172,13 +174,13 @@ struct Judged<'a> {
 
 impl Judged<'_> {
     /// Answers and witnesses without the truth.
-    fn answers(&mut self, out: &mut Out, answered: &mut Answered) -> Result<(), String> {
+    fn answers(&mut self, budget: Budget, out: &mut Out, answered: &mut Answered) -> Result<(), String> {
         let world = World::new(&self.model.machine, self.scene);
         let room = Room::new(&self.model.machine, self.scene, &world).ready();
         let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
         for target in targets(self.scene) {
             let begin = clock();
-            let answer = room.answer(&Query::Reach(target.clone(), None), Budget::default());
+            let answer = room.answer(&Query::Reach(target.clone(), None), budget);
             let took = clock().saturating_sub(begin);
             let name = format!("{} {} {target}", self.name, self.seed);
             *answered.kinds.entry(Said::of(&answer)).or_default() += 1;
@@ -204,7 +206,7 @@ impl Judged<'_> {
         let mut cases = Vec::new();
         for target in targets(self.scene) {
             let query = Query::Reach(target.clone(), None);
-            let (answer, took) = timed(|| room.answer(&query, Budget::default()));
+            let (answer, took) = timed(|| room.answer(&query, settings.budget));
             let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
             let name = format!("{} {} {target}", self.name, self.seed);
             let mut truth = self

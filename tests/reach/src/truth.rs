@@ -115,9 +115,6 @@ impl<'a> Target<'a> {
         if free.is_empty() {
             return Truth::NoState;
         }
-        if self.scenery.touch(self.model, self.start, None, GAP).is_some() {
-            return Truth::NoWay;
-        }
         let (mut states, mut ways) = (0, 0);
         while states < effort.states {
             states += 1;
@@ -159,6 +156,7 @@ impl<'a> Target<'a> {
             let turn = std::f64::consts::TAU;
             first.base[2] -= turn * ((first.base[2] - self.start.base[2]) / turn).round();
             let search = Search { model: self.model, scenery: &self.scenery, steps, apart: 0.015 };
+            // The hand opens on the way: where the robot is there may be no room for it.
             search.connects(self.start, &first, chance)
         })
     }

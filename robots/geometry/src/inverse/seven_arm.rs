@@ -21,19 +21,19 @@ use crate::trigonometry::turn;
 /// The solver of one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SevenArm {
-    chain: Chain,
+    pub(super) chain: Chain,
     /// Directions of the axes at positions 0, in the base's frame.
-    axes: [Vector3<f64>; 7],
+    pub(super) axes: [Vector3<f64>; 7],
     /// Where the first three axes meet.
-    shoulder: Vector3<f64>,
+    pub(super) shoulder: Vector3<f64>,
     /// A point on the fourth axis, as far along it as the shoulder.
-    elbow: Vector3<f64>,
+    pub(super) elbow: Vector3<f64>,
     /// Where the fifth and the sixth axis meet.
-    wrist: Vector3<f64>,
+    pub(super) wrist: Vector3<f64>,
     /// A point on the seventh axis.
-    last: Vector3<f64>,
+    pub(super) last: Vector3<f64>,
     /// The tip at positions 0, in the base's frame.
-    base_from_tip: Isometry3<f64>,
+    pub(super) base_from_tip: Isometry3<f64>,
 }
 
 impl SevenArm {
@@ -167,7 +167,7 @@ impl SevenArm {
 }
 
 /// The rotation that takes a direction to another, and a second one with it; `None` where they are along each other.
-fn between(from: [&Vector3<f64>; 2], to: [&Vector3<f64>; 2]) -> Option<UnitQuaternion<f64>> {
+pub(super) fn between(from: [&Vector3<f64>; 2], to: [&Vector3<f64>; 2]) -> Option<UnitQuaternion<f64>> {
     let frame = |[along, beside]: [&Vector3<f64>; 2]| {
         let first = along / along.norm();
         let third = first.cross(beside);

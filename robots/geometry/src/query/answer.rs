@@ -100,20 +100,24 @@ pub struct Budget {
     pub candidates: usize,
     /// Free candidates to which a path is looked for.
     pub paths: usize,
+    /// Cells of states, and patches of grasps, that are looked at to prove that no state is free where no candidate was. What is not
+    /// proven then stays a search that ended.
+    pub cells: usize,
 }
 
 impl Budget {
     /// So many times as large.
     #[must_use]
     pub fn times(self, factor: usize) -> Self {
-        let Self { candidates, paths } = self;
-        Self { candidates: candidates.saturating_mul(factor), paths: paths.saturating_mul(factor) }
+        let [candidates, paths, cells] =
+            [self.candidates, self.paths, self.cells].map(|count| count.saturating_mul(factor));
+        Self { candidates, paths, cells }
     }
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { candidates: 512, paths: 64 }
+        Self { candidates: 512, paths: 64, cells: 131_072 }
     }
 }
 
@@ -174,7 +178,7 @@ pub struct Infeasible {
     pub reason: Reason,
     /// What would help, where something is known to.
     pub change: Option<String>,
-    /// Whether it is proven, for every grasp that is considered; else the search ended without finding anything.
+    /// Whether it is proven, for all ways to grip and not only those that are tried; else the search ended without finding anything.
     pub certified: bool,
     /// A free state with the hand where it is wanted, where one was found to which no way was; never where it is proven that there
     /// is none.

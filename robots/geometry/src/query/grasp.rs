@@ -51,19 +51,21 @@ pub(super) fn holds(hand: &Hand, thing: &Solid, side: Option<Side>, base: [f64; 
         Shape::HalfSpace => {}
     }
     let [base_x, base_y, _] = base;
-    let ahead = Vector3::new(thing.centre.x - base_x, thing.centre.y - base_y, 0.0);
+    let ahead = [thing.centre.x - base_x, thing.centre.y - base_y];
     let (least, mut holds) = (found.least, found.holds);
-    holds.retain(|hold| {
-        let flat = Vector3::new(hold.approach.x, hold.approach.y, 0.0);
-        let is_front = flat.dot(&ahead) >= std::f64::consts::FRAC_1_SQRT_2 * flat.norm() * ahead.norm();
-        match side {
-            None => true,
-            Some(Side::Top) => hold.side == Side::Top,
-            Some(Side::Side) => hold.side != Side::Top,
-            Some(Side::Front) => hold.side != Side::Top && is_front,
-        }
+    holds.retain(|hold| match side {
+        None => true,
+        Some(Side::Top) => hold.side == Side::Top,
+        Some(Side::Side) => hold.side != Side::Top,
+        Some(Side::Front) => hold.side != Side::Top && is_ahead(&hold.approach, ahead),
     });
     (holds, least)
+}
+
+/// Whether fingers point within 45° of a direction in the plane.
+pub(super) fn is_ahead(approach: &Vector3<f64>, [x, y]: [f64; 2]) -> bool {
+    let flat = libm::hypot(approach.x, approach.y);
+    approach.x * x + approach.y * y >= std::f64::consts::FRAC_1_SQRT_2 * flat * libm::hypot(x, y)
 }
 
 /// What the fingers meet.

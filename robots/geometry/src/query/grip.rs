@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::answer::Side;
-use super::grasp::{GRIP, SHORT, TOP};
+use super::grasp::{GRIP, Hold, SHORT, TOP, is_ahead};
 use super::machine::Hand;
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::Drift;
@@ -15,10 +15,13 @@ use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
 /// What rounding may take of an angle or a length.
 const SLACK: f64 = 1e-6;
 
+/// How far behind the palm an arm's wrist is, about, in m.
+const WRIST: f64 = 0.25;
+
 /// The ways to hold a thing with a hand.
 pub(super) struct Grips<'a> {
     hand: &'a Hand,
-    thing: &'a Solid,
+    thing: Solid,
     side: Option<Side>,
     /// From the base to the thing, in the plane.
     ahead: [f64; 2],
@@ -58,13 +61,15 @@ enum Kind {
     Rim { first: Vector3<f64>, across: Vector3<f64> },
     /// Straight.
     Flat { approach: Vector3<f64>, across: Vector3<f64> },
+    /// Around a bar before a face, which faces outwards: so deep, closing to one side or the other.
+    Bar { along: Vector3<f64>, out: Vector3<f64>, depth: f64, sign: f64 },
 }
 
 impl<'a> Grips<'a> {
     /// The ways to hold a thing from a side, with the base where it is.
-    pub(super) fn new(hand: &'a Hand, thing: &'a Solid, side: Option<Side>, [x, y, _]: [f64; 3]) -> Self {
+    pub(super) fn new(hand: &'a Hand, thing: &Solid, side: Option<Side>, [x, y, _]: [f64; 3]) -> Self {
         let ahead = [thing.centre.x - x, thing.centre.y - y];
-        let mut grips = Self { hand, thing, side, ahead, slots: vec![] };
+        let mut grips = Self { hand, thing: *thing, side, ahead, slots: vec![] };
         let [x, _, z] = thing.axes;
         match thing.shape {
             Shape::Box(half) => grips.of_box(&half),
@@ -79,6 +84,31 @@ impl<'a> Grips<'a> {
             Shape::HalfSpace => {}
         }
         grips
+    }
+
+    /// The ways to hold a bar, a capsule, before a face that faces outwards: turned about it by no more than `about`, so deep, and
+    /// no farther than a share of its half length from its middle.
+    pub(super) fn of_bar(
+        hand: &'a Hand,
+        bar: &Solid,
+        out: Vector3<f64>,
+        depth: f64,
+        [about, share]: [f64; 2],
+    ) -> Self {
+        let [.., along] = bar.axes;
+        let (half, width) = match bar.shape {
+            Shape::Capsule { radius, half } => (half, 2.0 * radius),
+            Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => (0.0, 0.0),
+        };
+        let slot = |sign| Slot {
+            kind: Kind::Bar { along, out, depth, sign },
+            width,
+            along: along * (half * share),
+            low: [-about, 0.0, -1.0, 0.0],
+            high: [about, 0.0, 1.0, 0.0],
+            is_top: None,
+        };
+        Self { hand, thing: *bar, side: None, ahead: [0.0; 2], slots: vec![slot(1.0), slot(-1.0)] }
     }
 
     fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
@@ -147,6 +177,7 @@ impl<'a> Grips<'a> {
             Kind::Around { .. } => self.slots.push(whole),
             Kind::Rim { across, .. } if is_upright(&across) => self.slots.push(level(whole)),
             Kind::Rim { .. } => self.slots.push(whole),
+            Kind::Bar { .. } => self.slots.push(whole),
             Kind::End { down: approach, .. } | Kind::Flat { approach, .. } => {
                 if approach.z < TOP {
                     self.slots.push(Slot { is_top: Some(true), ..whole });
@@ -183,7 +214,7 @@ impl<'a> Grips<'a> {
     pub(super) fn sizes(&self, patch: &Patch) -> [f64; 4] {
         let [about, bend, place, deep] = patch.half;
         let Some(slot) = self.slots.get(patch.slot) else { return [0.0; 4] };
-        let far = self.hand.palm.abs() + self.thing.reach() + 0.1;
+        let far = self.hand.palm.abs() + self.thing.reach() + WRIST;
         let deep = deep * (self.hand.fingers - self.hand.palm).abs();
         [about * far, bend * far, place * slot.along.norm(), deep]
     }
@@ -195,13 +226,38 @@ impl<'a> Grips<'a> {
         let (approach, across) = slot.kind.directions(about, bend);
         let turns = match slot.kind {
             Kind::Flat { .. } => 0.0,
-            Kind::Around { .. } | Kind::End { .. } | Kind::Rim { .. } => abouts + bends,
+            // About axes square to each other: the cosine of half of both is the product of those of the halves.
+            Kind::Around { .. } | Kind::End { .. } | Kind::Rim { .. } | Kind::Bar { .. } => {
+                libm::hypot(abouts, bends)
+            }
         };
         // From below there is no way for a hand.
         if approach.z - turns - SLACK > 0.5 || self.is_behind(slot, &approach, abouts + bends) {
             return None;
         }
-        let ([near, far], is_round) = self.extents(slot, &approach, bend, bends);
+        let (first, last) = match slot.kind {
+            Kind::Bar { depth, .. } => (depth, depth),
+            Kind::Around { .. } | Kind::End { .. } | Kind::Rim { .. } | Kind::Flat { .. } => {
+                self.depths(slot, &approach, [bend, bends], [deep, deeps])?
+            }
+        };
+        let depth = (first + last) / 2.0;
+        let middle = self.thing.centre + slot.along * place;
+        let at = middle - approach * depth - across * self.hand.middle(slot.width);
+        let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
+        let shift = slot.along.norm() * places + (last - first).abs() / 2.0 + SLACK;
+        Some((tip, Drift::none().shifted(shift).turned(middle, turns)))
+    }
+
+    /// Between which depths the tip is before the middle; `None` where the thing is too far from the palm in all.
+    fn depths(
+        &self,
+        slot: &Slot,
+        approach: &Vector3<f64>,
+        [bend, bends]: [f64; 2],
+        [deep, deeps]: [f64; 2],
+    ) -> Option<(f64, f64)> {
+        let ([near, far], is_round) = self.extents(slot, approach, bend, bends);
         let palm = |half: f64| (self.hand.palm + half).max(0.0);
         let most = if is_round {
             self.hand.fingers + SHORT * slot.width / 2.0
@@ -213,13 +269,46 @@ impl<'a> Grips<'a> {
             return None;
         }
         let mix = |from: f64, share: f64| from + (most - from) * share;
-        let (first, last) = (mix(least, (deep - deeps).max(0.0)), mix(greatest, (deep + deeps).min(1.0)));
-        let depth = (first + last) / 2.0;
-        let middle = self.thing.centre + slot.along * place;
-        let at = middle - approach * depth - across * self.hand.middle(slot.width);
-        let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
-        let shift = slot.along.norm() * places + (last - first).abs() / 2.0 + SLACK;
-        Some((tip, Drift::none().shifted(shift).turned(middle, turns)))
+        Some((mix(least, (deep - deeps).max(0.0)), mix(greatest, (deep + deeps).min(1.0))))
+    }
+
+    /// Whether something is so for all poses, each near to one by no more than what is told of it: `false` where as many patches as
+    /// may be looked at do not tell.
+    pub(super) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &Drift) -> bool) -> bool {
+        const MOST: usize = 4096;
+        let mut open = self.patches();
+        for _ in 0..MOST {
+            let Some(patch) = open.pop() else { return true };
+            let Some((tip, drift)) = self.over(&patch) else { continue };
+            if !is(&tip, &drift) {
+                let sizes = self.sizes(&patch).into_iter().zip(0..);
+                let (_, across) =
+                    sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
+                open.extend(patch.halves(across));
+            }
+        }
+        false
+    }
+
+    /// The pose in the middle of a patch; `None` where that is none, or from another side than was asked for.
+    pub(super) fn hold(&self, patch: &Patch) -> Option<Hold> {
+        let slot = self.slots.get(patch.slot)?;
+        let [about, bend, ..] = patch.middle;
+        let (approach, _) = slot.kind.directions(about, bend);
+        let (map_from_tip, _) = self.over(&Patch { half: [0.0; 4], ..*patch })?;
+        let side = if approach.z < TOP { Side::Top } else { Side::Side };
+        let is_asked_for = match self.side {
+            None => true,
+            Some(Side::Top) => side == Side::Top,
+            Some(Side::Side) => side != Side::Top,
+            Some(Side::Front) => side != Side::Top && is_ahead(&approach, self.ahead),
+        };
+        (is_asked_for && approach.z <= 0.5).then_some(Hold {
+            map_from_tip,
+            approach,
+            side,
+            width: slot.width,
+        })
     }
 
     /// Whether no pose of a patch is from the robot's side, where that is asked for.
@@ -237,7 +326,9 @@ impl<'a> Grips<'a> {
         let flat = self.thing.extent(approach);
         let radius = slot.width / 2.0;
         match slot.kind {
-            Kind::Flat { .. } | Kind::Rim { .. } | Kind::End { is_round: false, .. } => ([flat, flat], false),
+            Kind::Flat { .. } | Kind::Rim { .. } | Kind::Bar { .. } | Kind::End { is_round: false, .. } => {
+                ([flat, flat], false)
+            }
             Kind::End { .. } => ([radius, radius], true),
             Kind::Around { .. } => {
                 let (half, is_flat) = match self.thing.shape {
@@ -275,6 +366,10 @@ impl Kind {
             Self::End { down, first, .. } => (*down, turn(&Unit::new_unchecked(*down), about) * first),
             Self::Rim { first, across } => (-(turn(&Unit::new_unchecked(*across), about) * first), *across),
             Self::Flat { approach, across } => (*approach, *across),
+            Self::Bar { along, out, sign, .. } => {
+                let approach = turn(&Unit::new_unchecked(*along), about) * -out;
+                (approach, along.cross(&approach) * *sign)
+            }
         }
     }
 }

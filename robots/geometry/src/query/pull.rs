@@ -6,11 +6,15 @@
 //! with the door or drawer moving: a solid and a part of the robot are far enough from each other in the middle of a leg
 //! that what both go until its ends cannot bring them together; else the leg is halved.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
+use super::cells::Covered;
 use super::follow::{Following, Turning};
 use super::grasp::Hold;
+use super::grip::Grips;
 use super::machine::Hand;
 use super::opening::{Opening, THICK};
 use super::reach::certain;
@@ -19,6 +23,7 @@ use super::seek::LAST;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, exhausted};
+use crate::collision::{Shape, Solid};
 use crate::trigonometry::turn;
 
 /// How far before a handle the hand turns straight towards it, in m; the shorter where the longer does not do.
@@ -74,51 +79,39 @@ impl Room<'_> {
         let all = pull.holds();
         let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
         let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
-        let handle = format!("the handle of `{id}`");
-        if let Some((reason, change)) = self.span(hand).beyond_all(&bar, &handle, &tips) {
-            return Answer::Infeasible(Infeasible { change, ..Infeasible::exhausted(reason) });
-        }
-        match self.free_holds(hand, &all, Allowed::default()) {
-            Ok(free) => self.search_pull(&pull, &clear, &free, budget),
-            Err(none) => none,
+        let beyond = self.span(hand).beyond_all(&bar, &format!("the handle of `{id}`"), &tips);
+        let mut poses = Tally::default();
+        let free = self.free_holds(hand, &all, &mut poses);
+        match (self.search_pull(&pull, &clear, &free, budget, poses), beyond) {
+            (Answer::Infeasible(found), Some((reason, change))) => {
+                Answer::Infeasible(Infeasible { reason, change, ..found })
+            }
+            (answer, _) => answer,
         }
     }
 
-    /// The holds in which the hand alone touches nothing. It names what is in the way of every arm.
-    ///
-    /// # Errors
-    ///
-    /// The answer where there is none.
-    fn free_holds<'h>(
-        &self,
-        hand: &Hand,
-        all: &'h [Hold],
-        allowed: Allowed,
-    ) -> Result<Vec<&'h Hold>, Answer> {
+    /// The holds in which the hand alone touches nothing. What it touches is in the way of every arm.
+    fn free_holds<'h>(&self, hand: &Hand, all: &'h [Hold], met: &mut Tally) -> Vec<&'h Hold> {
         let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
-        let palm = self.palm(hand, &tips, allowed);
-        let mut met = Tally::default();
+        let palm = self.palm(hand, &tips, Allowed::default());
         let is_free = |hold: &&Hold| palm.touch(&hold.map_from_tip).map(|touch| met.add(&touch)).is_none();
-        let free: Vec<&Hold> = all.iter().filter(is_free).collect();
-        if free.is_empty() {
-            let reason = Reason::NoFreePose { by: met.most() };
-            return Err(Answer::Infeasible(Infeasible {
-                reason,
-                change: None,
-                certified: !all.is_empty(),
-                state: None,
-            }));
-        }
-        Ok(free)
+        all.iter().filter(is_free).collect()
     }
 
-    fn search_pull(&self, pull: &Pull<'_>, clear: &Room<'_>, holds: &[&Hold], budget: Budget) -> Answer {
+    fn search_pull(
+        &self,
+        pull: &Pull<'_>,
+        clear: &Room<'_>,
+        holds: &[&Hold],
+        budget: Budget,
+        mut poses: Tally,
+    ) -> Answer {
         let end = clear.beside(&pull.opening, pull.parts[1]);
         let bar = pull.opening.map_moved(pull.parts[0]) * pull.opening.handle().centre;
         let wide = self.farthest(pull.hand) + pull.opening.handle().half + pull.depth + LAST;
         let around = self.around([bar.x, bar.y], wide);
-        let (mut poses, mut ways) = (Tally::default(), Tally::default());
-        let (mut tried, mut is_cut_off) = (0, false);
+        let mut ways = Tally::default();
+        let (mut tried, mut is_cut_off, mut is_free) = (0, false, false);
         for at in 0..budget.candidates {
             for hold in holds {
                 for state in self.candidates(pull.hand, &hold.map_from_tip, at) {
@@ -130,6 +123,7 @@ impl Room<'_> {
                         poses.add(&touch);
                         continue;
                     }
+                    is_free = true;
                     let mut path = None;
                     for following in pull.followings(self.machine) {
                         let Some(last) = clear.follows_to(pull, hold, &state, following) else { continue };
@@ -154,7 +148,17 @@ impl Room<'_> {
                 }
             }
         }
-        exhausted(tried > 0 || is_cut_off || ways.most().is_some(), &poses, &ways)
+        // Where a free state was found there is nothing to prove.
+        if !is_free {
+            let grips = pull.grips();
+            let none = Allowed::default();
+            let covered =
+                around.covered(pull.hand, &grips, none, budget.cells, |_, _| ControlFlow::Break(()));
+            if covered == Covered::Nowhere {
+                return certain(Reason::NoFreePose { by: poses.most() }, None);
+            }
+        }
+        exhausted(is_free || is_cut_off, &poses, &ways)
     }
 
     /// A way from where the robot is to a state at the handle, which the hand then closes around.
@@ -262,6 +266,18 @@ impl Pull<'_> {
             }
         }
         all
+    }
+
+    /// All of them, and not only these.
+    fn grips(&self) -> Grips<'_> {
+        let handle = self.opening.handle();
+        let moved = self.opening.map_moved(self.parts[0]);
+        let (along, out) = (moved.rotation * handle.along, moved.rotation * handle.out);
+        let shape = Shape::Capsule { radius: THICK / 2.0, half: handle.half };
+        let bar =
+            Solid { centre: (moved * handle.centre).coords, axes: [out, along.cross(&out), along], shape };
+        let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
+        Grips::of_bar(self.hand, &bar, out, self.depth, [most(&TILTS), most(&PLACES)])
     }
 
     /// The point of the bar that a hold is about, where the bar is at the beginning.

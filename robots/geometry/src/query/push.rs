@@ -5,8 +5,10 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::machine::Hand;
 use super::obstacle::solid_shape;
-use super::room::Room;
+use super::room::{GAP, Room};
+use super::shrunk::{Placed, inner};
 use super::state::State;
+use super::things::Thing;
 use super::touch::Allowed;
 use super::travel::{Tally, exhausted};
 use crate::collision::Solid;
@@ -73,7 +75,13 @@ impl Room<'_> {
         }
         if ends.is_empty() {
             let reason = Reason::BlockedPath { by: met.most() };
-            return Answer::Infeasible(Infeasible::proven(reason, None));
+            let others: Vec<_> =
+                self.things.iter().filter(|it| it.entity != index && Some(it.entity) != support).collect();
+            return Answer::Infeasible(if is_walled_in(&thing, &others, &ahead) {
+                Infeasible::proven(reason, None)
+            } else {
+                Infeasible::exhausted(reason)
+            });
         }
         let tips: Vec<_> = ends.iter().map(|(_, end)| *end).collect();
         if let Some((reason, change)) =
@@ -147,4 +155,30 @@ impl Room<'_> {
         });
         ends.fold(0.0, f64::max)
     }
+}
+
+/// Whether a thing runs into another in whatever direction it is pushed, of all those between which some are tried.
+fn is_walled_in(thing: &Solid, others: &[&Thing], ahead: &Vector3<f64>) -> bool {
+    const DEPTH: u32 = 8;
+    let most = ASIDE.iter().copied().fold(0.0, f64::max);
+    let mut open = vec![(0.0, most, 0)];
+    while let Some((aside, half, depth)) = open.pop() {
+        let along = turn(&Vector3::z_axis(), aside) * ahead;
+        let is_stopped = (1..=PLACES).any(|at| {
+            let gone = FAR * f64::from(at) / f64::from(PLACES);
+            let solid = thing.moved(&Isometry3::from(Translation3::from(along * gone)));
+            // Smaller by the gap too, since it may go along something.
+            let drift = gone * half + GAP;
+            let placed = Placed { solid, inner: inner(&solid), reach: solid.reach(), drift };
+            others.iter().any(|it| placed.touches(&it.solid, inner(&it.solid), it.reach, drift))
+        });
+        if is_stopped {
+            continue;
+        }
+        if depth == DEPTH {
+            return false;
+        }
+        open.extend([-0.5, 0.5].map(|side| (aside + side * half, half / 2.0 + 1e-9, depth + 1)));
+    }
+    true
 }

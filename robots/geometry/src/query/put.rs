@@ -7,7 +7,7 @@ use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Un
 use super::arm::{PLANE, part};
 use super::obstacle::solid_shape;
 use super::room::{GAP, Room};
-use super::seek::{LAST, Sought};
+use super::seek::{At, LAST, Sought};
 use super::span::Span;
 use super::state::State;
 use super::touch::Allowed;
@@ -84,10 +84,14 @@ impl Room<'_> {
             backs: &|_| over.into_iter().chain(LOWER).map(|up| Vector3::new(0.0, 0.0, up)).collect(),
         };
         match self.seek(&sought, budget) {
-            Ok((at, path)) => match sought.tips.get(at) {
-                Some(tip) => Answer::Feasible(Box::new(self.put_down(&held, path, *tip, allowed))),
-                None => Answer::Unknown(Unknown::Budget),
-            },
+            Ok((at, path)) => {
+                let tip = match at {
+                    At::Tip(at) => sought.tips.get(at).copied(),
+                    At::Hold(hold) => Some(hold.map_from_tip),
+                };
+                let Some(tip) = tip else { return Answer::Unknown(Unknown::Budget) };
+                Answer::Feasible(Box::new(self.put_down(&held, path, tip, allowed)))
+            }
             // There may be other places, which were not tried.
             Err(Answer::Infeasible(Infeasible { certified: false, .. })) if is_cut => {
                 Answer::Unknown(Unknown::Budget)

@@ -11,7 +11,7 @@ use super::machine::Hand;
 use super::obstacle::solid_shape;
 use super::pull::away;
 use super::room::Room;
-use super::seek::{LAST, Sought};
+use super::seek::{At, LAST, Sought};
 use super::state::State;
 use super::touch::Allowed;
 use crate::collision::Solid;
@@ -49,7 +49,10 @@ impl Room<'_> {
         }
         let goal = Goal { id, entity, pose, thing, hand, allowed: Allowed { hand: Some(index), held: None } };
         let (mut all, span) = (all, self.span(hand));
-        if let Some(answer) = span.beyond(&goal.pose.translation.vector, id, &all) {
+        let grips = Grips::new(hand, &goal.thing, side, self.world.robot.base);
+        if let Some(answer) = span.beyond(&goal.pose.translation.vector, id, &all)
+            && grips.are_all(|tip, drift| span.is_beyond(tip, drift))
+        {
             return answer;
         }
         // What the arm reaches in no way needs no search.
@@ -59,7 +62,6 @@ impl Room<'_> {
         let centre = goal.pose.translation;
         let grasp = hand.palm.abs().max(hand.fingers.abs()) + goal.thing.reach();
         let around = self.around([centre.x, centre.y], self.farthest(hand) + grasp + LAST);
-        let grips = Grips::new(hand, &goal.thing, side, self.world.robot.base);
         let sought = Sought {
             hand,
             palm: self.palm(hand, &tips, goal.allowed),
@@ -70,10 +72,14 @@ impl Room<'_> {
             backs: &|tip| BACK.map(|back| away(tip, hand, back)).to_vec(),
         };
         match self.seek(&sought, budget) {
-            Ok((at, path)) => match all.get(at) {
-                Some(hold) => Answer::Feasible(Box::new(around.grasped(&goal, hold, path))),
-                None => Answer::Unknown(Unknown::Budget),
-            },
+            Ok((at, path)) => {
+                let hold = match at {
+                    At::Tip(at) => all.get(at).copied(),
+                    At::Hold(hold) => Some(hold),
+                };
+                let Some(hold) = hold else { return Answer::Unknown(Unknown::Budget) };
+                Answer::Feasible(Box::new(around.grasped(&goal, &hold, path)))
+            }
             Err(none) => none,
         }
     }

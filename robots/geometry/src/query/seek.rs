@@ -8,6 +8,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::answer::{Answer, Budget, Infeasible, Reason, Unknown};
 use super::around::Around;
 use super::cells::Covered;
+use super::grasp::Hold;
 use super::grip::Grips;
 use super::machine::Hand;
 use super::palm::Palm;
@@ -28,8 +29,8 @@ pub(super) const LAST: f64 = 0.65;
 const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
-/// Cells for each candidate of a budget that may be looked at to prove that there is no state.
-const CELLS: usize = 64;
+/// Free states that a proof meets to which a simple way is looked for.
+const MET: usize = 8;
 /// States that are looked at at a time for what they touch.
 const BATCH: usize = 8;
 
@@ -49,16 +50,24 @@ pub(super) struct Sought<'a, 'r, 'w> {
     pub(super) backs: &'a dyn Fn(&Isometry3<f64>) -> Vec<Vector3<f64>>,
 }
 
+/// Where the hand is in the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum At {
+    /// At a pose that was given, by its index.
+    Tip(usize),
+    /// Where a proof found room for it.
+    Hold(Hold),
+}
+
 /// A state with the tip at a pose.
 struct Candidate {
-    /// Index of the pose.
-    at: usize,
+    at: At,
     tip: Isometry3<f64>,
     state: State,
 }
 
-/// A pose by its index, with the way to it; or the answer where there is none.
-type Found = Result<(usize, Vec<State>), Answer>;
+/// Where the hand is, with the way to it; or the answer where there is none.
+type Found = Result<(At, Vec<State>), Answer>;
 
 /// What is known of the hand alone in a pose.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -149,7 +158,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                         self.is_cut_off = true;
                         continue;
                     }
-                    self.batch.push(Candidate { at, tip, state });
+                    self.batch.push(Candidate { at: At::Tip(at), tip, state });
                     if self.batch.len() == BATCH {
                         self.tries()?;
                     }
@@ -209,9 +218,12 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                 let Some(state) = screen.state(draft) else { continue };
                 if !self.sought.around.room.is_near_drivable(state.base) {
                     self.is_cut_off = true;
+                    if matches!(seen, Seen::Free) {
+                        self.met.get_or_insert(state);
+                    }
                     continue;
                 }
-                let candidate = Candidate { at: draft.at, tip: draft.tip, state };
+                let candidate = Candidate { at: At::Tip(draft.at), tip: draft.tip, state };
                 match seen {
                     Seen::Free => {
                         is_any_free = true;
@@ -264,8 +276,29 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         ControlFlow::Continue(())
     }
 
+    /// Tries a free state that a proof met.
+    fn meets(&mut self, hold: &Hold, state: State, found: &mut Option<(At, Vec<State>)>) -> ControlFlow<()> {
+        self.met.get_or_insert_with(|| state.clone());
+        self.tried += 1;
+        if self.sought.around.room.is_near_drivable(state.base) {
+            let candidate = Candidate { at: At::Hold(*hold), tip: hold.map_from_tip, state };
+            let way = self.sought.way_to(&candidate.tip, &candidate.state, Unfolding::Simple, &mut self.ways);
+            if let Some(path) = way {
+                *found = Some((candidate.at, path));
+                return ControlFlow::Break(());
+            }
+            if self.left.len() < SEARCHED {
+                self.left.push(candidate);
+            }
+        } else {
+            self.is_cut_off = true;
+        }
+        // All that were tried before touch something.
+        if self.tried < MET { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+
     /// A way that a search finds to one of the states that are left.
-    fn searched(&mut self) -> Option<(usize, Vec<State>)> {
+    fn searched(&mut self) -> Option<(At, Vec<State>)> {
         self.left.drain(..).find_map(|Candidate { at, tip, state }| {
             Some((at, self.sought.way_to(&tip, &state, Unfolding::Searched, &mut self.ways)?))
         })
@@ -294,20 +327,22 @@ impl Room<'_> {
         if let Some(found) = search.searched() {
             return Ok(found);
         }
-        let mut state = search.met.take();
         // Where a free state was found there is nothing to prove.
-        if let (Some(grips), None) = (sought.grips, &state) {
-            let cells = budget.candidates.saturating_mul(CELLS);
-            match sought.around.covered(sought.hand, grips, sought.allowed, cells) {
-                Covered::Nowhere => {
-                    let by = search.poses.most().or(search.hands.most());
-                    let reason = Reason::NoFreePose { by };
-                    return Err(Answer::Infeasible(Infeasible::proven(reason, None)));
-                }
-                Covered::Free(free) => state = Some(free),
-                Covered::Open => {}
+        if let (Some(grips), None) = (sought.grips, &search.met) {
+            let mut found = None;
+            let (hand, cells) = (sought.hand, budget.cells);
+            let covered = sought.around.covered(hand, grips, sought.allowed, cells, |hold, state| {
+                search.meets(hold, state, &mut found)
+            });
+            if covered == Covered::Nowhere {
+                let by = search.poses.most().or(search.hands.most());
+                return Err(Answer::Infeasible(Infeasible::proven(Reason::NoFreePose { by }, None)));
+            }
+            if let Some(found) = found.or_else(|| search.searched()) {
+                return Ok(found);
             }
         }
+        let state = search.met.take();
         let is_met = state.is_some() || search.is_cut_off;
         let reason = match is_met {
             true => Reason::BlockedPath { by: search.ways.most() },

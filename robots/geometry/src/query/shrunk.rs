@@ -36,6 +36,51 @@ impl Placed {
         let (one, far) = (within(&self.solid, off.min(self.inner)), within(other, from_other));
         one.is_nearer(&far, GAP)
     }
+
+    /// Half of its line: the longest of those along its axes through its centre.
+    #[inline]
+    pub(super) fn line(&self) -> Vector3<f64> {
+        let [x, y, z] = &self.solid.axes;
+        match self.solid.shape {
+            Shape::Cylinder { half, .. } | Shape::Capsule { half, .. } => z * half,
+            Shape::Box(half) if half.x >= half.y && half.x >= half.z => x * half.x,
+            Shape::Box(half) if half.y >= half.z => y * half.y,
+            Shape::Box(half) => z * half.z,
+            Shape::HalfSpace => Vector3::zeros(),
+        }
+    }
+
+    /// Whether it touches another solid wherever it is within its drift, because its line leads from one side of a box to the other: so
+    /// it does if its ends are on both sides by more than the drift, and all of it that can be at the middle of the box is beside the middle
+    /// by less than the box extends, by as much. However thin a board is, an arm that goes through it touches it.
+    #[inline]
+    pub(super) fn crosses(&self, other: &Solid, line: &Vector3<f64>) -> bool {
+        let Shape::Box(half) = other.shape else { return false };
+        let off = self.drift + SLACK;
+        let between = self.solid.centre - other.centre;
+        let along = |axis: &Vector3<f64>| [between.dot(axis), line.dot(axis)];
+        let [x, y, z] = &other.axes;
+        let [x, y, z] = [(along(x), half.x), (along(y), half.y), (along(z), half.z)];
+        let is_across = |([at, step], _): ([f64; 2], f64), others: [([f64; 2], f64); 2]| {
+            if step.abs() - at.abs() <= off {
+                return false;
+            }
+            let ends = [(off - at) / step, (-off - at) / step];
+            others
+                .into_iter()
+                .all(|([at, step], half)| ends.iter().all(|end| (at + end * step).abs() + off < half))
+        };
+        is_across(x, [y, z]) || is_across(y, [x, z]) || is_across(z, [x, y])
+    }
+
+    /// Whether it stays apart from another solid, around which so large a ball is, wherever both are within their drifts.
+    #[inline]
+    pub(super) fn is_apart(&self, other: &Solid, reach: f64, drift: f64) -> bool {
+        let wide = self.reach + GAP + drift + SLACK;
+        let between = self.solid.centre - other.centre;
+        let most = wide + reach;
+        between.norm_squared() > most * most || beyond(other, &between, wide)
+    }
 }
 
 /// Whether a place, seen from the centre of a solid, is farther from it than `far`, by the directions of a box: a ball there is
@@ -77,4 +122,53 @@ pub(super) fn resized(solid: &Solid, length: impl Fn(f64) -> f64) -> Solid {
         Shape::HalfSpace => Shape::HalfSpace,
     };
     Solid { shape, ..*solid }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+    use proptest::prelude::*;
+
+    use super::{Placed, inner};
+    use crate::collision::{Shape, Solid};
+
+    fn solid(at: [f64; 3], turn: [f64; 3], shape: Shape) -> Solid {
+        let turned = UnitQuaternion::from_scaled_axis(Vector3::from(turn));
+        Solid::new(&Isometry3::from_parts(Translation3::from(Vector3::from(at)), turned), shape)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4096))]
+
+        /// What crosses or touches a board throughout does so wherever it is moved within its drift, and what is apart is so.
+        #[test]
+        fn what_is_said_of_a_board_holds_for_all_that_is_near(
+            at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
+            half in 0.05..0.4_f64, radius in 0.01..0.06_f64, drift in 0.0..0.25_f64, kind in 0..3_u8,
+            shift in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64], share in 0.0..1.0_f64,
+            board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.03_f64], lean in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
+        ) {
+            let shape = match kind {
+                0 => Shape::Capsule { radius, half },
+                1 => Shape::Cylinder { radius, half },
+                _ => Shape::Box(Vector3::new(radius, half, radius)),
+            };
+            let own = solid(at, turn, shape);
+            let board = solid([0.0; 3], lean, Shape::Box(Vector3::from(board)));
+            let placed = Placed { solid: own, inner: inner(&own), reach: own.reach(), drift };
+            let is_stuck = placed.touches(&board, inner(&board), board.reach(), drift)
+                || placed.crosses(&board, &placed.line());
+            let is_apart = placed.is_apart(&board, board.reach(), drift);
+            // A turn about its centre and a shift that together are no more than the drift.
+            let [x, y, z] = shift;
+            let along = Vector3::new(x, y, z + 1e-3).normalize();
+            let axis = Vector3::new(y, z, x + 1e-3).normalize();
+            let turned = UnitQuaternion::from_scaled_axis(axis * (share * drift / own.reach()).min(1.0));
+            let about = Translation3::from(own.centre);
+            let moved = Translation3::from(along * ((1.0 - share) * drift)) * about * turned * about.inverse();
+            let moved = own.moved(&moved);
+            prop_assert!(!is_stuck || moved.is_nearer(&board, super::GAP));
+            prop_assert!(!is_apart || moved.is_farther(&board, super::GAP));
+        }
+    }
 }

@@ -9,6 +9,7 @@ use super::reach::certain;
 use super::room::Room;
 use super::solver::Solver;
 use crate::inverse::LiftArm;
+use crate::inverse::family::Drift;
 
 /// Poses of the tip that are not out of reach for certain.
 pub(super) enum Span<'a> {
@@ -60,7 +61,23 @@ impl Span<'_> {
         }
     }
 
-    /// That no arm configuration brings the hand to a thing at a place, where that is certain.
+    /// Whether all poses that are near to one, by no more than what is told of it, are out of reach for certain.
+    pub(super) fn is_beyond(&self, map_from_tip: &Isometry3<f64>, drift: &Drift) -> bool {
+        match self {
+            Self::Heights(arm, [least, greatest]) => {
+                let centre = arm.centre(map_from_tip).coords;
+                let off = drift.point(&centre, 0.0) + 1e-6;
+                centre.z + off < *least || centre.z - off > *greatest
+            }
+            Self::Around(shoulder, reach) => {
+                let tip = map_from_tip.translation.vector;
+                (tip - shoulder).norm() > reach + drift.point(&tip, 0.0) + 1e-6
+            }
+            Self::Anywhere => false,
+        }
+    }
+
+    /// That no arm configuration brings the hand to a thing at a place, where that is certain if it is of all other holds as of these.
     pub(super) fn beyond(&self, place: &Vector3<f64>, id: &str, holds: &[Hold]) -> Option<Answer> {
         let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
         self.beyond_all(place, &format!("`{id}`"), &tips).map(|(reason, change)| certain(reason, change))

@@ -285,7 +285,7 @@ proptest! {
                 if id.starts_with("table") && matches!(query, Query::Reach(..)) {
                     continue;
                 }
-                let answer = room.answer(&query, Budget { candidates: 64, paths: 16 });
+                let answer = room.answer(&query, Budget { candidates: 64, paths: 16, cells: 4_096 });
                 if let Answer::Feasible(witness) = &answer {
                     let faults = verify::faults(&machine, &urdf, &scene, &world, witness, None);
                     prop_assert!(faults.is_empty(), "{query}: {:?}", &faults[..faults.len().min(5)]);

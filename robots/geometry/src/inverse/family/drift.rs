@@ -68,7 +68,7 @@ impl Drift {
     }
 
     /// The same for what is within `rim` of a point.
-    pub(super) fn point(&self, point: &Vector3<f64>, rim: f64) -> f64 {
+    pub(crate) fn point(&self, point: &Vector3<f64>, rim: f64) -> f64 {
         // A chord is no longer than its arc, nor than twice the radius.
         let turned = self.turn.min(2.0) * ((point - self.about).norm() + rim) + self.shift;
         let off = point - self.at;

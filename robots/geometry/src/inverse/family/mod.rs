@@ -5,11 +5,12 @@
 //! box, so that a box in which a joint is beyond its limits throughout has no state, and what a frame carries can be looked at
 //! in the middle, smaller by as much as it can be off. Which arms have such cells: [`LiftArm`](super::LiftArm), by the base's yaw and
 //! the shoulder; [`ParallelArm`](super::ParallelArm) on a base that drives, by the heading of the arm, the lean of the forearm,
-//! and the base's yaw.
+//! and the base's yaw; [`SevenArm`](super::SevenArm) on one that does not, by the last joint.
 
 mod drift;
 mod lift;
 mod parallel;
+mod seven;
 
 use std::f64::consts::{PI, TAU};
 

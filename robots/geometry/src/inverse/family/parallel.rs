@@ -52,8 +52,9 @@ impl ParallelArm {
         let (end, fore) = (turned(&across, sum, &to_centre), turned(&across, lean, &to_four));
         let [end_long, fore_long, long] =
             [&to_centre, &to_four, &to_three].map(|vector| across.cross(vector).norm());
-        let rises =
-            wave(across.cross(&end).z, end_long, sums) + wave(across.cross(&fore).z, fore_long, leans);
+        let rises = wave(across.cross(&end).z, end_long, sums)
+            + wave(across.cross(&fore).z, fore_long, leans)
+            + moves;
         let rise = centre.z - height - self.first.z - to_two.z - end.z - fore.z;
         let (low, high) = ((rise - rises) / long, (rise + rises) / long);
         if low > 1.0 + ROUNDED || high < -1.0 - ROUNDED {

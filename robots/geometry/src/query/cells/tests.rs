@@ -13,9 +13,11 @@ use super::super::room::Room;
 use super::super::state::State;
 use super::super::touch::Allowed;
 use super::super::world::World;
-use super::{Cover, Covered, Family, Grips, Placed};
+use super::cover::{Cover, Placing};
+use super::{Covered, Family, Grips};
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::{Cell, Drift, Over, Tips};
+use crate::query::shrunk::Placed;
 use crate::trigonometry::wrapped;
 
 fn machine(name: &str) -> Machine {
@@ -45,6 +47,7 @@ fn parameters(family: Family<'_>, yaw: f64, values: &[f64]) -> [f64; 3] {
         Family::Lift(_) => [yaw, values[1], 0.0],
         // All axes of the Z1's parallel joints point alike.
         Family::Parallel(..) => [wrapped(yaw + values[0]), wrapped(values[1] + values[2]), yaw],
+        Family::Seven(..) => [values[6], 0.0, 0.0],
         Family::Any => [0.0; 3],
     }
 }
@@ -62,7 +65,14 @@ fn off(one: &Placed, other: &Placed) -> f64 {
     ends[0].max(ends[1])
 }
 
-fn a_state_is_in_its_cell(name: &str, base: [f64; 3], shares: &[f64], places: [f64; 3], size: f64) {
+/// `tilt` is how far the tip is turned and shifted from where the cell is about.
+fn a_state_is_in_its_cell(
+    name: &str,
+    base: [f64; 3],
+    shares: &[f64],
+    places: [f64; 3],
+    [size, tilt]: [f64; 2],
+) {
     let machine = machine(name);
     let scene = Scene::default();
     let world = World::new(&machine, &scene);
@@ -74,7 +84,14 @@ fn a_state_is_in_its_cell(name: &str, base: [f64; 3], shares: &[f64], places: [f
     let tip = machine.map_from_links(&state)[hand.tip];
     let middle = parameters(cover.family, base[2], &values);
     let roots = cover.family.cells();
-    let tips = Tips { map_from_tip: tip, drift: Drift::none() };
+    let [x, y, z] = places.map(|place| 2.0 * place - 1.0);
+    let axis = Vector3::new(x, y, z + 1e-3).normalize();
+    let about = tip.translation.vector + axis * 0.1;
+    let turned = nalgebra::UnitQuaternion::from_scaled_axis(axis * tilt);
+    let at = about + turned * (tip.translation.vector - about) + axis * (0.2 * tilt);
+    let map_from_tip = Isometry3::from_parts(at.into(), turned * tip.rotation);
+    // Along the axis about which it is turned, so that the order does not matter.
+    let tips = Tips { map_from_tip, drift: Drift::none().shifted(0.2 * tilt).turned(about, tilt) };
     let mut nearest = (f64::INFINITY, String::new());
     for root in &roots {
         let half = root.half.map(|half| half * size);
@@ -82,7 +99,10 @@ fn a_state_is_in_its_cell(name: &str, base: [f64; 3], shares: &[f64], places: [f
         let Over::Near(stretch) = cover.family.over(&tips, &Cell { way: root.way, middle, half }) else {
             continue;
         };
-        let placed = cover.placed(&stretch);
+        let mut placing = Placing::default();
+        cover.place(&stretch, &mut placing);
+        let parts = 0..room.body.parts().len() as u16;
+        let placed: Vec<Placed> = parts.map(|part| *cover.part(&mut placing, part).unwrap()).collect();
         let poses = machine.map_from_links(&state);
         let solids = room.body.placed(&poses);
         let beyond = placed.iter().zip(&solids).map(|(placed, solid)| {
@@ -104,7 +124,7 @@ fn a_state_is_in_its_cell(name: &str, base: [f64; 3], shares: &[f64], places: [f
 }
 
 /// A can in a box without a front: walls, a floor and a ceiling, so wide, high and deep inside, and so high above the floor.
-fn niche([wide, high, deep]: [f64; 3], up: f64, [x, y]: [f64; 2]) -> Scene {
+fn niche([wide, high, deep]: [f64; 3], [ahead, up]: [f64; 2], [x, y]: [f64; 2]) -> Scene {
     let mut scene = Scene::default();
     let mut add = |id: &str, kind: &str, xyz: [f64; 3], shape: Listed| {
         let mut entity = Entity::place(id.into(), Placement { xyz, rpy: [0.0; 3] });
@@ -112,7 +132,6 @@ fn niche([wide, high, deep]: [f64; 3], up: f64, [x, y]: [f64; 2]) -> Scene {
         entity.shape = Some(shape);
         scene.entities.insert(id.into(), entity);
     };
-    let ahead = 1.5;
     let middle = ahead + deep / 2.0;
     add("below", "Place", [middle, 0.0, up / 2.0], Listed::Box([deep, wide + 0.3, up]));
     add("above", "Place", [middle, 0.0, up + high + 0.1], Listed::Box([deep, wide + 0.3, 0.2]));
@@ -148,13 +167,16 @@ fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Optio
     let (tips, allowed, thing) = poses(&room, hand, scene);
     let around = room.around([2.0, 0.0], 4.0);
     let grips = Grips::new(hand, &thing, None, world.robot.base);
-    let said = match around.covered(hand, &grips, allowed, cells) {
+    let covered = around.covered(hand, &grips, allowed, cells, |hold, state| {
+        assert!(machine.tree().allows(&state.joints));
+        assert_eq!(around.touch_exactly(&state, allowed), None);
+        let tip = machine.map_from_links(&state)[hand.tip].inverse() * hold.map_from_tip;
+        assert!(tip.translation.vector.norm() < 1e-6 && tip.rotation.angle() < 1e-6);
+        std::ops::ControlFlow::Break(())
+    });
+    let said = match covered {
         Covered::Nowhere => !tips.is_empty(),
-        Covered::Free(state) => {
-            assert!(machine.tree().allows(&state.joints));
-            assert_eq!(around.touch_exactly(&state, allowed), None);
-            return Some(false);
-        }
+        Covered::Somewhere => return Some(false),
         Covered::Open => return None,
     };
     let cover = Cover::new(&around, hand, allowed).unwrap();
@@ -172,6 +194,10 @@ fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Optio
                 let found = arm.solve(&(room.map_from_base(base).inverse() * tip));
                 found.iter().map(|values| room.with(hand, base, values)).collect()
             }
+            Family::Seven(arm, map_from_base, base) => {
+                let found = arm.solve(&(map_from_base.inverse() * tip), 5.8 * a - 2.9);
+                found.iter().map(|values| room.with(hand, base, values)).collect()
+            }
             Family::Any => vec![],
         };
         for state in states {
@@ -187,17 +213,25 @@ proptest! {
     #[test]
     fn a_state_of_the_hsr_is_in_its_cell(
         base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 5),
-        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
     ) {
-        a_state_is_in_its_cell("hsr", base, &shares, places, size);
+        a_state_is_in_its_cell("hsr", base, &shares, places, [size, off]);
     }
 
     #[test]
     fn a_state_of_the_anymal_is_in_its_cell(
         base in [-2.0..2.0_f64, -2.0..2.0_f64, -3.1..3.1_f64], shares in prop::collection::vec(0.0..1.0_f64, 6),
-        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]),
+        places in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
     ) {
-        a_state_is_in_its_cell("anymal_z1", base, &shares, places, size);
+        a_state_is_in_its_cell("anymal_z1", base, &shares, places, [size, off]);
+    }
+
+    #[test]
+    fn a_state_of_the_panda_is_in_its_cell(
+        shares in prop::collection::vec(0.0..1.0_f64, 7), place in 0.0..1.0_f64,
+        size in prop::sample::select(vec![0.0, 1e-3, 0.01, 0.1, 0.5]), off in prop::sample::select(vec![0.0, 1e-3, 0.02, 0.2]),
+    ) {
+        a_state_is_in_its_cell("panda", [0.0; 3], &shares, [place, 0.3, 0.9], [size, off]);
     }
 }
 
@@ -208,9 +242,11 @@ proptest! {
     fn no_state_that_is_drawn_is_free_where_none_is_said_to_be(
         size in [0.15..0.6_f64, 0.12..0.5_f64, 0.2..0.8_f64], up in 0.05..1.1_f64, place in [0.0..1.0_f64, 0.0..1.0_f64],
         draws in prop::collection::vec([0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], 60),
-        name in prop::sample::select(vec!["hsr", "anymal_z1"]),
+        name in prop::sample::select(vec!["hsr", "anymal_z1", "panda"]),
     ) {
-        covered(name, &niche(size, up, place), 20_000, &draws);
+        // The Panda stands still on its bench.
+        let at = if name == "panda" { [0.3, 0.6 + 0.5 * up] } else { [1.5, up] };
+        covered(name, &niche(size, at, place), 20_000, &draws);
     }
 }
 
@@ -268,9 +304,56 @@ fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
         .map(|at| [1, 2, 3, 4].map(|n| super::super::arm::part(at, n, super::super::arm::SPACE)))
         .collect();
     // Low and deep: the hand has room, and what carries it has none.
-    let deep = niche([0.6, 0.4, 1.8], 0.3, [1.0, 0.5]);
+    let deep = niche([0.6, 0.4, 1.8], [1.5, 0.3], [1.0, 0.5]);
     assert_eq!(covered("hsr", &deep, 200_000, &draws), Some(true));
     assert_eq!(covered("hsr", &deep, 20, &draws), None);
-    let open = niche([1.2, 0.8, 0.4], 0.5, [0.0, 0.5]);
+    let open = niche([1.2, 0.8, 0.4], [1.5, 0.5], [0.0, 0.5]);
     assert_eq!(covered("hsr", &open, 200_000, &draws), Some(false));
+}
+
+#[test]
+fn what_a_panda_does_not_get_to_is_covered_and_what_it_does_is_not() {
+    let draws: Vec<[f64; 4]> = (0..200)
+        .map(|at| [1, 2, 3, 4].map(|n| super::super::arm::part(at, n, super::super::arm::SPACE)))
+        .collect();
+    let far = niche([0.9, 0.7, 0.4], [0.9, 0.8], [1.0, 0.5]);
+    assert_eq!(covered("panda", &far, 100_000, &draws), Some(true));
+    let near = niche([0.9, 0.7, 0.4], [0.3, 0.8], [0.2, 0.5]);
+    assert_eq!(covered("panda", &near, 100_000, &draws), Some(false));
+}
+
+/// What is taken of a bar in steps is where the patches of all grips of it say.
+#[test]
+fn a_grip_of_a_bar_is_in_its_patch() {
+    let machine = machine("anymal_z1");
+    let hand = machine.hand().unwrap();
+    let (along, out) = (Vector3::new(0.0, 0.6, 0.8), Vector3::x());
+    let centre = Vector3::new(1.0, 0.2, 0.7);
+    let bar = Solid {
+        centre,
+        axes: [out, along.cross(&out), along],
+        shape: Shape::Capsule { radius: 0.008, half: 0.2 },
+    };
+    let grips = Grips::of_bar(hand, &bar, out, 0.03, [1.05, 0.6]);
+    for (tilt, place, sign) in [(0.0, 0.0, 1.0), (0.9, 0.6, -1.0), (-0.52, -0.6, 1.0), (-0.9, 0.3, -1.0)] {
+        let turned = nalgebra::UnitQuaternion::from_scaled_axis(along * tilt);
+        let approach = turned * -out;
+        let closes = along.cross(&approach) * sign;
+        let at = centre + along * (place * 0.2) - approach * 0.03 - closes * hand.middle(0.016);
+        let tip = Isometry3::from_parts(at.into(), hand.turned(&approach, &closes));
+        let mut open = grips.patches();
+        for _ in 0..12 {
+            let halves = open.iter().flat_map(|patch| patch.halves(super::widest(&grips.sizes(patch)).1));
+            open = halves.collect();
+            open.retain(|patch| {
+                let Some((other, drift)) = grips.over(patch) else { return false };
+                [Vector3::zeros(), Vector3::x(), Vector3::y()].iter().all(|point| {
+                    let point = nalgebra::Point3::from(point * 0.2);
+                    let (one, other) = (tip * point, other * point);
+                    (one - other).norm() <= drift.point(&other.coords, 0.0) + 1e-6
+                })
+            });
+        }
+        assert!(!open.is_empty(), "{tilt}, {place}, {sign}");
+    }
 }

@@ -1,0 +1,355 @@
+//! What is known of one cell of states: where each part of the robot is, how far it can be from there, and what it touches.
+
+use std::rc::Rc;
+
+use nalgebra::Isometry3;
+
+use super::Family;
+use crate::collision::Solid;
+use crate::inverse::family::{Drift, Stretch, Tips};
+use crate::kinematics::Rig;
+use crate::query::around::{Around, above_floor};
+use crate::query::machine::Hand;
+use crate::query::room::GAP;
+use crate::query::shrunk::{Placed, SLACK, inner};
+use crate::query::solver::Solver;
+use crate::query::touch::Allowed;
+
+/// What is needed to look at cells.
+pub(super) struct Cover<'a, 'r, 'w> {
+    pub(super) around: &'a Around<'r, 'w>,
+    pub(super) hand: &'a Hand,
+    pub(super) family: Family<'a>,
+    pub(super) allowed: Allowed,
+    rig: Rig,
+    /// The robot's joints with the hand as it reaches.
+    joints: Vec<f64>,
+    /// For each frame of the rig but the first the joint of the arm that it is, if it is one.
+    arm: Vec<Option<usize>>,
+    /// The frame of the tip, and the tip in it.
+    last: usize,
+    frame_from_tip: Isometry3<f64>,
+    limbs: Vec<Limb>,
+    /// Of the things the radius of the greatest ball within, about.
+    things: Vec<f64>,
+}
+
+/// A part of the robot.
+struct Limb {
+    frame: usize,
+    /// In the frame.
+    solid: Solid,
+    inner: f64,
+    reach: f64,
+}
+
+/// Two that may not touch: a part and a thing, the floor or another part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Pair {
+    Thing(u16, u16),
+    Floor(u16),
+    Own(u16, u16),
+}
+
+/// What a part may touch in a cell.
+#[derive(Clone)]
+pub(super) struct Group {
+    part: u16,
+    /// How far it could be off when others were last left out.
+    drift: f64,
+    is_above_floor: bool,
+    /// Things, those first that the largest balls are in.
+    things: Rc<[u16]>,
+    parts: Rc<[u16]>,
+    /// The radius of the largest ball in one of these.
+    most: f64,
+}
+
+/// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
+/// is done again.
+const FEWER: f64 = 0.6;
+/// Before it can be off by less than this, in m, it is not looked for at all.
+const FAR: f64 = 0.8;
+
+/// The robot in a cell: the frames of the rig, and those of its parts that were asked for.
+#[derive(Default)]
+pub(super) struct Placing {
+    frames: Vec<(Isometry3<f64>, Drift)>,
+    parts: Vec<Option<Placed>>,
+}
+
+impl Placing {
+    fn part(&self, part: u16) -> Option<&Placed> {
+        self.parts.get(usize::from(part))?.as_ref()
+    }
+}
+
+impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
+    /// `None` where the robot is not simple enough.
+    pub(super) fn new(around: &'a Around<'r, 'w>, hand: &'a Hand, allowed: Allowed) -> Option<Self> {
+        let (room, machine) = (around.room, around.room.machine);
+        let family = match &hand.solver {
+            Solver::Lift(arm) => Family::Lift(arm),
+            Solver::Parallel(arm) if machine.drives() => {
+                Family::Parallel(arm, room.map_from_base([0.0; 3]).translation.z)
+            }
+            Solver::Seven(arm) if !machine.drives() => {
+                let base = room.world.robot.base;
+                Family::Seven(arm, room.map_from_base(base), base)
+            }
+            Solver::Parallel(_) | Solver::Seven(_) | Solver::Steps(_) => Family::Any,
+        };
+        let chain = hand.solver.chain();
+        let joints = room.with(hand, [0.0; 3], &[]).joints;
+        let rig = machine.tree().rig(&joints, |variable| chain.in_tree.contains(&variable))?;
+        let (last, frame_from_tip) = *rig.links.get(hand.tip)?;
+        // From the tip down to the base.
+        let (mut frame, mut order) = (last, vec![]);
+        while let Some(joint) = frame.checked_sub(1).and_then(|at| rig.joints.get(at)) {
+            order.push(frame);
+            frame = joint.parent;
+        }
+        order.reverse();
+        if order.len() != chain.joints.len() {
+            return None;
+        }
+        let arm = (1..=rig.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
+        let mut limbs = Vec::new();
+        for part in room.body.parts() {
+            let (frame, pose) = rig.links.get(part.link)?;
+            let solid = part.solid.moved(pose);
+            limbs.push(Limb { frame: *frame, solid, inner: inner(&solid), reach: solid.reach() });
+        }
+        let things: Vec<f64> = around.things.iter().map(|near| inner(&near.solid)).collect();
+        // More than any robot or neighbourhood has.
+        let is_small = limbs.len() < usize::from(u16::MAX) && things.len() < usize::from(u16::MAX);
+        let cover =
+            Self { around, hand, family, allowed, rig, joints, arm, last, frame_from_tip, limbs, things };
+        is_small.then_some(cover)
+    }
+
+    /// What the hand may touch of what stands around, and all else that the arm or the base moves against each other.
+    pub(super) fn groups(&self) -> [Rc<[Group]>; 2] {
+        let (mut hand, mut others) = (vec![], vec![]);
+        let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
+        for ((limb, own), part) in self.around.limbs.iter().zip(&self.limbs).zip(0..) {
+            let things = self.around.things.iter().zip(&self.things).zip(0..);
+            let things =
+                things.filter(|((near, _), _)| limb.counts && !limb.may_touch(near.entity, self.allowed));
+            let mut things: Vec<(f64, u16)> = things.map(|((_, inner), at)| (*inner, at)).collect();
+            things.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+            let things = things.into_iter().map(|(_, at)| at).collect();
+            let is_above_floor = limb.counts && limb.is_carried;
+            let group =
+                Group { part, drift: FAR / FEWER, is_above_floor, things, parts: [].into(), most: 0.0 };
+            let pairs = self.around.room.body.pairs().iter();
+            let pairs =
+                pairs.filter(|[one, other]| *one == usize::from(part) && frame(*one) != frame(*other));
+            let parts: Rc<[u16]> = pairs.map(|[_, other]| *other as u16).collect();
+            let inner = |at: &u16| self.limbs.get(usize::from(*at)).map_or(0.0, |limb| limb.inner);
+            let most = parts.iter().map(inner).fold(0.0, f64::max);
+            if own.frame == self.last {
+                others.push(Group { parts, most, is_above_floor: false, things: [].into(), ..group.clone() });
+                hand.push(group);
+            } else {
+                others.push(Group { parts, most, ..group });
+            }
+        }
+        let is_any =
+            |group: &Group| group.is_above_floor || !group.things.is_empty() || !group.parts.is_empty();
+        [hand, others].map(|groups| groups.into_iter().filter(is_any).collect())
+    }
+
+    /// What of a group may touch; `None` where the group is as it was.
+    ///
+    /// # Errors
+    ///
+    /// What touches throughout.
+    pub(super) fn left_of(&self, placing: &mut Placing, group: &Group) -> Result<Option<Group>, Pair> {
+        let part = group.part;
+        self.ensure(placing, part);
+        let Some(own) = placing.part(part) else { return Ok(None) };
+        if group.is_above_floor && above_floor(&own.solid) + own.drift + SLACK <= GAP {
+            return Err(Pair::Floor(part));
+        }
+        // A ball in the other has to be so large for both to touch throughout.
+        let least = own.drift + SLACK - own.inner;
+        let is_fewer = own.drift < FEWER * group.drift;
+        let is_any = |inner: f64| is_fewer || least < inner;
+        // An end is not known to be on a side where it can be off by more than it is away.
+        let line = own.line();
+        let is_long = own.drift * own.drift < line.norm_squared();
+        let mut things: Vec<u16> = Vec::new();
+        for at in group.things.iter().copied() {
+            let index = usize::from(at);
+            let Some((near, inner)) = self.around.things.get(index).zip(self.things.get(index)) else {
+                continue;
+            };
+            if !is_long && !is_any(*inner) {
+                break;
+            }
+            if is_fewer && own.is_apart(&near.solid, near.reach, own.drift) {
+                continue;
+            }
+            if own.touches(&near.solid, *inner, near.reach, own.drift)
+                || (is_long && own.crosses(&near.solid, &line))
+            {
+                return Err(Pair::Thing(part, at));
+            }
+            if is_fewer {
+                things.push(at);
+            }
+        }
+        let mut parts: Vec<u16> = Vec::new();
+        if is_any(group.most) {
+            for at in group.parts.iter() {
+                self.ensure(placing, *at);
+            }
+            let Some(own) = placing.part(part) else { return Ok(None) };
+            for at in group.parts.iter().copied() {
+                let Some(other) = placing.part(at) else { continue };
+                let drift = own.drift + other.drift;
+                if is_fewer && own.is_apart(&other.solid, other.reach, drift) {
+                    continue;
+                }
+                if drift + SLACK - own.inner < other.inner
+                    && own.touches(&other.solid, other.inner, other.reach, drift)
+                {
+                    return Err(Pair::Own(part, at));
+                }
+                if is_fewer {
+                    parts.push(at);
+                }
+            }
+        }
+        if !is_fewer {
+            return Ok(None);
+        }
+        let drift = placing.part(part).map_or(f64::INFINITY, |own| own.drift);
+        let same = |left: Vec<u16>, all: &Rc<[u16]>| {
+            if left.len() == all.len() { Rc::clone(all) } else { left.into() }
+        };
+        let (things, parts) = (same(things, &group.things), same(parts, &group.parts));
+        Ok(Some(Group { drift, things, parts, ..group.clone() }))
+    }
+
+    /// Whether something of some groups touches in the middle.
+    pub(super) fn is_stuck_in_middle(&self, placing: &mut Placing, groups: &[Group]) -> bool {
+        groups.iter().any(|group| {
+            let things = group.things.iter().map(|at| Pair::Thing(group.part, *at));
+            let parts = group.parts.iter().map(|at| Pair::Own(group.part, *at));
+            let floor = group.is_above_floor.then_some(Pair::Floor(group.part));
+            things.chain(parts).chain(floor).any(|pair| self.touches_in_middle(placing, pair))
+        })
+    }
+
+    /// Puts the hand alone where its tip is at any of some poses; what is elsewhere is not known to be anywhere.
+    pub(super) fn place_hand(&self, tips: &Tips, placing: &mut Placing) {
+        let pose = tips.map_from_tip * self.frame_from_tip.inverse();
+        placing.frames.clear();
+        let unknown = Drift { shift: f64::INFINITY, ..Drift::none() };
+        placing.frames.resize(self.rig.joints.len() + 1, (Isometry3::identity(), unknown));
+        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.drift));
+        self.forget(placing);
+    }
+
+    /// Puts the robot where it is in a cell.
+    pub(super) fn place(&self, stretch: &Stretch, placing: &mut Placing) {
+        let chain = self.hand.solver.chain();
+        let root = (self.around.room.machine.map_from_root(stretch.base), stretch.base_drift);
+        placing.frames.clear();
+        placing.frames.push(root);
+        for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
+            if let Some(frame) = arm.and_then(|at| stretch.frames.get(at)) {
+                placing.frames.push(*frame);
+                continue;
+            }
+            // What follows a joint of the arm elsewhere.
+            let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
+            let mut values = chain.in_tree.iter().zip(&stretch.values);
+            let known = values.find(|(at, _)| **at == joint.driver.variable).map(|(_, value)| *value);
+            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
+            let [value, off] = known.unwrap_or([still, 0.0]);
+            let off = off * joint.driver.multiplier.abs();
+            let position = joint.driver.multiplier * value + joint.driver.offset;
+            let pose = parent * joint.before * joint.motion(position);
+            let drift = match (joint.slides, off == 0.0) {
+                (true, _) => drift.shifted(off),
+                (false, true) => drift,
+                (false, false) => Drift { shift: f64::INFINITY, ..drift },
+            };
+            placing.frames.push((pose, drift));
+        }
+        self.forget(placing);
+    }
+
+    fn forget(&self, placing: &mut Placing) {
+        placing.parts.clear();
+        placing.parts.resize(self.limbs.len(), None);
+    }
+
+    /// A part where it is in the middle of a cell, and how far it can be from there.
+    pub(super) fn part<'p>(&self, placing: &'p mut Placing, part: u16) -> Option<&'p Placed> {
+        self.ensure(placing, part);
+        placing.part(part)
+    }
+
+    fn ensure(&self, placing: &mut Placing, part: u16) {
+        let at = usize::from(part);
+        let Some(slot @ None) = placing.parts.get_mut(at) else { return };
+        let Some(limb) = self.limbs.get(at) else { return };
+        let Some((pose, drift)) = placing.frames.get(limb.frame) else { return };
+        let solid = limb.solid.moved(pose);
+        *slot = Some(Placed { solid, inner: limb.inner, reach: limb.reach, drift: drift.of(&solid) });
+    }
+
+    /// Whether a pair touches throughout.
+    pub(super) fn touches(&self, placing: &mut Placing, pair: Pair) -> bool {
+        let found = self.with(placing, pair, |one, other, inner, reach, drift| {
+            let is_own = matches!(pair, Pair::Own(..));
+            one.touches(other, inner, reach, drift) || (!is_own && one.crosses(other, &one.line()))
+        });
+        found.unwrap_or_else(|(above, drift)| above + drift + SLACK <= GAP)
+    }
+
+    /// Whether a pair touches in the middle.
+    pub(super) fn touches_in_middle(&self, placing: &mut Placing, pair: Pair) -> bool {
+        let found = self.with(placing, pair, |one, other, inner, reach, drift| {
+            drift.is_finite() && one.touches(other, inner, reach, 0.0)
+        });
+        found.unwrap_or_else(|(above, drift)| drift.is_finite() && above + SLACK <= GAP)
+    }
+
+    /// What is told of a part, and another solid with the balls within and around it and how far both can be off.
+    ///
+    /// # Errors
+    ///
+    /// How far it is above the floor, and how far it can be off, where that is asked for.
+    fn with<T>(
+        &self,
+        placing: &mut Placing,
+        pair: Pair,
+        told: impl FnOnce(&Placed, &Solid, f64, f64, f64) -> T,
+    ) -> Result<T, (f64, f64)> {
+        // What is not there touches nothing for certain, and is not known to be apart.
+        const NOTHING: (f64, f64) = (0.0, f64::INFINITY);
+        match pair {
+            Pair::Thing(part, at) => {
+                let at = usize::from(at);
+                let (near, inner) = self.around.things.get(at).zip(self.things.get(at)).ok_or(NOTHING)?;
+                let own = self.part(placing, part).ok_or(NOTHING)?;
+                Ok(told(own, &near.solid, *inner, near.reach, own.drift))
+            }
+            Pair::Own(part, at) => {
+                self.ensure(placing, part);
+                self.ensure(placing, at);
+                let (own, other) = placing.part(part).zip(placing.part(at)).ok_or(NOTHING)?;
+                Ok(told(own, &other.solid, other.inner, other.reach, own.drift + other.drift))
+            }
+            Pair::Floor(part) => {
+                let own = self.part(placing, part).ok_or(NOTHING)?;
+                Err((above_floor(&own.solid), own.drift))
+            }
+        }
+    }
+}
