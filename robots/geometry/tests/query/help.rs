@@ -188,9 +188,9 @@ fn heights_are_told_of_every_motion_of_the_hand() {
             assert!(matches!(drawer.travel, Some(Travel::Slide { .. })));
         })
     };
-    for (query, what, held, certified) in [
-        ("put(mug_1, shelf)", "the top of `shelf`", true, true),
-        ("pull(drawer_1)", "the handle of `drawer_1`", false, false),
+    for (query, what, held) in [
+        ("put(mug_1, shelf)", "the top of `shelf`", true),
+        ("pull(drawer_1)", "the handle of `drawer_1`", false),
     ] {
         let (why, help) = refused(&machine, &high(2.4, held), query);
         let Reason::OutOfReach { what: "height", needs, reach } = why.reason else {
@@ -199,7 +199,7 @@ fn heights_are_told_of_every_motion_of_the_hand() {
         let least = ((needs - reach) * 100.0).ceil() / 100.0;
         assert_eq!(help.unwrap(), format!("{what} would have to be at least {least:.2} m lower"));
         assert!((needs - 2.4).abs() < 0.05, "{query}: {needs}");
-        assert_eq!(why.certified, certified, "{query}");
+        assert!(why.certified, "{query}");
         // Lower by so much, and a little for the way there, it is not too high.
         let lower = asked(&machine, &high(2.4 - least, held), query).0;
         assert!(
