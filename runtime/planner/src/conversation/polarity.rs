@@ -89,8 +89,17 @@ const STOP: &[&str] = &[
     "none",
 ];
 /// These end it only where nothing else is said.
-const STOP_ALONE: &[&str] =
-    &["nothing", "nothing at all", "nobody", "leave", "skip", "i'll do it myself", "i will do it myself"];
+const STOP_ALONE: &[&str] = &[
+    "nothing",
+    "nothing at all",
+    "nobody",
+    "leave",
+    "skip",
+    "i'll do it myself",
+    "i will do it myself",
+    "i'll do it",
+    "i will do it",
+];
 /// What a robot that moves is told so that it does not.
 const HOLD: &[&str] = &["wait", "hold on", "hold it", "freeze", "pause", "careful", "watch out", "look out"];
 /// Words for not knowing.

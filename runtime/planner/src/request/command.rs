@@ -42,6 +42,18 @@ pub(super) fn words(tokens: &[Token], begin: usize, end: usize) -> String {
     words.join(" ").trim().to_owned()
 }
 
+/// Where something goes that somebody does not want to see.
+const OUT_OF_SIGHT: &[&str] = &[
+    "out of my sight",
+    "out of sight",
+    "out of view",
+    "out of my way",
+    "out of the way",
+    "out of my face",
+    "out of here",
+    "off my hands",
+];
+
 /// Reads one command, or several that share a verb; where the next thing begins.
 pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
@@ -107,6 +119,10 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     });
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
+    // `put it where it belongs, in the drawer`
+    if another_place && now.to.is_none() && now.has(BELONGS) {
+        return true;
+    }
     if !(another || is_place) {
         return false;
     }
@@ -125,8 +141,9 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     // `grab the mug for me`: who takes something for somebody brings it.
     let for_me = longest(tokens, at, &["for me", "for us"]);
     if let (Some(count), Act::Take) = (for_me, now.act) {
-        // `take the mug to the sink for me` asks for a favour.
-        if now.to.as_ref().is_none_or(|to| !to.moves()) {
+        // `take the mug to the sink for me`, `carry the mug for me` ask for a favour.
+        let carries = matches!(tokens.get(begin).map_or("", Token::word), "carry" | "cart" | "haul" | "lug");
+        if (!carries || now.has("over")) && now.to.as_ref().is_none_or(|to| !to.moves()) {
             now.to_whom.get_or_insert(Noun::Speaker);
         }
         return Ok(at + count);
@@ -159,19 +176,18 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(at + count);
     }
     // `get it out of my sight`
-    if let Some(count) = [
-        "out of my sight",
-        "out of my way",
-        "out of the way",
-        "out of my face",
-        "out of here",
-        "off my hands",
-    ]
-    .iter()
-    .find_map(|words| stands(tokens, at, words))
+    if let Some(count) = longest(tokens, at, OUT_OF_SIGHT)
         && matches!(now.act, Act::Fetch | Act::Take | Act::Put | Act::Move)
     {
         now.act = Act::Stow;
+        return Ok(at + count);
+    }
+    // `put it out with the rubbish`
+    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
+    if let Some(count) = longest(tokens, at, &rubbish)
+        && matches!(now.act, Act::Take | Act::Put | Act::Move | Act::Throw)
+    {
+        now.act = Act::Discard;
         return Ok(at + count);
     }
     if let Some(count) =
@@ -190,7 +206,11 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     }
     if is_way(tokens, at) {
         let Some((place, after)) = way(tokens, at) else { return Err(lost()) };
-        if matches!(place.noun, Noun::Speaker) && place.relation == Relation::To && !goes {
+        if is_hand(&place.noun) {
+            now.with.push("hand".to_owned());
+            return Ok(after);
+        }
+        if matches!(place.noun, Noun::Speaker) && place.relation != Relation::Beside && !goes {
             now.to_whom = Some(place.noun);
         } else {
             now.put_at(place);
@@ -201,6 +221,11 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         // `take it in your hand`
         if is_hand(&place.noun) {
             now.with.push("hand".to_owned());
+            return Ok(after);
+        }
+        // `put it in my hand`
+        if matches!(place.noun, Noun::Speaker) && !goes {
+            now.to_whom = Some(place.noun);
             return Ok(after);
         }
         now.put_at(Spot { is_behind_thing: !now.items.is_empty() && at == now.thing_end, ..place });
@@ -221,6 +246,16 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(at + count);
     }
     // `come to me with the mug`
+    if let Some(count) = longest(tokens, at, &["with me", "with us"])
+        && matches!(now.act, Act::Go | Act::Come)
+    {
+        return Ok(at + count);
+    }
+    // `keep it with you`
+    if let Some(count) = stands(tokens, at, "with you") {
+        now.with.push("hand".to_owned());
+        return Ok(at + count);
+    }
     if word == "with"
         && matches!(now.act, Act::Go | Act::Come)
         && let Some((carried, after)) = noun(tokens, at + 1)
@@ -245,6 +280,18 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         "to where it goes",
         "where it goes",
         "where it lives",
+        "where it came from",
+        "to where it came from",
+        "where it was",
+        "to where it was",
+        "where you found it",
+        "where you got it from",
+        "where it was before",
+        "to its place",
+        "in its usual place",
+        "to its usual place",
+        "in its usual spot",
+        "in its proper place",
         "in its place",
     ]
     .iter()
@@ -271,6 +318,16 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
             | "closed"
             | "open"
             | "together"
+            | "across"
+            | "along"
+            | "aside"
+            | "around"
+            | "ready"
+            | "tight"
+            | "firm"
+            | "steady"
+            | "anywhere"
+            | "elsewhere"
     ) {
         now.with.push(word.to_owned());
         return Ok(at + 1);

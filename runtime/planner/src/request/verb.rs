@@ -1,6 +1,6 @@
 //! The verbs of household requests.
 
-use super::lead::{WANTS, skip_leads};
+use super::lead::{skip_leads, wish};
 use super::token::{Token, longest, stands};
 
 /// What is asked for.
@@ -49,6 +49,8 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("go and fetch", Act::Fetch),
     ("go grab", Act::Fetch),
     ("go find", Act::Fetch),
+    ("go and find", Act::Fetch),
+    ("go pick up", Act::Pick),
     ("go", Act::Go),
     ("drive", Act::Go),
     ("navigate", Act::Go),
@@ -65,16 +67,17 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("get over", Act::Go),
     ("get yourself", Act::Go),
     ("meet me", Act::Go),
+    ("meet", Act::Go),
+    ("join me", Act::Go),
+    ("join us", Act::Go),
     ("meet us", Act::Go),
     ("stay", Act::Go),
     ("stop", Act::Go),
     ("find your way", Act::Go),
     ("make your way over", Act::Go),
-    ("park", Act::Go),
     ("stand", Act::Go),
     ("wait", Act::Go),
     ("return to", Act::Go),
-    ("return", Act::Put),
     ("roll", Act::Go),
     ("make your way", Act::Go),
     ("position yourself", Act::Go),
@@ -109,6 +112,54 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("take your place", Act::Go),
     ("see me", Act::Go),
     ("remain", Act::Go),
+    ("convey", Act::Fetch),
+    ("track down", Act::Find),
+    ("hunt down", Act::Find),
+    ("hunt for", Act::Find),
+    ("seek out", Act::Find),
+    ("reach", Act::Take),
+    ("remove", Act::Take),
+    ("clasp", Act::Pick),
+    ("catch", Act::Pick),
+    ("lower", Act::Put),
+    ("ease", Act::Put),
+    ("balance", Act::Put),
+    ("slot", Act::Put),
+    ("push", Act::Put),
+    ("park", Act::Go),
+    ("rush", Act::Go),
+    ("zoom", Act::Go),
+    ("speed", Act::Go),
+    ("whizz", Act::Go),
+    ("race", Act::Go),
+    ("shuffle", Act::Go),
+    ("amble", Act::Go),
+    ("saunter", Act::Go),
+    ("glide", Act::Go),
+    ("cruise", Act::Go),
+    ("journey", Act::Go),
+    ("make haste", Act::Go),
+    ("clear off", Act::Go),
+    ("buzz off", Act::Go),
+    ("be off", Act::Go),
+    ("get going", Act::Go),
+    ("get along", Act::Go),
+    ("get moving", Act::Go),
+    ("get close", Act::Go),
+    ("get closer", Act::Go),
+    ("move closer", Act::Go),
+    ("go closer", Act::Go),
+    ("go as far as", Act::Go),
+    ("get to", Act::Go),
+    ("get back to", Act::Go),
+    ("follow me", Act::Go),
+    ("take a trip", Act::Go),
+    ("take a stroll", Act::Go),
+    ("take a walk", Act::Go),
+    ("go for a walk", Act::Go),
+    ("get your wheels", Act::Go),
+    ("bring yourself", Act::Go),
+    ("be so good as to go", Act::Go),
     ("come", Act::Come),
     ("move", Act::Move),
     ("bring", Act::Fetch),
@@ -129,6 +180,9 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("bring along", Act::Fetch),
     ("bring over", Act::Fetch),
     ("reach me", Act::Fetch),
+    ("reach for", Act::Pick),
+    ("reach out for", Act::Pick),
+    ("reach over for", Act::Pick),
     ("come back with", Act::Fetch),
     ("be back with", Act::Fetch),
     ("return with", Act::Fetch),
@@ -142,19 +196,8 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("scoop up", Act::Pick),
     ("snatch up", Act::Pick),
     ("gather up", Act::Pick),
-    ("get a grip on", Act::Pick),
-    ("get a grip of", Act::Pick),
-    ("get a hold of", Act::Pick),
-    ("get a good hold of", Act::Pick),
-    ("get a good grip on", Act::Pick),
     ("get your hands on", Act::Pick),
     ("lay your hands on", Act::Pick),
-    ("take a hold of", Act::Pick),
-    ("catch hold of", Act::Pick),
-    ("grab a hold of", Act::Pick),
-    ("keep a hold of", Act::Pick),
-    ("keep a grip on", Act::Pick),
-    ("keep a tight grip on", Act::Pick),
     ("hold onto", Act::Pick),
     ("hang onto", Act::Pick),
     ("cling to", Act::Pick),
@@ -165,13 +208,10 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("keep carrying", Act::Pick),
     ("hoist", Act::Lift),
     ("take", Act::Take),
-    ("take hold of", Act::Pick),
     ("grab", Act::Take),
     ("pick up", Act::Pick),
     ("pick", Act::Pick),
     ("grasp", Act::Pick),
-    ("grab hold of", Act::Pick),
-    ("keep hold of", Act::Pick),
     ("hold on to", Act::Pick),
     ("hang on to", Act::Pick),
     ("clutch", Act::Pick),
@@ -240,6 +280,16 @@ pub(super) const VERBS: &[(&str, Act)] = &[
     ("store", Act::Store),
     ("put away", Act::Stow),
     ("put back", Act::Stow),
+    ("clear", Act::Put),
+    ("pack", Act::Put),
+    ("pack away", Act::Stow),
+    ("pack up", Act::Stow),
+    ("file away", Act::Stow),
+    ("lock away", Act::Store),
+    ("shut away", Act::Store),
+    ("stow away", Act::Store),
+    ("store away", Act::Store),
+    ("return", Act::Put),
     ("tidy up", Act::Stow),
     ("tidy away", Act::Stow),
     ("tidy", Act::Stow),
@@ -311,10 +361,67 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     if longest(tokens, at, &vague).is_some() {
         return None;
     }
-    let wants = WANTS.iter().filter_map(|want| Some((Act::Fetch, at + stands(tokens, at, want)?)));
-    let wants = wants.filter(|(_, after)| !is_no_thing(tokens, *after));
+    let wants = wanted(tokens, at).map(|after| (Act::Fetch, after));
     let verbs = VERBS.iter().filter_map(|(verb, act)| Some((*act, at + stands(tokens, at, verb)?)));
-    verbs.chain(wants).max_by_key(|(_, after)| *after)
+    let holds = hold(tokens, at).map(|after| (Act::Pick, after));
+    verbs.chain(wants).chain(holds).max_by_key(|(_, after)| *after)
+}
+
+/// Where what somebody wants to have begins, where they want it now.
+fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
+    let after = at + wish(tokens, at)?;
+    // `I will need it later` tells of another time.
+    let is_end = |token: &&Token| {
+        matches!(token, Token::Comma | Token::Stop)
+            || matches!(token.word(), "and" | "so" | "but" | "because")
+    };
+    let clause = tokens.get(after..)?.iter().take_while(|token| !is_end(token));
+    let is_later = clause.clone().any(|token| {
+        matches!(
+            token.word(),
+            "later" | "tomorrow" | "tonight" | "afterwards" | "soon" | "gone" | "eventually"
+        )
+    });
+    (!is_later && !is_no_thing(tokens, after)).then_some(after)
+}
+
+/// `get a firm grip on`, `keep a tight hold of`, `close your hand around`: where what is held begins.
+fn hold(tokens: &[Token], at: usize) -> Option<usize> {
+    let hand = [
+        "close your hand",
+        "close your hands",
+        "close your gripper",
+        "close your fingers",
+        "wrap your hand",
+        "wrap your fingers",
+        "wrap your gripper",
+        "put your hand",
+        "put your hands",
+        "lay your hands",
+    ];
+    if let Some(count) = longest(tokens, at, &hand) {
+        return Some(at + count + longest(tokens, at + count, &["around", "round", "on", "about"])?);
+    }
+    let takes =
+        longest(tokens, at, &["get", "take", "keep", "grab", "catch", "have", "maintain", "hold", "hang"])?;
+    let mut end = at + takes;
+    if longest(tokens, at, &["hold", "hang"]).is_some() {
+        // `hold on tight to it`
+        end += stands(tokens, end, "on").unwrap_or(0);
+        end +=
+            longest(tokens, end, &["tight", "fast", "firm", "good and tight", "really tight", "very tight"])?;
+        return Some(end + longest(tokens, end, &["to", "onto"])?);
+    }
+    end += longest(tokens, end, &["a", "your"]).unwrap_or(0);
+    while let Some(count) = longest(
+        tokens,
+        end,
+        &["nice", "good", "firm", "tight", "proper", "safe", "secure", "steady", "strong", "solid", "very"],
+    ) {
+        end += count;
+    }
+    end += longest(tokens, end, &["grip", "hold", "grasp"])?;
+    Some(end + longest(tokens, end, &["on to", "on", "of", "onto"])?)
 }
 
 /// What somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your help`.
@@ -322,7 +429,20 @@ fn is_no_thing(tokens: &[Token], at: usize) -> bool {
     let whose =
         matches!(tokens.get(at).map_or("", Token::word), "your" | "some" | "a" | "more" | "any" | "the");
     let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
-    tokens.get(at).is_some_and(|token| token.word() == "to")
+    let is_undone = tokens.get(at).is_some_and(|token| matches!(token.word(), "something" | "anything"))
+        && tokens.get(at + 1).is_some_and(|token| {
+            matches!(token.word(), "done" | "about" | "sorted" | "out" | "from" | "in" | "inside")
+        });
+    // `I would like to get into the drawer`
+    let is_way_in = tokens.get(at).is_some_and(|token| {
+        matches!(
+            token.word(),
+            "rid" | "into" | "in" | "at" | "inside" | "through" | "out" | "past" | "by" | "started" | "going"
+        )
+    });
+    is_undone
+        || is_way_in
+        || tokens.get(at).is_some_and(|token| token.word() == "to")
         || matches!(
             what,
             "help"
@@ -346,7 +466,7 @@ fn is_no_thing(tokens: &[Token], at: usize) -> bool {
 
 /// Whether it is a wish that stands here, and no verb.
 pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
-    WANTS.iter().any(|want| stands(tokens, at, want).is_some_and(|count| !is_no_thing(tokens, at + count)))
+    wanted(tokens, at).is_some()
 }
 
 /// Whether a request begins here, after what politeness puts before it.

@@ -5,9 +5,39 @@ use crate::request::token::{Token, longest, stands};
 
 /// Words that say how or when and not what.
 const FILLERS: &[&str] = &[
+    "from wherever it is",
+    "from where it is",
+    "from where it is now",
+    "off where it is",
+    "wherever it is",
+    "wherever it may be",
+    "from where it lies",
+    "from where it stands",
+    "nice and slow",
+    "nice and easy does it",
+    "easy does it",
+    "with your hand",
+    "with your hands",
+    "with your gripper",
+    "with your arm",
+    "with both hands",
+    "with care",
+    "with great care",
+    "with caution",
+    "without dropping it",
+    "without spilling it",
+    "without spilling anything",
+    "without breaking it",
+    "without making a mess",
+    "without a sound",
+    "without fuss",
+    "in one piece",
+    "safe and sound",
     "right now",
+    "right about now",
+    "just about now",
+    "round about now",
     "sometime today",
-    "shortly",
     "sometime soon",
     "some time today",
     "at some point today",
@@ -15,19 +45,8 @@ const FILLERS: &[&str] = &[
     "any more",
     "anymore",
     "any longer",
-    "really",
-    "simply",
     "maybe",
     "perhaps",
-    "possibly",
-    "carefully",
-    "gently",
-    "slowly",
-    "softly",
-    "neatly",
-    "nicely",
-    "quietly",
-    "properly",
     "nice and gently",
     "nice and carefully",
     "nice and slowly",
@@ -70,12 +89,9 @@ const FILLERS: &[&str] = &[
     "all by myself",
     "on my own",
     "anyway",
-    "finally",
     "already",
     "kinda",
     "sorta",
-    "basically",
-    "literally",
     "real quick",
     "really quick",
     "nice and tight",
@@ -84,6 +100,70 @@ const FILLERS: &[&str] = &[
     "everso",
     "as per usual",
     "without further ado",
+];
+/// Words in `-ly` that are no adverbs of manner: what they say counts, or they are no adverbs at all.
+const NOT_MANNER: &[&str] = &[
+    "only",
+    "early",
+    "likely",
+    "unlikely",
+    "usually",
+    "normally",
+    "probably",
+    "hardly",
+    "barely",
+    "nearly",
+    "partly",
+    "partially",
+    "family",
+    "jelly",
+    "belly",
+    "fly",
+    "butterfly",
+    "lily",
+    "holly",
+    "dolly",
+    "teddy",
+    "supply",
+    "assembly",
+    "reply",
+    "apply",
+    "rely",
+    "ugly",
+    "smelly",
+    "silly",
+    "lovely",
+    "friendly",
+    "lonely",
+    "curly",
+    "woolly",
+    "daily",
+    "weekly",
+    "monthly",
+    "july",
+    "italy",
+    "bully",
+    "ally",
+    "rally",
+    "tally",
+    "folly",
+    "curly",
+    "jolly",
+    "polly",
+    "kindly",
+    "lastly",
+    "firstly",
+    "secondly",
+    "quickly",
+    "certainly",
+    "definitely",
+    "absolutely",
+    "immediately",
+    "directly",
+    "mostly",
+    "rarely",
+    "firefly",
+    "ply",
 ];
 /// Before these `right` and `straight` only stress what follows.
 const STRESSED: &[&str] = &[
@@ -122,7 +202,7 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while at < tokens.len() {
-        if let Some(count) = longest(tokens, at, FILLERS) {
+        if let Some(count) = longest(tokens, at, FILLERS).or_else(|| manner(tokens, at)) {
             at += count;
         } else if let Some(count) =
             leisure(tokens, at).or_else(|| aim(tokens, at, &kept)).or_else(|| deadline(tokens, at, &kept))
@@ -139,6 +219,54 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
         }
     }
     kept
+}
+
+/// `safely`, `nice and gently`, `all the way`, `somewhere in the drawer`: how, and where more or less.
+fn manner(tokens: &[Token], at: usize) -> Option<usize> {
+    let is_adverb = |at: usize| {
+        let word = tokens.get(at).map_or("", Token::word);
+        word.len() > 4 && word.ends_with("ly") && !NOT_MANNER.contains(&word)
+    };
+    let more =
+        longest(tokens, at, &["nice and", "as", "very", "more", "so", "ever so", "really", "quite", "too"])
+            .unwrap_or(0);
+    if is_adverb(at + more) {
+        // `as gently as you can`
+        let behind = longest(tokens, at + more + 1, &["as you can", "as possible", "as you like"]);
+        return match behind {
+            Some(behind) => Some(more + 1 + behind),
+            None if stands(tokens, at, "as").is_some() => None,
+            None => Some(more + 1),
+        };
+    }
+    let is_last = |at: usize| {
+        matches!(tokens.get(at), None | Some(Token::Comma | Token::Stop))
+            || tokens.get(at).is_some_and(|token| {
+                matches!(token.word(), "and" | "for" | "please" | "so" | "open" | "in" | "on" | "inside")
+            })
+    };
+    let how = [
+        "all the way",
+        "somewhere",
+        "a bit",
+        "a little bit",
+        "a tad",
+        "really",
+        "like that",
+        "like this",
+        "a minute",
+        "a moment",
+        "a second",
+        "a sec",
+        "a while",
+    ];
+    let count = longest(tokens, at, &how)?;
+    let is_partial = tokens.get(at).is_some_and(|token| token.word() == "a");
+    // `open it a little` asks for less than `open it`.
+    let is_partial =
+        is_partial && tokens.get(..at)?.iter().any(|token| matches!(token.word(), "open" | "close" | "shut"));
+    (count == 1 && stands(tokens, at, "really").is_some() || (is_last(at + count) && !is_partial))
+        .then_some(count)
 }
 
 /// `right here`, `straight into the drawer`, `i still need`
@@ -256,7 +384,8 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let is_back = longest(tokens, at + by, &back).is_some();
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
-            let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"));
+            let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"))
+                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need") && matches!(the.word(), "the" | "my" | "it")));
             is_back && !begins_clause && (waits || sentence.windows(2).any(is_state))
         }
         _ => false,
@@ -287,12 +416,94 @@ fn is_state(two: &[Token]) -> bool {
 /// `when you get a moment`, `if it is not too much trouble`, `when you are done with that`: how many words it takes.
 fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
     const LEISURE: &[&str] = &[
-        "when", "whenever", "if", "once", "as", "soon", "you", "get", "got", "have", "has", "find", "can",
-        "could", "are", "would", "not", "too", "much", "trouble", "is", "it", "a", "the", "some", "spare",
-        "free", "at", "up", "moment", "minute", "second", "sec", "time", "chance", "ready", "able", "so",
-        "kind", "do", "mind", "like", "good", "there", "that", "next", "around", "about", "by", "manage",
-        "bother", "to", "ask", "okay", "getting", "doing", "bringing", "fetching", "passing", "reaching",
-        "helping", "me", "anyway", "feel",
+        "when",
+        "whenever",
+        "if",
+        "once",
+        "as",
+        "soon",
+        "you",
+        "get",
+        "got",
+        "have",
+        "has",
+        "find",
+        "can",
+        "could",
+        "are",
+        "would",
+        "not",
+        "too",
+        "much",
+        "trouble",
+        "is",
+        "it",
+        "a",
+        "the",
+        "some",
+        "spare",
+        "free",
+        "at",
+        "up",
+        "moment",
+        "minute",
+        "second",
+        "sec",
+        "time",
+        "chance",
+        "ready",
+        "able",
+        "so",
+        "kind",
+        "do",
+        "mind",
+        "like",
+        "good",
+        "there",
+        "that",
+        "next",
+        "around",
+        "about",
+        "by",
+        "manage",
+        "bother",
+        "to",
+        "ask",
+        "okay",
+        "getting",
+        "doing",
+        "bringing",
+        "fetching",
+        "passing",
+        "reaching",
+        "helping",
+        "me",
+        "anyway",
+        "feel",
+        "found",
+        "located",
+        "spotted",
+        "them",
+        "finished",
+        "done",
+        "with",
+        "nothing",
+        "else",
+        "better",
+        "busy",
+        "otherwise",
+        "occupied",
+        "please",
+        "happen",
+        "come",
+        "back",
+        "pass",
+        "passing",
+        "going",
+        "way",
+        "on",
+        "your",
+        "over",
     ];
     let starts = ["when", "whenever", "if", "once", "as soon as", "while", "since", "as"];
     let subject = |begin: &str| stands(tokens, at, &format!("{begin} you"));
