@@ -76,6 +76,8 @@ fn what_cannot_be_reached_is_said_with_the_reason() {
         other => panic!("{other:?}"),
     };
     assert!(why("on(vise, desk)").contains("mass"), "{}", why("on(vise, desk)"));
+    // Who is brought something is no reason.
+    assert!(why("at(vise, user)").contains("mass"), "{}", why("at(vise, user)"));
     assert!(why("in(pen, drawer_2)").contains("locked"), "{}", why("in(pen, drawer_2)"));
 }
 

@@ -144,6 +144,8 @@ impl<'r, 'a> Live<'r, 'a> {
         if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
             self.talk.known.presume(&before);
         }
+        let after = self.talk.known.places(&self.talk.setting.scene);
+        self.talk.known.remember_moved(&before, &after);
         if !matches!(end, RunEnd::Done { .. }) {
             let (felt, now) = sense(driver, &self.talk.setting.robot, &self.talk.setting.scene, self.now);
             self.talk.known.notice(&felt);

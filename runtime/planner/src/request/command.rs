@@ -58,6 +58,7 @@ const OUT_OF_SIGHT: &[&str] = &[
 pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
     let mut now = Command::new(act);
+    let lost = |at: usize| Err(words(tokens, begin, tokens.len().min(at + 4)));
     if is_want(tokens, begin) {
         now.with.push(WANTED.to_owned());
     }
@@ -67,27 +68,46 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
     loop {
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
-            Some(Token::Comma) => {
-                let after = skip_and(tokens, at + 1);
-                if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
+            Some(Token::Word(word)) if !matches!(word.as_str(), "and" | "then") => {
+                at = part(tokens, begin, at, &mut now)?;
+            }
+            Some(Token::Comma | Token::Word(_)) => {
+                let after = skip_and(tokens, at);
+                if begins(tokens, after) {
                     break;
                 }
+                if goes_on(&mut now, commands, tokens, after) {
+                    at = after;
+                    continue;
+                }
+                if !is_another_place(&now, tokens, after) {
+                    break;
+                }
+                // `put it on the table and then on the shelf`: first there, then there. Without `then` it is in no two places.
+                if !tokens
+                    .get(at..after)
+                    .is_some_and(|joint| joint.iter().any(|token| token.word() == "then"))
+                {
+                    return lost(after);
+                }
+                let next =
+                    Command { items: now.items.clone(), with: now.with.clone(), ..Command::new(now.act) };
+                commands.push(std::mem::replace(&mut now, next));
                 at = after;
             }
-            Some(Token::Word(word)) => match word.as_str() {
-                "and" | "then" => {
-                    let after = skip_and(tokens, at);
-                    if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
-                        break;
-                    }
-                    at = after;
-                }
-                _ => at = part(tokens, begin, at, &mut now)?,
-            },
         }
     }
     commands.push(now);
     Ok(at)
+}
+
+/// Whether another place follows for a thing that has one already.
+fn is_another_place(now: &Command, tokens: &[Token], at: usize) -> bool {
+    let place = spot(tokens, at).or_else(|| way(tokens, at));
+    let Some((place, end)) = place else { return false };
+    let is_placed = now.to.is_some() && !now.items.is_empty();
+    let is_named = matches!(place.noun, Noun::Phrase(_) | Noun::Speaker);
+    is_placed && is_named && place.relation != Relation::Beside && is_boundary(tokens, end)
 }
 
 fn skip_and(tokens: &[Token], mut at: usize) -> usize {
@@ -120,7 +140,7 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
     // `put it where it belongs, in the drawer`
-    if another_place && now.to.is_none() && now.has(BELONGS) {
+    if another_place && now.to.is_none() && now.has("back") {
         return true;
     }
     if !(another || is_place) {
@@ -273,6 +293,20 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         }
         return Ok(after);
     }
+    // `put it back where it was`
+    let was = [
+        "where it came from",
+        "where it was",
+        "where it was before",
+        "where you found it",
+        "where you got it",
+        "where you got it from",
+    ];
+    let to = stands(tokens, at, "to").unwrap_or(0);
+    if let Some(count) = longest(tokens, at + to, &was) {
+        now.with.push("back".to_owned());
+        return Ok(at + to + count);
+    }
     // `put it back where it belongs`
     if let Some(count) = [
         "to where it belongs",
@@ -280,13 +314,6 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         "to where it goes",
         "where it goes",
         "where it lives",
-        "where it came from",
-        "to where it came from",
-        "where it was",
-        "to where it was",
-        "where you found it",
-        "where you got it from",
-        "where it was before",
         "to its place",
         "in its usual place",
         "to its usual place",

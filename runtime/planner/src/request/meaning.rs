@@ -86,6 +86,7 @@ pub(super) fn understood(
         reader.command(command, later)?;
     }
     reader.settle()?;
+    reader.join();
     Ok(reader.said)
 }
 

@@ -333,8 +333,25 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         // `so it can go in the bin` asks for it.
         let next = tokens.get(after).map_or("", Token::word);
         let is_person = tokens.get(who).is_some_and(|token| matches!(token.word(), "i" | "we"));
-        (is_person || !matches!(next, "go" | "be" | "get" | "stay" | "end" | "live" | "have"))
-            .then_some(after)
+        (is_person
+            || !matches!(
+                next,
+                "go" | "be"
+                    | "get"
+                    | "stay"
+                    | "end"
+                    | "live"
+                    | "have"
+                    | "should"
+                    | "goes"
+                    | "belongs"
+                    | "lives"
+                    | "is"
+                    | "has"
+                    | "needs"
+                    | "must"
+            ))
+        .then_some(after)
     };
     let begins_clause = matches!(kept.last(), None | Some(Token::Stop));
     let is_aim = match tokens.get(at)?.word() {
