@@ -205,9 +205,12 @@ impl Live<'_, '_> {
         known.learn_midway(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
         // Where the base is while it moves nobody knows beforehand.
-        let Judged::Good { planned, .. } = judge(&self.talk.session(&scene, &known, None), policy) else {
+        let judged = judge(&self.talk.session(&scene, &known, None), policy);
+        // Other steps than were written are not slipped in: the request is planned anew.
+        let Judged::Good { planned, changed, .. } = judged else { return None };
+        if !changed.is_empty() {
             return None;
-        };
+        }
         let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)

@@ -247,7 +247,7 @@ impl Reader<'_> {
         let user = SmolStr::new_static("user");
         // Who wants a thing where it is taken to be already may know better: it is looked at.
         if let (
-            Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
+            Act::Fetch | Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
             Target::To(to),
             [thing],
         ) = (act, target, choice)

@@ -39,13 +39,18 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `take it and put it there` asks for one thing: that it is held on the way goes without saying.
+    /// `take it and put it there` asks for one thing: that it is held on the way goes without saying, unless it is believed to
+    /// be there already.
     pub(super) fn join(&mut self) {
         let aims = &self.said.aims;
         let is_implied = |(index, aim): (usize, &Aim)| {
             let held = (aim.goal.lasts == Lasts::Once).then(|| simple(&aim.goal.condition)).flatten();
             let next = aims.get(index + 1).and_then(|next| simple(&next.goal.condition));
-            matches!((held, next), (Some(Simple::Held(one)), Some(Simple::Placed(other, _))) if one == other)
+            let (Some(Simple::Held(one)), Some(Simple::Placed(other, place))) = (held, next) else {
+                return false;
+            };
+            let support = self.vocabulary.thing(&one).and_then(|thing| thing.support.clone());
+            one == other && support != Some(place)
         };
         let implied: Vec<bool> = aims.iter().enumerate().map(is_implied).collect();
         let mut implied = implied.into_iter();

@@ -1,6 +1,7 @@
 //! Whether somebody who was asked whether to try again says so, in whatever words: `give it another shot`, `it cannot hurt`.
 
-use super::assent::{AGAIN, AGREES, BESIDE, DENIES, GIVES_UP, PLAIN, WHOLE};
+use super::assent::{AGAIN, AGREES, PLAIN, WHOLE};
+use super::dissent::{BESIDE, DENIES, GIVES_UP};
 use super::lead::skip_leads;
 use super::token::{Token, longest, stands, tokens};
 use super::verb::verb;

@@ -1,8 +1,8 @@
 //! What stands before a verb out of politeness, and what someone says who wants to have something.
 
+use super::lexicon::VERBS;
 use super::opening::LEADS;
 use super::token::{Token, longest, stands};
-use super::verb::VERBS;
 
 /// What someone says who wants to have something.
 pub(super) const WANTS: &[&str] = &[

@@ -3,9 +3,11 @@
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
 mod assent;
+mod beside;
 mod carry;
 mod clash;
 mod command;
+mod dissent;
 mod encouragement;
 mod errand;
 mod forbidden;
@@ -14,6 +16,8 @@ mod hedge;
 mod inflection;
 mod knowledge;
 mod lead;
+mod lexicon;
+mod looking;
 mod meaning;
 mod noun;
 mod opening;

@@ -6,10 +6,11 @@ use smol_str::SmolStr;
 
 use super::Located;
 use super::hedge;
+use super::looking::{HOW, IS, LOOK};
 use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
-use super::telling::{BEFORE, BEHIND, DENIES, HAS, HOW, IS, LOOK, PUT, WHO};
+use super::telling::{BEFORE, BEHIND, DENIES, HAS, PUT, WHO};
 use super::token::{Token, longest, stands};
 use super::vocabulary::Role;
 

@@ -9,9 +9,12 @@ mod clause;
 mod courtesy;
 mod delegate;
 mod favour;
+mod fill;
 mod filler;
+mod link;
 mod placed;
 mod state;
+mod tags;
 
 use self::addressed::told_you;
 use self::clause::{cause, clause};

@@ -1,6 +1,6 @@
 //! Requests that begin with the place, or have no verb: `into the bin with it`, `off to the sink with you`, `next stop is the door`.
 
-use super::clause::WANT;
+use super::link::WANT;
 use super::state::{is_place, words};
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, spot, way};
