@@ -398,6 +398,12 @@ fn who_wants_something_later_or_can_do_it_speaks_of_it_alone() {
         &["I can see the sponge from here but I can't reach it. Could you get it for me?"],
     );
     mean(&["at(robot, sink)"], &["Come with me to the sink.", "Come to the sink with me."]);
+    // In the living room there is a can that is called rubbish, too.
+    let scene = setup::scene("living_room");
+    let said = "Ugh, the remote control is just rubbish now, isn't it. Would you put it in the bin?";
+    let understood = request::understand(said, &Situation::new(&scene)).unwrap();
+    let goals: Vec<_> = understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect();
+    assert_eq!(goals, ["in(remote_1, trash_bin)"]);
     mean(
         &["holding(sponge)"],
         &[

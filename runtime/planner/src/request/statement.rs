@@ -69,12 +69,10 @@ impl Reader<'_> {
             let word =
                 |back: usize| at.checked_sub(back).and_then(|at| tokens.get(at)).map_or("", Token::word);
             let is_told = matches!(word(1), "is" | "are" | "was" | "were") && word(2) != "there";
-            if is_told && phrase.which != Which::The {
-                // `that is enough of the can`
-                at += 1;
-                continue;
+            // `that is enough of the can`
+            if !(is_told && phrase.which != Which::The) || phrase.said.starts_with("enough of") {
+                self.mention(&phrase);
             }
-            self.mention(&phrase);
             at = after.max(at + 1);
         }
     }
