@@ -195,6 +195,21 @@ fn a_thing_is_looked_for_where_it_is_believed_to_be() {
     changes("anymal_z1", "bring me the red mug", (21.5, "bring me the green apple instead"), goal);
 }
 
+#[test]
+fn what_was_taken_is_put_back_where_it_was() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut talk = Conversation::new(&setting);
+    let mut now = Time::ZERO;
+    let mut person = Answers(Vec::new(), Vec::new());
+    for (request, place) in [("put the sponge on the counter", "counter"), ("put it back", "sink")] {
+        let (outcome, then) = talk.carry_out(request, &mut Builtin, &mut sim, &mut person, &mut (), now);
+        assert_eq!((outcome, &person.1), (Outcome::Done, &Vec::new()), "{request}");
+        assert_eq!(sim.holds("on", &["sponge", place]), Some(true), "{request}");
+        now = then;
+    }
+}
+
 /// A picking hand that slips each time.
 fn slipping(setting: &Setting) -> Sim {
     let faults = r#"{"calls": [{"primitive": "pick", "then": {"fails": "slipped"}}]}"#;

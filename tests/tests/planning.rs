@@ -54,6 +54,13 @@ fn goals_are_reached() {
 }
 
 #[test]
+fn a_thing_whose_name_others_have_too_is_looked_for_by_another() {
+    reaches("living_room", &["in(toy, drawer_1)"], &[("in", &["toy", "drawer_1"])]);
+    let planned = plan("anymal_z1", "living_room", &["in(toy, drawer_1)"]).unwrap();
+    assert!(planned.text.contains("\"toy car\""), "{}", planned.text);
+}
+
+#[test]
 fn goals_are_reached_one_after_the_other() {
     reaches(
         "kitchen",
@@ -76,6 +83,8 @@ fn what_cannot_be_reached_is_said_with_the_reason() {
         other => panic!("{other:?}"),
     };
     assert!(why("on(vise, desk)").contains("mass"), "{}", why("on(vise, desk)"));
+    // Who is brought something is no reason.
+    assert!(why("at(vise, user)").contains("mass"), "{}", why("at(vise, user)"));
     assert!(why("in(pen, drawer_2)").contains("locked"), "{}", why("in(pen, drawer_2)"));
 }
 

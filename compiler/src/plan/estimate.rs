@@ -118,12 +118,21 @@ impl<'p, 'a> Estimate<'p, 'a> {
             }
             Condition::Literal(_) | Condition::Compare(..) => {
                 if value.no.is_some() {
-                    self.bury(|prover| prover.show(condition, truth, frame));
+                    // That a call is for other things than these is no reason: `user != user` of what puts something down.
+                    if !self.compares_entities(condition, frame) {
+                        self.bury(|prover| prover.show(condition, truth, frame));
+                    }
                     return None;
                 }
                 Some(Cost::default())
             }
         }
+    }
+
+    fn compares_entities(&self, condition: &Condition, frame: Frame<'_>) -> bool {
+        let Condition::Compare(_, left, right) = condition else { return false };
+        let is_entity = |term: &Term| self.prover.argument(term, frame).is_some();
+        is_entity(left) && is_entity(right)
     }
 
     fn fact(&mut self, fact: &Fact, truth: bool, frame: Frame<'_>, value: Value) -> Option<Cost> {

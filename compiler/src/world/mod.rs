@@ -134,6 +134,23 @@ impl World {
         found.iter().copied().filter(fits).collect()
     }
 
+    /// A description that finds an entity and no other of its kind: its name, or where that is what others are called too, the
+    /// shortest that does, the first of these by the alphabet. O(descriptions).
+    pub(crate) fn description_of(
+        &self,
+        library: &Library,
+        name: &SmolStr,
+        (entity, kind): (Entity, Kind),
+    ) -> Option<SmolStr> {
+        let finds = |description: &str| self.described(library, description, kind) == [entity];
+        if finds(name) {
+            return Some(name.clone());
+        }
+        let others = self.descriptions.iter().filter(|(_, found)| found.contains(&entity));
+        let others = others.map(|(description, _)| description).filter(|description| finds(description));
+        others.min_by_key(|description| (description.len(), description.as_str())).map(SmolStr::from)
+    }
+
     /// Whether a description fits any entity.
     pub(crate) fn is_description(&self, description: &str) -> bool {
         let is_gap = |byte: u8| matches!(byte, b' ' | b'_' | b'-');

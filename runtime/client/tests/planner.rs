@@ -90,6 +90,23 @@ fn a_slip_that_has_a_known_fix_is_mended_without_another_round() {
 }
 
 #[test]
+fn a_fix_that_changes_the_steps_is_left_to_the_model() {
+    let right = right(&setting(), COKE);
+    let mut value: serde_json::Value = serde_json::from_str(&right).unwrap();
+    value["steps"].as_array_mut().unwrap().remove(0);
+    let wrong = value.to_string();
+    let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(right)]);
+    assert_eq!(outcome, Outcome::Done, "{heard:?}");
+    // It was read to its end, and what is wrong goes back unmended.
+    assert!(heard[1].starts_with("refused "), "{heard:?}");
+    assert_eq!(heard[heard.len() - 2..], ["asked 1", "taken"], "{heard:?}");
+    // Of a model that never does better the fix is made in the end.
+    let (_, heard, _) = play(vec![Act::says(wrong)]);
+    assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 4, "{heard:?}");
+    assert!(heard[heard.len() - 2].starts_with("mended "), "{heard:?}");
+}
+
+#[test]
 fn a_reply_that_stays_wrong_becomes_a_question() {
     let (outcome, heard, _) = play(vec![Act::says("I am sorry, I cannot do that.")]);
     assert_eq!(heard.iter().filter(|line| line.starts_with("asked")).count(), 4, "{heard:?}");

@@ -64,8 +64,8 @@ impl<'a> Prover<'a> {
         found
     }
 
-    /// Calls of a perception that finds one thing: what a description finds by the name of the thing, any other as it was
-    /// found before.
+    /// Calls of a perception that finds one thing: what a description finds by the name of the thing, or by another that
+    /// only it has, any other as it was found before.
     fn perceive(
         &self,
         primitive: Primitive,
@@ -79,13 +79,13 @@ impl<'a> Prover<'a> {
         }
         let Some(kind) = def.result.and_then(|ty| ty.kind()) else { return Vec::new() };
         let Some(name) = self.world.entities().name(found) else { return Vec::new() };
-        if self.world.described(self.library, name, kind) != [found] {
+        let Some(description) = self.world.description_of(self.library, name, (found, kind)) else {
             return Vec::new();
-        }
+        };
         let mut args = args;
         let described = def.params.iter().zip(&mut args).find(|(param, _)| param.ty == Ty::TEXT);
         let Some((_, slot)) = described else { return Vec::new() };
-        *slot = Some(Term::Text(name.clone()));
+        *slot = Some(Term::Text(description));
         self.look_where_it_is(def, &mut args, found);
         let all = self.fill(def, args).into_iter();
         all.map(|args| Proposed { primitive, args, result: Some(found), again: None }).collect()

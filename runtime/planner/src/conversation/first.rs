@@ -52,10 +52,10 @@ impl Conversation<'_> {
         let Some(rest) = rest else { return After::Done };
         let scene = self.known.scene(&self.setting.scene);
         match judge(&self.session(&scene, &self.known, base), &rest) {
-            Judged::Good { planned, .. } => {
+            Judged::Good { planned, changed, .. } if changed.is_empty() => {
                 After::Runs(Box::new(Answered { understood: first.understood, planned: *planned }))
             }
-            Judged::Bad { .. } => After::PlansAnew,
+            Judged::Good { .. } | Judged::Bad { .. } => After::PlansAnew,
         }
     }
 }

@@ -144,6 +144,8 @@ impl<'r, 'a> Live<'r, 'a> {
         if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
             self.talk.known.presume(&before);
         }
+        let after = self.talk.known.places(&self.talk.setting.scene);
+        self.talk.known.remember_moved(&before, &after);
         if !matches!(end, RunEnd::Done { .. }) {
             let (felt, now) = sense(driver, &self.talk.setting.robot, &self.talk.setting.scene, self.now);
             self.talk.known.notice(&felt);
@@ -203,9 +205,12 @@ impl Live<'_, '_> {
         known.learn_midway(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
         // Where the base is while it moves nobody knows beforehand.
-        let Judged::Good { planned, .. } = judge(&self.talk.session(&scene, &known, None), policy) else {
+        let judged = judge(&self.talk.session(&scene, &known, None), policy);
+        // Other steps than were written are not slipped in: the request is planned anew.
+        let Judged::Good { planned, changed, .. } = judged else { return None };
+        if !changed.is_empty() {
             return None;
-        };
+        }
         let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)

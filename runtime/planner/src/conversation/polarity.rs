@@ -1,5 +1,7 @@
 //! Yes, no, and stop, at the beginning of what a person says.
 
+use crate::request::token::{self, Token};
+
 /// What the first words of an answer say, with what is said behind them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Polarity<'a> {
@@ -69,11 +71,8 @@ const STOP: &[&str] = &[
     "abort",
     "quit",
     "enough",
-    "that's enough",
     "that is enough",
-    "that's fine",
     "that is fine",
-    "don't",
     "do not",
     "not now",
     "not again",
@@ -89,8 +88,17 @@ const STOP: &[&str] = &[
     "none",
 ];
 /// These end it only where nothing else is said.
-const STOP_ALONE: &[&str] =
-    &["nothing", "nothing at all", "nobody", "leave", "skip", "i'll do it myself", "i will do it myself"];
+const STOP_ALONE: &[&str] = &[
+    "nothing",
+    "nothing at all",
+    "nobody",
+    "leave",
+    "skip",
+    "i'll do it myself",
+    "i will do it myself",
+    "i'll do it",
+    "i will do it",
+];
 /// What a robot that moves is told so that it does not.
 const HOLD: &[&str] = &["wait", "hold on", "hold it", "freeze", "pause", "careful", "watch out", "look out"];
 /// Words for not knowing.
@@ -98,11 +106,8 @@ const IGNORANT: &[&str] = &[
     "no idea",
     "no clue",
     "not sure",
-    "i'm not sure",
     "i am not sure",
-    "don't know",
     "do not know",
-    "i don't know",
     "i do not know",
     "i have no idea",
     "who knows",
@@ -121,10 +126,10 @@ const ASKING: &[&str] = &[
     "you could",
     "you should",
     "you must",
-    "you'd better",
+    "you would better",
+    "you had better",
     "go ahead and",
     "i want you to",
-    "i'd like you to",
     "i would like you to",
 ];
 /// Behind `stop` and `leave it` these begin a place: "stop at the table".
@@ -209,17 +214,11 @@ fn skip_all<'a>(mut said: &'a str, phrases: &[&str]) -> &'a str {
     said
 }
 
-/// The words in small letters, each with the offset behind it.
+/// The words, each with the offset behind it.
 fn words(said: &str) -> impl Iterator<Item = (String, usize)> {
-    let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '\'' | '\u{2019}');
-    let mut at = 0;
-    std::iter::from_fn(move || {
-        let rest = said.get(at..)?;
-        let start = at + rest.find(is_letter)?;
-        let word = said.get(start..)?;
-        let length = word.find(|letter| !is_letter(letter)).unwrap_or(word.len());
-        at = start + length;
-        Some((word.get(..length)?.to_lowercase().replace('\u{2019}', "'"), at))
+    token::pieces(said).into_iter().filter_map(|(token, end)| match token {
+        Token::Word(word) => Some((word, end)),
+        Token::Comma | Token::Stop => None,
     })
 }
 

@@ -1,5 +1,6 @@
 //! A whole reply: what it is as a policy, after the fixes that are known, or what is wrong with it.
 
+use motet_compiler::fix::Applied;
 use motet_compiler::{Session, fix, settle};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Diagnostic, FileId, Form, Parsed, Severity, Source};
@@ -18,6 +19,8 @@ pub enum Judged {
         planned: Box<Planned>,
         /// The fixes that were made first.
         mended: Vec<String>,
+        /// What was wrong, where a fix did more than spell what was written: the steps are then not those of the reply.
+        changed: Vec<Diagnostic>,
     },
     /// None.
     Bad {
@@ -37,10 +40,13 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
         parsed = read(&motet_syntax::print::text(&File { items: items.cloned().collect() }));
     }
     let findings = errors(session.compile(&parsed, None).diagnostics);
-    let mut mended = Vec::new();
+    let (mut mended, mut changed) = (Vec::new(), Vec::new());
     if !findings.is_empty() {
-        let Some((text, titles)) = mend(session, &parsed.text) else { return Judged::Bad { findings } };
-        (parsed, mended) = (read(&text), titles);
+        let Some((text, fixes)) = mend(session, &parsed.text) else { return Judged::Bad { findings } };
+        if !fixes.iter().all(is_spelling) {
+            changed = findings;
+        }
+        (parsed, mended) = (read(&text), fixes.into_iter().map(|fix| fix.title).collect());
     }
     let mut file = parsed.file.clone();
     for item in &mut file.items {
@@ -55,17 +61,22 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
         // Motions are looked at only where nothing else is wrong, and no fix is known for them.
         return Judged::Bad { findings: errors(compiled.diagnostics) };
     }
-    Judged::Good { planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }), mended }
+    Judged::Good { planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }), mended, changed }
 }
 
-/// A document after known fixes, and what they do; none where errors are left.
-pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<String>)> {
+/// Whether a fix leaves the steps as they were meant: of syntax, names and types.
+fn is_spelling(fix: &Applied) -> bool {
+    ["M01", "M02", "M03"].iter().any(|stage| fix.code.0.starts_with(stage))
+}
+
+/// A document after known fixes, and these; none where errors are left.
+pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<Applied>)> {
     let source = Source::new(name(document), document);
     let fixed = fix::fix(session, &source, FileId(0), MOST_FIXES);
     if fixed.applied.is_empty() || !errors(fixed.diagnostics).is_empty() {
         return None;
     }
-    Some((fixed.text, fixed.applied.into_iter().map(|applied| applied.title).collect()))
+    Some((fixed.text, fixed.applied))
 }
 
 pub(super) fn read(document: &str) -> Parsed {

@@ -66,7 +66,7 @@ pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>
     // What the whole policy reaches, one step need not.
     policy.remove("achieves");
     match judge(session, &Json::Object(policy).to_string()) {
-        Judged::Good { planned, mended } if mended.is_empty() => {
+        Judged::Good { planned, mended, .. } if mended.is_empty() => {
             let graph = planned.compiled.graph.as_ref()?;
             is_certain(graph).then_some(planned)
         }

@@ -177,7 +177,11 @@ impl<'m> ModelPlanner<'m> {
             Ok(Read::Ended(verdict)) => {
                 let whole = if verdict == Verdict::Whole { reading.policy() } else { reading.reply() };
                 match judge(session, whole) {
-                    Judged::Good { planned, mended } => {
+                    Judged::Good { planned, mended, changed } => {
+                        // Other steps than were written are the model's to write, as long as it may.
+                        if !changed.is_empty() && round < self.settings.repairs {
+                            return Round::Bad(reading.reply().to_owned(), changed);
+                        }
                         // A model is told once that this is not what was asked for; it may know better what was meant.
                         let wanted = goal.take().filter(|_| round < self.settings.repairs);
                         let findings = wanted.map(|goal| purpose::missed(session, &planned, &goal));

@@ -42,10 +42,13 @@ impl Reader<'_> {
             let choices = self.choices(item, from.as_deref())?;
             for choice in choices {
                 // `the coke belongs in the fridge, put it back where it belongs`
-                if command.has(BELONGS) && matches!(target, Target::None) && self.has_its_place(&choice) {
+                let is_placed = !matches!(target, Target::None)
+                    || !(command.has(BELONGS) || matches!(act, Act::Put | Act::Stow | Act::Store));
+                if !is_placed && self.has_its_place(&choice) {
                     continue;
                 }
-                self.carry_one(act, &choice, &target, later)?;
+                let own = if is_placed { None } else { self.own_place(command, &choice) };
+                self.carry_one(act, &choice, own.as_ref().unwrap_or(&target), later)?;
                 if let Some(aim) =
                     self.said.aims.last_mut().filter(|aim| command.has(KEPT) && aim.name.starts_with("put_"))
                 {
@@ -190,6 +193,47 @@ impl Reader<'_> {
         self.said.aims.iter().any(|aim| aim.name == format!("keep_{thing}"))
     }
 
+    /// Where a thing goes of which it is not said: where it is usually kept, where it was, or into what was spoken of last.
+    fn own_place(&self, command: &Command, choice: &[SmolStr]) -> Option<Target> {
+        let [thing] = choice else { return None };
+        let usual =
+            || self.usual.iter().rev().find(|(known, _)| known == thing).map(|(_, place)| place.clone());
+        let last = |fits: Role| {
+            let place = self.places.last()?;
+            (self.vocabulary.thing(place)?.role == fits).then(|| place.clone())
+        };
+        let place = if command.has(BELONGS) || command.has("away") {
+            usual()
+        } else if command.has("back") {
+            usual().or_else(|| self.was_at(thing))
+        } else if command.has("in") {
+            last(Role::Container)
+        } else if command.has("on") {
+            last(Role::Surface)
+        } else {
+            None
+        };
+        place.map(Target::To)
+    }
+
+    /// Where a thing was before it was taken: by this request, or before.
+    fn was_at(&self, thing: &SmolStr) -> Option<SmolStr> {
+        let taken = format!("_{thing}");
+        let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.clone());
+        if self.said.aims.iter().any(|aim| aim.name.ends_with(&taken))
+            && support.is_some()
+            && self.situation.holding.as_ref() != Some(thing)
+        {
+            return support;
+        }
+        self.situation
+            .came_from
+            .iter()
+            .rev()
+            .find(|(known, _)| known == thing)
+            .map(|(_, place)| place.clone())
+    }
+
     /// One thing, or any one of several.
     fn carry_one(
         &mut self,
@@ -203,7 +247,7 @@ impl Reader<'_> {
         let user = SmolStr::new_static("user");
         // Who wants a thing where it is taken to be already may know better: it is looked at.
         if let (
-            Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
+            Act::Fetch | Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw | Act::Discard,
             Target::To(to),
             [thing],
         ) = (act, target, choice)

@@ -7,6 +7,7 @@ use smol_str::SmolStr;
 use super::Puzzle;
 use super::meaning::Reader;
 use super::vocabulary::Role;
+use crate::builtin::Aim;
 
 /// A goal that says one thing of one thing.
 #[derive(PartialEq, Eq)]
@@ -36,6 +37,24 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// `take it and put it there` asks for one thing: that it is held on the way goes without saying, unless it is believed to
+    /// be there already.
+    pub(super) fn join(&mut self) {
+        let aims = &self.said.aims;
+        let is_implied = |(index, aim): (usize, &Aim)| {
+            let held = (aim.goal.lasts == Lasts::Once).then(|| simple(&aim.goal.condition)).flatten();
+            let next = aims.get(index + 1).and_then(|next| simple(&next.goal.condition));
+            let (Some(Simple::Held(one)), Some(Simple::Placed(other, place))) = (held, next) else {
+                return false;
+            };
+            let support = self.vocabulary.thing(&one).and_then(|thing| thing.support.clone());
+            one == other && support != Some(place)
+        };
+        let implied: Vec<bool> = aims.iter().enumerate().map(is_implied).collect();
+        let mut implied = implied.into_iter();
+        self.said.aims.retain(|_| !implied.next().unwrap_or_default());
     }
 
     /// A place or a person in a sentence.

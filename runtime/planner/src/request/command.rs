@@ -42,10 +42,23 @@ pub(super) fn words(tokens: &[Token], begin: usize, end: usize) -> String {
     words.join(" ").trim().to_owned()
 }
 
+/// Where something goes that somebody does not want to see.
+const OUT_OF_SIGHT: &[&str] = &[
+    "out of my sight",
+    "out of sight",
+    "out of view",
+    "out of my way",
+    "out of the way",
+    "out of my face",
+    "out of here",
+    "off my hands",
+];
+
 /// Reads one command, or several that share a verb; where the next thing begins.
 pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
     let mut now = Command::new(act);
+    let lost = |at: usize| Err(words(tokens, begin, tokens.len().min(at + 4)));
     if is_want(tokens, begin) {
         now.with.push(WANTED.to_owned());
     }
@@ -55,27 +68,46 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
     loop {
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
-            Some(Token::Comma) => {
-                let after = skip_and(tokens, at + 1);
-                if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
+            Some(Token::Word(word)) if !matches!(word.as_str(), "and" | "then") => {
+                at = part(tokens, begin, at, &mut now)?;
+            }
+            Some(Token::Comma | Token::Word(_)) => {
+                let after = skip_and(tokens, at);
+                if begins(tokens, after) {
                     break;
                 }
+                if goes_on(&mut now, commands, tokens, after) {
+                    at = after;
+                    continue;
+                }
+                if !is_another_place(&now, tokens, after) {
+                    break;
+                }
+                // `put it on the table and then on the shelf`: first there, then there. Without `then` it is in no two places.
+                if !tokens
+                    .get(at..after)
+                    .is_some_and(|joint| joint.iter().any(|token| token.word() == "then"))
+                {
+                    return lost(after);
+                }
+                let next =
+                    Command { items: now.items.clone(), with: now.with.clone(), ..Command::new(now.act) };
+                commands.push(std::mem::replace(&mut now, next));
                 at = after;
             }
-            Some(Token::Word(word)) => match word.as_str() {
-                "and" | "then" => {
-                    let after = skip_and(tokens, at);
-                    if begins(tokens, after) || !goes_on(&mut now, commands, tokens, after) {
-                        break;
-                    }
-                    at = after;
-                }
-                _ => at = part(tokens, begin, at, &mut now)?,
-            },
         }
     }
     commands.push(now);
     Ok(at)
+}
+
+/// Whether another place follows for a thing that has one already.
+fn is_another_place(now: &Command, tokens: &[Token], at: usize) -> bool {
+    let place = spot(tokens, at).or_else(|| way(tokens, at));
+    let Some((place, end)) = place else { return false };
+    let is_placed = now.to.is_some() && !now.items.is_empty();
+    let is_named = matches!(place.noun, Noun::Phrase(_) | Noun::Speaker);
+    is_placed && is_named && place.relation != Relation::Beside && is_boundary(tokens, end)
 }
 
 fn skip_and(tokens: &[Token], mut at: usize) -> usize {
@@ -107,6 +139,10 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     });
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
+    // `put it where it belongs, in the drawer`
+    if another_place && now.to.is_none() && now.has("back") {
+        return true;
+    }
     if !(another || is_place) {
         return false;
     }
@@ -125,8 +161,9 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     // `grab the mug for me`: who takes something for somebody brings it.
     let for_me = longest(tokens, at, &["for me", "for us"]);
     if let (Some(count), Act::Take) = (for_me, now.act) {
-        // `take the mug to the sink for me` asks for a favour.
-        if now.to.as_ref().is_none_or(|to| !to.moves()) {
+        // `take the mug to the sink for me`, `carry the mug for me` ask for a favour.
+        let carries = matches!(tokens.get(begin).map_or("", Token::word), "carry" | "cart" | "haul" | "lug");
+        if (!carries || now.has("over")) && now.to.as_ref().is_none_or(|to| !to.moves()) {
             now.to_whom.get_or_insert(Noun::Speaker);
         }
         return Ok(at + count);
@@ -159,19 +196,18 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(at + count);
     }
     // `get it out of my sight`
-    if let Some(count) = [
-        "out of my sight",
-        "out of my way",
-        "out of the way",
-        "out of my face",
-        "out of here",
-        "off my hands",
-    ]
-    .iter()
-    .find_map(|words| stands(tokens, at, words))
+    if let Some(count) = longest(tokens, at, OUT_OF_SIGHT)
         && matches!(now.act, Act::Fetch | Act::Take | Act::Put | Act::Move)
     {
         now.act = Act::Stow;
+        return Ok(at + count);
+    }
+    // `put it out with the rubbish`
+    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
+    if let Some(count) = longest(tokens, at, &rubbish)
+        && matches!(now.act, Act::Take | Act::Put | Act::Move | Act::Throw)
+    {
+        now.act = Act::Discard;
         return Ok(at + count);
     }
     if let Some(count) =
@@ -190,7 +226,11 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     }
     if is_way(tokens, at) {
         let Some((place, after)) = way(tokens, at) else { return Err(lost()) };
-        if matches!(place.noun, Noun::Speaker) && place.relation == Relation::To && !goes {
+        if is_hand(&place.noun) {
+            now.with.push("hand".to_owned());
+            return Ok(after);
+        }
+        if matches!(place.noun, Noun::Speaker) && place.relation != Relation::Beside && !goes {
             now.to_whom = Some(place.noun);
         } else {
             now.put_at(place);
@@ -201,6 +241,11 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         // `take it in your hand`
         if is_hand(&place.noun) {
             now.with.push("hand".to_owned());
+            return Ok(after);
+        }
+        // `put it in my hand`
+        if matches!(place.noun, Noun::Speaker) && !goes {
+            now.to_whom = Some(place.noun);
             return Ok(after);
         }
         now.put_at(Spot { is_behind_thing: !now.items.is_empty() && at == now.thing_end, ..place });
@@ -221,6 +266,16 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(at + count);
     }
     // `come to me with the mug`
+    if let Some(count) = longest(tokens, at, &["with me", "with us"])
+        && matches!(now.act, Act::Go | Act::Come)
+    {
+        return Ok(at + count);
+    }
+    // `keep it with you`
+    if let Some(count) = stands(tokens, at, "with you") {
+        now.with.push("hand".to_owned());
+        return Ok(at + count);
+    }
     if word == "with"
         && matches!(now.act, Act::Go | Act::Come)
         && let Some((carried, after)) = noun(tokens, at + 1)
@@ -238,6 +293,20 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         }
         return Ok(after);
     }
+    // `put it back where it was`
+    let was = [
+        "where it came from",
+        "where it was",
+        "where it was before",
+        "where you found it",
+        "where you got it",
+        "where you got it from",
+    ];
+    let to = stands(tokens, at, "to").unwrap_or(0);
+    if let Some(count) = longest(tokens, at + to, &was) {
+        now.with.push("back".to_owned());
+        return Ok(at + to + count);
+    }
     // `put it back where it belongs`
     if let Some(count) = [
         "to where it belongs",
@@ -245,6 +314,11 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         "to where it goes",
         "where it goes",
         "where it lives",
+        "to its place",
+        "in its usual place",
+        "to its usual place",
+        "in its usual spot",
+        "in its proper place",
         "in its place",
     ]
     .iter()
@@ -271,6 +345,16 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
             | "closed"
             | "open"
             | "together"
+            | "across"
+            | "along"
+            | "aside"
+            | "around"
+            | "ready"
+            | "tight"
+            | "firm"
+            | "steady"
+            | "anywhere"
+            | "elsewhere"
     ) {
         now.with.push(word.to_owned());
         return Ok(at + 1);

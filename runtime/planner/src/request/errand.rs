@@ -82,7 +82,10 @@ impl Reader<'_> {
             return Err(self.ask(question, &[Role::Container]));
         }
         for item in &command.items {
-            let mut found = self.things(item, &[Role::Container], None)?;
+            let mut found = match self.things(item, &[Role::Container], None) {
+                Err(puzzle) => vec![self.own_door(item).ok_or(puzzle)?],
+                Ok(found) => found,
+            };
             // Of everything only what has a door.
             if matches!(item, Noun::Phrase(phrase) if phrase.words.is_empty()) {
                 let scene = self.situation.scene;
@@ -112,6 +115,15 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// `put it in the fridge and close the door`: that of what was spoken of last.
+    fn own_door(&self, item: &Noun) -> Option<SmolStr> {
+        let Noun::Phrase(phrase) = item else { return None };
+        let [part] = phrase.words.as_slice() else { return None };
+        let last = self.places.last().filter(|_| matches!(part.as_str(), "door" | "lid"))?;
+        let has_door = self.situation.scene.entities.get(last).is_some_and(|entity| entity.open.is_some());
+        has_door.then(|| last.clone())
     }
 
     /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
@@ -179,10 +191,23 @@ impl Command {
             Act::Put | Act::Fetch if self.has("hand") && self.to.is_none() && self.to_whom.is_none() => {
                 Act::Pick
             }
+            // `lift it onto the table`
+            Act::Pick | Act::Lift
+                if self.to.as_ref().is_some_and(|to| {
+                    matches!(
+                        to.preposition,
+                        "onto" | "into" | "up onto" | "over onto" | "back onto" | "over into" | "back into"
+                    )
+                }) =>
+            {
+                Act::Put
+            }
             // `stand the bottle on the table`
             Act::Go if !self.items.is_empty() && self.to.is_some() => Act::Put,
             Act::Put if self.has("away") || (self.has("back") && self.to.is_none()) => Act::Stow,
             Act::Put if self.has("down") && self.to.is_none() => Act::Release,
+            // `shut it away in the drawer`
+            Act::Close if self.has("away") => Act::Store,
             Act::Take if self.has("out") && self.from.is_none() && self.to.is_none() => Act::Pick,
             // `grab me a drink`, `take the mug to me`
             Act::Take if self.to_whom.is_some() && self.to.as_ref().is_none_or(|to| !to.moves()) => {

@@ -1,6 +1,6 @@
 //! The forms of verbs: `bring`, `bringing`, `brought`.
 
-use super::verb::VERBS;
+use super::lexicon::VERBS;
 
 /// How a verb is inflected.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -60,12 +60,24 @@ pub(super) fn understood(
             command.items = next;
         }
     }
+    // `I want the can, give`
+    if let [.., before, last] = commands.as_mut_slice()
+        && last.act == Act::Fetch
+        && last.needs_items()
+        && !before.items.is_empty()
+    {
+        last.items.push(Noun::Before("it"));
+    }
     for command in &mut commands {
         reader.dative(command);
     }
     for index in 1..commands.len() {
         let takes_it = commands.get(index).is_some_and(Command::takes_it);
-        if let Some(first) = commands.get_mut(index - 1).filter(|_| takes_it) {
+        // `get the mug, go to the table and put it there`
+        let goes = |command: &&Command| matches!(command.act(), Act::Go | Act::Open);
+        let between = commands.get(..index).unwrap_or_default().iter().rev().take_while(goes).count();
+        let first = (index - 1).checked_sub(between);
+        if let Some(first) = first.and_then(|at| commands.get_mut(at)).filter(|_| takes_it) {
             first.only_takes();
         }
     }
@@ -74,6 +86,7 @@ pub(super) fn understood(
         reader.command(command, later)?;
     }
     reader.settle()?;
+    reader.join();
     Ok(reader.said)
 }
 
@@ -104,7 +117,7 @@ impl Command {
     /// `get the mug and leave it on the table`: getting it is taking it, where nobody is named who gets it.
     fn only_takes(&mut self) {
         // `get it out of my sight, put it in the drawer`
-        if matches!(self.act(), Act::Fetch | Act::Take | Act::Stow)
+        if matches!(self.act(), Act::Fetch | Act::Take | Act::Stow | Act::Put | Act::Store)
             && self.to.is_none()
             && self.to_whom.is_none()
         {
@@ -129,6 +142,8 @@ pub(super) struct Reader<'a> {
     pub(super) liked: Vec<Vec<String>>,
     /// Places that were spoken of.
     pub(super) places: Vec<SmolStr>,
+    /// Where things are kept, as somebody says.
+    pub(super) usual: Vec<(SmolStr, SmolStr)>,
 }
 
 impl<'a> Reader<'a> {
@@ -140,6 +155,7 @@ impl<'a> Reader<'a> {
             left: None,
             liked: Vec::new(),
             places: Vec::new(),
+            usual: Vec::new(),
         }
     }
 }

@@ -2,15 +2,22 @@
 //!
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
+mod assent;
+mod beside;
 mod carry;
 mod clash;
 mod command;
+mod dissent;
 mod encouragement;
 mod errand;
+mod forbidden;
 mod frame;
+mod hedge;
 mod inflection;
 mod knowledge;
 mod lead;
+mod lexicon;
+mod looking;
 mod meaning;
 mod noun;
 mod opening;
@@ -18,11 +25,12 @@ mod pick;
 mod puzzle;
 mod reference;
 mod remark;
+mod side;
 mod spoken;
 mod spot;
 mod statement;
 mod telling;
-mod token;
+pub(crate) mod token;
 mod verb;
 mod vocabulary;
 mod whereabouts;
@@ -46,6 +54,8 @@ pub struct Situation<'a> {
     pub supports: Vec<(SmolStr, Option<SmolStr>)>,
     /// What was spoken of before, the latest last.
     pub spoken_of: Vec<SmolStr>,
+    /// Where things were before they were last taken from there, the latest last.
+    pub came_from: Vec<(SmolStr, SmolStr)>,
     /// What was found out that words mean.
     pub meant: Vec<(String, SmolStr)>,
 }
@@ -66,7 +76,14 @@ impl<'a> Situation<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
         let holding = scene.robot.holding.clone().flatten();
-        Self { scene, holding, supports: Vec::new(), spoken_of: Vec::new(), meant: Vec::new() }
+        Self {
+            scene,
+            holding,
+            supports: Vec::new(),
+            spoken_of: Vec::new(),
+            came_from: Vec::new(),
+            meant: Vec::new(),
+        }
     }
 }
 
@@ -80,12 +97,13 @@ pub fn told(answer: &str, situation: &Situation<'_>) -> Vec<Located> {
     meaning::told(&frame::without_courtesy(&token::tokens(answer)), situation)
 }
 
-/// Whether an answer is a bare noun, such as completes a request: "the cupboard", "the red one, please".
+/// Whether an answer is a bare noun or place, such as completes a request: "the cupboard", "on the table, please".
 #[must_use]
 pub fn is_bare(answer: &str) -> bool {
     let mut tokens = token::tokens(answer);
     tokens.retain(|token| !matches!(token.word(), "please" | ""));
-    noun::noun(&tokens, 0).is_some_and(|(_, end)| end == tokens.len())
+    let place = spot::spot(&tokens, 0).or_else(|| spot::way(&tokens, 0)).map(|(_, end)| end);
+    noun::noun(&tokens, 0).map(|(_, end)| end).or(place) == Some(tokens.len())
 }
 
 /// The most bytes of a request: what somebody says in one breath, and no document. Longer ones are not read.

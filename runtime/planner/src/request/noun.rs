@@ -100,7 +100,6 @@ const ENDS: &[&str] = &[
     "but",
     "or",
     "without",
-    "until",
     "before",
     "after",
     "is",
@@ -133,6 +132,35 @@ const ENDS: &[&str] = &[
     "they",
     "him",
     "her",
+    "across",
+    "along",
+    "aside",
+    "around",
+    "later",
+    "soon",
+    "tonight",
+    "tomorrow",
+    "ready",
+    "tight",
+    "firm",
+    "steady",
+    "alone",
+    "somewhere",
+    "anywhere",
+    "elsewhere",
+    "gone",
+    "has",
+    "have",
+    "had",
+    "were",
+    "will",
+    "would",
+    "should",
+    "must",
+    "does",
+    "did",
+    "until",
+    "till",
 ];
 
 /// What stands for something that was spoken of.
@@ -144,7 +172,13 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let next = tokens.get(at + 1).map_or("", Token::word);
     match word {
         "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
-        "my" if next == "place" => return Some((Noun::Speaker, at + 2)),
+        "my" if matches!(
+            next,
+            "place" | "hand" | "hands" | "side" | "lap" | "seat" | "spot" | "position"
+        ) =>
+        {
+            return Some((Noun::Speaker, at + 2));
+        }
         _ => {}
     }
     let pronoun = PRONOUNS.iter().find(|known| **known == word);
@@ -194,6 +228,10 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
         if (word == "of" && !words.is_empty())
             || (words.is_empty() && matches!(word, "kind" | "sort" | "other"))
         {
+            // `the door of the fridge` is no other thing than the fridge.
+            if matches!(words.as_slice(), [part] if matches!(part.as_str(), "door" | "lid" | "handle")) {
+                words.clear();
+            }
             // `a bag of the chips`
             if words.last().is_some_and(|word| knowledge::is_package(word)) {
                 content_at = Some(words.len());

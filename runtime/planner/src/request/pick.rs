@@ -5,6 +5,7 @@ use smol_str::SmolStr;
 
 use super::Situation;
 use super::noun::{Noun, noun};
+use super::side::{farthest, side};
 use super::spot::{Spot, spot};
 use super::token::{Token, singular, tokens};
 use super::vocabulary::{Role, Vocabulary};
@@ -124,6 +125,16 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> V
     let mut chosen = Vec::new();
     for part in words.split(|word| word == "and").filter(|part| !part.is_empty()) {
         let said = part.join(" ");
+        let words: Vec<&str> = part.iter().map(String::as_str).collect();
+        if let Some(side) = side(&words) {
+            // What is called so is meant before what stands there.
+            let named = pick(&said, options, situation);
+            let Some(id) = named.or_else(|| farthest(side, options, situation.scene)) else {
+                return Vec::new();
+            };
+            chosen.push(id);
+            continue;
+        }
         let one = numbered(part, options).or_else(|| pick(&said, options, situation));
         let Some(id) = one.or_else(|| other(&said, options, situation)) else { return Vec::new() };
         if !chosen.contains(&id) {
@@ -135,12 +146,28 @@ pub fn choose(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> V
 
 /// `2`, `number two`, `mug 2`, `the last one`, `the other one`
 fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
-    let kept = words.iter().map(String::as_str);
-    let kept: Vec<&str> = kept.filter(|word| !matches!(*word, "the" | "one" | "number" | "no")).collect();
-    let number = |word: &str| word.parse::<usize>().ok().filter(|number| (1..=9).contains(number));
+    const NUMBERS: &[&str] = &["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
+    const ORDINALS: &[&str] =
+        &["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth"];
+    let counted = |word: &str, known: &[&str]| known.iter().position(|known| *known == word).map(|at| at + 1);
+    let number = |word: &str| {
+        let digit = word.parse::<usize>().ok().filter(|number| (1..=9).contains(number));
+        digit.or_else(|| counted(word, NUMBERS))
+    };
+    let all: Vec<&str> = words.iter().map(String::as_str).collect();
+    // `number one` counts, `the red one` does not.
+    let is_first = matches!(all.as_slice(), ["one"] | ["number" | "no" | "option", "one"]);
+    let kept = all.into_iter().filter(|word| {
+        !matches!(*word, "the" | "number" | "no" | "option" | "mentioned" | "said" | "you")
+            && (is_first || *word != "one")
+    });
+    let kept: Vec<&str> = kept.collect();
     match kept.as_slice() {
         ["last" | "latter"] => options.last().cloned(),
         ["former"] => options.first().cloned(),
+        [word] | ["in", word, "place"] if counted(word, ORDINALS).is_some() => {
+            options.get(counted(word, ORDINALS)? - 1).cloned()
+        }
         [word] if number(word).is_some() => {
             // The number of a name, where the options have such names, and else that of the option.
             let named: Vec<_> = options.iter().filter(|id| id.ends_with(&format!("_{word}"))).collect();

@@ -1,152 +1,9 @@
 //! What is said beside a request and asks for nothing: how things are, why, what somebody wonders, and what to mind.
 
+use super::beside::{ASKS, MATTERS, REASONS, SAYS, SHALL_WE, SUBJECTS, TELLS, WHETHER};
+use super::inflection::{Form, base};
 use super::token::{Token, longest, stands};
 use super::verb::{Act, begins};
-
-/// Who or what may be spoken of at the beginning.
-const SUBJECTS: &[&str] = &[
-    "i",
-    "we",
-    "you",
-    "my",
-    "our",
-    "your",
-    "his",
-    "her",
-    "their",
-    "there",
-    "it",
-    "the",
-    "this",
-    "that",
-    "he",
-    "she",
-    "they",
-    "someone",
-    "somebody",
-    "nobody",
-    "everybody",
-    "everyone",
-    "something",
-    "anything",
-    "nothing",
-    "everything",
-    "a",
-    "an",
-    "some",
-    "these",
-    "those",
-    "its",
-    "in",
-    "on",
-    "inside",
-    "at",
-    "here",
-];
-/// What follows a name or another single noun of whom something is told.
-const TELLS: &[&str] = &[
-    "is", "are", "was", "were", "has", "have", "had", "wants", "needs", "likes", "loves", "keeps", "gets",
-    "will", "would", "can", "could", "does", "did", "just", "always", "never", "says", "said", "told",
-    "thinks", "reckons", "hates", "forgot", "left", "comes", "asked",
-];
-/// Questions that ask why, where or how often.
-const ASKS: &[&str] = &[
-    "where is",
-    "where are",
-    "where did",
-    "where has",
-    "why is",
-    "why are",
-    "why did",
-    "why does",
-    "why has",
-    "why do i",
-    "why do not i",
-    "why do not we have",
-    "why have i not",
-    "why can not i",
-    "why have",
-    "how come",
-    "how many times",
-    "how often",
-    "how did",
-    "how is",
-    "how are you",
-    "who left",
-    "who put",
-    "who has",
-    "what is",
-    "what are",
-    "what did",
-    "what do",
-    "what a",
-    "what would i do",
-    "do you know",
-    "do you see",
-    "do you remember",
-    "did you know",
-    "did you see",
-    "did you notice",
-    "have you seen",
-    "you know",
-    "guess what",
-    "remember",
-];
-/// Questions whether something is so.
-const WHETHER: &[&str] = &["is", "are", "was", "were", "has", "does", "did"];
-/// What somebody means to do, with whom it is spoken.
-const SHALL_WE: &[&str] = &[
-    "let us see",
-    "let us have a look",
-    "let us take a look",
-    "let me see",
-    "let me think",
-    "thank goodness",
-    "off you go",
-    "no wonder",
-    "no point",
-    "no use",
-    "no need",
-];
-/// Reasons, which stand before what is asked for.
-const REASONS: &[&str] = &["since", "because", "seeing as", "seeing that", "now that", "given that", "as"];
-/// What the robot is told not to do, or somebody said: it is not passed over.
-const MATTERS: &[&str] = &[
-    "not want you to",
-    "you must not",
-    "you should not",
-    "you may not",
-    "you can not",
-    "you could not",
-    "you are not to",
-    "you will not",
-    "you need not",
-    "you never",
-    "nobody may",
-    "nobody should",
-    "nobody must",
-    "no one may",
-    "no one should",
-    "not allowed",
-    "not supposed",
-    "forbidden",
-    "you do not have to",
-    "you do not need to",
-    "changed my mind",
-    "never mind",
-    "forget it",
-    "no longer want",
-    "not want it any more",
-    "just kidding",
-    "only joking",
-    "was joking",
-    "in a dream",
-];
-/// With these somebody is quoted.
-const SAYS: &[&str] = &[
-    "says", "said", "say", "told", "tells", "asked", "asks", "wrote", "writes", "replied", "shouted",
-    "thinks",
-];
 
 /// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
 pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
@@ -171,6 +28,26 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     if end < begin + 2 || matters || quotes(tokens, here) {
         return false;
     }
+    // What is only named or looked at is spoken of where more follows.
+    let is_named = [
+        "see",
+        "look at",
+        "about",
+        "as for",
+        "regarding",
+        "concerning",
+        "speaking of",
+        "talking of",
+        "talking about",
+        "with regard to",
+    ];
+    if longest(here, begin, &is_named).is_some() && !(end..tokens.len()).any(|at| begins(tokens, at)) {
+        return false;
+    }
+    // `leaving the fridge open wastes power`
+    let is_doing = base(here.get(begin).map_or("", Token::word))
+        .is_some_and(|(_, form)| form == Form::Gerund)
+        && here.get(begin..).is_some_and(|said| said.iter().any(|token| is_telling(token.word())));
     let is_told = here.get(begin + 1).is_some_and(|token| TELLS.contains(&token.word()));
     let is_name = here.get(begin).is_some_and(|token| !is_open(token.word()));
     of(SUBJECTS)
@@ -178,13 +55,34 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
         || of(SHALL_WE)
         || is_question(here, begin)
         || reason(tokens, begin, end)
+        || purpose(tokens, begin, end)
+        || is_doing
         || (is_told && is_name)
+}
+
+/// What is said of something that is done.
+fn is_telling(word: &str) -> bool {
+    matches!(
+        word,
+        "is" | "was"
+            | "wastes"
+            | "makes"
+            | "takes"
+            | "costs"
+            | "lets"
+            | "hurts"
+            | "does"
+            | "drives"
+            | "can"
+            | "will"
+    )
 }
 
 /// `is the fridge still open?`
 pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
-    let whose =
-        ["the", "my", "our", "it", "that", "this", "there", "anybody", "anyone", "somebody", "someone"];
+    let whose = [
+        "you", "the", "my", "our", "it", "that", "this", "there", "anybody", "anyone", "somebody", "someone",
+    ];
     let is = |at: usize, table: &[&str]| tokens.get(at).is_some_and(|token| table.contains(&token.word()));
     is(begin, WHETHER) && (is(begin + 1, &whose) || (is(begin + 1, &["not"]) && is(begin + 2, &whose)))
 }
@@ -196,6 +94,39 @@ fn reason(tokens: &[Token], begin: usize, end: usize) -> bool {
     };
     let is_subject = tokens.get(begin + count).is_some_and(|token| SUBJECTS.contains(&token.word()));
     is_subject && tokens.get(end) == Some(&Token::Comma)
+}
+
+/// `for safety, …`, `to keep it cool, …`, `so that it does not get lost, …`: what for, behind which something is asked for.
+fn purpose(tokens: &[Token], begin: usize, end: usize) -> bool {
+    let for_what = stands(tokens, begin, "for").is_some();
+    let to_what =
+        longest(tokens, begin, &["in order to", "so as to", "so that", "to"]).is_some_and(|count| {
+            let does = [
+                "keep", "make", "stop", "save", "avoid", "prevent", "help", "be", "get", "free", "protect",
+                "let", "it", "i", "we", "nobody", "no",
+            ];
+            tokens.get(begin + count).is_some_and(|token| does.contains(&token.word()))
+        });
+    let is_bound = |token: &Token| {
+        matches!(
+            token.word(),
+            "tomorrow"
+                | "tonight"
+                | "later"
+                | "when"
+                | "if"
+                | "until"
+                | "after"
+                | "minutes"
+                | "hours"
+                | "unless"
+        )
+    };
+    let said = tokens.get(begin..end).unwrap_or_default();
+    (for_what || to_what)
+        && !said.iter().any(is_bound)
+        && tokens.get(end) == Some(&Token::Comma)
+        && begins(tokens, end + 1)
 }
 
 /// Words that begin a condition, a time or an order, and name nobody.
@@ -242,73 +173,6 @@ fn quotes(tokens: &[Token], here: &[Token]) -> bool {
     is_quoted
         && (says(word(1))
             || (says(word(2)) && matches!(word(1), "me" | "you" | "us" | "him" | "her" | "them")))
-}
-
-/// `do not drop it`, `do not let go`: what to mind with what is asked for anyway. Where it ends.
-pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Option<usize> {
-    const MIND: &[&str] = &[
-        "drop",
-        "spill",
-        "break",
-        "scratch",
-        "crush",
-        "squash",
-        "bump",
-        "knock",
-        "damage",
-        "worry",
-        "rush",
-        "hurry",
-        "dawdle",
-        "be long",
-        "be late",
-        "be shy",
-        "be slow",
-        "take too long",
-        "take long",
-        "take forever",
-        "let it fall",
-        "let it slip",
-        "make a mess",
-        "make me wait",
-        "forget",
-    ];
-    const HOLD: &[&str] = &[
-        "let go",
-        "let it go",
-        "put it down",
-        "put down",
-        "set it down",
-        "put it anywhere",
-        "give it back",
-        "lose it",
-        "release it",
-        "move",
-        "go anywhere",
-    ];
-    // `no putting it down`: the `no` was passed over.
-    let is_no = begin.checked_sub(1).is_some_and(|at| stands(tokens, at, "no").is_some());
-    if let (true, Some(count)) =
-        (is_no, longest(tokens, begin, &["putting it down", "letting go", "dropping it", "giving it back"]))
-    {
-        let is_held = matches!(before, Some(Act::Pick | Act::Lift));
-        return (is_held && is_boundary(tokens, begin + count)).then_some(begin + count);
-    }
-    let at = begin
-        + longest(
-            tokens,
-            begin,
-            &["do not you dare", "do not you", "do not", "never", "try not to", "careful not to"],
-        )?;
-    let of = |table: &[&str]| longest(tokens, at, table).is_some();
-    // `do not forget the mug` may ask for it, `do not forget!` minds what was said.
-    let forgets = stands(tokens, at, "forget").is_some();
-    let end = remark_end(tokens, at);
-    let is_minded = of(MIND) && (!forgets || end == at + 1);
-    let is_held = of(HOLD) && matches!(before, Some(Act::Pick | Act::Lift));
-    let says_more = (at..end)
-        .any(|at| tokens.get(at).is_some_and(|token| matches!(token.word(), "and" | "or" | "but" | "just")));
-    ((is_minded || is_held) && !says_more).then_some(end)
 }
 
 /// What is said beside a request in its own clause: why, and how long something is held. Where it ends.
@@ -360,14 +224,89 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
     {
         return Some(begin + count);
     }
-    let stays = longest(tokens, begin, &["stay", "wait", "stand", "remain", "sit"])?;
-    let there = ["there", "put", "still", "where you are", "right where you are", "over there"];
+    let awaits = [
+        "await further instructions",
+        "await instructions",
+        "await my instructions",
+        "await further orders",
+        "await orders",
+        "await my orders",
+        "await my signal",
+        "await my word",
+    ];
+    if let Some(count) = longest(tokens, begin, &awaits) {
+        return is_boundary(tokens, begin + count).then_some(begin + count);
+    }
+    let stays = longest(
+        tokens,
+        begin,
+        &[
+            "stay",
+            "wait",
+            "stand by",
+            "stand",
+            "remain",
+            "sit",
+            "hang on",
+            "hold on",
+            "hold still",
+            "stay put",
+            "hang about",
+        ],
+    )?;
+    let there = [
+        "there",
+        "put",
+        "still",
+        "where you are",
+        "right where you are",
+        "over there",
+        "in place",
+        "at the ready",
+        "ready",
+    ];
     let mut at = begin + stays;
-    at += longest(tokens, at, &there)?;
-    while let Some(count) =
-        longest(tokens, at, &["with it", "with them", "for me", "for us", "for now", "please"])
-    {
+    let is_there = longest(tokens, at, &there);
+    at += is_there.unwrap_or(0);
+    let what_for = [
+        "with it",
+        "with them",
+        "for me",
+        "for us",
+        "for now",
+        "please",
+        "for further instructions",
+        "for more instructions",
+        "for instructions",
+        "for my instructions",
+        "for further orders",
+        "for orders",
+        "for my orders",
+        "for my signal",
+        "for my word",
+        "for my call",
+        "for my command",
+        "for what comes next",
+        "for the next step",
+        "for the next instruction",
+        "for a bit",
+        "a bit",
+        "for me there",
+        "there",
+        "for me to come",
+        "for me to tell you",
+        "for me to say so",
+        "holding it",
+    ];
+    let begins_for = at;
+    while let Some(count) = longest(tokens, at, &what_for) {
         at += count;
+    }
+    // `and wait` alone, behind what it waits with or where
+    let is_waiting = is_there.is_some()
+        || (matches!(before, Act::Pick | Act::Lift | Act::Go | Act::Take) && (at > begins_for || is_joined));
+    if !is_waiting {
+        return None;
     }
     is_boundary(tokens, at).then_some(at)
 }

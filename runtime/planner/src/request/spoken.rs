@@ -1,10 +1,11 @@
 //! A request as its commands and the remarks beside them, in order.
 
 use super::command::{Command, command, words};
+use super::forbidden::{When, caution, forbidden};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
 use super::noun::noun;
-use super::remark::{caution, is_question, is_remark, remark_end, stays_put};
+use super::remark::{is_question, is_remark, remark_end, stays_put};
 use super::token::{Token, stands};
 use super::verb::verb;
 
@@ -43,6 +44,13 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             continue;
         }
         if let Some(end) = caution(tokens, begin, spoken.commands.last().map(Command::act)) {
+            at = end;
+            continue;
+        }
+        if let Some((end, when)) = forbidden(tokens, begin, &spoken.commands) {
+            // What it is about is spoken of.
+            let said = tokens.get(begin..end).filter(|_| when == When::Before);
+            spoken.statements.extend(said.map(|said| Statement { tokens: said.to_vec() }));
             at = end;
             continue;
         }

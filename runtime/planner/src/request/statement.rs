@@ -9,12 +9,21 @@ use super::spoken::{Spoken, Statement};
 use super::spot::spot;
 use super::token::{Token, stands};
 use super::vocabulary::Role;
-use super::whereabouts::Clause;
+use super::whereabouts::{Clause, is_habit};
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things are.
     pub(super) fn state(&mut self, statement: &Statement) {
         let tokens = &statement.tokens;
+        // `we always keep the coke in the fridge` says where it goes, and not that it is there.
+        if is_habit(tokens) {
+            let usual = self.whereabouts_of_habit(tokens);
+            if let Some(usual) = usual {
+                self.usual.push((usual.thing.clone(), usual.place));
+                self.said.spoken_of.push(usual.thing);
+                return;
+            }
+        }
         // `I put the coke in the fridge and I am thirsty`
         let mut located = self.whereabouts(tokens, Clause::Statement);
         if located.is_empty() {
@@ -39,6 +48,11 @@ impl Reader<'_> {
         }
         let mut at = 0;
         while at < tokens.len() {
+            // `I can reach it` names no can.
+            if stands(tokens, at, "can").is_some() {
+                at += 1;
+                continue;
+            }
             let Some((Noun::Phrase(mut phrase), after)) = noun(tokens, at) else {
                 at += 1;
                 continue;
@@ -55,7 +69,8 @@ impl Reader<'_> {
             let word =
                 |back: usize| at.checked_sub(back).and_then(|at| tokens.get(at)).map_or("", Token::word);
             let is_told = matches!(word(1), "is" | "are" | "was" | "were") && word(2) != "there";
-            if !(is_told && phrase.which != Which::The) {
+            // `that is enough of the can`
+            if !(is_told && phrase.which != Which::The) || phrase.said.starts_with("enough of") {
                 self.mention(&phrase);
             }
             at = after.max(at + 1);

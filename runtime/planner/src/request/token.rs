@@ -2,7 +2,7 @@
 
 /// A word or a mark.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Token {
+pub(crate) enum Token {
     /// A word in lower case.
     Word(String),
     /// `,`
@@ -13,7 +13,7 @@ pub(super) enum Token {
 
 impl Token {
     /// The word; empty for a mark.
-    pub(super) fn word(&self) -> &str {
+    pub(crate) fn word(&self) -> &str {
         match self {
             Self::Word(word) => word,
             Self::Comma | Self::Stop => "",
@@ -105,6 +105,38 @@ const CONTRACTIONS: &[(&str, &[&str])] = &[
     ("gimme", &["give", "me"]),
     ("lemme", &["let", "me"]),
     ("wanna", &["want", "to"]),
+    ("must've", &["must", "have"]),
+    ("should've", &["should", "have"]),
+    ("could've", &["could", "have"]),
+    ("would've", &["would", "have"]),
+    ("might've", &["might", "have"]),
+    ("may've", &["may", "have"]),
+    ("mightn't", &["might", "not"]),
+    ("oughtn't", &["ought", "not"]),
+    ("shan't", &["shall", "not"]),
+    ("what're", &["what", "are"]),
+    ("where're", &["where", "are"]),
+    ("that're", &["that", "are"]),
+    ("there're", &["there", "are"]),
+    ("how'd", &["how", "would"]),
+    ("what'd", &["what", "would"]),
+    ("what'll", &["what", "will"]),
+    ("anyone's", &["anyone", "is"]),
+    ("anybody's", &["anybody", "is"]),
+    ("one's", &["one", "is"]),
+    ("em", &["them"]),
+    ("outta", &["out", "of"]),
+    ("dunno", &["do", "not", "know"]),
+    ("didnt", &["did", "not"]),
+    ("doesnt", &["does", "not"]),
+    ("isnt", &["is", "not"]),
+    ("wont", &["will", "not"]),
+    ("thats", &["that", "is"]),
+    ("whats", &["what", "is"]),
+    ("wheres", &["where", "is"]),
+    ("lets", &["let", "us"]),
+    ("ive", &["i", "have"]),
+    ("youre", &["you", "are"]),
     ("pls", &["please"]),
     ("plz", &["please"]),
 ];
@@ -112,41 +144,52 @@ const CONTRACTIONS: &[(&str, &[&str])] = &[
 /// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe belongs to its
 /// word. O(bytes).
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    let mut tokens = Vec::new();
+    pieces(text).into_iter().map(|(token, _)| token).collect()
+}
+
+/// The same, each with the offset in bytes behind it; what is written together ends together.
+pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
+    let mut pieces = Vec::new();
     let mut word = String::new();
-    let lower = text.replace(['\u{2019}', '\u{2018}'], "'").to_lowercase();
-    let mut letters = lower.chars().peekable();
-    while let Some(letter) = letters.next() {
+    let mut letters = text.char_indices().peekable();
+    while let Some((at, letter)) = letters.next() {
         // A point between digits or letters without a blank belongs to the word: `1.5`.
-        let joins =
-            letter == '.' && !word.is_empty() && letters.peek().is_some_and(|next| next.is_alphanumeric());
-        if letter.is_alphanumeric() || letter == '\'' || joins {
-            word.push(letter);
+        let joins = letter == '.'
+            && !word.is_empty()
+            && letters.peek().is_some_and(|(_, next)| next.is_alphanumeric());
+        if matches!(letter, '\'' | '\u{2019}' | '\u{2018}') {
+            word.push('\'');
             continue;
         }
-        push(&mut tokens, &mut word);
+        if letter.is_alphanumeric() || joins {
+            word.extend(letter.to_lowercase());
+            continue;
+        }
+        push(&mut pieces, &mut word, at);
         let mark = match letter {
             ',' | ':' => Some(Token::Comma),
             '.' | '!' | '?' | ';' | '\n' => Some(Token::Stop),
             _ => None,
         };
         if let Some(mark) = mark {
-            tokens.push(mark);
+            pieces.push((mark, at + letter.len_utf8()));
         }
     }
-    push(&mut tokens, &mut word);
-    tokens
+    push(&mut pieces, &mut word, text.len());
+    pieces
 }
 
-fn push(tokens: &mut Vec<Token>, word: &mut String) {
+fn push(pieces: &mut Vec<(Token, usize)>, word: &mut String, end: usize) {
     let taken = std::mem::take(word);
     let bare = taken.trim_matches('\'');
     if bare.is_empty() {
         return;
     }
     match CONTRACTIONS.iter().find(|(short, _)| *short == bare) {
-        Some((_, words)) => tokens.extend(words.iter().map(|word| Token::Word((*word).to_owned()))),
-        None => tokens.push(Token::Word(bare.to_owned())),
+        Some((_, words)) => {
+            pieces.extend(words.iter().map(|word| (Token::Word((*word).to_owned()), end)));
+        }
+        None => pieces.push((Token::Word(bare.to_owned()), end)),
     }
 }
 

@@ -5,10 +5,12 @@
 use smol_str::SmolStr;
 
 use super::Located;
+use super::hedge;
+use super::looking::{HOW, IS, LOOK};
 use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
-use super::telling::{BEFORE, BEHIND, DENIES, HAS, HOW, IS, LOOK, PUT, WHO};
+use super::telling::{BEFORE, BEHIND, DENIES, HAS, PUT, WHO};
 use super::token::{Token, longest, stands};
 use super::vocabulary::Role;
 
@@ -28,7 +30,9 @@ impl Reader<'_> {
             for clause in sentence.split(|token| *token == Token::Comma) {
                 // `I put it in the fridge, but it is not there any more`
                 if denies(clause)
-                    && clause.iter().any(|token| matches!(token.word(), "there" | "gone" | "anymore"))
+                    && clause
+                        .iter()
+                        .any(|token| matches!(token.word(), "there" | "gone" | "anymore" | "more" | "longer"))
                 {
                     here.clear();
                 }
@@ -41,15 +45,16 @@ impl Reader<'_> {
 
     /// What one clause says of where something is; nothing where it says something else.
     pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<Located> {
-        let begin = reported(tokens, skip(tokens, 0, BEFORE), clause);
+        let begin = reported(tokens, leading(tokens, 0, clause), clause);
         // `is it not in the fridge?` proposes it.
         let proposes = clause == Clause::Answer
             && longest(tokens, begin, LOOK)
                 .is_some_and(|count| !denies(tokens.get(begin + count..).unwrap_or_default()));
         // Who says beside a request where something is kept as a rule does not say that it is there.
-        let is_habit = clause == Clause::Statement
-            && tokens.iter().any(|token| matches!(token.word(), "always" | "usually" | "normally"));
-        if is_habit || (denies(tokens) && !proposes) || begin >= tokens.len() {
+        if (clause == Clause::Statement && is_habit(tokens))
+            || (denies(tokens) && !proposes)
+            || begin >= tokens.len()
+        {
             return Vec::new();
         }
         let Some((thing, spots)) = said(tokens, begin, clause) else { return Vec::new() };
@@ -62,6 +67,19 @@ impl Reader<'_> {
             self.said.spoken_of.push(thing.clone());
         }
         located
+    }
+
+    /// Where something is kept, as a clause says that tells a rule.
+    pub(super) fn whereabouts_of_habit(&mut self, tokens: &[Token]) -> Option<Located> {
+        if denies(tokens) {
+            return None;
+        }
+        let (thing, spots) = said(tokens, skip(tokens, 0, BEFORE), Clause::Answer)?;
+        let ([spot], Ok(things)) = (spots.as_slice(), self.things(&thing, OBJECTS, None)) else {
+            return None;
+        };
+        let [thing] = things.as_slice() else { return None };
+        self.located(thing, spot)
     }
 
     fn located(&mut self, thing: &SmolStr, spot: &Spot) -> Option<Located> {
@@ -77,6 +95,16 @@ impl Reader<'_> {
             place: place.clone(),
         })
     }
+}
+
+/// Whether a clause tells what is so as a rule.
+pub(super) fn is_habit(tokens: &[Token]) -> bool {
+    tokens.iter().any(|token| {
+        matches!(
+            token.word(),
+            "always" | "usually" | "normally" | "generally" | "typically" | "lives" | "belongs" | "keep"
+        )
+    })
 }
 
 /// Which thing a clause places, and where.
@@ -107,15 +135,58 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     if WHO.contains(&tokens.get(at)?.word()) {
         let is_kin = matches!(tokens.get(at)?.word(), "my" | "our");
         let verb = skip(tokens, at + 1 + usize::from(is_kin), HAS);
+        // `I had it in the fridge`
+        let verb = if is_one_of(tokens, verb - 1, &["had"]) && !is_one_of(tokens, verb, PUT) {
+            verb - 1
+        } else {
+            verb
+        };
+        // `I saw somebody put it in the fridge`
+        let seen = [
+            "saw somebody",
+            "saw someone",
+            "saw him",
+            "saw her",
+            "saw them",
+            "saw you",
+            "watched somebody",
+            "watched someone",
+        ];
+        let verb = verb + longest(tokens, verb, &seen).unwrap_or(0);
         let is_to_come = tokens.get(at..verb)?.iter().any(|token| token.word() == "will");
-        let is_found = is_one_of(tokens, verb, &["find", "see"]);
+        let is_found = is_one_of(tokens, verb, &["find", "see", "spot", "locate", "discover"]);
         if !is_one_of(tokens, verb, PUT) || (is_to_come && !is_found) {
             return None;
         }
         let (thing, after) = noun(tokens, verb + 1)?;
         return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
     }
+    // `(I remember) leaving it in the fridge`
+    if is_answer && tokens.get(at)?.word().ends_with("ing") && is_one_of(tokens, at, PUT) {
+        let (thing, after) = noun(tokens, at + 1)?;
+        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+    }
     let (thing, after) = noun(tokens, at)?;
+    let after = skip(
+        tokens,
+        after,
+        &[
+            "probably",
+            "usually",
+            "normally",
+            "most likely",
+            "likely",
+            "definitely",
+            "surely",
+            "certainly",
+            "just",
+            "still",
+            "actually",
+            "always",
+            "generally",
+            "apparently",
+        ],
+    );
     let count = longest(tokens, after, IS)?;
     Some((thing, spots(tokens, skip(tokens, after + count, HOW), false)?))
 }
@@ -154,6 +225,58 @@ fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>
 const NEXT: &[&str] =
     &["or else", "or maybe", "or perhaps", "or", "and then", "and after that", "and", "then"];
 
+/// Past what says how sure somebody is, or is only said before.
+fn leading(tokens: &[Token], mut at: usize, clause: Clause) -> usize {
+    loop {
+        let count = longest(tokens, at, BEFORE).max(hedge::before(tokens, at));
+        let asks = longest(tokens, at, ASKING).filter(|_| clause == Clause::Answer);
+        match count.max(asks) {
+            Some(count) => at += count,
+            None => return at,
+        }
+    }
+}
+
+/// Who tells where to look says it politely.
+const ASKING: &[&str] = &[
+    "would you",
+    "could you",
+    "can you",
+    "will you",
+    "you might want to",
+    "you may want to",
+    "you want to",
+    "you had better",
+    "you ought to",
+    "you should probably",
+    "you will have to",
+    "you would do well to",
+    "i would",
+    "i would advise you to",
+    "maybe you could",
+    "maybe you should",
+    "it might be worth",
+    "it is worth",
+    "it would be worth",
+    "it may help to",
+    "it might help to",
+    "best",
+    "best to",
+    "if i were you i would",
+    "you need to",
+    "you have to",
+    "let us",
+    "please do",
+    "just",
+    "you should be able to",
+    "go and",
+    "do",
+    "quickly",
+    "also",
+    "first",
+    "next",
+];
+
 fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
     while let Some(count) = longest(tokens, at, skipped) {
         at += count;
@@ -185,5 +308,16 @@ fn is_one_of(tokens: &[Token], at: usize, words: &[&str]) -> bool {
 }
 
 fn denies(tokens: &[Token]) -> bool {
-    (0..tokens.len()).any(|at| longest(tokens, at, DENIES).is_some())
+    let mut at = 0;
+    while at < tokens.len() {
+        // `if I were you`, `unless I am mistaken` take nothing back.
+        if let Some(count) = longest(tokens, at, BEHIND).max(hedge::before(tokens, at)) {
+            at += count;
+        } else if longest(tokens, at, DENIES).is_some() {
+            return true;
+        } else {
+            at += 1;
+        }
+    }
+    false
 }

@@ -17,6 +17,8 @@ pub struct Known {
     some: Vec<Query>,
     /// What was spoken of, the latest last.
     pub(super) spoken_of: Vec<SmolStr>,
+    /// Where things were before they were taken from there, the latest last.
+    came_from: Vec<(SmolStr, SmolStr)>,
 }
 
 impl Known {

@@ -68,6 +68,17 @@ impl Known {
         self.facts.push((Query::Fact { fluent: "at".into(), args }, Truth::Unknown));
     }
 
+    /// Keeps where things were that are not there any more, so that they can be put back.
+    pub(in crate::conversation) fn remember_moved(&mut self, before: &[Located], after: &[Located]) {
+        for known in before {
+            let now = after.iter().find(|now| now.thing == known.thing);
+            if now.is_none_or(|now| now.place != known.place) {
+                self.came_from.retain(|(thing, _)| *thing != known.thing);
+                self.came_from.push((known.thing.clone(), known.place.clone()));
+            }
+        }
+    }
+
     /// Takes in where somebody says that a thing is.
     pub fn hear(&mut self, said: &Located) {
         let thing = Pattern::Is(Value::Entity(said.thing.clone()));

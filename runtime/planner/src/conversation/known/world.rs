@@ -204,6 +204,7 @@ impl Known {
             holding: self.holding(scene),
             supports: supports.into_iter().collect(),
             spoken_of: self.spoken_of.clone(),
+            came_from: self.came_from.clone(),
             ..Situation::new(scene)
         }
     }

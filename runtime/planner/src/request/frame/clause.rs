@@ -1,124 +1,17 @@
 //! Clauses that ask without an imperative: predicates, wishes, causatives, and what stands before its verb.
 
 use super::ONLY_IF_SO;
-use super::placed::{sent, with_it};
+use super::link::{CAUSE, DO_NOT_WANT, HOLDS, IN_HAND, IS, SEE_TO, SHALL, SHALL_IT, TO_BE, WANT};
+use super::placed::{fronted, headed, room_for, sent, with_it};
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
-use crate::request::lead::skip_leads;
+use crate::request::lead::{self, skip_leads};
 use crate::request::noun::noun;
-use crate::request::spot::located;
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
 
-/// What stands between a thing and where it shall be, or what shall be done with it.
-const SHALL: &[&str] = &[
-    "belongs",
-    "belong",
-    "goes",
-    "lives",
-    "should be",
-    "should go",
-    "should get",
-    "should stay",
-    "should end up",
-    "needs to be",
-    "needs to go",
-    "needs to get",
-    "need to be",
-    "need to go",
-    "has to be",
-    "has to go",
-    "have to be",
-    "have to go",
-    "ought to be",
-    "ought to go",
-    "is supposed to be",
-    "is supposed to go",
-    "are supposed to be",
-    "is to be",
-    "must go",
-    "can go",
-    "can be",
-    "could go",
-    "could be",
-    "may go",
-    "might go",
-    "is meant to be",
-    "is meant to go",
-    "is to go",
-    "ought to end up",
-    "needs to end up",
-    "has to end up",
-    "would be better off",
-    "is better off",
-    "stays",
-];
 /// Behind this only `open` and `closed` ask for something: `it stays on the table` tells where it is.
 const STAYS: &str = "stays";
-/// The same as a question: between the auxiliary and the state stands the thing.
-const SHALL_IT: &[&str] = &["be", "go", "get", "stay", "end up"];
-const WANT: &[&str] = &[
-    "i want",
-    "i need",
-    "i would like",
-    "i would love",
-    "i would prefer",
-    "i would rather have",
-    "i prefer",
-    "we want",
-    "we need",
-    "we would like",
-    "i would want",
-    "i would need",
-    "i still want",
-    "i should like",
-    "let us have",
-];
-const DO_NOT_WANT: &[&str] =
-    &["i do not want", "we do not want", "i would not like", "do not leave", "do not keep", "never leave"];
-const TO_BE: &[&str] = &["to be", "to go", "to get", "to stay", "to end up", "to be put", "to be left"];
-const SEE_TO: &[&str] = &[
-    "make sure that",
-    "make sure",
-    "ensure that",
-    "ensure",
-    "see to it that",
-    "see that",
-    "take care that",
-    "be sure that",
-    "make certain that",
-];
-const IS: &[&str] = &[
-    "is",
-    "are",
-    "ends up",
-    "end up",
-    "gets",
-    "get",
-    "stays",
-    "stay",
-    "goes",
-    "has been",
-    "is put",
-    "is left",
-    "is placed",
-    "ended up",
-    "was",
-    "were",
-    "went",
-    "got",
-    "stayed",
-    "could be",
-    "would be",
-    "could go",
-    "was put",
-    "were put",
-];
-/// Verbs that bring about a state: `get the fridge open`.
-const CAUSE: &[&str] = &[
-    "get", "have", "leave", "keep", "make", "pull", "push", "swing", "slide", "set", "crack", "prop", "pop",
-    "throw", "fling", "slam", "ease", "nudge", "yank", "shove", "bump", "press", "roll", "tug",
-];
 
 /// One clause said plainly, and where what follows it begins.
 pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> Option<(Vec<Token>, usize)> {
@@ -131,9 +24,11 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
         .or_else(|| cause(tokens_here, begin))
         .or_else(|| self_moved(tokens_here, begin))
         .or_else(|| fronted(tokens_here, begin))
+        .or_else(|| room_for(tokens_here, begin))
         .or_else(|| with_it(tokens_here, begin))
         .or_else(|| sent(tokens_here, begin))
         .or_else(|| unless_so(tokens, begin, limit))
+        .or_else(|| begins_sentence.then(|| headed(tokens, begin, limit)).flatten())
         .or_else(|| begins_sentence.then(|| bare(tokens, begin, limit)).flatten())
 }
 
@@ -144,7 +39,7 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let (begin, links) = match (asks, sees) {
         (Some(count), _) => (begin + count, SHALL_IT),
         (None, Some(count)) => (begin + count, IS),
-        (None, None) => (begin, SHALL),
+        (None, None) => (begin + longest(tokens, begin, HOLDS).unwrap_or(0), SHALL),
     };
     let is_seen_to = asks.is_none() && sees.is_some();
     let belongs = asks.is_none() && sees.is_none();
@@ -152,14 +47,44 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         // `can it please go there`
         let please = if asks.is_some() { stands(tokens, at, "please").unwrap_or(0) } else { 0 };
         let count = longest(tokens, at + please, links).map(|count| count + please);
-        let none = longest(tokens, at, &["should not be", "is not", "needs"]);
+        let none = longest(tokens, at, &["should not be", "is not", "needs", "wants"]);
         let (count, is_wanted) = match (count, none) {
             (Some(count), _) => (count, true),
             (None, Some(1)) => (1, true),
             (None, Some(count)) if is_seen_to || count == 3 => (count, false),
             (None, _) => return None,
         };
-        let needs = stands(tokens, at, "needs") == Some(count);
+        // `see that it gets to me`
+        let to_me = ["to me", "to us", "over to me", "to where i am"];
+        if (is_seen_to || belongs) && is_wanted && longest(tokens, at + count, &to_me).is_some() {
+            return Some((State::At, at + count));
+        }
+        if stands(tokens, at, "disappears").or(stands(tokens, at, "disappeared")).is_some()
+            && !is_place(tokens, at + count)
+        {
+            return None;
+        }
+        // `it is for the bin`
+        if tokens.get(at + count - 1).is_some_and(|token| token.word() == "for") {
+            let bin = [
+                "the bin",
+                "the trash",
+                "the rubbish",
+                "the rubbish bin",
+                "the garbage",
+                "the waste",
+                "the trash can",
+                "the dustbin",
+                "the waste bin",
+                "the garbage can",
+                "the scrapheap",
+            ];
+            return Some((
+                State::Done("discard".to_owned()),
+                at + count + longest(tokens, at + count, &bin)?,
+            ));
+        }
+        let needs = longest(tokens, at, &["needs", "wants"]) == Some(count);
         let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
         if stands(tokens, at, STAYS) == Some(count) && opposite_name(&state).is_none() {
             return None;
@@ -175,7 +100,7 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
 fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
-    let wants = longest(tokens, begin, WANT);
+    let wants = longest(tokens, begin, WANT).max(lead::wish(tokens, begin));
     if let Some(count) = wants
         && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
         && is_place(tokens, begin + count + you)
@@ -213,6 +138,23 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
         if let ("have", "waiting" | "ready") = (verb, tokens.get(at)?.word()) {
             return is_place(tokens, at + 1).then_some((State::At, at + 1));
         }
+        // `have it in your hand`
+        if let ("have" | "get" | "keep", Some(_)) = (verb, longest(tokens, at, IN_HAND)) {
+            return Some((State::Done("hold".to_owned()), at));
+        }
+        // `let it rest on the table`
+        if let ("let", "rest" | "sit" | "stand" | "lie" | "be" | "go" | "stay" | "live") =
+            (verb, tokens.get(at)?.word())
+        {
+            return is_place(tokens, at + 1).then_some((State::At, at + 1));
+        }
+        if verb == "let" {
+            return None;
+        }
+        // `make it disappear in the bin`
+        if let ("make", "disappear" | "vanish") = (verb, tokens.get(at)?.word()) {
+            return is_place(tokens, at + 1).then_some((State::At, at + 1));
+        }
         let (state, after) = state(tokens, at, Form::Participle)?;
         let is_open_or_closed = opposite_name(&state).is_some();
         (is_open_or_closed || (matches!(verb, "get" | "have") && matches!(state, State::Done(_))))
@@ -247,19 +189,6 @@ fn self_moved(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     (moves && is_self).then(|| (words("go"), begin + 2))
 }
 
-/// `on the table is where I want the coke`
-fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let (_, after) = located(tokens, begin)?;
-    let at = after + stands(tokens, after, "is where")?;
-    let at = at + longest(tokens, at, WANT)?;
-    let (_, end) = noun(tokens, at)?;
-    let mut said = words("put");
-    said.extend_from_slice(tokens.get(at..end)?);
-    said.extend_from_slice(tokens.get(begin..after)?);
-    let end = end + longest(tokens, end, TO_BE).unwrap_or(0);
-    Some((said, end))
-}
-
 /// `if the drawer is open, close it`: `close the drawer if it is open`.
 fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
     let at = begin + longest(tokens, begin, &["if", "in case", "when"])?;
@@ -281,6 +210,20 @@ fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>
     (is_same && is_it).then(|| ([said, words(ONLY_IF_SO)].concat(), then + 2))
 }
 
+/// Whether a clause follows that says what is done with what was named just before.
+fn is_spoken_of(tokens: &[Token], mut at: usize) -> bool {
+    while matches!(tokens.get(at), Some(Token::Comma))
+        || tokens.get(at).is_some_and(|token| token.word() == "and")
+    {
+        at += 1;
+    }
+    let begin = skip_leads(tokens, at);
+    let begin = begin + stands(tokens, begin, "you").unwrap_or(0);
+    let is_end = |token: &&Token| matches!(token, Token::Comma | Token::Stop);
+    let mut clause = tokens.get(begin..).unwrap_or_default().iter().take_while(|token| !is_end(token));
+    begins(tokens, begin) && clause.any(|token| matches!(token.word(), "it" | "them" | "there" | "that"))
+}
+
 /// `the coke, please`: someone wants to have it.
 fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
     if begins(tokens, begin) {
@@ -292,15 +235,41 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         return None;
     }
     let is_named = tokens.get(begin).is_some_and(|token| !is_pronoun(token.word()));
+    // `the fridge, please, you close it`: what is done with it is said.
+    let next = limit + 1 + stands(tokens, limit + 1, "please").unwrap_or(0);
+    if is_spoken_of(tokens, next) {
+        return None;
+    }
     let please = |at: usize| stands(tokens, at, "please").is_some();
     if is_named && (please(after) || (after == limit && please(limit + 1))) {
         let mut said = words("bring me");
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after));
     }
-    let goes = longest(tokens, after, &["over to", "to", "into", "onto"]);
+    let ways = [
+        "over to",
+        "to",
+        "into",
+        "onto",
+        "away into",
+        "away in",
+        "back into",
+        "back onto",
+        "back to",
+        "back in",
+        "back on",
+        "over onto",
+        "over into",
+        "straight into",
+        "down onto",
+        "up onto",
+    ];
+    let goes = longest(tokens, after, &ways);
     let (_, end) = noun(tokens.get(..limit)?, after + goes?)?;
-    if is_named && (please(end) || (end == limit && please(limit + 1))) {
+    let is_short = after - begin <= 4;
+    let is_said =
+        is_short && matches!(tokens.get(after + goes? - 1)?.word(), "into" | "onto") && end == limit;
+    if is_named && (is_said || please(end) || (end == limit && please(limit + 1))) {
         let mut said = words("put");
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after));

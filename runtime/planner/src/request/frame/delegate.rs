@@ -1,6 +1,7 @@
 //! What somebody says that they have to do, cannot do or forgot, and then asks for: `I forgot to close the fridge, could you
 //! do that for me?`
 
+use crate::request::inflection::{Form, base};
 use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::spot::spot;
@@ -40,6 +41,32 @@ const DO_IT: &[&str] = &[
     "give me a hand with that",
     "give me a hand with it",
     "make it so",
+    "give it a try",
+    "give it a go",
+    "give that a try",
+    "give that a go",
+    "have a go",
+    "have a try",
+    "try it",
+    "do the honours",
+    "do the honors",
+    "sort that",
+    "sort it",
+    "arrange it",
+    "see what you can do",
+    "be so kind",
+    "take over",
+    "jump in",
+    "step in",
+    "do it for me",
+    "do that for me",
+    "get that done",
+    "get it done",
+    "make sure of it",
+    "make sure of that",
+    "make sure it happens",
+    "deal with it",
+    "deal with that",
     "that is your job",
     "it is your job",
 ];
@@ -157,6 +184,43 @@ pub(super) fn delegated(tokens: &[Token]) -> Vec<Token> {
     tokens
 }
 
+/// `I cannot get it open. Could you?`: the verb that is left out, where it was said before what has to be done.
+pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
+    let mut said: Vec<Token> = Vec::with_capacity(tokens.len());
+    let mut at = 0;
+    while let Some(token) = tokens.get(at) {
+        let asks = longest(tokens, at, &["could you", "can you", "would you", "will you"]);
+        let is_alone = |count: usize| {
+            let end = at + count + longest(tokens, at + count, &["please", "for me", "instead"]).unwrap_or(0);
+            matches!(tokens.get(end), None | Some(Token::Comma | Token::Stop))
+        };
+        if let Some(count) = asks.filter(|count| is_alone(*count) && is_joint(said.last())) {
+            let begin = before(&said, said.len());
+            // Only what somebody cannot do or forgot asks for it so: `I want to close it, would you?` may only chat.
+            let cannot = [
+                "i can not",
+                "i could not",
+                "am not able to",
+                "am unable to",
+                "forgot to",
+                "have forgotten to",
+                "can not manage to",
+                "can not seem to",
+            ];
+            let sentence = said.get(begin..).unwrap_or_default();
+            if (0..sentence.len()).any(|at| longest(sentence, at, &cannot).is_some()) {
+                said.extend_from_slice(tokens.get(at..at + count).unwrap_or_default());
+                said.extend(["do", "it"].map(|word| Token::Word(word.to_owned())));
+                at += count;
+                continue;
+            }
+        }
+        said.push(token.clone());
+        at += 1;
+    }
+    said
+}
+
 /// Whether a clause asks for what was spoken of; where it ends.
 pub(in crate::request) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
     let end = clause_end(tokens, at);
@@ -214,6 +278,33 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
         return None;
     }
     let to_do = |at: usize| Some(at + longest(said, at, TO_DO)?);
+    // `I am having trouble opening it, could you do it?`
+    let trouble =
+        ["trouble", "difficulty", "difficulties", "a hard time", "problems", "keep forgetting about"];
+    let doing = (begin..said.len()).find_map(|at| {
+        let verb = at + longest(said, at, &trouble)?;
+        let (base, form) = base(said.get(verb)?.word())?;
+        (form == Form::Gerund).then_some((verb, base))
+    });
+    if let Some((verb, base)) = doing {
+        let (_, after) = noun(said, verb + 1)?;
+        let mut words = vec![Token::Word(base)];
+        words.extend_from_slice(said.get(verb + 1..after)?);
+        return Some((begin, end, words));
+    }
+    // `it will not open for me, can you do it?`
+    let will_not = ["will not", "does not want to", "would not", "does not"];
+    let stuck = (begin + 1..said.len()).find_map(|at| {
+        let verb = at + longest(said, at, &will_not)?;
+        let word = said.get(verb)?.word();
+        let (_, after) = noun(said.get(..at)?, begin)?;
+        (after == at && matches!(word, "open" | "close" | "shut")).then(|| (at, word.to_owned()))
+    });
+    if let Some((thing_end, word)) = stuck {
+        let mut words = vec![Token::Word(word)];
+        words.extend_from_slice(said.get(begin..thing_end)?);
+        return Some((begin, end, words));
+    }
     let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()));
     let Some(task) = task else { return wished_for(said, begin).map(|said| (begin, end, said)) };
     let until = (task..said.len())

@@ -17,6 +17,8 @@ const BEGINS: &[&str] = &[
     "is it",
     "i am",
     "i should",
+    "you would",
+    "you will",
 ];
 /// What is said of it before the `if`.
 const NICE: &[&str] = &[
@@ -104,6 +106,17 @@ const NICE: &[&str] = &[
     "immensely",
     "lot",
     "ideal",
+    "do",
+    "doing",
+    "helping",
+    "favour",
+    "favor",
+    "out",
+    "no",
+    "end",
+    "solid",
+    "lots",
+    "for",
     "cool",
 ];
 const WHO: &[&str] = &["you", "somebody", "someone", "one of you", "anybody", "anyone"];

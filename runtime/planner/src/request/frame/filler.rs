@@ -1,128 +1,15 @@
 //! Words of a request that say how, why or when it is convenient, and not what: they are left out.
 
+use super::fill::{FILLERS, LASTING, NOT_MANNER, OTHERS, STRESSED};
 use crate::request::inflection::{Form, base};
 use crate::request::token::{Token, longest, stands};
-
-/// Words that say how or when and not what.
-const FILLERS: &[&str] = &[
-    "right now",
-    "sometime today",
-    "shortly",
-    "sometime soon",
-    "some time today",
-    "at some point today",
-    "right away",
-    "any more",
-    "anymore",
-    "any longer",
-    "really",
-    "simply",
-    "maybe",
-    "perhaps",
-    "possibly",
-    "carefully",
-    "gently",
-    "slowly",
-    "softly",
-    "neatly",
-    "nicely",
-    "quietly",
-    "properly",
-    "nice and gently",
-    "nice and carefully",
-    "nice and slowly",
-    "nice and neatly",
-    "nice and easy",
-    "straight away",
-    "at once",
-    "at some point",
-    "at your convenience",
-    "at your leisure",
-    "at your earliest convenience",
-    "for a moment",
-    "for just a moment",
-    "for a second",
-    "for a sec",
-    "for a minute",
-    "for a while",
-    "for a little while",
-    "for a bit",
-    "for a little bit",
-    "for now",
-    "for the moment",
-    "for the time being",
-    "for good",
-    "for once",
-    "for a change",
-    "for weeks",
-    "for days",
-    "for ages",
-    "for hours",
-    "for months",
-    "for years",
-    "from now on",
-    "in the meantime",
-    "once and for all",
-    "this time",
-    "this instant",
-    "by any chance",
-    "by myself",
-    "all by myself",
-    "on my own",
-    "anyway",
-    "finally",
-    "already",
-    "kinda",
-    "sorta",
-    "basically",
-    "literally",
-    "real quick",
-    "really quick",
-    "nice and tight",
-    "nice and safe",
-    "ever so",
-    "everso",
-    "as per usual",
-    "without further ado",
-];
-/// Before these `right` and `straight` only stress what follows.
-const STRESSED: &[&str] = &[
-    "here", "there", "up", "down", "to", "on", "in", "into", "onto", "inside", "over", "next", "back", "by",
-    "at", "beside", "where",
-];
-/// Who does something in a clause that says why or by when. The robot is not among them: what it shall do is a request.
-const OTHERS: &[&str] = &[
-    "i",
-    "we",
-    "he",
-    "she",
-    "it",
-    "they",
-    "nobody",
-    "no one",
-    "somebody",
-    "someone",
-    "everybody",
-    "everyone",
-    "anybody",
-    "anyone",
-    "people",
-    "my",
-    "our",
-    "the",
-    "that",
-    "this",
-];
-/// Verbs of a state in which something shall be until something happens.
-const LASTING: &[&str] =
-    &["hold", "hang", "keep", "stay", "wait", "stand", "leave", "carry", "grip", "holding", "remain"];
 
 /// A request without them.
 pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while at < tokens.len() {
-        if let Some(count) = longest(tokens, at, FILLERS) {
+        if let Some(count) = longest(tokens, at, FILLERS).or_else(|| manner(tokens, at)) {
             at += count;
         } else if let Some(count) =
             leisure(tokens, at).or_else(|| aim(tokens, at, &kept)).or_else(|| deadline(tokens, at, &kept))
@@ -139,6 +26,54 @@ pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
         }
     }
     kept
+}
+
+/// `safely`, `nice and gently`, `all the way`, `somewhere in the drawer`: how, and where more or less.
+fn manner(tokens: &[Token], at: usize) -> Option<usize> {
+    let is_adverb = |at: usize| {
+        let word = tokens.get(at).map_or("", Token::word);
+        word.len() > 4 && word.ends_with("ly") && !NOT_MANNER.contains(&word)
+    };
+    let more =
+        longest(tokens, at, &["nice and", "as", "very", "more", "so", "ever so", "really", "quite", "too"])
+            .unwrap_or(0);
+    if is_adverb(at + more) {
+        // `as gently as you can`
+        let behind = longest(tokens, at + more + 1, &["as you can", "as possible", "as you like"]);
+        return match behind {
+            Some(behind) => Some(more + 1 + behind),
+            None if stands(tokens, at, "as").is_some() => None,
+            None => Some(more + 1),
+        };
+    }
+    let is_last = |at: usize| {
+        matches!(tokens.get(at), None | Some(Token::Comma | Token::Stop))
+            || tokens.get(at).is_some_and(|token| {
+                matches!(token.word(), "and" | "for" | "please" | "so" | "open" | "in" | "on" | "inside")
+            })
+    };
+    let how = [
+        "all the way",
+        "somewhere",
+        "a bit",
+        "a little bit",
+        "a tad",
+        "really",
+        "like that",
+        "like this",
+        "a minute",
+        "a moment",
+        "a second",
+        "a sec",
+        "a while",
+    ];
+    let count = longest(tokens, at, &how)?;
+    let is_partial = tokens.get(at).is_some_and(|token| token.word() == "a");
+    // `open it a little` asks for less than `open it`.
+    let is_partial =
+        is_partial && tokens.get(..at)?.iter().any(|token| matches!(token.word(), "open" | "close" | "shut"));
+    (count == 1 && stands(tokens, at, "really").is_some() || (is_last(at + count) && !is_partial))
+        .then_some(count)
 }
 
 /// `right here`, `straight into the drawer`, `i still need`
@@ -205,8 +140,25 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         // `so it can go in the bin` asks for it.
         let next = tokens.get(after).map_or("", Token::word);
         let is_person = tokens.get(who).is_some_and(|token| matches!(token.word(), "i" | "we"));
-        (is_person || !matches!(next, "go" | "be" | "get" | "stay" | "end" | "live" | "have"))
-            .then_some(after)
+        (is_person
+            || !matches!(
+                next,
+                "go" | "be"
+                    | "get"
+                    | "stay"
+                    | "end"
+                    | "live"
+                    | "have"
+                    | "should"
+                    | "goes"
+                    | "belongs"
+                    | "lives"
+                    | "is"
+                    | "has"
+                    | "needs"
+                    | "must"
+            ))
+        .then_some(after)
     };
     let begins_clause = matches!(kept.last(), None | Some(Token::Stop));
     let is_aim = match tokens.get(at)?.word() {
@@ -256,7 +208,8 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let is_back = longest(tokens, at + by, &back).is_some();
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
-            let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"));
+            let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"))
+                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need") && matches!(the.word(), "the" | "my" | "it")));
             is_back && !begins_clause && (waits || sentence.windows(2).any(is_state))
         }
         _ => false,
@@ -287,12 +240,94 @@ fn is_state(two: &[Token]) -> bool {
 /// `when you get a moment`, `if it is not too much trouble`, `when you are done with that`: how many words it takes.
 fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
     const LEISURE: &[&str] = &[
-        "when", "whenever", "if", "once", "as", "soon", "you", "get", "got", "have", "has", "find", "can",
-        "could", "are", "would", "not", "too", "much", "trouble", "is", "it", "a", "the", "some", "spare",
-        "free", "at", "up", "moment", "minute", "second", "sec", "time", "chance", "ready", "able", "so",
-        "kind", "do", "mind", "like", "good", "there", "that", "next", "around", "about", "by", "manage",
-        "bother", "to", "ask", "okay", "getting", "doing", "bringing", "fetching", "passing", "reaching",
-        "helping", "me", "anyway", "feel",
+        "when",
+        "whenever",
+        "if",
+        "once",
+        "as",
+        "soon",
+        "you",
+        "get",
+        "got",
+        "have",
+        "has",
+        "find",
+        "can",
+        "could",
+        "are",
+        "would",
+        "not",
+        "too",
+        "much",
+        "trouble",
+        "is",
+        "it",
+        "a",
+        "the",
+        "some",
+        "spare",
+        "free",
+        "at",
+        "up",
+        "moment",
+        "minute",
+        "second",
+        "sec",
+        "time",
+        "chance",
+        "ready",
+        "able",
+        "so",
+        "kind",
+        "do",
+        "mind",
+        "like",
+        "good",
+        "there",
+        "that",
+        "next",
+        "around",
+        "about",
+        "by",
+        "manage",
+        "bother",
+        "to",
+        "ask",
+        "okay",
+        "getting",
+        "doing",
+        "bringing",
+        "fetching",
+        "passing",
+        "reaching",
+        "helping",
+        "me",
+        "anyway",
+        "feel",
+        "found",
+        "located",
+        "spotted",
+        "them",
+        "finished",
+        "done",
+        "with",
+        "nothing",
+        "else",
+        "better",
+        "busy",
+        "otherwise",
+        "occupied",
+        "please",
+        "happen",
+        "come",
+        "back",
+        "pass",
+        "passing",
+        "going",
+        "way",
+        "on",
+        "your",
+        "over",
     ];
     let starts = ["when", "whenever", "if", "once", "as soon as", "while", "since", "as"];
     let subject = |begin: &str| stands(tokens, at, &format!("{begin} you"));

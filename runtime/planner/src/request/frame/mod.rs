@@ -9,31 +9,81 @@ mod clause;
 mod courtesy;
 mod delegate;
 mod favour;
+mod fill;
 mod filler;
+mod link;
 mod placed;
 mod state;
+mod tags;
 
 use self::addressed::told_you;
 use self::clause::{cause, clause};
 pub(super) use self::courtesy::without_courtesy;
 pub(super) use self::delegate::asks_for_it;
-use self::delegate::delegated;
+use self::delegate::{delegated, elliptic};
 use self::favour::{favour, in_series, stressed, told_when_done};
 use self::filler::without_fillers;
 use self::placed::wanted_there;
-use super::inflection::{Form, base};
+use super::inflection::{Form, base, of_past};
 use super::lead::skip_leads;
 use super::token::{Token, longest, stands};
 use super::verb::begins;
 
 /// What asks for the form in `-ing`.
 const MIND: &[&str] = &[
+    "you would not mind",
+    "you do not mind",
+    "i hope you do not mind",
+    "fancy",
+    "do you fancy",
+    "would you fancy",
+    "do you feel like",
+    "feel like",
+    "try",
+    "please try",
+    "why not try",
+    "consider",
+    "please consider",
+    "you could start by",
+    "please start by",
+    "begin by",
+    "finish by",
     "would you mind",
     "do you mind",
     "mind",
     "how about",
     "what about",
     "any chance of you",
+    "i could do with you",
+    "i could use you",
+    "could i have you",
+    "can i have you",
+    "i would love you",
+    "what do you say to",
+    "how do you feel about",
+    "would you consider",
+    "would you object to",
+    "would you be opposed to",
+    "it would be great you",
+    "it would help me out you",
+    "help me by",
+    "help me out by",
+    "help out by",
+    "do me a favour by",
+    "do me a favor by",
+    "you can help me by",
+    "you could help me by",
+    "you would be helping me by",
+    "you would help me by",
+    "you would do me a favour by",
+    "you would do me a favor by",
+    "i am thinking of you",
+    "be so kind as to start",
+    "get on with",
+    "get busy",
+    "you can start by",
+    "let us start by",
+    "would you be up for",
     "is there any chance of you",
     "what are the chances of you",
     "any chance of",
@@ -75,6 +125,47 @@ const SET_OUT: &[&str] = &[
     "come",
     "try and",
     "try to",
+    "turn around and",
+    "turn round and",
+    "reach out and",
+    "reach over and",
+    "bend down and",
+    "lean over and",
+    "get out of the way and",
+    "get out of my way and",
+    "move out of the way and",
+    "step aside and",
+    "move aside and",
+    "leave me alone and",
+    "leave me in peace and",
+    "stop what you are doing and",
+    "drop what you are doing and",
+    "drop everything and",
+    "get a move on and",
+    "wake up and",
+    "get moving and",
+    "come along and",
+    "come on and",
+    "go along and",
+    "go straight over and",
+    "take a trip over and",
+    "make your way over and",
+    "find the time to",
+    "tidy up and",
+    "clean up and",
+    "tidy up a bit and",
+];
+/// Who sets out to take something goes for it.
+const GOES_FOR: &[&str] = &[
+    "go and",
+    "go over and",
+    "run and",
+    "run over and",
+    "go out and",
+    "hurry and",
+    "pop over and",
+    "nip over and",
+    "go on over and",
 ];
 
 /// Behind a verb of opening or closing: only where it is not so already, which has to be seen first.
@@ -83,7 +174,9 @@ pub(super) const ONLY_IF_SO: &str = "if it is open";
 /// A request with its frames said plainly.
 pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
     // What is left out may stand between other words that are.
-    let mut tokens = without_courtesy(&without_fillers(&without_courtesy(tokens)));
+    // `I cannot open it, could you?` has to be read before courtesy is left out.
+    let tokens = elliptic(tokens);
+    let mut tokens = without_courtesy(&without_fillers(&without_courtesy(&tokens)));
     tokens = delegated(&tokens);
     let mut said = Vec::with_capacity(tokens.len());
     let (mut at, mut starts, mut begins_sentence) = (0, true, true);
@@ -146,6 +239,76 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
             tokens.get(at + count)?.word()
     {
         return Some((at + count, Vec::new()));
+    }
+    // `I would rather you waited at the sink`
+    let rather = [
+        "i would rather you",
+        "i would sooner you",
+        "i would prefer it if you",
+        "i would prefer that you",
+        "i would prefer you to",
+        "i wish you",
+        "it is time you",
+        "it is about time you",
+        "it is high time you",
+        "what if you",
+        "i would like it if you",
+        "i would love it if you",
+        "i would be glad if you",
+        "i would be happy if you",
+    ];
+    if let Some(count) = longest(tokens, at, &rather) {
+        let word = tokens.get(at + count)?.word();
+        if matches!(word, "were" | "was") {
+            return Some((at + count + 1, state::words("go")));
+        }
+        let verb = base(word).filter(|(_, form)| *form == Form::Base).map(|(verb, _)| verb);
+        return Some((at + count + 1, vec![Token::Word(verb.or_else(|| of_past(word))?)]));
+    }
+    // `once you have opened it, …`
+    if let Some(count) = longest(tokens, at, &["once you have", "after you have", "as soon as you have"])
+        && let Some((verb, Form::Participle)) = base(tokens.get(at + count)?.word())
+    {
+        return Some((at + count + 1, vec![Token::Word(verb)]));
+    }
+    // `make sure I get the coke`
+    let gets = [
+        "make sure i get",
+        "make sure that i get",
+        "make sure i have",
+        "see that i get",
+        "see to it that i get",
+        "see to it that i have",
+        "ensure i get",
+        "ensure that i get",
+    ];
+    if let Some(count) = longest(tokens, at, &gets) {
+        return Some((at + count, state::words("bring me")));
+    }
+    if let Some(count) = longest(tokens, at, GOES_FOR)
+        && tokens.get(at + count)?.word() == "grab"
+        && stands(tokens, at + count + 1, "hold").is_none()
+    {
+        return Some((at + count + 1, state::words("fetch")));
+    }
+    // `go over there, pick it up`
+    let there = [
+        "go over there",
+        "go on over",
+        "come over here",
+        "come here",
+        "turn around",
+        "get up",
+        "wake up",
+        "go ahead",
+        "look here",
+        "look there",
+    ];
+    if let Some(count) = longest(tokens, at, &there)
+        && tokens.get(at + count) == Some(&Token::Comma)
+        && begins(tokens, at + count + 1)
+    {
+        return Some((at + count + 1, Vec::new()));
     }
     let set_out = longest(tokens, at, SET_OUT)?;
     let next = tokens.get(at + set_out)?.word();

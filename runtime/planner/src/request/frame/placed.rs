@@ -1,5 +1,6 @@
 //! Requests that begin with the place, or have no verb: `into the bin with it`, `off to the sink with you`, `next stop is the door`.
 
+use super::link::WANT;
 use super::state::{is_place, words};
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, spot, way};
@@ -7,6 +8,24 @@ use crate::request::token::{Token, longest, stands};
 
 /// `into the bin with it`, `in the drawer it goes`: what shall be put there.
 pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    // `out with it!`
+    if let Some(count) = longest(tokens, begin, &["out with", "away with"])
+        && let Some((Noun::Before(_) | Noun::Phrase(_), end)) = noun(tokens, begin + count)
+        && is_over(tokens, end)
+    {
+        let mut said = words("discard");
+        said.extend_from_slice(tokens.get(begin + count..end)?);
+        return Some((said, end));
+    }
+    // `out it goes`
+    if let Some(count) =
+        longest(tokens, begin, &["out it goes", "out it should go", "away it goes", "out they go"])
+        && is_over(tokens, begin + count)
+    {
+        return Some((words("discard it"), begin + count));
+    }
+    // `off to the bin with it`
+    let begin = begin + longest(tokens, begin, &["off", "straight"]).unwrap_or(0);
     let (place, after) = spot(tokens, begin).or_else(|| way(tokens, begin))?;
     if matches!(place.noun, Noun::Before(_)) || place.relation == Relation::Beside {
         return None;
@@ -66,6 +85,25 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         let (place, _) = noun(tokens, at)?;
         return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), at));
     }
+    // `you are needed at the sink`
+    let needed = [
+        "you are needed",
+        "you are wanted",
+        "you are required",
+        "you are expected",
+        "you are awaited",
+        "your presence is required",
+        "your presence is needed",
+        "your presence is requested",
+        "your help is needed",
+        "your help is wanted",
+        "i require you",
+        "i require your presence",
+    ];
+    if let Some(count) = longest(tokens, begin, &needed) {
+        let at = begin + count + longest(tokens, begin + count, &["over", "back"]).unwrap_or(0);
+        return located(tokens, at).map(|_| (words("go"), at));
+    }
     // `I would like you to be at the door`
     let be = begin
         + ["be over", "be standing", "be waiting", "be back", "be"]
@@ -75,26 +113,223 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
     is_there.then(|| (words("go"), be))
 }
 
+/// `your destination is`, `next destination`: how many words it takes.
+fn destination(tokens: &[Token], begin: usize) -> Option<usize> {
+    let mut at = begin + longest(tokens, begin, &["your", "the"]).unwrap_or(0);
+    at += longest(tokens, at, &["next", "new", "first"]).unwrap_or(0);
+    at += longest(tokens, at, &["destination", "target", "goal", "waypoint", "position", "post", "station"])?;
+    at += longest(tokens, at, &["for you", "for now"]).unwrap_or(0);
+    match longest(tokens, at, &["is", "will be", "shall be"]) {
+        Some(count) => Some(at + count - begin),
+        None => (tokens.get(at) == Some(&Token::Comma)).then(|| at + 1 - begin),
+    }
+}
+
+/// `to the sink, please`, `over to the sink, please`: who is spoken to goes there. `next destination: the sink`.
+pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
+    if let Some(count) = destination(tokens, begin) {
+        let (place, _) = noun(tokens, begin + count)?;
+        return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), begin + count));
+    }
+    let here = tokens.get(..limit)?;
+    let please = |after: usize| {
+        stands(tokens, after, "please").map(|count| after + count).or_else(|| {
+            (after == limit).then(|| Some(limit + 1 + stands(tokens, limit + 1, "please")?)).flatten()
+        })
+    };
+    // `it is finished. In the bin, please`
+    let put = spot(here, begin).or_else(|| {
+        way(here, begin).filter(|(place, _)| matches!(place.relation, Relation::In | Relation::On))
+    });
+    if let Some((place, after)) = put
+        && matches!(place.noun, Noun::Phrase(_))
+        && place.relation != Relation::At
+        && let Some(end) = please(after).filter(|end| is_over(tokens, *end))
+    {
+        let mut said = words("put it");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, end));
+    }
+    let over = longest(here, begin, &["over", "on over", "straight", "back", "off"]).unwrap_or(0);
+    let (place, after) = way(here, begin).or_else(|| way(here, begin + over))?;
+    let is_place = place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_));
+    let please = please(after)?;
+    (is_place && is_over(tokens, please)).then(|| {
+        let mut said = words("go");
+        said.extend_from_slice(tokens.get(begin..after).unwrap_or_default());
+        (said, please)
+    })
+}
+
+/// What tells where something has its place.
+const LIVES: &[&str] = &[
+    "goes",
+    "go",
+    "belongs",
+    "belong",
+    "lives",
+    "live",
+    "should go",
+    "should be",
+    "should live",
+    "should end up",
+    "has to go",
+    "needs to go",
+    "needs to be",
+    "is supposed to go",
+    "is supposed to be",
+    "is meant to go",
+    "is meant to be",
+    "is to go",
+    "ought to go",
+    "ought to be",
+    "is kept",
+    "must go",
+    "can go",
+    "has its place",
+    "fits",
+    "is stored",
+];
+/// The place of something is asked for, or told, in these words behind it.
+const IS_WHERE: &[&str] = &[
+    "that is where",
+    "this is where",
+    "is where",
+    "is the place where",
+    "is the spot where",
+    "that is the place where",
+];
+
 /// `on the table, that is where I want it`: up to where `put it on the table` takes the place of it.
 pub(super) fn wanted_there(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token>)> {
     let (place, after) = spot(tokens, begin).or_else(|| way(tokens, begin))?;
     if !matches!(place.noun, Noun::Phrase(_)) || place.relation == Relation::Beside {
         return None;
     }
-    let at = after + usize::from(tokens.get(after) == Some(&Token::Comma));
-    let at = at + stands(tokens, at, "that is where").or_else(|| stands(tokens, at, "this is where"))?;
-    let wants = ["i want", "i would like", "i need", "we want", "we would like", "we need"];
-    if let Some(count) = wants.iter().find_map(|want| stands(tokens, at, want)) {
-        let (thing, end) = noun(tokens, at + count)?;
-        if matches!(thing, Noun::Speaker) || !is_over(tokens, end) {
-            return None;
-        }
-        let mut said = words("put");
-        said.extend_from_slice(tokens.get(at + count..end)?);
-        said.extend_from_slice(tokens.get(begin..after)?);
-        return Some((end, said));
+    let mut at = after;
+    while tokens.get(at) == Some(&Token::Comma)
+        || tokens.get(at).is_some_and(|token| token.word() == "please")
+    {
+        at += 1;
     }
-    None
+    if at == after {
+        return None;
+    }
+    at += longest(tokens, at, IS_WHERE)?;
+    let (thing, end, verb) = wanted(tokens, at)?;
+    is_over(tokens, end).then(|| {
+        let mut said = words(verb);
+        said.extend_from_slice(&thing);
+        said.extend_from_slice(tokens.get(begin..after).unwrap_or_default());
+        (end, said)
+    })
+}
+
+/// `I want the coke`, `I want you to put the coke`, `the coke belongs`: what shall have the place that is spoken of, with its verb.
+fn wanted(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize, &'static str)> {
+    let noun_at = |at: usize| {
+        let (thing, end) = noun(tokens, at)?;
+        (!matches!(thing, Noun::Speaker)).then_some((tokens.get(at..end)?.to_vec(), end))
+    };
+    if let Some(count) = longest(tokens, at, WANT) {
+        let you = [
+            "you to put",
+            "you to place",
+            "you to leave",
+            "you to set",
+            "you to store",
+            "you to keep",
+            "to have",
+            "to see",
+        ];
+        let count = count + longest(tokens, at + count, &you).unwrap_or(0);
+        let (thing, end) = noun_at(at + count)?;
+        let be =
+            longest(tokens, end, &["to be", "to go", "to end up", "to stay", "put", "kept"]).unwrap_or(0);
+        return Some((thing, end + be, "put"));
+    }
+    // Who keeps it there wants it there.
+    let keeps = longest(
+        tokens,
+        at,
+        &["we keep", "i keep", "we always keep", "i always keep", "you should put", "you can put", "you put"],
+    );
+    if let Some(count) = keeps {
+        let (thing, end) = noun_at(at + count)?;
+        return Some((thing, end, "keep"));
+    }
+    (at + 1..tokens.len()).find_map(|end| {
+        let count = longest(tokens, end, LIVES)?;
+        let (thing, after) = noun(tokens.get(..end)?, at)?;
+        let is_thing = after == end && !matches!(thing, Noun::Speaker);
+        is_thing.then(|| Some((tokens.get(at..end)?.to_vec(), end + count, "keep")))?
+    })
+}
+
+/// `on the table is where I want the coke`, `the drawer is where the coke lives`, `the drawer is the place for the coke`
+pub(super) fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let spot = spot(tokens, begin);
+    let (is_bare, after) = match spot {
+        Some((_, after)) => (false, after),
+        None => (true, noun(tokens, begin).filter(|(noun, _)| matches!(noun, Noun::Phrase(_)))?.1),
+    };
+    let (thing, end, verb) = match longest(
+        tokens,
+        after,
+        &["is the place for", "is the right place for", "is the best place for", "is the spot for"],
+    ) {
+        Some(count) => {
+            let (_, end) = noun(tokens, after + count)?;
+            (tokens.get(after + count..end)?.to_vec(), end, "keep")
+        }
+        None => wanted(tokens, after + longest(tokens, after, IS_WHERE)?)?,
+    };
+    let mut said = words(verb);
+    said.extend_from_slice(&thing);
+    if is_bare {
+        // Whether on or in is the place's to say.
+        said.extend(words("to"));
+    }
+    said.extend_from_slice(tokens.get(begin..after)?);
+    Some((said, end))
+}
+
+/// `find a spot on the table for the coke`: put there.
+pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
+    let at = begin + longest(tokens, begin, &["find", "find me"])?;
+    let room = [
+        "a spot",
+        "a place",
+        "a space",
+        "space",
+        "room",
+        "a home",
+        "some space",
+        "some room",
+        "a nice spot",
+        "a nice place",
+        "a good spot",
+        "a good place",
+        "a corner",
+    ];
+    let at = at + longest(tokens, at, &room)?;
+    let (thing, place, end) = match stands(tokens, at, "for") {
+        Some(count) => {
+            let (_, after) = noun(tokens, at + count)?;
+            let (_, end) = spot(tokens, after)?;
+            (at + count..after, after..end, end)
+        }
+        None => {
+            let (_, after) = spot(tokens, at)?;
+            let count = stands(tokens, after, "for")?;
+            let (_, end) = noun(tokens, after + count)?;
+            (after + count..end, at..after, end)
+        }
+    };
+    let mut said = words("put");
+    said.extend_from_slice(tokens.get(thing)?);
+    said.extend_from_slice(tokens.get(place)?);
+    Some((said, end))
 }
 
 fn is_over(tokens: &[Token], at: usize) -> bool {

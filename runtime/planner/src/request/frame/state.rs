@@ -51,7 +51,10 @@ pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, u
     let word = tokens.get(at)?.word();
     let is_last = tokens.get(at + 1).is_none_or(|next| {
         matches!(next, Token::Comma | Token::Stop)
-            || matches!(next.word(), "and" | "for" | "please" | "again" | "now")
+            || matches!(
+                next.word(),
+                "and" | "for" | "please" | "again" | "now" | "like" | "all" | "when" | "while"
+            )
     });
     match word {
         "open" if is_last => return Some((State::Open, at + 1)),
@@ -67,6 +70,10 @@ pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, u
         return Some((State::At, at));
     }
     let (verb, found) = base(word)?;
+    // `it needs taking care of` says nothing of what to do with it.
+    if tokens.get(at + 1).is_some_and(|next| next.word() == "care") {
+        return None;
+    }
     // `put` and `shut` are their own participles.
     let is_put = found == Form::Base && form == Form::Participle && base_is_participle(word);
     let next = tokens.get(at + 1).map_or("", Token::word);
