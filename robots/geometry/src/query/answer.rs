@@ -117,7 +117,7 @@ impl Budget {
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { candidates: 512, paths: 64, cells: 131_072 }
+        Self { candidates: 512, paths: 64, cells: 32_768 }
     }
 }
 
