@@ -648,3 +648,35 @@ fn where_a_thing_is_is_told_in_many_ways() {
         assert!(told(answer).is_empty(), "{answer}: {:?}", told(answer));
     }
 }
+
+#[test]
+fn what_is_asked_for_in_passing_is_done() {
+    mean(
+        &["not open(fridge_1)"],
+        &[
+            "Would you mind if I asked you to close the fridge?",
+            "Would it be an awful bother to close the fridge?",
+            "Would it be any trouble to close the fridge?",
+            "Gonnae close the fridge?",
+            "Close the fridge as you go past.",
+            "Did I leave the fridge open? Be a dear and close it for me.",
+            "Have I left the fridge open? Please shut it.",
+        ],
+    );
+    mean(
+        &["at(robot, sink)"],
+        &["Off you trot to the sink, there's a good robot.", "Off you go over to the sink."],
+    );
+    mean(&["on(sponge, counter)"], &["Once you've got hold of the sponge, put it on the counter."]);
+    not_taken(&[
+        "Would you mind if I closed the fridge?",
+        "Would it be a bother if I closed the fridge?",
+        "Gonnae no close the fridge?",
+        "Close the fridge as you leave the room.",
+        "Did I leave the fridge open?",
+        "Did I leave the fridge open? Then close it.",
+        "Did I ask you to bring me the coke?",
+        "Off you trot.",
+        "Once you've got hold of the plumber, put the sponge on the counter.",
+    ]);
+}

@@ -174,8 +174,8 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
         if contrasts(tokens, at) {
             return at;
         }
-        // `you know what to do` asks for nothing, `no need to` for the contrary.
-        let knows = longest(tokens, at, &["you know what to", "no need to"]).is_some();
+        // `you know what to do` asks for nothing, `no need to` and `gonnae no` for the contrary.
+        let knows = longest(tokens, at, &["you know what to", "no need to", "gonnae no"]).is_some();
         let lead = longest(tokens, at, LEADS)
             .max(asked(tokens, at))
             .filter(|_| !knows)
@@ -258,6 +258,14 @@ fn asked(tokens: &[Token], at: usize) -> Option<usize> {
             "be too much trouble",
             "be too much to ask",
             "be a bother",
+            "be an awful bother",
+            "be a terrible bother",
+            "be too much bother",
+            "be any bother",
+            "be any trouble",
+            "be a nuisance",
+            "be an awful nuisance",
+            "be an imposition",
         ];
         let mut end = at + can + 1;
         end += longest(tokens, end, &bother)?;

@@ -2,6 +2,9 @@
 
 /// What may stand before a verb and asks for no more than that it is done. Longer ones first where one begins another.
 pub(super) const LEADS: &[&str] = &[
+    "gonnae",
+    "would you mind if i asked you to",
+    "do you mind if i ask you to",
     "might i trouble you to",
     "would you be good enough to",
     "be good enough to",

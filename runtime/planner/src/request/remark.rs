@@ -84,7 +84,9 @@ pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
         "you", "the", "my", "our", "it", "that", "this", "there", "anybody", "anyone", "somebody", "someone",
     ];
     let is = |at: usize, table: &[&str]| tokens.get(at).is_some_and(|token| table.contains(&token.word()));
-    is(begin, WHETHER) && (is(begin + 1, &whose) || (is(begin + 1, &["not"]) && is(begin + 2, &whose)))
+    let left = ["did i leave", "did we leave", "have i left", "have we left"];
+    longest(tokens, begin, &left).is_some()
+        || is(begin, WHETHER) && (is(begin + 1, &whose) || (is(begin + 1, &["not"]) && is(begin + 2, &whose)))
 }
 
 /// `since you are up anyway, …`: a whole clause, behind which something is asked for.

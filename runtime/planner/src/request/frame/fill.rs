@@ -2,6 +2,10 @@
 
 /// Words that say how or when and not what.
 pub(super) const FILLERS: &[&str] = &[
+    "as you go by",
+    "as you go past",
+    "as you pass",
+    "as you pass by",
     "from wherever it is",
     "from where it is",
     "from where it is now",

@@ -27,7 +27,7 @@ use self::placed::wanted_there;
 use super::inflection::{Form, base, of_past};
 use super::lead::skip_leads;
 use super::token::{Token, longest, stands};
-use super::verb::begins;
+use super::verb::{Act, begins, verb};
 
 /// What asks for the form in `-ing`.
 const MIND: &[&str] = &[
@@ -270,6 +270,18 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
         && let Some((verb, Form::Participle)) = base(tokens.get(at + count)?.word())
     {
         return Some((at + count + 1, vec![Token::Word(verb)]));
+    }
+    // `once you have got hold of it, …`
+    let got = ["once you have got hold of", "after you have got hold of", "as soon as you have got hold of"];
+    if let Some(count) = longest(tokens, at, &got) {
+        return Some((at + count, state::words("get hold of")));
+    }
+    // `off you trot to the sink`
+    if let Some(count) = stands(tokens, at, "off you")
+        && let Some((Act::Go, after)) = verb(tokens, at + count)
+        && matches!(tokens.get(after)?.word(), "to" | "over" | "across")
+    {
+        return Some((at + count, Vec::new()));
     }
     // `make sure I get the coke`
     let gets = [
