@@ -14,7 +14,6 @@ use crate::ir::{Base, Entity, EnumId, Failure, Fluent, Kind, Measure, Ty};
 use crate::resolve::errors::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
 use crate::resolve::expr::Resolver;
 use crate::resolve::near::near;
-use crate::resolve::scope::Scope;
 use crate::world::{Entities, MAX_ENTITIES};
 
 /// The most parameters of a fluent.
@@ -97,15 +96,7 @@ impl LibraryBuilder {
 
 /// A resolver for declarations: no bindings, no scene.
 pub(super) fn resolver<'a>(library: &'a Library, entities: &'a Entities) -> Resolver<'a> {
-    Resolver {
-        library,
-        entities,
-        has_scene: true,
-        form: Form::Text,
-        scope: Scope::default(),
-        bindings: Vec::new(),
-        diagnostics: Vec::new(),
-    }
+    Resolver::new(library, entities, true, Form::Text)
 }
 
 fn index<T>(table: &[T]) -> u16 {

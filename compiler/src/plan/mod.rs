@@ -23,7 +23,6 @@ use crate::prove::eval::Frame;
 use crate::prove::facts::Key;
 use crate::prove::mend::Proposed;
 use crate::resolve::expr::Resolver;
-use crate::resolve::scope::Scope;
 use crate::session::Session;
 use crate::world::World;
 
@@ -213,15 +212,7 @@ fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &Proposed) -> Optio
 }
 
 fn resolve(goal: &Expr, library: &Library, world: &World) -> Result<Condition, NoPlan> {
-    let mut resolver = Resolver {
-        library,
-        entities: world.entities(),
-        has_scene: world.has_scene(),
-        form: Form::Text,
-        scope: Scope::default(),
-        bindings: Vec::new(),
-        diagnostics: Vec::new(),
-    };
+    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
     let condition = resolver.condition(goal);
     let wrong: Vec<Diagnostic> = resolver.diagnostics;
     if wrong.is_empty() { Ok(condition) } else { Err(NoPlan::Wrong { diagnostics: wrong }) }

@@ -64,6 +64,12 @@ impl std::fmt::Display for Place<'_> {
 }
 
 impl<'a> Resolver<'a> {
+    /// A resolver of what stands outside of any policy: nothing is bound.
+    pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Form) -> Self {
+        let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
+        Self { library, entities, has_scene, form, scope, bindings, diagnostics }
+    }
+
     pub(crate) fn say(&mut self, mistake: impl Into<Diagnostic>) {
         self.diagnostics.push(mistake.into());
     }

@@ -37,15 +37,7 @@ pub(crate) fn resolve(
     library: &Library,
     world: &World,
 ) -> (Program, Vec<Diagnostic>) {
-    let resolver = Resolver {
-        library,
-        entities: world.entities(),
-        has_scene: world.has_scene(),
-        form,
-        scope: scope::Scope::default(),
-        bindings: Vec::new(),
-        diagnostics: Vec::new(),
-    };
+    let resolver = Resolver::new(library, world.entities(), world.has_scene(), form);
     let mut steps = Steps::new(resolver);
     let program = steps.policy(policy);
     (program, steps.finish())
@@ -61,13 +53,9 @@ pub(crate) fn resolve_step(
     scope: &mut scope::Scope,
 ) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
     let resolver = Resolver {
-        library,
-        entities: world.entities(),
-        has_scene: world.has_scene(),
-        form,
         scope: std::mem::take(scope),
         bindings: std::mem::take(&mut program.bindings),
-        diagnostics: Vec::new(),
+        ..Resolver::new(library, world.entities(), world.has_scene(), form)
     };
     let mut steps = Steps::new(resolver);
     steps.program = std::mem::take(program);
@@ -89,13 +77,8 @@ pub(crate) fn resolve_inlined(
     program: &mut Program,
 ) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
     let resolver = Resolver {
-        library,
-        entities: world.entities(),
-        has_scene: world.has_scene(),
-        form: Form::Text,
-        scope: scope::Scope::default(),
         bindings: std::mem::take(&mut program.bindings),
-        diagnostics: Vec::new(),
+        ..Resolver::new(library, world.entities(), world.has_scene(), Form::Text)
     };
     let mut steps = Steps::new(resolver);
     steps.program = std::mem::take(program);

@@ -5,7 +5,6 @@ use motet_syntax::{Diagnostic, Form, Span};
 use smol_str::SmolStr;
 
 use super::expr::{Place, Resolver, Wanted};
-use super::scope::Scope;
 use crate::ir::Term;
 use crate::library::{Library, PrimitiveDef};
 use crate::world::World;
@@ -40,15 +39,7 @@ fn taken(
     library: &Library,
     world: &World,
 ) -> Vec<Diagnostic> {
-    let mut resolver = Resolver {
-        library,
-        entities: world.entities(),
-        has_scene: world.has_scene(),
-        form: Form::Text,
-        scope: Scope::default(),
-        bindings: Vec::new(),
-        diagnostics: Vec::new(),
-    };
+    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
     for (term, (name, span)) in terms.iter().zip(args) {
         let Term::Param(index) = term else { continue };
         let Some(param) = def.params.get(usize::from(*index)) else { continue };

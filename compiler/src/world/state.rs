@@ -8,7 +8,6 @@ use super::{World, hands};
 use crate::ir::Term;
 use crate::library::Library;
 use crate::resolve::expr::Resolver;
-use crate::resolve::scope::Scope;
 
 /// Facts in their text form with their values, in order: `{"holding(mug_1)": true}`.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -33,15 +32,7 @@ impl State {
                     continue;
                 }
             };
-            let mut resolver = Resolver {
-                library,
-                entities: &entities,
-                has_scene: world.has_scene(),
-                form: Form::Text,
-                scope: Scope::default(),
-                bindings: Vec::new(),
-                diagnostics: Vec::new(),
-            };
+            let mut resolver = Resolver::new(library, &entities, world.has_scene(), Form::Text);
             let fact = match &parsed.kind {
                 motet_syntax::ast::ExprKind::Call(call) => resolver.fact(call),
                 _ => None,
