@@ -1,6 +1,6 @@
 //! How sure somebody is of what they say, and when they last knew: `I am fairly sure that`, `chances are`, `last I checked`.
 
-use super::token::{Token, longest, stands};
+use super::token::{Token, longest, run, stands};
 
 /// How many words of it stand before what is told.
 pub(super) fn before(tokens: &[Token], at: usize) -> Option<usize> {
@@ -43,9 +43,7 @@ fn believes(tokens: &[Token], at: usize) -> Option<usize> {
         "certainly",
         "strongly",
     ];
-    while let Some(count) = longest(tokens, end, &how) {
-        end += count;
-    }
+    end += run(tokens, end, &how);
     let says = [
         "think",
         "guess",
@@ -113,9 +111,7 @@ fn sure(tokens: &[Token], at: usize) -> Option<usize> {
         "totally",
         "positively",
     ];
-    while let Some(count) = longest(tokens, end, &how) {
-        end += count;
-    }
+    end += run(tokens, end, &how);
     Some(
         end + longest(tokens, end, &["sure", "certain", "positive", "confident", "convinced", "afraid"])?
             - at,

@@ -2,7 +2,7 @@
 
 use super::lexicon::VERBS;
 use super::opening::LEADS;
-use super::token::{Token, longest, stands};
+use super::token::{Token, longest, run, stands};
 
 /// What someone says who wants to have something.
 pub(super) const WANTS: &[&str] = &[
@@ -301,9 +301,7 @@ fn asked(tokens: &[Token], at: usize) -> Option<usize> {
         "help me to",
     ];
     let mut end = at + can + not + who;
-    while let Some(count) = longest(tokens, end, &how) {
-        end += count;
-    }
+    end += run(tokens, end, &how);
     Some(end - at)
 }
 

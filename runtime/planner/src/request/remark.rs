@@ -2,7 +2,7 @@
 
 use super::beside::{ASKS, MATTERS, REASONS, SAYS, SHALL_WE, SUBJECTS, TELLS, WHETHER};
 use super::inflection::{Form, base};
-use super::token::{Token, longest, stands};
+use super::token::{Token, longest, run, stands};
 use super::verb::{Act, begins};
 
 /// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
@@ -301,9 +301,7 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
         "holding it",
     ];
     let begins_for = at;
-    while let Some(count) = longest(tokens, at, &what_for) {
-        at += count;
-    }
+    at += run(tokens, at, &what_for);
     // `and wait` alone, behind what it waits with or where
     let is_waiting = is_there.is_some()
         || (matches!(before, Act::Pick | Act::Lift | Act::Go | Act::Take) && (at > begins_for || is_joined));

@@ -243,3 +243,8 @@ pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> 
 pub(super) fn longest(tokens: &[Token], at: usize, table: &[&str]) -> Option<usize> {
     table.iter().filter_map(|words| stands(tokens, at, words)).max()
 }
+
+/// How many tokens those of several take that stand there one behind another.
+pub(super) fn run(tokens: &[Token], at: usize, table: &[&str]) -> usize {
+    std::iter::successors(Some(at), |end| Some(end + longest(tokens, *end, table)?)).last().unwrap_or(at) - at
+}

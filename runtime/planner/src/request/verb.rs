@@ -2,7 +2,7 @@
 
 use super::lead::{skip_leads, wish};
 use super::lexicon::VERBS;
-use super::token::{Token, longest, stands};
+use super::token::{Token, longest, run, stands};
 
 /// What is asked for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -115,13 +115,11 @@ fn hold(tokens: &[Token], at: usize) -> Option<usize> {
         return Some(end + longest(tokens, end, &["to", "onto"])?);
     }
     end += longest(tokens, end, &["a", "your"]).unwrap_or(0);
-    while let Some(count) = longest(
+    end += run(
         tokens,
         end,
         &["nice", "good", "firm", "tight", "proper", "safe", "secure", "steady", "strong", "solid", "very"],
-    ) {
-        end += count;
-    }
+    );
     end += longest(tokens, end, &["grip", "hold", "grasp"])?;
     Some(end + longest(tokens, end, &["on to", "on", "of", "onto"])?)
 }

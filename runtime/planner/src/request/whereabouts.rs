@@ -11,7 +11,7 @@ use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, noun};
 use super::spot::{Relation, Spot, spot, way};
 use super::telling::{BEFORE, BEHIND, DENIES, HAS, PUT, WHO};
-use super::token::{Token, longest, stands};
+use super::token::{Token, longest, run, stands};
 use super::vocabulary::Role;
 
 /// Whether a clause answers the question where something is, so that a bare place is one.
@@ -278,9 +278,7 @@ const ASKING: &[&str] = &[
 ];
 
 fn skip(tokens: &[Token], mut at: usize, skipped: &[&str]) -> usize {
-    while let Some(count) = longest(tokens, at, skipped) {
-        at += count;
-    }
+    at += run(tokens, at, skipped);
     at
 }
 

@@ -2,7 +2,7 @@
 //! help if the drawer were shut`.
 
 use crate::request::inflection::{Form, base, of_past};
-use crate::request::token::{Token, longest, stands};
+use crate::request::token::{Token, run, stands};
 use crate::request::verb::begins;
 
 /// How it begins.
@@ -141,9 +141,7 @@ pub(super) fn favour(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token
         return (!is_told).then(|| (at, vec![Token::Word("ensure".to_owned())]));
     };
     at += who;
-    while let Some(count) = longest(tokens, at, WOULD) {
-        at += count;
-    }
+    at += run(tokens, at, WOULD);
     let word = tokens.get(at)?.word();
     let verb = match base(word) {
         Some((verb, Form::Base)) => verb,
