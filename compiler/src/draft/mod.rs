@@ -185,17 +185,18 @@ impl Draft {
 
     /// Whether a step may follow the body as it is. Nothing is appended.
     pub fn permits_step(&mut self, session: &Session, step: &Step) -> bool {
-        let start = self.start();
-        let (id, outcome) = self.prove(session, step, Looks::Away);
-        self.back_to(&start);
-        id.is_some() && !outcome.refuted
+        self.permits(session, step, Looks::Away)
     }
 
     /// Whether a step may follow the body as it is, whichever step it is that the sequence in it whose span is [`CHOICE`] stands
     /// for: one proof for all of them. False does not say that one is an error, true says that none is. Nothing is appended.
     pub fn permits_any(&mut self, session: &Session, step: &Step) -> bool {
+        self.permits(session, step, Looks::AtChoice)
+    }
+
+    fn permits(&mut self, session: &Session, step: &Step, looks: Looks) -> bool {
         let start = self.start();
-        let (id, outcome) = self.prove(session, step, Looks::AtChoice);
+        let (id, outcome) = self.prove(session, step, looks);
         self.back_to(&start);
         id.is_some() && !outcome.refuted
     }
