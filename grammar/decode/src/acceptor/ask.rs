@@ -206,10 +206,19 @@ impl Walk {
             args.push(Some(self.value_of(*given, spot)?));
         }
         args.resize_with(signature.params.len(), || None);
-        let permits = self.place(spot.event).is_some_and(|(draft, session)| match made.primitive {
-            Some(primitive) => draft.permits_call(session, primitive, &args),
-            None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
-        });
+        let ask = |walk: &mut Self| {
+            walk.place(spot.event).is_some_and(|(draft, session)| match made.primitive {
+                Some(primitive) => draft.permits_call(session, primitive, &args),
+                None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),
+            })
+        };
+        let permits = if spot.shared {
+            // It is asked of a value when that is picked, and again when it is tried.
+            let key = self.key(Question::Permitted, spot.event, of_call(callable, given));
+            self.answer(key, ask)
+        } else {
+            ask(self)
+        };
         permits.then_some(args)
     }
 

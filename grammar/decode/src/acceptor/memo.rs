@@ -27,6 +27,8 @@ pub(crate) enum Question {
     Call,
     /// The same, beside what runs at once.
     SharedCall,
+    /// Whether nothing refutes a call at its place, with the arguments so far.
+    Permitted,
     /// Whether a test keeps a loop's back edge from being wrong.
     Test,
     /// Whether a loop may come round where its body ends.
