@@ -111,21 +111,32 @@ impl Vocabulary {
             bytes.get(before) == Some(&end)
         };
         let name_ends = |end: u8| trie.filter(&set(&|bytes| ends_name(bytes, end)));
-        let names = |picks: &dyn Fn(&[u8], usize) -> bool| {
-            (0..=MAX_NAME_CHARS).map(|most| set(&|bytes| picks(bytes, most))).collect::<Vec<_>>()
+        // A name's tokens by length; those of each are among those of the next.
+        let names = |length: &dyn Fn(&[u8]) -> Option<usize>| {
+            let mut sets: Vec<SimpleVob> = (0..=MAX_NAME_CHARS).map(|_| trie.alloc_token_set()).collect();
+            for (id, bytes) in (0..size).zip(tokens).filter(|(_, bytes)| !bytes.is_empty()) {
+                if let Some(set) = length(bytes).and_then(|length| sets.get_mut(length)) {
+                    set.allow_token(id);
+                }
+            }
+            for length in 1..sets.len() {
+                let (shorter, longer) = sets.split_at_mut(length);
+                if let (Some(shorter), Some(set)) = (shorter.last(), longer.first_mut()) {
+                    set.or(shorter);
+                }
+            }
+            sets
         };
-        let is_name = |bytes: &[u8], most: usize| bytes.len() <= most && bytes.iter().all(is_name_byte);
-        let begins_name = |bytes: &[u8], most: usize| {
-            is_name(bytes, most) && !bytes.first().is_some_and(u8::is_ascii_digit)
-        };
-        let spaced_names =
-            names(&|bytes, most| bytes.strip_prefix(b" ").is_some_and(|name| begins_name(name, most)));
+        let name = |bytes: &[u8]| bytes.iter().all(is_name_byte).then_some(bytes.len());
+        let first_name =
+            |bytes: &[u8]| name(bytes).filter(|_| !bytes.first().is_some_and(u8::is_ascii_digit));
+        let spaced_names = names(&|bytes| bytes.strip_prefix(b" ").and_then(first_name));
         let spaced_name_ends =
             trie.filter(&set(&|bytes| bytes.strip_prefix(b" ").is_some_and(|rest| ends_name(rest, b' '))));
         let text_ends = trie.filter(&text_ends);
         let (name_ends, bare_name_ends) = (name_ends(b'"'), name_ends(b' '));
         let longest = trie.max_token_len();
-        let (first_names, names) = (names(&begins_name), names(&is_name));
+        let (first_names, names) = (names(&first_name), names(&name));
         let tree = Tree::new(&trie);
         Self(Arc::new(Tokens {
             trie,
