@@ -7,6 +7,7 @@ use smol_str::SmolStr;
 
 use super::answer::{Answer, Aside, Budget, Infeasible, Query, Reason};
 use super::room::Room;
+use super::span::whole_centimetres;
 
 /// Things that are taken away, one at a time, to see whether that helps.
 const TAKEN: usize = 3;
@@ -30,11 +31,17 @@ impl Room<'_> {
             Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
             Reason::OutOfReach { what: "sight", needs, reach } => {
                 let id = targets(query).next_back()?;
-                Some(format!("the robot has to be at least {:.2} m nearer to `{id}`", above(needs - reach)))
+                Some(format!(
+                    "the robot has to be at least {:.2} m nearer to `{id}`",
+                    whole_centimetres(needs - reach)
+                ))
             }
             Reason::OutOfReach { what: "distance", needs, reach } => {
                 let id = targets(query).next_back()?;
-                Some(format!("`{id}` would have to be at least {:.2} m nearer", above(needs - reach)))
+                Some(format!(
+                    "`{id}` would have to be at least {:.2} m nearer",
+                    whole_centimetres(needs - reach)
+                ))
             }
             Reason::OutOfReach { .. } => None,
             Reason::NotInView { by: None, aside: Some(Aside { needs, limit }) } if self.machine.drives() => {
@@ -140,9 +147,4 @@ fn goes_with(scene: &Scene, one: &str, other: &str) -> bool {
         entity.on.as_deref().or(entity.inside.as_deref())
     };
     std::iter::successors(Some(one), |id| below(id)).take(16).any(|id| id == other)
-}
-
-/// Rounded up to whole centimetres.
-fn above(metres: f64) -> f64 {
-    libm::ceil(metres * 100.0) / 100.0
 }

@@ -78,22 +78,27 @@ impl Room<'_> {
         let pull = Pull { id, hand, opening, parts, depth };
         let all = pull.holds();
         let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
-        let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
-        let beyond = self.span(hand).beyond_all(&bar, &format!("the handle of `{id}`"), &tips);
         let mut poses = Tally::default();
-        let free = self.free_holds(hand, &all, &mut poses);
-        match (self.search_pull(&pull, &clear, &free, budget, poses), beyond) {
-            (Answer::Infeasible(found), Some((reason, change))) => {
-                Answer::Infeasible(Infeasible { reason, change, ..found })
-            }
-            (answer, _) => answer,
-        }
+        let free = self.free_holds(hand, &all, &tips, &mut poses);
+        let answer = self.search_pull(&pull, &clear, &free, budget, poses);
+        let Answer::Infeasible(found) = answer else { return answer };
+        let bar = (pull.opening.map_moved(from) * pull.opening.handle().centre).coords;
+        Answer::Infeasible(match self.span(hand).beyond_all(&bar, &format!("the handle of `{id}`"), &tips) {
+            Some((reason, change)) => Infeasible { reason, change, ..found },
+            None => found,
+        })
     }
 
-    /// The holds in which the hand alone touches nothing. What it touches is in the way of every arm.
-    fn free_holds<'h>(&self, hand: &Hand, all: &'h [Hold], met: &mut Tally) -> Vec<&'h Hold> {
-        let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
-        let palm = self.palm(hand, &tips, Allowed::default());
+    /// The holds in which the hand alone touches nothing, of those with these poses of its tip. What it touches is in the way of every
+    /// arm.
+    fn free_holds<'h>(
+        &self,
+        hand: &Hand,
+        all: &'h [Hold],
+        tips: &[Isometry3<f64>],
+        met: &mut Tally,
+    ) -> Vec<&'h Hold> {
+        let palm = self.palm(hand, tips, Allowed::default());
         let is_free = |hold: &&Hold| palm.touch(&hold.map_from_tip).map(|touch| met.add(&touch)).is_none();
         all.iter().filter(is_free).collect()
     }

@@ -45,6 +45,7 @@ impl Room<'_> {
         };
         let thing = Solid::new(&pose, shape);
         let support = self.support(index);
+        let is_other = |it: &&Thing| it.entity != index && Some(it.entity) != support;
         let [x, y, _] = self.world.robot.base;
         let (dx, dy) = (thing.centre.x - x, thing.centre.y - y);
         let far = libm::hypot(dx, dy).max(1e-9);
@@ -58,8 +59,7 @@ impl Room<'_> {
                     Isometry3::from(Translation3::from(along * (FAR * f64::from(at) / f64::from(PLACES))));
                 let moved = thing.moved(&gone);
                 let near = self.things.near([moved.centre.x, moved.centre.y], moved.reach());
-                let mut others =
-                    near.map(|(_, it)| it).filter(|it| it.entity != index && Some(it.entity) != support);
+                let mut others = near.map(|(_, it)| it).filter(is_other);
                 others.find(|it| !moved.is_farther(&it.solid, 0.0)).map(|it| self.name(it.entity))
             });
             if let Some(by) = stops {
@@ -75,8 +75,7 @@ impl Room<'_> {
         }
         if ends.is_empty() {
             let reason = Reason::BlockedPath { by: met.most() };
-            let others: Vec<_> =
-                self.things.iter().filter(|it| it.entity != index && Some(it.entity) != support).collect();
+            let others: Vec<_> = self.things.iter().filter(is_other).collect();
             return Answer::Infeasible(if is_walled_in(&thing, &others, &ahead) {
                 Infeasible::proven(reason, None)
             } else {

@@ -103,7 +103,7 @@ impl Span<'_> {
                 // In terms of the thing's height: the wrist is so much above or below it. That is not enough for a hand to have
                 // room there, and nothing stands below the floor.
                 let change = (place.z - off > 0.0).then(|| {
-                    let least = libm::ceil(off.abs() * 100.0) / 100.0;
+                    let least = whole_centimetres(off.abs());
                     let change = if off > 0.0 { "lower" } else { "higher" };
                     format!("{what} would have to be at least {least:.2} m {change}")
                 });
@@ -118,4 +118,9 @@ impl Span<'_> {
             Self::Anywhere => None,
         }
     }
+}
+
+/// A length in m, rounded up to whole centimetres.
+pub(super) fn whole_centimetres(metres: f64) -> f64 {
+    libm::ceil(metres * 100.0) / 100.0
 }
