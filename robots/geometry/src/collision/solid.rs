@@ -100,7 +100,7 @@ impl Solid {
     }
 
     /// The point of its core, which is what is left without the round rim of a capsule, that lies farthest in a direction.
-    pub(super) fn support(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn support(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         let [x, y, z] = &self.axes;
         match &self.shape {
             Shape::Box(half) => {
@@ -121,7 +121,7 @@ impl Solid {
     }
 
     /// The radius of the rim around its core.
-    pub(super) fn rim(&self) -> f64 {
+    pub(crate) fn rim(&self) -> f64 {
         match self.shape {
             Shape::Capsule { radius, .. } => radius,
             Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => 0.0,

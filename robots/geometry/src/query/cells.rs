@@ -31,8 +31,11 @@ use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 
 use cover::{Cover, Group, Pair, Placing};
+use tie::Tied;
 
+mod board;
 mod cover;
+mod tie;
 
 /// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
 const COARSE: f64 = 0.1;
@@ -102,6 +105,7 @@ pub(super) enum Covered {
 struct Node {
     cell: Cell,
     groups: Rc<[Group]>,
+    ties: Rc<[Tied]>,
 }
 
 /// A patch, what the hand may touch in it, and what of its cells is left to look at.
@@ -123,8 +127,8 @@ impl Around<'_, '_> {
         mut is_enough: impl FnMut(&Hold, State) -> ControlFlow<()>,
     ) -> Covered {
         let Some(cover) = Cover::new(self, hand, allowed) else { return Covered::Open };
-        let [of_hand, others] = cover.groups();
-        let root = |cell| Node { cell, groups: Rc::clone(&others) };
+        let ([of_hand, others], ties) = (cover.groups(), cover.ties());
+        let root = |cell| Node { cell, groups: Rc::clone(&others), ties: Rc::clone(&ties) };
         let roots: Rc<[Node]> = cover.family.cells().into_iter().map(root).collect();
         let patches = grips.patches().into_iter();
         let open = patches.map(|patch| Open { patch, hand: Rc::clone(&of_hand), nodes: Rc::clone(&roots) });
@@ -234,21 +238,13 @@ impl Look<'_, '_, '_, '_> {
         if known.any(|pair| cover.touches(placing, pair)) {
             return None;
         }
-        let mut left: Option<Vec<Group>> = None;
-        for (group, at) in groups.iter().zip(0..) {
-            match cover.left_of(placing, group) {
-                Ok(None) => {}
-                Ok(Some(fewer)) => {
-                    let left = left.get_or_insert_with(|| groups.to_vec());
-                    left.get_mut(at).into_iter().for_each(|slot| *slot = fewer.clone());
-                }
-                Err(pair) => {
-                    known.add(pair);
-                    return None;
-                }
-            }
-        }
-        Some(left.map_or_else(|| Rc::clone(groups), Into::into))
+        fewer(groups, known, |group| cover.left_of(placing, group))
+    }
+
+    /// The same of the robot's parts.
+    fn tied(&mut self, ties: &Rc<[Tied]>) -> Option<Rc<[Tied]>> {
+        let Self { cover, known, placing, .. } = self;
+        fewer(ties, known, |tied| cover.tied(placing, tied))
     }
 
     /// Whether the hand alone is free, of what it may touch.
@@ -264,7 +260,7 @@ impl Look<'_, '_, '_, '_> {
         let weights = self.cover.family.weights();
         let mut open: Vec<Node> = all.to_vec();
         let mut left = Vec::new();
-        while let Some(Node { cell, groups }) = open.pop() {
+        while let Some(Node { cell, groups, ties }) = open.pop() {
             if self.is_spent() {
                 return Left::Unclear;
             }
@@ -275,6 +271,7 @@ impl Look<'_, '_, '_, '_> {
             };
             self.cover.place(&stretch, &mut self.placing);
             let Some(groups) = self.left_of(&groups) else { continue };
+            let Some(ties) = self.tied(&ties) else { continue };
             let sizes: [f64; 3] = std::array::from_fn(|at: usize| {
                 weights.get(at).zip(cell.half.get(at)).map_or(0.0, |(weight, half)| weight * half)
             });
@@ -282,14 +279,21 @@ impl Look<'_, '_, '_, '_> {
             if size.max(enough) < SMALL
                 && let Some(hold) = hold
                 && !self.cover.is_stuck_in_middle(&mut self.placing, &groups)
+                && !self.cover.is_folded_in_middle(&mut self.placing, &ties)
                 && let Some(state) = self.free_in(&hold.map_from_tip, &stretch, &cell)
             {
                 return Left::Free(state);
             }
             if size < enough.max(LEAST) {
-                left.push(Node { cell, groups });
+                left.push(Node { cell, groups, ties });
             } else {
-                open.extend(cell.halves(across).map(|cell| Node { cell, groups: Rc::clone(&groups) }));
+                let halves = cell.halves(across);
+                let (groups, ties) = (&groups, &ties);
+                open.extend(halves.map(|cell| Node {
+                    cell,
+                    groups: Rc::clone(groups),
+                    ties: Rc::clone(ties),
+                }));
             }
         }
         Left::Nodes(left)
@@ -325,6 +329,29 @@ enum Left {
     Nodes(Vec<Node>),
     Free(State),
     Unclear,
+}
+
+/// What is left of each of some; `None`, with what it is noted, where something touches throughout.
+fn fewer<T: Clone>(
+    all: &Rc<[T]>,
+    known: &mut Known,
+    mut left_of: impl FnMut(&T) -> Result<Option<T>, Pair>,
+) -> Option<Rc<[T]>> {
+    let mut left: Option<Vec<T>> = None;
+    for (one, at) in all.iter().zip(0..) {
+        match left_of(one) {
+            Ok(None) => {}
+            Ok(Some(fewer)) => {
+                let left = left.get_or_insert_with(|| all.to_vec());
+                left.get_mut(at).into_iter().for_each(|slot| *slot = fewer.clone());
+            }
+            Err(pair) => {
+                known.add(pair);
+                return None;
+            }
+        }
+    }
+    Some(left.map_or_else(|| Rc::clone(all), Into::into))
 }
 
 /// The largest of some sizes, and which it is.

@@ -245,8 +245,19 @@ impl<'a> Grips<'a> {
         let middle = self.thing.centre + slot.along * place;
         let at = middle - approach * depth - across * self.hand.middle(slot.width);
         let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
-        let shift = slot.along.norm() * places + (last - first).abs() / 2.0 + SLACK;
-        Some((tip, Drift::none().shifted(shift).turned(middle, turns)))
+        let drift = Drift::none()
+            .shifted(SLACK)
+            .slid(slot.along * places)
+            .slid(approach * ((last - first).abs() / 2.0));
+        let drift = match slot.kind {
+            Kind::Flat { .. } => drift,
+            // What is bent is turned about the thing in the end.
+            Kind::Around { down, .. } => drift.spun(across, middle, bends).spun(down, middle, abouts),
+            Kind::End { down: axis, .. } | Kind::Rim { across: axis, .. } | Kind::Bar { along: axis, .. } => {
+                drift.spun(axis, middle, abouts)
+            }
+        };
+        Some((tip, drift))
     }
 
     /// Between which depths the tip is before the middle; `None` where the thing is too far from the palm in all.

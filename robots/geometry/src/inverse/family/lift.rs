@@ -34,7 +34,7 @@ impl LiftArm {
         let Shoulder { axis, point, to_wrist } = self.shoulder;
         let centre = self.centre(map_from_tip).coords;
         // The wrist's centre may be off as well, and the hand turned.
-        let (moves, tilts) = (tips.drift.point(&centre, 0.0), tips.drift.turn);
+        let (moves, tilts) = (tips.drift.along(&centre, &Vector3::z()), tips.drift.angle());
         let arm = turned(&axis, angle, &to_wrist);
         let (across, long) = (axis.cross(&arm), axis.cross(&arm).norm());
         let lifts = wave(across.z, long, bends) + moves;
@@ -52,29 +52,33 @@ impl LiftArm {
         let in_map = turned(&Vector3::z(), yaw, &(point + arm));
         let base = [centre.x - in_map.x, centre.y - in_map.y, yaw];
         let placed = frames(&self.chain, based(base, 0.0), &values);
-        let upright = Drift::upright(centre, yaws).shifted(moves);
-        let about = |at: usize, spin: f64| {
+        // The shoulder moves opposite to the wrist's centre as the arm bends, and all but the hand turns with the base.
+        let swings = turned(&Vector3::z(), yaw, &axis);
+        let held = tips.drift.carried(&centre);
+        let back = turned(&Vector3::z(), yaw, &-arm);
+        let carries = held.swung(&swings, &(back - swings * swings.dot(&back)), bends);
+        let about = |at: usize, drift: Drift, spin: f64| {
             let axis = self.chain.joints.get(at).zip(placed.get(at));
             let axis = axis.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner());
-            Drift { axis, ..Drift::upright(centre, spin).shifted(moves) }
+            drift.spun(axis, centre, spin)
         };
+        let upright = |drift: Drift| drift.spun(Vector3::z(), centre, yaws);
         let [_, roll] = first;
         let [_, end] = last;
         let drifts = [
-            // The shoulder moves opposite to the wrist's centre.
-            upright.shifted((long * bends).min(2.0 * long)),
-            upright.turned(centre, bends),
-            about(2, roll).turned(centre, yaws + bends),
-            about(4, end).turned(centre, tilts),
+            upright(carries),
+            upright(held.spun(swings, centre, bends)),
+            upright(about(2, held, roll).spun(swings, centre, bends)),
+            about(4, held.turned(centre, tilts), end),
             tips.drift,
         ];
-        // The base keeps its height, whatever the shoulder's.
-        let flat = wave(libm::hypot(across.x, across.y), long, bends);
         Over::Near(Box::new(Stretch {
             base,
-            base_drift: upright.shifted(flat),
+            // The base keeps its height, whatever the shoulder's.
+            base_drift: upright(carries.level()),
             frames: placed.into_iter().zip(drifts).collect(),
             values,
+            is_joined: true,
         }))
     }
 }

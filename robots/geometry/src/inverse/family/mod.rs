@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-pub(crate) use drift::Drift;
+pub(crate) use drift::{Drift, farthest};
 
 use super::lift_arm::wrist;
 use crate::kinematics::{Chain, planar};
@@ -60,6 +60,8 @@ pub(crate) struct Stretch {
     pub(crate) frames: Vec<(Isometry3<f64>, Drift)>,
     /// Of each variable its value, and how far it can be from there.
     pub(crate) values: Vec<[f64; 2]>,
+    /// Whether the frames are where the values put them, from the base on.
+    pub(crate) is_joined: bool,
 }
 
 impl Cell {

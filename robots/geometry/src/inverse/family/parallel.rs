@@ -40,7 +40,7 @@ impl ParallelArm {
         let [to_two, to_three, to_four, to_centre] = self.offsets;
         let centre = (map_from_tip * nalgebra::Point3::from(self.centre_in_tip)).coords;
         // The wrist's centre may be off as well, and the hand turned.
-        let (moves, tilts) = (tips.drift.point(&centre, 0.0), tips.drift.turn);
+        let (moves, tilts) = (tips.drift.along(&centre, &Vector3::z()), tips.drift.angle());
         let facing = crate::trigonometry::turn(&Vector3::z_axis(), heading);
         let left = facing.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
         let Some([[sum, sums], fifth, sixth]) =
@@ -87,25 +87,36 @@ impl ParallelArm {
         if let Some(pose) = placed.first_mut() {
             pose.translation.z += height + from_base.z - first.z;
         }
-        let flat = wave(end.z, end_long, sums) + wave(fore.z, fore_long, leans) + wave(upper.z, long, raises);
-        let out = first - centre;
-        let out = libm::hypot(out.x, out.y) + flat;
         let roll = self.chain.joints.get(5).zip(placed.get(5));
         let axis = roll.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner());
-        let (heads, [_, rolls]) = (Drift::upright(centre, headings).shifted(moves), sixth);
+        let [_, rolls] = sixth;
+        // All in the plane of the arm turns about one direction.
+        let aside = facing * across;
+        let square = |vector: &Vector3<f64>| facing * (vector - across * across.dot(vector));
+        let held = tips.drift.carried(&centre);
+        let heads = |drift: Drift| drift.spun(Vector3::z(), centre, headings);
+        let wrist = held.swung(&aside, &square(&end), sums);
+        let forearm = wrist.swung(&aside, &square(&fore), leans);
+        let shoulder = forearm.swung(&aside, &square(&upper), raises).level();
         let drifts = [
-            heads.shifted(flat),
-            heads.turned(elbow, raises).shifted(end_long * sums.min(2.0) + fore_long * leans.min(2.0)),
-            heads.turned(four, leans).shifted(end_long * sums.min(2.0)),
-            heads.turned(centre, sums),
-            Drift { axis, ..Drift::upright(centre, rolls).shifted(moves).turned(centre, tilts) },
+            heads(shoulder),
+            heads(forearm.spun(aside, elbow, raises)),
+            heads(wrist.spun(aside, four, leans)),
+            heads(held.spun(aside, centre, sums)),
+            held.turned(centre, tilts).spun(axis, centre, rolls),
             tips.drift,
         ];
+        // The base turns about the first axis, which goes about the wrist's centre.
+        let out = first - centre;
+        let out = Vector3::new(out.x, out.y, 0.0);
+        let more = headings.min(2.0) * shoulder.point(&first, 0.0);
+        let base_drift = shoulder.swung(&Vector3::z(), &out, headings).shifted(more).level();
         Over::Near(Box::new(Stretch {
             base,
-            base_drift: Drift::upright(first, yaws).shifted(moves + flat + headings.min(2.0) * out),
+            base_drift: base_drift.spun(Vector3::z(), first, yaws),
             frames: placed.into_iter().zip(drifts).collect(),
             values,
+            is_joined: false,
         }))
     }
 }

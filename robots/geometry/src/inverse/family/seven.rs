@@ -56,7 +56,7 @@ impl SevenArm {
         // The wrist turns about the last axis, and goes where the tip does.
         let swing = h7.cross(&(self.wrist - self.last)).norm() * lasts.min(2.0);
         let moves = swing + tips.drift.point(&wrist_in_map, swing) + ROUNDED;
-        let tilts = lasts + tips.drift.turn + tips.drift.spin;
+        let tilts = lasts + tips.drift.angle();
 
         // The elbow.
         let reached = reached_at - self.shoulder;
@@ -151,14 +151,12 @@ impl SevenArm {
             let found = self.chain.joints.get(at).zip(placed.get(at));
             found.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner())
         };
-        let about =
-            |number: usize, [_, spin]: [f64; 2], at| Drift { axis: axis(number), ..Drift::upright(at, spin) };
         let drifts = [
-            about(0, first, at),
-            about(0, first, at).turned(at, second[1]),
+            Drift::none().spun(axis(0), at, first[1]),
+            Drift::none().spun(axis(1), at, second[1]).spun(axis(0), at, first[1]),
             Drift::none().turned(at, turns),
             Drift::none().turned(elbow, turns + fourth).shifted(turns.min(2.0) * one),
-            about(5, [q6, sixth], wrist_in_map).turned(wrist_in_map, tilts).shifted(moves),
+            Drift::none().turned(wrist_in_map, tilts).spun(axis(5), wrist_in_map, sixth).shifted(moves),
             Drift::none().turned(wrist_in_map, tilts).shifted(moves),
             tips.drift,
         ];
@@ -167,6 +165,7 @@ impl SevenArm {
             base_drift: Drift::none(),
             frames: placed.into_iter().zip(drifts).collect(),
             values: known,
+            is_joined: false,
         }))
     }
 }

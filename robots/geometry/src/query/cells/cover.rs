@@ -2,9 +2,11 @@
 
 use std::rc::Rc;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use super::Family;
+use super::board::is_in;
+use super::tie::{Axis, Tied, Ties};
 use crate::collision::Solid;
 use crate::inverse::family::{Drift, Stretch, Tips};
 use crate::kinematics::Rig;
@@ -22,6 +24,7 @@ pub(super) struct Cover<'a, 'r, 'w> {
     pub(super) family: Family<'a>,
     pub(super) allowed: Allowed,
     rig: Rig,
+    ties: Ties,
     /// The robot's joints with the hand as it reaches.
     joints: Vec<f64>,
     /// For each frame of the rig but the first the joint of the arm that it is, if it is one.
@@ -58,11 +61,8 @@ pub(super) struct Group {
     /// How far it could be off when others were last left out.
     drift: f64,
     is_above_floor: bool,
-    /// Things, those first that the largest balls are in.
+    /// Those first that the largest balls are in.
     things: Rc<[u16]>,
-    parts: Rc<[u16]>,
-    /// The radius of the largest ball in one of these.
-    most: f64,
 }
 
 /// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
@@ -76,6 +76,19 @@ const FAR: f64 = 0.8;
 pub(super) struct Placing {
     frames: Vec<(Isometry3<f64>, Drift)>,
     parts: Vec<Option<Placed>>,
+    /// Of each joint of the rig its position, and how far its variable can be off; nothing where that is not known.
+    steps: Vec<[f64; 2]>,
+    is_joined: bool,
+    own: Own,
+}
+
+/// The robot by itself in the middle of a cell, where that was asked for.
+#[derive(Default)]
+struct Own {
+    axes: Vec<Axis>,
+    /// From any place to the frames, where those in the map do not tell.
+    frames: Vec<Isometry3<f64>>,
+    parts: Vec<Option<Solid>>,
 }
 
 impl Placing {
@@ -123,15 +136,26 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         let things: Vec<f64> = around.things.iter().map(|near| inner(&near.solid)).collect();
         // More than any robot or neighbourhood has.
         let is_small = limbs.len() < usize::from(u16::MAX) && things.len() < usize::from(u16::MAX);
-        let cover =
-            Self { around, hand, family, allowed, rig, joints, arm, last, frame_from_tip, limbs, things };
+        let cover = Self {
+            around,
+            hand,
+            family,
+            allowed,
+            ties: Ties::new(&rig),
+            rig,
+            joints,
+            arm,
+            last,
+            frame_from_tip,
+            limbs,
+            things,
+        };
         is_small.then_some(cover)
     }
 
     /// What the hand may touch of what stands around, and all else that the arm or the base moves against each other.
     pub(super) fn groups(&self) -> [Rc<[Group]>; 2] {
         let (mut hand, mut others) = (vec![], vec![]);
-        let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
         for ((limb, own), part) in self.around.limbs.iter().zip(&self.limbs).zip(0..) {
             let things = self.around.things.iter().zip(&self.things).zip(0..);
             let things =
@@ -140,24 +164,39 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             things.sort_by(|(one, _), (other, _)| other.total_cmp(one));
             let things = things.into_iter().map(|(_, at)| at).collect();
             let is_above_floor = limb.counts && limb.is_carried;
-            let group =
-                Group { part, drift: FAR / FEWER, is_above_floor, things, parts: [].into(), most: 0.0 };
-            let pairs = self.around.room.body.pairs().iter();
-            let pairs =
-                pairs.filter(|[one, other]| *one == usize::from(part) && frame(*one) != frame(*other));
-            let parts: Rc<[u16]> = pairs.map(|[_, other]| *other as u16).collect();
-            let inner = |at: &u16| self.limbs.get(usize::from(*at)).map_or(0.0, |limb| limb.inner);
-            let most = parts.iter().map(inner).fold(0.0, f64::max);
-            if own.frame == self.last {
-                others.push(Group { parts, most, is_above_floor: false, things: [].into(), ..group.clone() });
-                hand.push(group);
-            } else {
-                others.push(Group { parts, most, ..group });
+            let group = Group { part, drift: FAR / FEWER, is_above_floor, things };
+            if group.is_above_floor || !group.things.is_empty() {
+                if own.frame == self.last { hand.push(group) } else { others.push(group) }
             }
         }
-        let is_any =
-            |group: &Group| group.is_above_floor || !group.things.is_empty() || !group.parts.is_empty();
-        [hand, others].map(|groups| groups.into_iter().filter(is_any).collect())
+        [hand.into(), others.into()]
+    }
+
+    /// The pairs of parts that may not touch.
+    pub(super) fn ties(&self) -> Rc<[Tied]> {
+        let mut ties: Vec<([usize; 2], Vec<[u16; 2]>)> = Vec::new();
+        let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
+        for [one, other] in self.around.room.body.pairs() {
+            let Some((from, to)) = frame(*one).zip(frame(*other)).filter(|(from, to)| from != to) else {
+                continue;
+            };
+            let pair = [*one as u16, *other as u16];
+            let (frames, pair) =
+                if from < to { ([from, to], pair) } else { ([to, from], [pair[1], pair[0]]) };
+            match ties.iter_mut().find(|(known, _)| *known == frames) {
+                Some((_, pairs)) => pairs.push(pair),
+                None => ties.push((frames, vec![pair])),
+            }
+        }
+        let ties = ties.into_iter().map(|(frames, pairs)| {
+            let far = |[_, other]: &[u16; 2]| {
+                let limb = self.limbs.get(usize::from(*other));
+                limb.map_or(0.0, |limb| limb.solid.centre.norm() + limb.reach)
+            };
+            let reach = pairs.iter().map(far).fold(0.0, f64::max);
+            Tied { frames, reach, drift: FAR / FEWER, pairs: pairs.into() }
+        });
+        ties.collect()
     }
 
     /// What of a group may touch; `None` where the group is as it was.
@@ -169,77 +208,76 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         let part = group.part;
         self.ensure(placing, part);
         let Some(own) = placing.part(part) else { return Ok(None) };
-        if group.is_above_floor && above_floor(&own.solid) + own.drift + SLACK <= GAP {
+        if group.is_above_floor && self.is_on_floor(placing, own, part) {
             return Err(Pair::Floor(part));
         }
-        // A ball in the other has to be so large for both to touch throughout.
-        let least = own.drift + SLACK - own.inner;
         let is_fewer = own.drift < FEWER * group.drift;
-        let is_any = |inner: f64| is_fewer || least < inner;
-        // An end is not known to be on a side where it can be off by more than it is away.
-        let line = own.line();
-        let is_long = own.drift * own.drift < line.norm_squared();
         let mut things: Vec<u16> = Vec::new();
         for at in group.things.iter().copied() {
-            let index = usize::from(at);
-            let Some((near, inner)) = self.around.things.get(index).zip(self.things.get(index)) else {
-                continue;
-            };
-            if !is_long && !is_any(*inner) {
-                break;
-            }
+            let Some(near) = self.around.things.get(usize::from(at)) else { continue };
             if is_fewer && own.is_apart(&near.solid, near.reach, own.drift) {
                 continue;
             }
-            if own.touches(&near.solid, *inner, near.reach, own.drift)
-                || (is_long && own.crosses(&near.solid, &line))
-            {
+            if self.is_in(placing, own, part, at) {
                 return Err(Pair::Thing(part, at));
             }
             if is_fewer {
                 things.push(at);
             }
         }
-        let mut parts: Vec<u16> = Vec::new();
-        if is_any(group.most) {
-            for at in group.parts.iter() {
-                self.ensure(placing, *at);
-            }
-            let Some(own) = placing.part(part) else { return Ok(None) };
-            for at in group.parts.iter().copied() {
-                let Some(other) = placing.part(at) else { continue };
-                let drift = own.drift + other.drift;
-                if is_fewer && own.is_apart(&other.solid, other.reach, drift) {
-                    continue;
-                }
-                if drift + SLACK - own.inner < other.inner
-                    && own.touches(&other.solid, other.inner, other.reach, drift)
-                {
-                    return Err(Pair::Own(part, at));
-                }
-                if is_fewer {
-                    parts.push(at);
-                }
-            }
-        }
         if !is_fewer {
             return Ok(None);
         }
-        let drift = placing.part(part).map_or(f64::INFINITY, |own| own.drift);
-        let same = |left: Vec<u16>, all: &Rc<[u16]>| {
-            if left.len() == all.len() { Rc::clone(all) } else { left.into() }
-        };
-        let (things, parts) = (same(things, &group.things), same(parts, &group.parts));
-        Ok(Some(Group { drift, things, parts, ..group.clone() }))
+        let drift = own.drift;
+        Ok(Some(Group { drift, things: kept(things, &group.things), ..*group }))
+    }
+
+    /// What of the parts of two frames may touch; `None` where they are as they were.
+    ///
+    /// # Errors
+    ///
+    /// What touches throughout.
+    pub(super) fn tied(&self, placing: &mut Placing, tied: &Tied) -> Result<Option<Tied>, Pair> {
+        if placing.steps.is_empty() {
+            return Ok(None);
+        }
+        self.join(placing);
+        let [from, to] = tied.frames;
+        let at = placing.own.frames.get(to).map_or_else(Vector3::zeros, |pose| pose.translation.vector);
+        let drift = self.ties.off(from, to, (&at, tied.reach), &placing.own.axes);
+        let is_fewer = drift < FEWER * tied.drift;
+        let mut left: Vec<[u16; 2]> = Vec::new();
+        for pair in tied.pairs.iter() {
+            let [part, at] = *pair;
+            self.ensure_own(placing, part);
+            self.ensure_own(placing, at);
+            let Some((own, other)) = self.both(placing, part, at) else { continue };
+            if is_fewer && own.is_apart(other, drift) {
+                continue;
+            }
+            // What is not near in the middle does not touch throughout.
+            if own.is_near(other) && self.touches_by(placing, [own, other]) {
+                return Err(Pair::Own(part, at));
+            }
+            if is_fewer {
+                left.push(*pair);
+            }
+        }
+        Ok(is_fewer.then(|| Tied { drift, pairs: kept(left, &tied.pairs), ..*tied }))
+    }
+
+    /// Whether two parts of any touch in the middle.
+    pub(super) fn is_folded_in_middle(&self, placing: &mut Placing, ties: &[Tied]) -> bool {
+        let mut pairs = ties.iter().flat_map(|tied| tied.pairs.iter());
+        pairs.any(|[part, at]| self.touches_in_middle(placing, Pair::Own(*part, *at)))
     }
 
     /// Whether something of some groups touches in the middle.
     pub(super) fn is_stuck_in_middle(&self, placing: &mut Placing, groups: &[Group]) -> bool {
         groups.iter().any(|group| {
             let things = group.things.iter().map(|at| Pair::Thing(group.part, *at));
-            let parts = group.parts.iter().map(|at| Pair::Own(group.part, *at));
             let floor = group.is_above_floor.then_some(Pair::Floor(group.part));
-            things.chain(parts).chain(floor).any(|pair| self.touches_in_middle(placing, pair))
+            things.chain(floor).any(|pair| self.touches_in_middle(placing, pair))
         })
     }
 
@@ -247,9 +285,10 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     pub(super) fn place_hand(&self, tips: &Tips, placing: &mut Placing) {
         let pose = tips.map_from_tip * self.frame_from_tip.inverse();
         placing.frames.clear();
-        let unknown = Drift { shift: f64::INFINITY, ..Drift::none() };
+        let unknown = Drift::unknown();
         placing.frames.resize(self.rig.joints.len() + 1, (Isometry3::identity(), unknown));
         placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.drift));
+        placing.steps.clear();
         self.forget(placing);
     }
 
@@ -259,24 +298,27 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         let root = (self.around.room.machine.map_from_root(stretch.base), stretch.base_drift);
         placing.frames.clear();
         placing.frames.push(root);
+        placing.steps.clear();
+        placing.is_joined = stretch.is_joined;
         for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
+            let mut values = chain.in_tree.iter().zip(&stretch.values);
+            let known = values.find(|(at, _)| **at == joint.driver.variable).map(|(_, value)| *value);
+            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
+            let [value, off] = known.unwrap_or([still, 0.0]);
+            let position = joint.driver.multiplier * value + joint.driver.offset;
+            placing.steps.push([position, off]);
             if let Some(frame) = arm.and_then(|at| stretch.frames.get(at)) {
                 placing.frames.push(*frame);
                 continue;
             }
             // What follows a joint of the arm elsewhere.
             let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
-            let mut values = chain.in_tree.iter().zip(&stretch.values);
-            let known = values.find(|(at, _)| **at == joint.driver.variable).map(|(_, value)| *value);
-            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
-            let [value, off] = known.unwrap_or([still, 0.0]);
-            let off = off * joint.driver.multiplier.abs();
-            let position = joint.driver.multiplier * value + joint.driver.offset;
+            let off = off * joint.driver.multiplier;
             let pose = parent * joint.before * joint.motion(position);
             let drift = match (joint.slides, off == 0.0) {
-                (true, _) => drift.shifted(off),
+                (true, _) => drift.slid(pose.rotation * joint.axis.into_inner() * off),
                 (false, true) => drift,
-                (false, false) => Drift { shift: f64::INFINITY, ..drift },
+                (false, false) => Drift::unknown(),
             };
             placing.frames.push((pose, drift));
         }
@@ -286,6 +328,53 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     fn forget(&self, placing: &mut Placing) {
         placing.parts.clear();
         placing.parts.resize(self.limbs.len(), None);
+        placing.own.axes.clear();
+        placing.own.parts.clear();
+        placing.own.parts.resize(self.limbs.len(), None);
+    }
+
+    /// Two parts where they are to each other in the middle of a cell, where that was asked for.
+    fn both<'p>(&'p self, placing: &'p Placing, part: u16, at: u16) -> Option<(Joined<'p>, Joined<'p>)> {
+        let joined = |part: u16| {
+            let solid = placing.own.parts.get(usize::from(part))?.as_ref()?;
+            Some(Joined { limb: self.limbs.get(usize::from(part))?, solid })
+        };
+        Some((joined(part)?, joined(at)?))
+    }
+
+    /// Whether two parts touch wherever the joints between them put them.
+    fn touches_by(&self, placing: &Placing, [one, other]: [Joined<'_>; 2]) -> bool {
+        let (from, to) = (one.limb.frame, other.limb.frame);
+        let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+        let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
+        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
+    }
+
+    /// Puts the joints where they are to each other.
+    fn join(&self, placing: &mut Placing) {
+        if !placing.own.axes.is_empty() {
+            return;
+        }
+        placing.own.frames.clear();
+        if placing.is_joined {
+            placing.own.frames.extend(placing.frames.iter().map(|(pose, _)| *pose));
+        } else {
+            placing.own.frames.push(Isometry3::identity());
+            for (joint, [position, _]) in self.rig.joints.iter().zip(&placing.steps) {
+                let parent = placing.own.frames.get(joint.parent).copied().unwrap_or_default();
+                placing.own.frames.push(parent * joint.before * joint.motion(*position));
+            }
+        }
+        let offs: Vec<f64> = placing.steps.iter().map(|[_, off]| *off).collect();
+        placing.own.axes = Ties::axes(&self.rig, &placing.own.frames, &offs);
+    }
+
+    /// Puts a part where the joints do.
+    fn ensure_own(&self, placing: &mut Placing, part: u16) {
+        let at = usize::from(part);
+        let Some(slot @ None) = placing.own.parts.get_mut(at) else { return };
+        let Some(limb) = self.limbs.get(at) else { return };
+        *slot = placing.own.frames.get(limb.frame).map(|frame| limb.solid.moved(frame));
     }
 
     /// A part where it is in the middle of a cell, and how far it can be from there.
@@ -305,11 +394,48 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
 
     /// Whether a pair touches throughout.
     pub(super) fn touches(&self, placing: &mut Placing, pair: Pair) -> bool {
-        let found = self.with(placing, pair, |one, other, inner, reach, drift| {
-            let is_own = matches!(pair, Pair::Own(..));
-            one.touches(other, inner, reach, drift) || (!is_own && one.crosses(other, &one.line()))
-        });
-        found.unwrap_or_else(|(above, drift)| above + drift + SLACK <= GAP)
+        match pair {
+            Pair::Thing(part, at) => {
+                self.ensure(placing, part);
+                placing.part(part).is_some_and(|own| self.is_in(placing, own, part, at))
+            }
+            Pair::Own(part, at) => {
+                if placing.steps.is_empty() {
+                    return false;
+                }
+                self.join(placing);
+                self.ensure_own(placing, part);
+                self.ensure_own(placing, at);
+                let both = self.both(placing, part, at);
+                both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other]))
+            }
+            Pair::Floor(part) => {
+                self.ensure(placing, part);
+                placing.part(part).is_some_and(|own| self.is_on_floor(placing, own, part))
+            }
+        }
+    }
+
+    /// Whether a part touches a thing throughout.
+    fn is_in(&self, placing: &Placing, own: &Placed, part: u16, at: u16) -> bool {
+        let at = usize::from(at);
+        let Some((near, inner)) = self.around.things.get(at).zip(self.things.get(at)) else { return false };
+        let wide = own.reach + near.reach + GAP;
+        if (own.solid.centre - near.solid.centre).norm_squared() > wide * wide {
+            return false;
+        }
+        let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
+        frame.is_some_and(|(_, drift)| is_in(&own.solid, drift, &near.solid))
+            || own.touches(&near.solid, *inner, near.reach, own.drift)
+    }
+
+    /// Whether a part is on the floor throughout, by the lowest point of it in the middle.
+    fn is_on_floor(&self, placing: &Placing, own: &Placed, part: u16) -> bool {
+        let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
+        let Some((_, drift)) = frame else { return false };
+        let up = Vector3::z();
+        let lowest = own.solid.support(&-up);
+        lowest.z - own.solid.rim() + drift.along(&lowest, &up) + SLACK <= GAP
     }
 
     /// Whether a pair touches in the middle.
@@ -341,10 +467,17 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 Ok(told(own, &near.solid, *inner, near.reach, own.drift))
             }
             Pair::Own(part, at) => {
-                self.ensure(placing, part);
-                self.ensure(placing, at);
-                let (own, other) = placing.part(part).zip(placing.part(at)).ok_or(NOTHING)?;
-                Ok(told(own, &other.solid, other.inner, other.reach, own.drift + other.drift))
+                if placing.steps.is_empty() {
+                    return Err(NOTHING);
+                }
+                self.join(placing);
+                self.ensure_own(placing, part);
+                self.ensure_own(placing, at);
+                let (one, other) = self.both(placing, part, at).ok_or(NOTHING)?;
+                let (from, to) = (one.limb.frame, other.limb.frame);
+                let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+                let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
+                Ok(told(&own, other.solid, other.limb.inner, other.limb.reach, drift))
             }
             Pair::Floor(part) => {
                 let own = self.part(placing, part).ok_or(NOTHING)?;
@@ -352,4 +485,76 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             }
         }
     }
+}
+
+#[cfg(test)]
+#[allow(clippy::indexing_slicing, reason = "a test fails by panicking")]
+impl Cover<'_, '_, '_> {
+    /// By how much parts are farther off from each other than is said of two, with all where they are in a state and the links at poses.
+    pub(super) fn beyond_ties(
+        &self,
+        placing: &mut Placing,
+        solids: &[Solid],
+        poses: &[Isometry3<f64>],
+    ) -> f64 {
+        let mut most = f64::NEG_INFINITY;
+        for tied in self.ties().iter() {
+            self.join(placing);
+            for [part, at] in tied.pairs.iter() {
+                self.ensure_own(placing, *part);
+                self.ensure_own(placing, *at);
+                let Some((one, other)) = self.both(placing, *part, *at) else { return f64::INFINITY };
+                let (from, to) = (one.limb.frame, other.limb.frame);
+                let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+                let ball = other.limb.solid.centre;
+                let off = self.ties.off(
+                    from,
+                    to,
+                    (&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0),
+                    &placing.own.axes,
+                );
+                assert!(off <= drift + 1e-9 && tied.reach >= ball.norm());
+                let link = self.around.room.body.parts()[usize::from(*part)].link;
+                let middle = placing.own.frames[from] * self.rig.links[link].1;
+                let (seen, is) = (other.solid.moved(&middle.inverse()), &solids[usize::from(*at)]);
+                let is = is.moved(&poses[link].inverse());
+                let along = |solid: &Solid| match solid.shape {
+                    crate::collision::Shape::Capsule { half, .. }
+                    | crate::collision::Shape::Cylinder { half, .. } => solid.axes[2] * half,
+                    _ => Vector3::zeros(),
+                };
+                for sign in [1.0, -1.0] {
+                    let gone = seen.centre + along(&seen) * sign - is.centre - along(&is) * sign;
+                    most = most.max(gone.norm() - drift);
+                }
+            }
+        }
+        most
+    }
+}
+
+/// A part where the joints put it.
+#[derive(Clone, Copy)]
+struct Joined<'p> {
+    limb: &'p Limb,
+    solid: &'p Solid,
+}
+
+impl Joined<'_> {
+    /// Whether the balls around two are so near that they may touch.
+    fn is_near(&self, other: Joined<'_>) -> bool {
+        let near = self.limb.reach + other.limb.reach + GAP;
+        (self.solid.centre - other.solid.centre).norm_squared() <= near * near
+    }
+
+    /// Whether two are apart, wherever they are by so much.
+    fn is_apart(&self, other: Joined<'_>, drift: f64) -> bool {
+        let far = self.limb.reach + other.limb.reach + GAP + drift + SLACK;
+        (self.solid.centre - other.solid.centre).norm_squared() > far * far
+    }
+}
+
+/// What is left of all, which stays what it is where that is all.
+fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
+    if left.len() == all.len() { Rc::clone(all) } else { left.into() }
 }

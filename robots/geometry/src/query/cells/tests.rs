@@ -116,6 +116,7 @@ fn a_state_is_in_its_cell(
             off.abs() - far
         });
         let beyond = beyond.max(joints.fold(f64::NEG_INFINITY, f64::max));
+        let beyond = beyond.max(cover.beyond_ties(&mut placing, &solids, &poses));
         if beyond < nearest.0 {
             nearest = (beyond, format!("way {}", root.way));
         }
