@@ -28,11 +28,11 @@ pub(crate) struct Drift {
 
 /// A turn about one axis of length 1 through a point.
 #[derive(Clone, Copy, Debug)]
-struct Spin {
+pub(crate) struct Spin {
     /// In rad.
-    angle: f64,
-    axis: Vector3<f64>,
-    at: Vector3<f64>,
+    pub(crate) angle: f64,
+    pub(crate) axis: Vector3<f64>,
+    pub(crate) at: Vector3<f64>,
 }
 
 impl Spin {
@@ -40,6 +40,22 @@ impl Spin {
     fn out(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let off = point - self.at;
         off - self.axis * off.dot(&self.axis)
+    }
+
+    /// How far a point goes at most that is within `rim` of a place, less what it was off from there before, in m.
+    pub(crate) fn far(&self, point: &Vector3<f64>, rim: f64, before: f64) -> f64 {
+        // A chord is no longer than its arc, nor than twice the radius.
+        self.angle.min(2.0) * (self.out(point).norm() + rim + before)
+    }
+
+    /// How far along a direction of length 1, where it may have gone so far before.
+    pub(crate) fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>, before: f64) -> f64 {
+        let out = self.out(point);
+        let across = self.axis.cross(direction);
+        sine(self.angle) * across.dot(&out).abs()
+            + versine(self.angle) * out.dot(direction).abs()
+            // Nothing goes along the axis.
+            + self.angle.min(2.0) * before * across.norm()
     }
 }
 
@@ -146,7 +162,7 @@ impl Drift {
             gone += self.turn.min(2.0) * ((point - self.about).norm() + rim);
         }
         for spin in self.spins() {
-            gone += spin.angle.min(2.0) * (spin.out(point).norm() + rim + gone);
+            gone += spin.far(point, rim, gone);
         }
         gone
     }
@@ -163,12 +179,8 @@ impl Drift {
             far += self.turn.min(2.0) * long;
         }
         for spin in self.spins() {
-            let out = spin.out(point);
-            gone += sine(spin.angle) * spin.axis.cross(&out).dot(direction).abs()
-                + versine(spin.angle) * out.dot(direction).abs()
-                // Nothing goes along the axis.
-                + spin.angle.min(2.0) * far * spin.axis.cross(direction).norm();
-            far += spin.angle.min(2.0) * (out.norm() + far);
+            gone += spin.along(point, direction, far);
+            far += spin.far(point, 0.0, far);
         }
         gone
     }

@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-pub(crate) use drift::{Drift, farthest};
+pub(crate) use drift::{Drift, Spin, farthest};
 
 use super::lift_arm::wrist;
 use crate::kinematics::{Chain, planar};

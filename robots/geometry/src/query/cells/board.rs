@@ -1,4 +1,4 @@
-//! Whether a part of the robot touches a box in all of a cell, by how far its line goes along each direction of the box, and not by how far
+//! Whether a part of the robot touches something in all of a cell, by how far its line goes along each direction of that, and not by how far
 //! anything goes at most: an arm that turns beside a wall goes far along it and hardly away from it.
 //!
 //! A line goes, as its solid does, so that what a point on it goes lies between what its ends do. Where a place on it is in the middle of a
@@ -24,29 +24,138 @@ struct Line {
     half: [f64; 3],
 }
 
-/// Whether a solid touches a box wherever it is within its drift.
-#[inline]
-pub(super) fn is_in(solid: &Solid, drift: &Drift, board: &Solid) -> bool {
-    let Shape::Box(half) = board.shape else { return false };
-    let half = [half.x, half.y, half.z];
-    let [_, _, z] = &solid.axes;
-    let (step, radius, rest) = match solid.shape {
-        Shape::Capsule { radius, half } => (z * half, radius, 1.0),
-        Shape::Cylinder { radius, half: long } => {
-            if is_upright(z) && drift.turns_about().is_some_and(|axis| is_upright(&axis)) {
-                return is_in_upright(solid, radius, long, drift, board, half);
+/// How far something goes.
+pub(super) trait Goes {
+    /// How far a point goes at most along a direction of length 1, in m. Of the points of a line none goes farther than those before and
+    /// after it, by their shares.
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64;
+
+    /// Whether what stands upright does so still.
+    fn stays_upright(&self) -> bool;
+}
+
+impl Goes for Drift {
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+        Self::along(self, point, direction)
+    }
+
+    fn stays_upright(&self) -> bool {
+        self.turns_about().is_some_and(|axis| is_upright(&axis))
+    }
+}
+
+/// What is within a solid for certain: all that is so near to half of its line to both sides, by no more than a share of that from its centre.
+struct Inside {
+    step: Vector3<f64>,
+    radius: f64,
+    share: f64,
+    is_round: bool,
+}
+
+impl Inside {
+    fn new(solid: &Solid) -> Option<Self> {
+        let [_, _, z] = &solid.axes;
+        let (step, radius) = match solid.shape {
+            Shape::Capsule { radius, half } => {
+                return Some(Self { step: z * half, radius, share: 1.0, is_round: true });
             }
-            (z * long, radius.min(long), 1.0 - (radius / long).min(1.0))
-        }
-        Shape::Box(_) => {
-            let (line, least) = longest(solid);
-            let long = line.norm();
-            (line, least, 1.0 - (least / long).min(1.0))
-        }
-        Shape::HalfSpace => return false,
+            Shape::Cylinder { radius, half } => (z * half, radius.min(half)),
+            Shape::Box(_) => longest(solid),
+            Shape::HalfSpace => return None,
+        };
+        let long = step.norm();
+        (long > 0.0).then(|| Self { step, radius, share: 1.0 - (radius / long).min(1.0), is_round: false })
+    }
+}
+
+/// Whether a solid touches another wherever it goes.
+#[inline]
+pub(super) fn is_in(solid: &Solid, goes: &impl Goes, other: &Solid) -> bool {
+    let Some(inside) = Inside::new(solid) else { return false };
+    let [_, _, z] = &solid.axes;
+    let upright = match solid.shape {
+        Shape::Cylinder { radius, half } if is_upright(z) && goes.stays_upright() => Some((radius, half)),
+        Shape::Cylinder { .. } | Shape::Capsule { .. } | Shape::Box(_) | Shape::HalfSpace => None,
     };
+    match (other.shape, upright) {
+        (Shape::Box(half), Some((radius, long))) => {
+            is_in_upright(solid, radius, long, goes, other, [half.x, half.y, half.z])
+        }
+        (Shape::Box(half), None) => is_in_box(solid, &inside, goes, other, [half.x, half.y, half.z]),
+        (Shape::Cylinder { radius, half }, _) => {
+            is_in_round(solid, &inside, goes, other, Round { radius, half, rim: 0.0 })
+        }
+        (Shape::Capsule { radius, half }, _) => {
+            is_in_round(solid, &inside, goes, other, Round { radius: 0.0, half, rim: radius })
+        }
+        (Shape::HalfSpace, _) => false,
+    }
+}
+
+/// A cylinder with a rim around it.
+struct Round {
+    radius: f64,
+    half: f64,
+    rim: f64,
+}
+
+/// Whether the place on a solid's line that is nearest to what is round stays as near to it: away from its axis, about it and along it.
+fn is_in_round(solid: &Solid, inside: &Inside, goes: &impl Goes, other: &Solid, round: Round) -> bool {
+    let [_, _, z] = &other.axes;
+    let between = solid.centre - other.centre;
+    let near = inside.radius + round.rim + GAP - SLACK;
+    let is_near = |share: f64| {
+        let point = between + inside.step * share;
+        let up = point.dot(z);
+        let out = point - z * up;
+        let far = out.norm();
+        if up.abs() > round.half + near || far > round.radius + near {
+            return false;
+        }
+        let away = if far > 1e-9 {
+            out / far
+        } else {
+            solid
+                .axes
+                .iter()
+                .map(|axis| z.cross(axis))
+                .fold(
+                    Vector3::zeros(),
+                    |most, next| if next.norm_squared() > most.norm_squared() { next } else { most },
+                )
+                .normalize()
+        };
+        let place = point + other.centre;
+        let [along, away, about] = [*z, away, z.cross(&away)].map(|axis| goes.along(&place, &axis) + SLACK);
+        let out = (libm::hypot(far + away, about) - round.radius).max(0.0);
+        let up = (up.abs() + along - round.half).max(0.0);
+        // What is not known is nothing.
+        along.is_finite() && away.is_finite() && about.is_finite() && out * out + up * up <= near * near
+    };
+    let places = nearest(&between, &inside.step, z, round.half);
+    places.into_iter().any(|at| is_near(at.clamp(-inside.share, inside.share)))
+}
+
+/// Places on a line, −1 and 1 its ends, that are near to another through the origin: to its middle, and to it.
+fn nearest(between: &Vector3<f64>, step: &Vector3<f64>, z: &Vector3<f64>, half: f64) -> [f64; 2] {
+    let long = step.norm_squared();
+    if long < 1e-12 {
+        return [0.0; 2];
+    }
+    let (slope, up) = (step.dot(z), between.dot(z));
+    let square = long - slope * slope;
+    let level = if square > 1e-9 { (slope * up - step.dot(between)) / square } else { 0.0 };
+    // Beyond its ends it is those that are near.
+    let end = z * (up + slope * level.clamp(-1.0, 1.0)).clamp(-half, half);
+    [(end - between).dot(step) / long, level]
+}
+
+/// The same for a box.
+fn is_in_box(solid: &Solid, inside: &Inside, goes: &impl Goes, board: &Solid, half: [f64; 3]) -> bool {
+    let step = inside.step;
     let between = solid.centre - board.centre;
-    let (mut line, near) = (Line { ends: [[0.0; 3]; 2], gone: [[0.0; 3]; 2], half }, radius + GAP - SLACK);
+    let near = inside.radius + GAP - SLACK;
+    let mut line = Line { ends: [[0.0; 3]; 2], gone: [[0.0; 3]; 2], half };
     let [first, last] = &mut line.ends;
     for (((axis, half), first), last) in board.axes.iter().zip(half).zip(first).zip(last) {
         let (at, by) = (between.dot(axis), step.dot(axis));
@@ -58,13 +167,14 @@ pub(super) fn is_in(solid: &Solid, drift: &Drift, board: &Solid) -> bool {
     }
     for (gone, end) in line.gone.iter_mut().zip([solid.centre - step, solid.centre + step]) {
         for (gone, axis) in gone.iter_mut().zip(&board.axes) {
-            *gone = drift.along(&end, axis) + SLACK;
+            *gone = goes.along(&end, axis) + SLACK;
             if !gone.is_finite() {
                 return false;
             }
         }
     }
-    line.stays(rest, near) || line.leads_through(near)
+    // At the ends of what is not round there is no ball within.
+    line.stays(inside.share, near) || line.leads_through(if inside.is_round { near } else { GAP - SLACK })
 }
 
 /// The same for an upright cylinder that stays upright: what its axis does is all there is.
@@ -72,7 +182,7 @@ fn is_in_upright(
     solid: &Solid,
     radius: f64,
     long: f64,
-    drift: &Drift,
+    goes: &impl Goes,
     board: &Solid,
     half: [f64; 3],
 ) -> bool {
@@ -86,7 +196,7 @@ fn is_in_upright(
         if beyond > wide {
             return false;
         }
-        let gone = drift.along(&solid.centre, axis) + SLACK;
+        let gone = goes.along(&solid.centre, axis) + SLACK;
         let beyond = beyond + gone;
         if is_up {
             has_height = true;

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::Family;
 use super::board::is_in;
 use super::tie::{Axis, Tied, Ties};
-use crate::collision::Solid;
+use crate::collision::{Shape, Solid};
 use crate::inverse::family::{Drift, Stretch, Tips};
 use crate::kinematics::Rig;
 use crate::query::around::{Around, above_floor};
@@ -244,7 +244,8 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         self.join(placing);
         let [from, to] = tied.frames;
         let at = placing.own.frames.get(to).map_or_else(Vector3::zeros, |pose| pose.translation.vector);
-        let drift = self.ties.off(from, to, (&at, tied.reach), &placing.own.axes);
+        let Some(tie) = self.ties.tie(from, to, &placing.own.axes) else { return Ok(None) };
+        let drift = tie.point(&at, tied.reach);
         let is_fewer = drift < FEWER * tied.drift;
         let mut left: Vec<[u16; 2]> = Vec::new();
         for pair in tied.pairs.iter() {
@@ -345,7 +346,20 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     /// Whether two parts touch wherever the joints between them put them.
     fn touches_by(&self, placing: &Placing, [one, other]: [Joined<'_>; 2]) -> bool {
         let (from, to) = (one.limb.frame, other.limb.frame);
-        let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+        let ties = [(from, to), (to, from)].map(|(from, to)| self.ties.tie(from, to, &placing.own.axes));
+        let [Some(tie), Some(back)] = ties else { return false };
+        if let Some(step) = tie.slide() {
+            // What touches at both ends of a straight way touches on all of it.
+            let ends = [step, -step].map(|step| Solid { centre: other.solid.centre + step, ..*other.solid });
+            return ends.iter().all(|end| one.solid.is_nearer(end, GAP - SLACK));
+        }
+        let is_round = |joined: &Joined<'_>| matches!(joined.solid.shape, Shape::Capsule { .. });
+        if is_round(&other) && is_in(other.solid, &tie, one.solid)
+            || (is_round(&one) || !is_round(&other)) && is_in(one.solid, &back, other.solid)
+        {
+            return true;
+        }
+        let drift = tie.drift(other.solid);
         let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
         own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
     }
@@ -474,8 +488,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 self.ensure_own(placing, part);
                 self.ensure_own(placing, at);
                 let (one, other) = self.both(placing, part, at).ok_or(NOTHING)?;
-                let (from, to) = (one.limb.frame, other.limb.frame);
-                let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+                let drift = 0.0;
                 let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
                 Ok(told(&own, other.solid, other.limb.inner, other.limb.reach, drift))
             }
@@ -488,7 +501,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
 }
 
 #[cfg(test)]
-#[allow(clippy::indexing_slicing, reason = "a test fails by panicking")]
+#[allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "a test fails by panicking")]
 impl Cover<'_, '_, '_> {
     /// By how much parts are farther off from each other than is said of two, with all where they are in a state and the links at poses.
     pub(super) fn beyond_ties(
@@ -497,6 +510,7 @@ impl Cover<'_, '_, '_> {
         solids: &[Solid],
         poses: &[Isometry3<f64>],
     ) -> f64 {
+        use super::board::Goes as _;
         let mut most = f64::NEG_INFINITY;
         for tied in self.ties().iter() {
             self.join(placing);
@@ -505,27 +519,27 @@ impl Cover<'_, '_, '_> {
                 self.ensure_own(placing, *at);
                 let Some((one, other)) = self.both(placing, *part, *at) else { return f64::INFINITY };
                 let (from, to) = (one.limb.frame, other.limb.frame);
-                let drift = self.ties.drift(from, to, other.solid, &placing.own.axes);
+                let tie = self.ties.tie(from, to, &placing.own.axes).unwrap();
+                let drift = tie.drift(other.solid);
                 let ball = other.limb.solid.centre;
-                let off = self.ties.off(
-                    from,
-                    to,
-                    (&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0),
-                    &placing.own.axes,
-                );
+                let off = tie.point(&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0);
                 assert!(off <= drift + 1e-9 && tied.reach >= ball.norm());
                 let link = self.around.room.body.parts()[usize::from(*part)].link;
                 let middle = placing.own.frames[from] * self.rig.links[link].1;
                 let (seen, is) = (other.solid.moved(&middle.inverse()), &solids[usize::from(*at)]);
                 let is = is.moved(&poses[link].inverse());
                 let along = |solid: &Solid| match solid.shape {
-                    crate::collision::Shape::Capsule { half, .. }
-                    | crate::collision::Shape::Cylinder { half, .. } => solid.axes[2] * half,
+                    Shape::Capsule { half, .. } | Shape::Cylinder { half, .. } => solid.axes[2] * half,
                     _ => Vector3::zeros(),
                 };
                 for sign in [1.0, -1.0] {
                     let gone = seen.centre + along(&seen) * sign - is.centre - along(&is) * sign;
                     most = most.max(gone.norm() - drift);
+                    let end = other.solid.centre + along(other.solid) * sign;
+                    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                        let along = tie.along(&end, &(middle.rotation * axis));
+                        most = most.max(gone.dot(&axis).abs() - along);
+                    }
                 }
             }
         }

@@ -5,8 +5,9 @@ use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
+use super::board::Goes;
 use crate::collision::Solid;
-use crate::inverse::family::farthest;
+use crate::inverse::family::{Spin, farthest};
 use crate::kinematics::Rig;
 
 /// The joints between any two frames of a rig.
@@ -75,49 +76,95 @@ impl Ties {
         axes.collect()
     }
 
-    /// How far a part that one frame carries goes at most, seen from another frame, in m: the axis of a capsule, and every point of anything
-    /// else.
-    pub(super) fn drift(&self, from: usize, to: usize, solid: &Solid, axes: &[Axis]) -> f64 {
-        farthest(solid, None, |point, rim| self.off(from, to, (point, rim), axes))
-    }
-
-    /// The same for what is so near to a point. Joints farther out move first, so that those nearer in find it farther from them by no more
-    /// than it went.
-    pub(super) fn off(
-        &self,
-        from: usize,
-        to: usize,
-        (point, rim): (&Vector3<f64>, f64),
-        axes: &[Axis],
-    ) -> f64 {
-        let Some(path) = self.between.get(from).and_then(|all| all.get(to)) else { return f64::INFINITY };
-        let mut gone = 0.0;
-        // What one variable slides on both sides goes along with itself.
-        let mut slid = Slid { variable: usize::MAX, off: 0.0, step: Vector3::zeros() };
-        for Between { joint, sign } in path.iter() {
-            let Some(axis) = axes.get(*joint) else { return f64::INFINITY };
-            if !axis.slides || slid.variable != axis.variable {
-                gone += slid.step.norm() * slid.off;
-                slid = Slid { variable: axis.variable, off: axis.off, step: Vector3::zeros() };
-            }
-            if axis.slides {
-                slid.step += axis.direction * (axis.scale * sign);
-                continue;
-            }
-            let out = point - axis.at;
-            let aside = (out - axis.direction * out.dot(&axis.direction)).norm();
-            // A chord is no longer than its arc, nor than twice the radius.
-            gone += (axis.off * axis.scale.abs()).min(2.0) * (aside + rim + gone);
-        }
-        gone + slid.step.norm() * slid.off
+    /// What a part that one frame carries does, seen from another.
+    pub(super) fn tie<'t>(&'t self, from: usize, to: usize, axes: &'t [Axis]) -> Option<Tie<'t>> {
+        Some(Tie { path: self.between.get(from)?.get(to)?, axes })
     }
 }
 
-/// What slides by one variable.
-struct Slid {
-    variable: usize,
-    off: f64,
-    step: Vector3<f64>,
+/// What a part that one frame carries does, seen from another. Joints farther out move first, so that those nearer in find it where it was,
+/// off by no more than it went.
+pub(super) struct Tie<'t> {
+    path: &'t [Between],
+    axes: &'t [Axis],
+}
+
+/// What a joint, or some that slide by one variable, does.
+enum Move {
+    Turns(Spin),
+    /// By no more than this forwards or backwards.
+    Slides(Vector3<f64>),
+}
+
+impl Tie<'_> {
+    fn moves(&self) -> impl Iterator<Item = Move> + '_ {
+        let mut rest = self.path;
+        std::iter::from_fn(move || {
+            let (first, more) = rest.split_first()?;
+            rest = more;
+            let Some(axis) = self.axes.get(first.joint) else {
+                return Some(Move::Slides(Vector3::repeat(f64::INFINITY)));
+            };
+            if !axis.slides {
+                let angle = axis.off * axis.scale.abs();
+                return Some(Move::Turns(Spin { angle, axis: axis.direction, at: axis.at }));
+            }
+            // What one variable slides on both sides goes along with itself.
+            let mut step = axis.direction * (axis.scale * first.sign);
+            while let Some((next, more)) = rest.split_first()
+                && let Some(other) = self.axes.get(next.joint)
+                && other.slides
+                && other.variable == axis.variable
+            {
+                step += other.direction * (other.scale * next.sign);
+                rest = more;
+            }
+            Some(Move::Slides(step * axis.off))
+        })
+    }
+
+    /// How far a solid goes at most, in m: the axis of a capsule, and every point of anything else.
+    pub(super) fn drift(&self, solid: &Solid) -> f64 {
+        farthest(solid, None, |point, rim| self.point(point, rim))
+    }
+
+    /// The same for what is so near to a point.
+    pub(super) fn point(&self, point: &Vector3<f64>, rim: f64) -> f64 {
+        self.moves().fold(0.0, |gone, step| match step {
+            Move::Turns(spin) => gone + spin.far(point, rim, gone),
+            Move::Slides(step) => gone + step.norm(),
+        })
+    }
+
+    /// How it slides, where it only does that by one variable.
+    pub(super) fn slide(&self) -> Option<Vector3<f64>> {
+        let mut moves = self.moves();
+        match (moves.next(), moves.next()) {
+            (Some(Move::Slides(step)), None) => Some(step),
+            _ => None,
+        }
+    }
+}
+
+impl Goes for Tie<'_> {
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+        let mut far = 0.0;
+        self.moves().fold(0.0, |gone, step| match step {
+            Move::Turns(spin) => {
+                let along = spin.along(point, direction, far);
+                far += spin.far(point, 0.0, far);
+                gone + along
+            }
+            Move::Slides(step) => {
+                far += step.norm();
+                gone + step.dot(direction).abs()
+            }
+        })
+    }
+
+    fn stays_upright(&self) -> bool {
+        false
+    }
 }
 
 /// Parts that two frames carry and that may touch.
