@@ -129,6 +129,14 @@ impl Drift {
         carried
     }
 
+    /// How directions turn: what it does to places as far from the origin as they are long.
+    pub(crate) fn turning(&self) -> Self {
+        let zero = Vector3::zeros();
+        let mut turning = Self { shift: 0.0, flat: 0.0, count: 0, about: zero, ..*self };
+        turning.spins.iter_mut().for_each(|spin| spin.at = zero);
+        turning
+    }
+
     /// By how much it is turned at most, in rad.
     pub(crate) fn angle(&self) -> f64 {
         let spins = match self.spins() {

@@ -4,7 +4,7 @@ use nalgebra::{Unit, Vector3};
 
 use std::f64::consts::PI;
 
-use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_over};
+use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_held};
 use crate::inverse::LiftArm;
 use crate::inverse::lift_arm::Shoulder;
 use crate::inverse::subproblem::turned;
@@ -34,6 +34,7 @@ impl LiftArm {
         let Shoulder { axis, point, to_wrist } = self.shoulder;
         let centre = self.centre(map_from_tip).coords;
         // The wrist's centre may be off as well, and the hand turned.
+        let swings = turned(&Vector3::z(), yaw, &axis);
         let (moves, tilts) = (tips.drift.along(&centre, &Vector3::z()), tips.drift.angle());
         let arm = turned(&axis, angle, &to_wrist);
         let (across, long) = (axis.cross(&arm), axis.cross(&arm).norm());
@@ -41,8 +42,10 @@ impl LiftArm {
         let lift = (centre.z - point.z - arm.z) * self.up;
         let carried = turn(&Vector3::z_axis(), yaw) * turn(&Unit::new_unchecked(axis), angle);
         let left = carried.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
-        let Some([first, middle, last]) = wrist_over(&self.wrist, &left, yaws + bends + tilts, cell.way)
-        else {
+        let carrier =
+            Drift::none().spun(swings, Vector3::zeros(), bends).spun(Vector3::z(), Vector3::zeros(), yaws);
+        let (turns, drifts) = ([&carried, &left], [&carrier, &tips.drift.turning()]);
+        let Some([first, middle, last]) = wrist_held(&self.wrist, turns, drifts, cell.way) else {
             return Over::Unclear;
         };
         let Some(values) = values_over(&self.chain, &[[lift, lifts], [angle, bends], first, middle, last])
@@ -53,7 +56,6 @@ impl LiftArm {
         let base = [centre.x - in_map.x, centre.y - in_map.y, yaw];
         let placed = frames(&self.chain, based(base, 0.0), &values);
         // The shoulder moves opposite to the wrist's centre as the arm bends, and all but the hand turns with the base.
-        let swings = turned(&Vector3::z(), yaw, &axis);
         let held = tips.drift.carried(&centre);
         let back = turned(&Vector3::z(), yaw, &-arm);
         let carries = held.swung(&swings, &(back - swings * swings.dot(&back)), bends);

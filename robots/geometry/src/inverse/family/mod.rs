@@ -95,6 +95,43 @@ fn wrist_over(
     Some([[first, around], [middle, off], [last, around]])
 }
 
+/// The same of a wrist that something carries, which turns in the map by no more than `carrier`, while what it holds turns by no more than
+/// `held`: by which way both turn. A hand that points straight down does so however the arm turns about the vertical.
+fn wrist_held(
+    axes: &[Vector3<f64>; 3],
+    [map_from_carrier, rotation]: [&UnitQuaternion<f64>; 2],
+    [carrier, held]: [&Drift; 2],
+    way: u8,
+) -> Option<[[f64; 2]; 3]> {
+    let [one, _, three] = axes;
+    let [first, middle, last] = wrist_over(axes, rotation, carrier.angle() + held.angle(), way)?;
+    let (u, w) = (map_from_carrier * one, map_from_carrier * (rotation * three));
+    let (cos, aside) = (u.dot(&w), u.cross(&w));
+    let sin = aside.norm();
+    if sin < 1e-3 {
+        return Some([first, middle, last]);
+    }
+    let aside = aside / sin;
+    // How far a direction that goes along with one is off along another one that goes along with the other.
+    let off = |[drift, beyond]: [&Drift; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
+        drift.along(from, to) + beyond.along(to, from) + drift.point(from, 0.0) * beyond.point(to, 0.0)
+    };
+    let around = |drifts: [&Drift; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
+        let out = (from - to * cos) / sin;
+        let room = sin - off(drifts, from, &out);
+        if room > 1e-6 { libm::atan(off(drifts, from, &aside) / room) + 1e-9 } else { PI }
+    };
+    let along = off([held, carrier], &w, &u);
+    let polar = acos(cos);
+    let leans = (acos(cos - along) - polar).max(polar - acos(cos + along)) + 1e-9;
+    let least = |[angle, off]: [f64; 2], other: f64| [angle, off.min(other)];
+    Some([
+        least(first, around([held, carrier], &w, &u)),
+        least(middle, leans),
+        least(last, around([carrier, held], &u, &w)),
+    ])
+}
+
 /// How far the direction in which a vector leans away from an axis can turn about it, where the vector is so far from the axis and
 /// is turned by no more than `off`.
 fn azimuth(polar: f64, off: f64) -> f64 {

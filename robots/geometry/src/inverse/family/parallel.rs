@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_over};
+use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_held};
 use crate::inverse::ParallelArm;
 use crate::inverse::screw::ROUNDED;
 use crate::inverse::subproblem::turned;
@@ -43,8 +43,9 @@ impl ParallelArm {
         let (moves, tilts) = (tips.drift.along(&centre, &Vector3::z()), tips.drift.angle());
         let facing = crate::trigonometry::turn(&Vector3::z_axis(), heading);
         let left = facing.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
-        let Some([[sum, sums], fifth, sixth]) =
-            wrist_over(&[across, five, six], &left, headings + tilts, cell.way & 1)
+        let carrier = Drift::none().spun(Vector3::z(), Vector3::zeros(), headings);
+        let (turns, drifts) = ([&facing, &left], [&carrier, &tips.drift.turning()]);
+        let Some([[sum, sums], fifth, sixth]) = wrist_held(&[across, five, six], turns, drifts, cell.way & 1)
         else {
             return Over::Unclear;
         };
