@@ -35,6 +35,7 @@ use tie::Tied;
 
 mod board;
 mod cover;
+mod joined;
 mod tie;
 
 /// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.

@@ -312,11 +312,11 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(8192))]
 
-        /// What is said to be in a board touches it wherever it is moved within its drift.
+        /// What is said to be in a board, or in what is round, touches it wherever it is moved within its drift.
         #[test]
-        fn what_is_in_a_board_touches_it_wherever_it_goes(
+        fn what_is_in_something_touches_it_wherever_it_goes(
             at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
-            half in 0.02..0.4_f64, radius in 0.01..0.2_f64, kind in 0..4_u8,
+            half in 0.02..0.4_f64, radius in 0.01..0.2_f64, kind in 0..4_u8, beyond in 0..4_u8,
             board in [0.05..0.5_f64, 0.05..0.5_f64, 0.002..0.3_f64], lean in -1.5..1.5_f64,
             slide in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64], spin in 0.0..0.6_f64, bend in 0.0..0.4_f64,
             centre in [-0.5..0.5_f64, -0.5..0.5_f64, -0.5..0.5_f64], size in prop::sample::select(vec![0.03, 0.3, 1.0]),
@@ -330,7 +330,13 @@ mod tests {
             // One that stands upright and stays so is looked at by another rule.
             let is_upright = kind == 2;
             let own = solid(at, if is_upright { [0.0, 0.0, turn[2]] } else { turn }, shape);
-            let board = solid([0.0; 3], if kind == 3 { [lean, 0.3, 0.0] } else { [0.0, 0.0, lean] }, Shape::Box(Vector3::from(board)));
+            let [long, wide, _] = board;
+            let other = match beyond {
+                0 | 1 => Shape::Box(Vector3::from(board)),
+                2 => Shape::Cylinder { radius: wide, half: long },
+                _ => Shape::Capsule { radius: 0.4 * wide, half: long },
+            };
+            let board = solid([0.0; 3], if kind == 3 { [lean, 0.3, 0.0] } else { [0.0, 0.0, lean] }, other);
             let (slide, centre) = (Vector3::from(slide) * size, Vector3::from(centre));
             let (spin, bend) = (spin * size, if is_upright { 0.0 } else { bend * size });
             let axis = Vector3::new(lean, 1.0, 0.3).normalize();

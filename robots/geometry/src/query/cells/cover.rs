@@ -6,8 +6,9 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::Family;
 use super::board::is_in;
-use super::tie::{Axis, Tied, Ties};
-use crate::collision::{Shape, Solid};
+use super::joined::Own;
+use super::tie::Ties;
+use crate::collision::Solid;
 use crate::inverse::family::{Drift, Stretch, Tips};
 use crate::kinematics::Rig;
 use crate::query::around::{Around, above_floor};
@@ -23,8 +24,8 @@ pub(super) struct Cover<'a, 'r, 'w> {
     pub(super) hand: &'a Hand,
     pub(super) family: Family<'a>,
     pub(super) allowed: Allowed,
-    rig: Rig,
-    ties: Ties,
+    pub(super) rig: Rig,
+    pub(super) ties: Ties,
     /// The robot's joints with the hand as it reaches.
     joints: Vec<f64>,
     /// For each frame of the rig but the first the joint of the arm that it is, if it is one.
@@ -32,18 +33,18 @@ pub(super) struct Cover<'a, 'r, 'w> {
     /// The frame of the tip, and the tip in it.
     last: usize,
     frame_from_tip: Isometry3<f64>,
-    limbs: Vec<Limb>,
+    pub(super) limbs: Vec<Limb>,
     /// Of the things the radius of the greatest ball within, about.
     things: Vec<f64>,
 }
 
 /// A part of the robot.
-struct Limb {
-    frame: usize,
+pub(super) struct Limb {
+    pub(super) frame: usize,
     /// In the frame.
-    solid: Solid,
-    inner: f64,
-    reach: f64,
+    pub(super) solid: Solid,
+    pub(super) inner: f64,
+    pub(super) reach: f64,
 }
 
 /// Two that may not touch: a part and a thing, the floor or another part.
@@ -67,28 +68,19 @@ pub(super) struct Group {
 
 /// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
 /// is done again.
-const FEWER: f64 = 0.6;
+pub(super) const FEWER: f64 = 0.6;
 /// Before it can be off by less than this, in m, it is not looked for at all.
-const FAR: f64 = 0.8;
+pub(super) const FAR: f64 = 0.8;
 
 /// The robot in a cell: the frames of the rig, and those of its parts that were asked for.
 #[derive(Default)]
 pub(super) struct Placing {
-    frames: Vec<(Isometry3<f64>, Drift)>,
+    pub(super) frames: Vec<(Isometry3<f64>, Drift)>,
     parts: Vec<Option<Placed>>,
     /// Of each joint of the rig its position, and how far its variable can be off; nothing where that is not known.
-    steps: Vec<[f64; 2]>,
-    is_joined: bool,
-    own: Own,
-}
-
-/// The robot by itself in the middle of a cell, where that was asked for.
-#[derive(Default)]
-struct Own {
-    axes: Vec<Axis>,
-    /// From any place to the frames, where those in the map do not tell.
-    frames: Vec<Isometry3<f64>>,
-    parts: Vec<Option<Solid>>,
+    pub(super) steps: Vec<[f64; 2]>,
+    pub(super) is_joined: bool,
+    pub(super) own: Own,
 }
 
 impl Placing {
@@ -172,33 +164,6 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         [hand.into(), others.into()]
     }
 
-    /// The pairs of parts that may not touch.
-    pub(super) fn ties(&self) -> Rc<[Tied]> {
-        let mut ties: Vec<([usize; 2], Vec<[u16; 2]>)> = Vec::new();
-        let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
-        for [one, other] in self.around.room.body.pairs() {
-            let Some((from, to)) = frame(*one).zip(frame(*other)).filter(|(from, to)| from != to) else {
-                continue;
-            };
-            let pair = [*one as u16, *other as u16];
-            let (frames, pair) =
-                if from < to { ([from, to], pair) } else { ([to, from], [pair[1], pair[0]]) };
-            match ties.iter_mut().find(|(known, _)| *known == frames) {
-                Some((_, pairs)) => pairs.push(pair),
-                None => ties.push((frames, vec![pair])),
-            }
-        }
-        let ties = ties.into_iter().map(|(frames, pairs)| {
-            let far = |[_, other]: &[u16; 2]| {
-                let limb = self.limbs.get(usize::from(*other));
-                limb.map_or(0.0, |limb| limb.solid.centre.norm() + limb.reach)
-            };
-            let reach = pairs.iter().map(far).fold(0.0, f64::max);
-            Tied { frames, reach, drift: FAR / FEWER, pairs: pairs.into() }
-        });
-        ties.collect()
-    }
-
     /// What of a group may touch; `None` where the group is as it was.
     ///
     /// # Errors
@@ -230,47 +195,6 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         }
         let drift = own.drift;
         Ok(Some(Group { drift, things: kept(things, &group.things), ..*group }))
-    }
-
-    /// What of the parts of two frames may touch; `None` where they are as they were.
-    ///
-    /// # Errors
-    ///
-    /// What touches throughout.
-    pub(super) fn tied(&self, placing: &mut Placing, tied: &Tied) -> Result<Option<Tied>, Pair> {
-        if placing.steps.is_empty() {
-            return Ok(None);
-        }
-        self.join(placing);
-        let [from, to] = tied.frames;
-        let at = placing.own.frames.get(to).map_or_else(Vector3::zeros, |pose| pose.translation.vector);
-        let Some(tie) = self.ties.tie(from, to, &placing.own.axes) else { return Ok(None) };
-        let drift = tie.point(&at, tied.reach);
-        let is_fewer = drift < FEWER * tied.drift;
-        let mut left: Vec<[u16; 2]> = Vec::new();
-        for pair in tied.pairs.iter() {
-            let [part, at] = *pair;
-            self.ensure_own(placing, part);
-            self.ensure_own(placing, at);
-            let Some((own, other)) = self.both(placing, part, at) else { continue };
-            if is_fewer && own.is_apart(other, drift) {
-                continue;
-            }
-            // What is not near in the middle does not touch throughout.
-            if own.is_near(other) && self.touches_by(placing, [own, other]) {
-                return Err(Pair::Own(part, at));
-            }
-            if is_fewer {
-                left.push(*pair);
-            }
-        }
-        Ok(is_fewer.then(|| Tied { drift, pairs: kept(left, &tied.pairs), ..*tied }))
-    }
-
-    /// Whether two parts of any touch in the middle.
-    pub(super) fn is_folded_in_middle(&self, placing: &mut Placing, ties: &[Tied]) -> bool {
-        let mut pairs = ties.iter().flat_map(|tied| tied.pairs.iter());
-        pairs.any(|[part, at]| self.touches_in_middle(placing, Pair::Own(*part, *at)))
     }
 
     /// Whether something of some groups touches in the middle.
@@ -334,63 +258,6 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         placing.own.parts.resize(self.limbs.len(), None);
     }
 
-    /// Two parts where they are to each other in the middle of a cell, where that was asked for.
-    fn both<'p>(&'p self, placing: &'p Placing, part: u16, at: u16) -> Option<(Joined<'p>, Joined<'p>)> {
-        let joined = |part: u16| {
-            let solid = placing.own.parts.get(usize::from(part))?.as_ref()?;
-            Some(Joined { limb: self.limbs.get(usize::from(part))?, solid })
-        };
-        Some((joined(part)?, joined(at)?))
-    }
-
-    /// Whether two parts touch wherever the joints between them put them.
-    fn touches_by(&self, placing: &Placing, [one, other]: [Joined<'_>; 2]) -> bool {
-        let (from, to) = (one.limb.frame, other.limb.frame);
-        let ties = [(from, to), (to, from)].map(|(from, to)| self.ties.tie(from, to, &placing.own.axes));
-        let [Some(tie), Some(back)] = ties else { return false };
-        if let Some(step) = tie.slide() {
-            // What touches at both ends of a straight way touches on all of it.
-            let ends = [step, -step].map(|step| Solid { centre: other.solid.centre + step, ..*other.solid });
-            return ends.iter().all(|end| one.solid.is_nearer(end, GAP - SLACK));
-        }
-        let is_round = |joined: &Joined<'_>| matches!(joined.solid.shape, Shape::Capsule { .. });
-        if is_round(&other) && is_in(other.solid, &tie, one.solid)
-            || (is_round(&one) || !is_round(&other)) && is_in(one.solid, &back, other.solid)
-        {
-            return true;
-        }
-        let drift = tie.drift(other.solid);
-        let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
-        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
-    }
-
-    /// Puts the joints where they are to each other.
-    fn join(&self, placing: &mut Placing) {
-        if !placing.own.axes.is_empty() {
-            return;
-        }
-        placing.own.frames.clear();
-        if placing.is_joined {
-            placing.own.frames.extend(placing.frames.iter().map(|(pose, _)| *pose));
-        } else {
-            placing.own.frames.push(Isometry3::identity());
-            for (joint, [position, _]) in self.rig.joints.iter().zip(&placing.steps) {
-                let parent = placing.own.frames.get(joint.parent).copied().unwrap_or_default();
-                placing.own.frames.push(parent * joint.before * joint.motion(*position));
-            }
-        }
-        let offs: Vec<f64> = placing.steps.iter().map(|[_, off]| *off).collect();
-        placing.own.axes = Ties::axes(&self.rig, &placing.own.frames, &offs);
-    }
-
-    /// Puts a part where the joints do.
-    fn ensure_own(&self, placing: &mut Placing, part: u16) {
-        let at = usize::from(part);
-        let Some(slot @ None) = placing.own.parts.get_mut(at) else { return };
-        let Some(limb) = self.limbs.get(at) else { return };
-        *slot = placing.own.frames.get(limb.frame).map(|frame| limb.solid.moved(frame));
-    }
-
     /// A part where it is in the middle of a cell, and how far it can be from there.
     pub(super) fn part<'p>(&self, placing: &'p mut Placing, part: u16) -> Option<&'p Placed> {
         self.ensure(placing, part);
@@ -417,11 +284,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 if placing.steps.is_empty() {
                     return false;
                 }
-                self.join(placing);
-                self.ensure_own(placing, part);
-                self.ensure_own(placing, at);
-                let both = self.both(placing, part, at);
-                both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other]))
+                self.own_touches(placing, part, at)
             }
             Pair::Floor(part) => {
                 self.ensure(placing, part);
@@ -500,75 +363,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
     }
 }
 
-#[cfg(test)]
-#[allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "a test fails by panicking")]
-impl Cover<'_, '_, '_> {
-    /// By how much parts are farther off from each other than is said of two, with all where they are in a state and the links at poses.
-    pub(super) fn beyond_ties(
-        &self,
-        placing: &mut Placing,
-        solids: &[Solid],
-        poses: &[Isometry3<f64>],
-    ) -> f64 {
-        use super::board::Goes as _;
-        let mut most = f64::NEG_INFINITY;
-        for tied in self.ties().iter() {
-            self.join(placing);
-            for [part, at] in tied.pairs.iter() {
-                self.ensure_own(placing, *part);
-                self.ensure_own(placing, *at);
-                let Some((one, other)) = self.both(placing, *part, *at) else { return f64::INFINITY };
-                let (from, to) = (one.limb.frame, other.limb.frame);
-                let tie = self.ties.tie(from, to, &placing.own.axes).unwrap();
-                let drift = tie.drift(other.solid);
-                let ball = other.limb.solid.centre;
-                let off = tie.point(&(placing.own.frames[to] * nalgebra::Point3::from(ball)).coords, 0.0);
-                assert!(off <= drift + 1e-9 && tied.reach >= ball.norm());
-                let link = self.around.room.body.parts()[usize::from(*part)].link;
-                let middle = placing.own.frames[from] * self.rig.links[link].1;
-                let (seen, is) = (other.solid.moved(&middle.inverse()), &solids[usize::from(*at)]);
-                let is = is.moved(&poses[link].inverse());
-                let along = |solid: &Solid| match solid.shape {
-                    Shape::Capsule { half, .. } | Shape::Cylinder { half, .. } => solid.axes[2] * half,
-                    _ => Vector3::zeros(),
-                };
-                for sign in [1.0, -1.0] {
-                    let gone = seen.centre + along(&seen) * sign - is.centre - along(&is) * sign;
-                    most = most.max(gone.norm() - drift);
-                    let end = other.solid.centre + along(other.solid) * sign;
-                    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-                        let along = tie.along(&end, &(middle.rotation * axis));
-                        most = most.max(gone.dot(&axis).abs() - along);
-                    }
-                }
-            }
-        }
-        most
-    }
-}
-
-/// A part where the joints put it.
-#[derive(Clone, Copy)]
-struct Joined<'p> {
-    limb: &'p Limb,
-    solid: &'p Solid,
-}
-
-impl Joined<'_> {
-    /// Whether the balls around two are so near that they may touch.
-    fn is_near(&self, other: Joined<'_>) -> bool {
-        let near = self.limb.reach + other.limb.reach + GAP;
-        (self.solid.centre - other.solid.centre).norm_squared() <= near * near
-    }
-
-    /// Whether two are apart, wherever they are by so much.
-    fn is_apart(&self, other: Joined<'_>, drift: f64) -> bool {
-        let far = self.limb.reach + other.limb.reach + GAP + drift + SLACK;
-        (self.solid.centre - other.solid.centre).norm_squared() > far * far
-    }
-}
-
 /// What is left of all, which stays what it is where that is all.
-fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
+pub(super) fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
     if left.len() == all.len() { Rc::clone(all) } else { left.into() }
 }

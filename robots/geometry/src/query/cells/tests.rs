@@ -91,7 +91,12 @@ fn a_state_is_in_its_cell(
     let at = about + turned * (tip.translation.vector - about) + axis * (0.2 * tilt);
     let map_from_tip = Isometry3::from_parts(at.into(), turned * tip.rotation);
     // Along the axis about which it is turned, so that the order does not matter.
-    let tips = Tips { map_from_tip, drift: Drift::none().shifted(0.2 * tilt).turned(about, tilt) };
+    let still = Drift::none();
+    let drift = match x > 0.0 {
+        true => still.shifted(0.2 * tilt).turned(about, tilt),
+        false => still.slid(axis * (0.2 * tilt)).spun(axis, about, tilt),
+    };
+    let tips = Tips { map_from_tip, drift };
     let mut nearest = (f64::INFINITY, String::new());
     for root in &roots {
         let half = root.half.map(|half| half * size);
