@@ -108,6 +108,10 @@ impl Cover<'_, '_, '_> {
         let (from, to) = (one.limb.frame, other.limb.frame);
         let ties = [(from, to), (to, from)].map(|(from, to)| self.ties.tie(from, to, &placing.own.axes));
         let [Some(tie), Some(back)] = ties else { return false };
+        // Most that are near do not even touch in the middle.
+        if !one.solid.is_nearer(other.solid, GAP) {
+            return false;
+        }
         if let Some(step) = tie.slide() {
             // What touches at both ends of a straight way touches on all of it.
             let ends = [step, -step].map(|step| Solid { centre: other.solid.centre + step, ..*other.solid });
