@@ -12,8 +12,8 @@
 //! or where as many cells as were allowed have been looked at. What is not near a part of the robot in a cell is not in its halves, and
 //! not looked at there; and what touched lately is looked at first.
 //!
-//! A board is thin, and less deep than most cells are wide: so an arm that leads through it, with its ends on both sides
-//! throughout, touches it too.
+//! That is so of any two. Of a part beside a thing more is known by which way it goes (`board`), and of two parts of the robot by the joints
+//! between them (`joined`, `tie`).
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
