@@ -25,6 +25,33 @@ pub(super) struct Command {
     thing_end: usize,
 }
 
+/// What is told of a place that was named.
+const WHERE_IT_BELONGS: &[&str] = &[
+    "where it belongs",
+    "where it lives",
+    "where it goes",
+    "where it should be",
+    "where it is supposed to be",
+    "where it always is",
+    "where it usually is",
+    "where it is kept",
+    "where it came from",
+    "where they belong",
+    "where they live",
+    "where they go",
+    "its usual place",
+    "its proper place",
+    "its home",
+    "its usual spot",
+    "as always",
+    "as usual",
+    "where it normally lives",
+    "where it always goes",
+    "where we keep it",
+    "where i keep it",
+    "where we always keep it",
+];
+
 /// Among what a verb goes with: it is done only where it is not so yet.
 pub(super) const ONLY_IF: &str = "only if";
 
@@ -73,6 +100,14 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
             }
             Some(Token::Comma | Token::Word(_)) => {
                 let after = skip_and(tokens, at);
+                // `to the drawer, where it lives`
+                if now.to.is_some()
+                    && let Some(count) = longest(tokens, after, WHERE_IT_BELONGS)
+                    && is_boundary(tokens, after + count)
+                {
+                    at = after + count;
+                    continue;
+                }
                 if begins(tokens, after) {
                     break;
                 }
@@ -97,8 +132,29 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
             }
         }
     }
-    commands.push(now);
+    left_out(&mut now, commands);
+    // `race you to the sink! Go!`
+    let is_echo = stands(tokens, begin, "go").is_some()
+        && now.act == Act::Go
+        && now.items.is_empty()
+        && now.to.is_none()
+        && commands.last().is_some_and(|last| last.act == now.act && last.to.is_some());
+    if !is_echo {
+        commands.push(now);
+    }
     Ok(at)
+}
+
+/// `take the mug and put in the drawer`, `I want it! Give me!`: of what it is not said, it is that of which it was said just before.
+fn left_out(now: &mut Command, commands: &[Command]) {
+    let carries = |act: Act| !matches!(act, Act::Go | Act::Come | Act::Open | Act::Close | Act::Find);
+    let says_more = now.to.is_some()
+        || now.to_whom.is_some()
+        || ["in", "on", "away", "back", "hand", "out"].iter().any(|word| now.has(word));
+    let before = commands.iter().rev().find(|command| carries(command.act) && !command.items.is_empty());
+    if carries(now.act) && now.act != Act::Release && now.items.is_empty() && says_more && before.is_some() {
+        now.items.push(Noun::Before("it"));
+    }
 }
 
 /// Whether another place follows for a thing that has one already.
@@ -134,13 +190,16 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
         &["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"],
     )
     .is_some();
-    let another = noun(tokens, at).is_some_and(|(noun, after)| {
-        matches!(noun, Noun::Phrase(_) | Noun::Before(_)) && !is(after) && !is_clause
+    let another = noun(tokens, at).is_some_and(|(noun, after)| match noun {
+        Noun::Phrase(_) => !is(after) && !is_clause,
+        // `…, it stinks` tells something of it.
+        Noun::Before(_) => is_boundary(tokens, after) || part_follows(tokens, after),
+        Noun::Speaker | Noun::Here | Noun::There => false,
     });
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
-    // `put it where it belongs, in the drawer`
-    if another_place && now.to.is_none() && now.has("back") {
+    // `put it where it belongs, in the drawer`, `get it out of here and into the bin`
+    if now.to.is_none() && (another_place && now.has("back") || is_place_for_it(now, tokens, at)) {
         return true;
     }
     if !(another || is_place) {
@@ -154,6 +213,37 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
         commands.push(std::mem::replace(now, next));
     }
     true
+}
+
+/// Whether what follows a thing says where it goes or for whom.
+fn part_follows(tokens: &[Token], at: usize) -> bool {
+    spot(tokens, at).is_some()
+        || is_way(tokens, at)
+        || longest(tokens, at, &["over", "back", "away", "up", "down", "too"]).is_some()
+}
+
+/// Whether a place follows for what is taken, hidden or put, of which it was not said before where to.
+fn is_place_for_it(now: &Command, tokens: &[Token], at: usize) -> bool {
+    let takes = matches!(
+        now.act,
+        Act::Put
+            | Act::Stow
+            | Act::Store
+            | Act::Take
+            | Act::Throw
+            | Act::Move
+            | Act::Pick
+            | Act::Lift
+            | Act::Fetch
+    );
+    let place = spot(tokens, at).or_else(|| way(tokens, at));
+    takes
+        && !now.items.is_empty()
+        && place.is_some_and(|(place, end)| {
+            place.relation != Relation::Beside
+                && is_boundary(tokens, end)
+                && (now.act != Act::Fetch || now.to_whom.is_none())
+        })
 }
 
 /// One part of a command: where the next begins.
@@ -287,6 +377,34 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
     }
     if word == "for" {
         let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
+        // `nip over for the coke`: who goes for something brings it.
+        let sets_out = matches!(
+            tokens.get(begin).map_or("", Token::word),
+            "go" | "nip"
+                | "pop"
+                | "run"
+                | "hop"
+                | "dash"
+                | "scoot"
+                | "hurry"
+                | "trot"
+                | "zip"
+                | "rush"
+                | "race"
+                | "walk"
+                | "scurry"
+        );
+        if now.act == Act::Go
+            && now.to.is_none()
+            && now.items.is_empty()
+            && sets_out
+            && matches!(whom, Noun::Phrase(_))
+        {
+            now.act = Act::Fetch;
+            now.to_whom.get_or_insert(Noun::Speaker);
+            now.items.push(whom);
+            return Ok(after);
+        }
         // Who has something thrown away or opened for them does not get it.
         if !matches!(now.act(), Act::Discard | Act::Stow | Act::Store | Act::Open | Act::Close | Act::Find) {
             now.to_whom.get_or_insert(whom);
@@ -404,6 +522,40 @@ fn rest(tokens: &[Token], mut at: usize) -> usize {
 }
 
 impl Command {
+    /// `hide it! In the drawer!`: a place that is said in a sentence of its own; where it ends.
+    pub(super) fn goes_on_at(&mut self, tokens: &[Token], at: usize) -> Option<usize> {
+        let takes = matches!(
+            self.act,
+            Act::Put | Act::Stow | Act::Store | Act::Take | Act::Throw | Act::Move | Act::Fetch
+        );
+        if !takes || self.items.is_empty() || self.to.is_some() {
+            return None;
+        }
+        let is_end = |end: usize| matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
+        let hither = [
+            "here",
+            "over here",
+            "right here",
+            "to me",
+            "over to me",
+            "here to me",
+            "for me",
+            "over here to me",
+        ];
+        if let Some(end) = longest(tokens, at, &hither).map(|count| at + count).filter(|end| is_end(*end)) {
+            self.to_whom.get_or_insert(Noun::Speaker);
+            return Some(end);
+        }
+        let (place, end) = spot(tokens, at).or_else(|| way(tokens, at))?;
+        let is_named = matches!(place.noun, Noun::Phrase(_)) && place.relation != Relation::Beside;
+        // Who brings something in a place is told where it is.
+        if !is_named || !is_end(end) || (self.act == Act::Fetch && !self.has(WANTED) && !place.moves()) {
+            return None;
+        }
+        self.put_at(place);
+        Some(end)
+    }
+
     fn new(act: Act) -> Self {
         let (items, with) = (Vec::new(), Vec::new());
         Self { act, items, to_whom: None, to: None, from: None, with, thing_end: 0 }

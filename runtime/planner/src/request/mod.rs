@@ -2,6 +2,7 @@
 //!
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
+mod asking;
 mod assent;
 mod beside;
 mod carry;
@@ -34,6 +35,7 @@ pub(crate) mod token;
 mod verb;
 mod vocabulary;
 mod whereabouts;
+mod wish;
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;

@@ -30,6 +30,19 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     }
     // What is only named or looked at is spoken of where more follows.
     let is_named = [
+        "be careful with",
+        "be gentle with",
+        "be very careful with",
+        "be really careful with",
+        "careful with",
+        "easy with",
+        "go easy on",
+        "go easy with",
+        "watch out for",
+        "watch",
+        "mind",
+        "look out for",
+        "take good care of",
         "see",
         "look at",
         "about",
@@ -86,7 +99,18 @@ pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
     let is = |at: usize, table: &[&str]| tokens.get(at).is_some_and(|token| table.contains(&token.word()));
     let left = ["did i leave", "did we leave", "have i left", "have we left"];
     longest(tokens, begin, &left).is_some()
+        || is_rhetorical(tokens, begin)
         || is(begin, WHETHER) && (is(begin + 1, &whose) || (is(begin + 1, &["not"]) && is(begin + 2, &whose)))
+}
+
+/// `would it not look nice on the shelf?`, `should it not be shut?`: what is thought to be so, and asks for nothing by itself.
+fn is_rhetorical(tokens: &[Token], begin: usize) -> bool {
+    let asks = ["would", "should", "is", "does", "could", "will", "are", "do"];
+    let at = begin + longest(tokens, begin, &asks).unwrap_or(0);
+    let not = usize::from(stands(tokens, at, "not").is_some());
+    let who = ["it", "that", "this", "the", "my", "our", "everything", "they", "these", "those"];
+    let is_of_it = at > begin && longest(tokens, at + not, &who).is_some();
+    is_of_it && (not == 1 || longest(tokens, begin, &["would", "should"]).is_some())
 }
 
 /// `since you are up anyway, …`: a whole clause, behind which something is asked for.
@@ -199,7 +223,9 @@ pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
     let of = |table: &[&str]| {
         table.iter().find_map(|words| stands(tokens, at, words)).filter(|count| is_clause(at + count))
     };
-    let found = of(&reason).or_else(|| of(&lasts).filter(|_| holds));
+    // What somebody else does meanwhile bounds nothing of what is done now.
+    let while_other = of(&["while", "whilst"]);
+    let found = of(&reason).or(while_other).or_else(|| of(&lasts).filter(|_| holds));
     found.map(|_| remark_end(tokens, at))
 }
 
@@ -218,6 +244,48 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
     let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
     let same: &[&str] = match before {
         Act::Pick | Act::Lift => &["keep it there", "hold it there"],
+        Act::Open => &[
+            "leave it like that",
+            "leave it that way",
+            "leave it so",
+            "keep it like that",
+            "keep it that way",
+            "keep it so",
+            "let it stay like that",
+            "leave it be",
+            "leave it",
+            "leave it alone",
+            "let it be",
+            "keep it open",
+            "leave it open",
+            "hold it open",
+        ],
+        Act::Close => &[
+            "leave it like that",
+            "leave it that way",
+            "leave it so",
+            "keep it like that",
+            "keep it that way",
+            "keep it so",
+            "let it stay like that",
+            "leave it be",
+            "leave it",
+            "leave it alone",
+            "let it be",
+            "keep it shut",
+            "leave it shut",
+            "keep it closed",
+            "leave it closed",
+        ],
+        Act::Put | Act::Store | Act::Stow => &[
+            "leave it there",
+            "keep it there",
+            "let it stay there",
+            "leave it be",
+            "leave it alone",
+            "leave it like that",
+            "let it be",
+        ],
         Act::Go if is_joined => &["stop", "stop there"],
         _ => &[],
     };

@@ -5,9 +5,9 @@ use super::forbidden::{When, caution, forbidden};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
 use super::noun::noun;
-use super::remark::{is_question, is_remark, remark_end, stays_put};
+use super::remark::{beside, is_question, is_remark, remark_end, stays_put};
 use super::token::{Token, stands};
-use super::verb::verb;
+use super::verb::{begins, is_want, verb};
 
 /// What somebody says beside what they ask for.
 #[derive(Clone, PartialEq, Debug)]
@@ -39,6 +39,26 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
             continue;
         }
         let word = tokens.get(begin).map_or("", Token::word);
+        let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
+        let more =
+            spoken.commands.last_mut().filter(|_| is_apart).and_then(|last| last.goes_on_at(tokens, begin));
+        if let Some(end) = more {
+            at = end;
+            continue;
+        }
+        // `…, while I think about it`
+        if let Some(last) = spoken.commands.last()
+            && let Some(end) = beside(tokens, begin, last.act())
+        {
+            at = end;
+            continue;
+        }
+        // `I shall need it within reach, so put it on the table`: what shall be done is said behind it.
+        if let Some(end) = only_needs(tokens, begin) {
+            spoken.statements.extend(tokens.get(begin..end).map(|said| Statement { tokens: said.to_vec() }));
+            at = end;
+            continue;
+        }
         if let Some(count) = thanks(tokens, begin) {
             at = begin + count;
             continue;
@@ -94,4 +114,21 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         at = end;
     }
     Ok(spoken)
+}
+
+/// What somebody needs who then says, behind a `so`, what shall be done with it; where that begins.
+fn only_needs(tokens: &[Token], begin: usize) -> Option<usize> {
+    if !is_want(tokens, begin) {
+        return None;
+    }
+    let end = remark_end(tokens, begin);
+    let so = end + usize::from(tokens.get(end) == Some(&Token::Comma));
+    let then = so + stands(tokens, so, "so")?;
+    let next = skip_leads(tokens, then);
+    let until = (next..tokens.len())
+        .find(|at| matches!(tokens.get(*at), Some(Token::Comma | Token::Stop)))
+        .unwrap_or(tokens.len());
+    let is_of_it =
+        tokens.get(next..until)?.iter().any(|token| matches!(token.word(), "it" | "that" | "them"));
+    (begins(tokens, next) && is_of_it).then_some(end)
 }

@@ -34,6 +34,7 @@ const STATIC: &[(&str, Relation)] = &[
     ("on", Relation::On),
     ("in", Relation::In),
     ("inside", Relation::In),
+    ("within", Relation::In),
     ("at", Relation::At),
     ("upon", Relation::On),
     ("over at", Relation::At),

@@ -3,12 +3,14 @@
 use super::ONLY_IF_SO;
 use super::link::{CAUSE, DO_NOT_WANT, HOLDS, IN_HAND, IS, SEE_TO, SHALL, SHALL_IT, TO_BE, WANT};
 use super::placed::{fronted, headed, room_for, sent, with_it};
+use super::pleasant::{called_for, pleasant};
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
-use crate::request::lead::{self, skip_leads};
+use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
+use crate::request::wish::wish as to_have;
 
 /// Behind this only `open` and `closed` ask for something: `it stays on the table` tells where it is.
 const STAYS: &str = "stays";
@@ -27,7 +29,9 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
         .or_else(|| room_for(tokens_here, begin))
         .or_else(|| with_it(tokens_here, begin))
         .or_else(|| sent(tokens_here, begin))
+        .or_else(|| pleasant(tokens_here, begin))
         .or_else(|| unless_so(tokens, begin, limit))
+        .or_else(|| begins_sentence.then(|| called_for(tokens, begin, limit)).flatten())
         .or_else(|| begins_sentence.then(|| headed(tokens, begin, limit)).flatten())
         .or_else(|| begins_sentence.then(|| bare(tokens, begin, limit)).flatten())
 }
@@ -55,7 +59,13 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             (None, _) => return None,
         };
         // `see that it gets to me`
-        let to_me = ["to me", "to us", "over to me", "to where i am"];
+        let to_me = ["to me", "to us", "over to me", "to where i am", "with me", "here with me"];
+        if is_seen_to
+            && let Some(reached) = longest(tokens, at, &["reaches", "reached"])
+            && let Some(me) = longest(tokens, at + reached, &["me", "us"])
+        {
+            return Some((State::Done("bring me".to_owned()), at + reached + me));
+        }
         if (is_seen_to || belongs) && is_wanted && longest(tokens, at + count, &to_me).is_some() {
             return Some((State::At, at + count));
         }
@@ -100,7 +110,7 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
 fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
-    let wants = longest(tokens, begin, WANT).max(lead::wish(tokens, begin));
+    let wants = longest(tokens, begin, WANT).max(to_have(tokens, begin));
     if let Some(count) = wants
         && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
         && is_place(tokens, begin + count + you)
@@ -133,6 +143,16 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
         // `make it go on the table`
         if let ("make", Some(goes)) = (verb, stands(tokens, at, "go")) {
             return is_place(tokens, at + goes).then_some((State::At, at + goes));
+        }
+        // `make it stand on the table`
+        if let ("make" | "have", "stand" | "sit" | "rest" | "lie" | "live") = (verb, tokens.get(at)?.word()) {
+            return is_place(tokens, at + 1).then_some((State::At, at + 1));
+        }
+        // `push it to`
+        if let ("push" | "pull", "to") = (verb, tokens.get(at)?.word()) {
+            let is_last =
+                tokens.get(at + 1).is_none_or(|next| matches!(next.word(), "please" | "for" | "and"));
+            return is_last.then_some((State::Closed, at + 1));
         }
         // `have it waiting on the table`
         if let ("have", "waiting" | "ready") = (verb, tokens.get(at)?.word()) {

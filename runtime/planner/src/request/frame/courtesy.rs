@@ -1,6 +1,8 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
 use super::tags::{APART, HASTE, TAGS};
+use crate::request::lead::skip_leads;
+use crate::request::noun::{Noun, noun};
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
 
@@ -12,6 +14,24 @@ const SOUNDS: &[&str] = &[
 ];
 /// Set off by commas on both sides.
 const ASIDES: &[&str] = &[
+    "as you know",
+    "as you may know",
+    "as you can see",
+    "as ever",
+    "a hand here",
+    "a hand please",
+    "a little help",
+    "a little help here",
+    "little help",
+    "little help here",
+    "a bit of help",
+    "some help here",
+    "help",
+    "help please",
+    "hey you",
+    "you there",
+    "you robot",
+    "you",
     "like",
     "you know",
     "i mean",
@@ -195,17 +215,18 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
                 at += 1;
             }
             // `the, uh, coke`
-            if let [.., article, Token::Comma] = kept.as_slice()
-                && matches!(article.word(), "the" | "a" | "an" | "my" | "that" | "to" | "in" | "on" | "me")
-            {
-                kept.pop();
-            }
+            unbroken(&mut kept, tokens.get(at));
             continue;
         }
         if let Some(end) =
             aside(tokens, at, &kept).or_else(|| called(tokens, at, &kept)).or_else(|| tag(tokens, at, &kept))
         {
+            // `the coke, if you would be so kind`: courtesy is all that says that it is wanted.
+            if is_wanted(tokens.get(at..end).unwrap_or_default(), &kept) {
+                kept.push(Token::Word("please".to_owned()));
+            }
             at = end;
+            unbroken(&mut kept, tokens.get(at));
             continue;
         }
         kept.push(token.clone());
@@ -213,6 +234,49 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     }
     kept
 }
+
+/// Whether courtesy follows a bare noun.
+fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
+    let begs = |token: &Token| {
+        matches!(
+            token.word(),
+            "please"
+                | "kind"
+                | "mind"
+                | "grateful"
+                | "trouble"
+                | "bother"
+                | "thanks"
+                | "cheers"
+                | "ta"
+                | "obliged"
+                | "appreciated"
+                | "good"
+        )
+    };
+    let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+    let begin = skip_leads(sentence, 0);
+    courtesy.iter().any(begs)
+        && !begins(sentence, 0)
+        && matches!(noun(sentence, begin), Some((Noun::Phrase(_), end)) if end == sentence.len())
+}
+
+/// `could I, er, have`, `the, uh, coke`: a comma behind a word that does not end a clause was put around what was left out.
+fn unbroken(kept: &mut Vec<Token>, next: Option<&Token>) {
+    if let [.., word, Token::Comma] = kept.as_slice()
+        && MIDDLE.contains(&word.word())
+        && matches!(next, Some(Token::Word(_)))
+    {
+        kept.pop();
+    }
+}
+
+/// Words behind which no clause ends.
+const MIDDLE: &[&str] = &[
+    "the", "a", "an", "my", "your", "our", "to", "in", "on", "into", "onto", "me", "i", "we", "could",
+    "would", "maybe", "perhaps", "possibly", "and", "of", "for", "have", "need", "want", "with", "at", "by",
+    "be", "if",
+];
 
 fn is_mark(token: Option<&Token>) -> bool {
     matches!(token, None | Some(Token::Comma | Token::Stop))
@@ -239,8 +303,12 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         tokens.get(end - 1).map_or("", Token::word),
         "honey" | "duck" | "pet" | "treasure" | "machine"
     );
-    let goes_on =
-        goes_on && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
+    let is_clause =
+        longest(tokens, end + 2, &["i", "we", "it", "you", "he", "she", "they", "there", "that", "do not"])
+            .is_some();
+    let goes_on = goes_on
+        && !is_clause
+        && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
     let is_called = match kept.last() {
         _ if comma == 1 => !kept.is_empty() && !goes_on,
         None | Some(Token::Stop) => tokens.get(end).is_some(),
@@ -262,6 +330,8 @@ fn tag(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     }
     let is_apart = comma == 1 || kept.last() == Some(&Token::Stop);
     let apart = longest(tokens, at + comma, APART).filter(|_| is_apart);
-    let end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
+    let mut end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
+    // `would you mate`, `cheers love`
+    end += longest(tokens, end, NAMES).filter(|count| is_mark(tokens.get(end + count))).unwrap_or(0);
     (!kept.is_empty() && is_mark(tokens.get(end))).then_some(end)
 }

@@ -10,6 +10,19 @@ use crate::request::verb::verb;
 
 /// What asks for what was spoken of.
 const DO_IT: &[&str] = &[
+    "do the job for me",
+    "oblige",
+    "oblige me",
+    "sort that out for me",
+    "take it from here",
+    "take that off my hands",
+    "be a help",
+    "have a crack at it",
+    "have a stab at it",
+    "be of help",
+    "be of assistance",
+    "assist",
+    "assist me",
     "do it",
     "do that",
     "do this",
@@ -106,6 +119,20 @@ const TO_DO: &[&str] = &[
     "have forgotten to",
     "keep forgetting to",
     "can not manage to",
+    "can not seem to",
+    "asked me to",
+    "told me to",
+    "was asked to",
+    "keep meaning to",
+    "never seem to",
+    "have not managed to",
+    "did not manage to",
+    "did not get to",
+    "have not got time to",
+    "have not got the energy to",
+    "do not have the energy to",
+    "am struggling to",
+    "struggle to",
     "could not manage to",
     "am not able to",
     "am unable to",
@@ -206,6 +233,19 @@ pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
                 "have forgotten to",
                 "can not manage to",
                 "can not seem to",
+                "asked for",
+                "has asked for",
+                "is asking for",
+                "asked me to",
+                "was asked to",
+                "told me to",
+                "am supposed to",
+                "was supposed to",
+                "meant to",
+                "have no time to",
+                "do not have time to",
+                "never got round to",
+                "never got around to",
             ];
             let sentence = said.get(begin..).unwrap_or_default();
             if (0..sentence.len()).any(|at| longest(sentence, at, &cannot).is_some()) {
@@ -306,11 +346,17 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
         return Some((begin, end, words));
     }
     let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()));
-    let Some(task) = task else { return wished_for(said, begin).map(|said| (begin, end, said)) };
+    let Some(task) = task else {
+        let wished =
+            wished_for(said, begin).or_else(|| of_another(said, begin)).or_else(|| has_to_be(said, begin));
+        return wished.map(|said| (begin, end, said));
+    };
     let until = (task..said.len())
         .find(|at| {
             matches!(said.get(*at), Some(Token::Comma | Token::Stop))
                 || matches!(said.get(*at).map_or("", Token::word), "but" | "so")
+                // `with this bad wrist`
+                || longest(said, *at, &["with this", "with these", "with my", "with only", "on my own", "by myself", "because of", "due to"]).is_some()
                 // `and never got round to it`
                 || (stands(said, *at, "and").is_some() && verb(said, *at + 1).is_none())
         })
@@ -331,6 +377,55 @@ fn wished_for(said: &[Token], begin: usize) -> Option<Vec<Token>> {
     let mut wanted = vec![Token::Word("put".to_owned())];
     wanted.extend_from_slice(said.get(thing)?);
     wanted.extend_from_slice(said.get(place)?);
+    Some(wanted)
+}
+
+/// `my wife wants the coke on the counter, could you see to that?`, `Mum asked for it to be put away. Would you?`
+fn of_another(said: &[Token], begin: usize) -> Option<Vec<Token>> {
+    const WANTS: &[&str] = &[
+        "wants",
+        "needs",
+        "would like",
+        "would love",
+        "would prefer",
+        "would rather have",
+        "prefers",
+        "asked for",
+        "is asking for",
+        "has asked for",
+        "insists on having",
+        "likes to have",
+        "wanted",
+        "is expecting",
+        "expects",
+    ];
+    let at = (begin + 1..said.len()).find_map(|at| Some(at + longest(said, at, WANTS)?))?;
+    let mut wanted = vec![Token::Word("i".to_owned()), Token::Word("want".to_owned())];
+    wanted.extend_from_slice(said.get(at..clause_end(said, at))?);
+    Some(wanted)
+}
+
+/// `the fridge must be closed, you do it?`: seen to.
+fn has_to_be(said: &[Token], begin: usize) -> Option<Vec<Token>> {
+    let begin = skip_leads(said, begin);
+    let must = [
+        "must be",
+        "has to be",
+        "ought to be",
+        "have to be",
+        "should be",
+        "needs to be",
+        "is supposed to be",
+        "must go",
+        "has to go",
+        "should go",
+    ];
+    let at = (begin + 1..clause_end(said, begin)).find(|at| longest(said, *at, &must).is_some())?;
+    let count = longest(said, at, &must)?;
+    let mut wanted = vec![Token::Word("ensure".to_owned())];
+    wanted.extend_from_slice(said.get(begin..at)?);
+    wanted.push(Token::Word("is".to_owned()));
+    wanted.extend_from_slice(said.get(at + count..clause_end(said, at))?);
     Some(wanted)
 }
 

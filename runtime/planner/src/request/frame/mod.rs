@@ -13,6 +13,7 @@ mod fill;
 mod filler;
 mod link;
 mod placed;
+mod pleasant;
 mod state;
 mod tags;
 
@@ -24,9 +25,11 @@ use self::delegate::{delegated, elliptic};
 use self::favour::{favour, in_series, stressed, told_when_done};
 use self::filler::without_fillers;
 use self::placed::wanted_there;
+use super::asking::in_another_form;
 use super::inflection::{Form, base, of_past};
 use super::lead::skip_leads;
-use super::token::{Token, longest, stands};
+use super::noun::noun;
+use super::token::{Token, longest, run, stands};
 use super::verb::{Act, begins, verb};
 
 /// What asks for the form in `-ing`.
@@ -190,6 +193,11 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
                 tokens.splice(begin..from, words);
                 continue;
             }
+            if let Some((from, verb)) = in_another_form(&tokens, begin) {
+                tokens.splice(begin..from, [Token::Word(verb)]);
+                in_series(&mut tokens, begin);
+                continue;
+            }
             if let Some((from, words)) = unwrapped(&tokens, begin) {
                 tokens.splice(begin..from, words);
                 continue;
@@ -232,6 +240,50 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     }
     if let Some(found) = told_when_done(tokens, at).or_else(|| stressed(tokens, at)) {
         return Some(found);
+    }
+    // `when you come back to me, have it with you`
+    let coming = [
+        "when you come",
+        "when you come back",
+        "when you return",
+        "when you get back",
+        "when you are back",
+        "when you next come",
+        "when you get here",
+        "come",
+        "come back",
+        "return",
+        "get back",
+        "come over",
+        "next time you come",
+        "on your way back",
+        "on the way back",
+        "on your way here",
+    ];
+    if let Some(count) = longest(tokens, at, &coming) {
+        let mut have = at
+            + count
+            + run(tokens, at + count, &["over", "here", "to me", "to us", "back", "from there", "again"]);
+        have += usize::from(tokens.get(have) == Some(&Token::Comma));
+        have += longest(tokens, have, &["and", "then"]).unwrap_or(0);
+        if let Some(has) = longest(
+            tokens,
+            have,
+            &[
+                "have",
+                "make sure you have",
+                "you should have",
+                "please have",
+                "be sure to have",
+                "make sure to have",
+            ],
+        ) && let Some((_, after)) = noun(tokens, have + has)
+            && let Some(with) = longest(tokens, after, &["with you", "in your hand", "on you"])
+        {
+            let mut said = state::words("bring me");
+            said.extend_from_slice(tokens.get(have + has..after)?);
+            return Some((after + with, said));
+        }
     }
     // `would you mind going to get it`
     if let Some(count) = stands(tokens, at, "go to").or_else(|| stands(tokens, at, "go over to"))
@@ -283,6 +335,37 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     {
         return Some((at + count, Vec::new()));
     }
+    // `Daddy says you have to bring it`, `my wife wants you to close it`
+    if let Some(count) = relayed(tokens, at) {
+        return Some((at + count, Vec::new()));
+    }
+    // `somebody bring me the coke!`
+    if let Some(count) = longest(
+        tokens,
+        at,
+        &["somebody", "someone", "anybody", "anyone", "one of you", "will somebody", "everybody"],
+    ) && let Some((verb, Form::Base)) = tokens.get(at + count).and_then(|token| base(token.word()))
+        && (of_past(&verb).is_none()
+            || tokens
+                .get(at..)
+                .unwrap_or_default()
+                .iter()
+                .take_while(|token| **token != Token::Stop)
+                .any(|token| token.word() == "please"))
+        && begins(tokens, at + count)
+    {
+        return Some((at + count, Vec::new()));
+    }
+    // `be holding it`
+    if let Some(count) = stands(tokens, at, "be")
+        && let Some((verb, Form::Gerund)) = tokens.get(at + count).and_then(|token| base(token.word()))
+    {
+        return Some((at + count + 1, vec![Token::Word(verb)]));
+    }
+    // `lock it away in the drawer`: the small word behind the thing makes the verb.
+    if let Some(found) = apart(tokens, at) {
+        return Some(found);
+    }
     // `make sure I get the coke`
     let gets = [
         "make sure i get",
@@ -327,4 +410,137 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     let is_verb = base(next).is_some_and(|(_, form)| form == Form::Base) && begins(tokens, at + set_out);
     let is_verb = is_verb || cause(tokens, at + set_out).is_some();
     is_verb.then(|| (at + set_out, Vec::new()))
+}
+
+/// What somebody else wants of the one who is spoken to, as the speaker says: how many words it takes.
+fn relayed(tokens: &[Token], at: usize) -> Option<usize> {
+    const SAYS: &[&str] = &[
+        "says",
+        "said",
+        "thinks",
+        "reckons",
+        "told me",
+        "tells me",
+        "insists",
+        "insisted",
+        "says that",
+        "said that",
+        "thinks that",
+        "reckons that",
+        "insists that",
+        "told me that",
+        "asked if",
+        "asked whether",
+        "is asking if",
+        "is asking whether",
+        "asks if",
+        "asks whether",
+        "would like it if",
+        "wonders if",
+        "wonders whether",
+        "is wondering if",
+        "is wondering whether",
+        "would be glad if",
+        "would be happy if",
+        "suggests",
+        "suggests that",
+        "hopes",
+        "is hoping",
+        "would appreciate it if",
+    ];
+    const YOU: &[&str] = &[
+        "you have to",
+        "you must",
+        "you should",
+        "you need to",
+        "you are to",
+        "you ought to",
+        "you had better",
+        "you can",
+        "you could",
+        "you would",
+        "you have got to",
+        "you might",
+        "you will",
+    ];
+    const WANTS: &[&str] = &[
+        "wants you to",
+        "needs you to",
+        "would like you to",
+        "would love you to",
+        "asked you to",
+        "has asked you to",
+        "is asking you to",
+        "asks you to",
+        "expects you to",
+        "would love for you to",
+        "would like for you to",
+        "requires you to",
+        "orders you to",
+        "commands you to",
+        "begs you to",
+    ];
+    let is_who = |token: &Token| {
+        let word = token.word();
+        !word.is_empty()
+            && !matches!(
+                word,
+                "i" | "we"
+                    | "you"
+                    | "it"
+                    | "nobody"
+                    | "not"
+                    | "never"
+                    | "if"
+                    | "when"
+                    | "who"
+                    | "what"
+                    | "that"
+                    | "no"
+            )
+    };
+    (at + 1..=at + 3).find_map(|end| {
+        if !tokens.get(at..end)?.iter().all(is_who) {
+            return None;
+        }
+        if let Some(count) = longest(tokens, end, WANTS) {
+            return Some(end + count - at);
+        }
+        let says = end + longest(tokens, end, SAYS)?;
+        Some(says + longest(tokens, says, YOU)? - at)
+    })
+}
+
+/// `lock it away`, `track it down`: the verb with its small word, and up to where the thing stands that it takes in.
+fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
+    const VERBS: &[(&str, &str, &str)] = &[
+        ("lock", "away", "store"),
+        ("lock", "up", "store"),
+        ("shut", "up", "store"),
+        ("shut", "away", "store"),
+        ("file", "away", "store"),
+        ("squirrel", "away", "store"),
+        ("whisk", "away", "stow"),
+        ("track", "down", "find"),
+        ("hunt", "down", "find"),
+        ("seek", "out", "find"),
+        ("dig", "out", "fetch"),
+        ("fish", "out", "fetch"),
+        ("fish", "up", "fetch"),
+        ("do", "away with", "discard"),
+        ("snap", "up", "pick up"),
+        ("scoop", "up", "pick up"),
+        ("whip", "up", "pick up"),
+        ("snatch", "up", "pick up"),
+        ("gather", "up", "pick up"),
+        ("heave", "up", "lift"),
+    ];
+    let word = tokens.get(at)?.word();
+    let (_, after) = noun(tokens, at + 1).filter(|_| VERBS.iter().any(|(verb, _, _)| *verb == word))?;
+    let (_, small, means) =
+        VERBS.iter().find(|(verb, small, _)| *verb == word && stands(tokens, after, small).is_some())?;
+    let count = stands(tokens, after, small)?;
+    let mut said = state::words(means);
+    said.extend_from_slice(tokens.get(at + 1..after)?);
+    Some((after + count, said))
 }

@@ -18,11 +18,34 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         return Some((said, end));
     }
     // `out it goes`
-    if let Some(count) =
-        longest(tokens, begin, &["out it goes", "out it should go", "away it goes", "out they go"])
-        && is_over(tokens, begin + count)
-    {
-        return Some((words("discard it"), begin + count));
+    if let Some(count) = longest(
+        tokens,
+        begin,
+        &[
+            "out it goes",
+            "out it should go",
+            "away it goes",
+            "out they go",
+            "out it must go",
+            "out it has to go",
+        ],
+    ) {
+        let rubbish = [
+            "with the rubbish",
+            "with the trash",
+            "with the garbage",
+            "with the bins",
+            "into the bin",
+            "in the bin",
+            "into the trash",
+            "in the trash",
+            "in the rubbish",
+            "in the garbage",
+            "into the garbage",
+            "to the bin",
+        ];
+        let end = begin + count + longest(tokens, begin + count, &rubbish).unwrap_or(0);
+        return is_over(tokens, end).then(|| (words("discard it"), end));
     }
     // `off to the bin with it`
     let begin = begin + longest(tokens, begin, &["off", "straight"]).unwrap_or(0);
@@ -69,6 +92,18 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         let mut said = words("go");
         said.extend_from_slice(tokens.get(at..after)?);
         return Some((said, after + with_you.unwrap_or(0)));
+    }
+    // `back to the sink with you`
+    if let Some((place, after)) = way(tokens, begin)
+        && place.relation == Relation::To
+        && matches!(place.noun, Noun::Phrase(_))
+        && let Some(with_you) =
+            longest(tokens, after, &["with you", "you go", "you pop", "you trot", "then you"])
+        && is_over(tokens, after + with_you)
+    {
+        let mut said = words("go");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, after + with_you));
     }
     let stop = [
         "your next stop is",
@@ -153,7 +188,10 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
     let over = longest(here, begin, &["over", "on over", "straight", "back", "off"]).unwrap_or(0);
     let (place, after) = way(here, begin).or_else(|| way(here, begin + over))?;
     let is_place = place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_));
-    let please = please(after)?;
+    let is_first = (0..begin).all(|at| crate::request::verb::verb(tokens, at).is_none());
+    let now = longest(tokens, after, &["now", "next", "then", "this time"]).map(|count| after + count);
+    let alone = (is_first && after == limit).then_some(after);
+    let please = please(after).or(now).or(alone)?;
     (is_place && is_over(tokens, please)).then(|| {
         let mut said = words("go");
         said.extend_from_slice(tokens.get(begin..after).unwrap_or_default());
