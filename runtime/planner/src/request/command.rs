@@ -95,6 +95,8 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
     loop {
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
+            // `pick it up, but do not bring it`
+            Some(Token::Word(word)) if word == "but" && stands(tokens, at + 1, "do not").is_some() => break,
             Some(Token::Word(word)) if !matches!(word.as_str(), "and" | "then") => {
                 at = part(tokens, begin, at, &mut now)?;
             }
@@ -204,6 +206,20 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     }
     if !(another || is_place) {
         return false;
+    }
+    // `give it here, the coke`: what `it` is.
+    let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Comma));
+    if is_apart
+        && now.act == Act::Fetch
+        && now.to.is_none()
+        && matches!(now.items.as_slice(), [Noun::Before(_)])
+    {
+        let named =
+            noun(tokens, at).filter(|(_, after)| matches!(tokens.get(*after), None | Some(Token::Stop)));
+        if matches!(named, Some((Noun::Phrase(_), _))) {
+            now.items.clear();
+            return true;
+        }
     }
     if now.to.is_some() && !matches!(now.act, Act::Go | Act::Come) {
         let next = Command { with: now.with.clone(), to_whom: None, ..Command::new(now.act) };
@@ -554,6 +570,14 @@ impl Command {
         }
         self.put_at(place);
         Some(end)
+    }
+
+    /// Takes what was spoken of for the thing where none is said, but where it goes.
+    pub(super) fn is_of_what_was_said(&mut self) {
+        let puts = matches!(self.act, Act::Put | Act::Store | Act::Stow | Act::Throw | Act::Discard);
+        if puts && self.items.is_empty() && (self.to.is_some() || self.act == Act::Discard) {
+            self.items.push(Noun::Before("it"));
+        }
     }
 
     fn new(act: Act) -> Self {

@@ -18,7 +18,8 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
             .max(asked(tokens, at))
             .max(asking(tokens, at))
             .filter(|_| !knows)
-            .or_else(|| be_kind(tokens, at));
+            .or_else(|| be_kind(tokens, at))
+            .or_else(|| does_a_favour(tokens, at));
         // `let us have the coke` is a wish, and no `let us`.
         let want = wish(tokens, at);
         // `hang on to it` is no `hang on`.
@@ -142,6 +143,42 @@ fn asked(tokens: &[Token], at: usize) -> Option<usize> {
     let mut end = at + can + not + who;
     end += run(tokens, end, &how);
     Some(end - at)
+}
+
+/// `do me a quick favour and`, `do your old mum a kindness`: how many words it takes.
+fn does_a_favour(tokens: &[Token], at: usize) -> Option<usize> {
+    let mut end =
+        at + longest(tokens, at, &["do", "could you do", "would you do", "can you do", "will you do"])?;
+    end += longest(
+        tokens,
+        end,
+        &[
+            "me",
+            "us",
+            "your old mum",
+            "an old man",
+            "an old woman",
+            "an old lady",
+            "your granny",
+            "mummy",
+            "grandma",
+            "grandpa",
+        ],
+    )?;
+    end += longest(tokens, end, &["a", "this", "one", "the", "this one", "just one", "another"])?;
+    end += run(
+        tokens,
+        end,
+        &[
+            "quick", "little", "small", "big", "huge", "tiny", "wee", "great", "massive", "enormous",
+            "special", "last", "one", "teeny",
+        ],
+    );
+    end += longest(tokens, end, &["favour", "favor", "kindness", "solid", "service", "good turn"])?;
+    end += longest(tokens, end, &["would you", "will you", "please", "could you"]).unwrap_or(0);
+    end += longest(tokens, end, &["and"]).unwrap_or(0);
+    // `do me a favour by opening it` is read with its verb.
+    stands(tokens, end, "by").is_none().then_some(end - at)
 }
 
 /// `be a dear and`, `be an absolute angel and`, `be so good as to`: how many words it takes.

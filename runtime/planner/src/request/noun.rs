@@ -161,6 +161,12 @@ const ENDS: &[&str] = &[
     "did",
     "until",
     "till",
+    "cause",
+    "cos",
+    "coz",
+    "cuz",
+    "since",
+    "whilst",
 ];
 
 /// What stands for something that was spoken of.
@@ -174,7 +180,17 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
         "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
         "my" if matches!(
             next,
-            "place" | "hand" | "hands" | "side" | "lap" | "seat" | "spot" | "position"
+            "place"
+                | "hand"
+                | "hands"
+                | "side"
+                | "lap"
+                | "seat"
+                | "spot"
+                | "position"
+                | "way"
+                | "direction"
+                | "end"
         ) =>
         {
             return Some((Noun::Speaker, at + 2));

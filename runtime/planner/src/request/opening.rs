@@ -3,6 +3,11 @@
 /// What may stand before a verb and asks for no more than that it is done. Longer ones first where one begins another.
 pub(super) const LEADS: &[&str] = &[
     "gonnae",
+    "do not just stand there",
+    "do not just sit there",
+    "do not stand there",
+    "do not stand there gawping",
+    "do not just sit around",
     "hey you",
     "hey you there",
     "you there",

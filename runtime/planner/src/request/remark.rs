@@ -211,6 +211,8 @@ pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
         "since",
         "as",
         "cause",
+        "coz",
+        "cuz",
         "cos",
         "now that",
         "seeing that",
@@ -334,6 +336,11 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
         "in place",
         "at the ready",
         "ready",
+        "out of the way",
+        "out of my way",
+        "out of everyone's way",
+        "out from under my feet",
+        "clear",
     ];
     let mut at = begin + stays;
     let is_there = longest(tokens, at, &there);

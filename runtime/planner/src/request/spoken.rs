@@ -95,7 +95,14 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         }
         asked_whether = false;
         if verb(tokens, begin).is_some() {
+            let before = spoken.commands.len();
             at = command(tokens, begin, &mut spoken.commands)?;
+            // `it is rubbish, put in the bin please`: what was spoken of.
+            if !spoken.statements.is_empty()
+                && let Some(first) = spoken.commands.get_mut(before)
+            {
+                first.is_of_what_was_said();
+            }
             continue;
         }
         let end = remark_end(tokens, begin);

@@ -52,6 +52,9 @@ pub(super) const BEFORE: &[&str] = &[
 /// What stands behind it.
 pub(super) const BEHIND: &[&str] = &[
     "i think",
+    "from here",
+    "from where i am",
+    "from where i sit",
     "i guess",
     "i believe",
     "i suppose",

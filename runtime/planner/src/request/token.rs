@@ -151,6 +151,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
 pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
     let mut pieces = Vec::new();
     let mut word = String::new();
+    let mut was_blank = true;
     let mut letters = text.char_indices().peekable();
     while let Some((at, letter)) = letters.next() {
         // A point between digits or letters without a blank belongs to the word: `1.5`.
@@ -159,14 +160,23 @@ pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
             && letters.peek().is_some_and(|(_, next)| next.is_alphanumeric());
         if matches!(letter, '\'' | '\u{2019}' | '\u{2018}') {
             word.push('\'');
+            was_blank = false;
             continue;
         }
         if letter.is_alphanumeric() || joins {
             word.extend(letter.to_lowercase());
+            was_blank = false;
             continue;
         }
         push(&mut pieces, &mut word, at);
+        // A dash between blanks is a pause.
+        let is_pause = matches!(letter, '\u{2013}' | '\u{2014}')
+            || (letter == '-'
+                && was_blank
+                && letters.peek().is_none_or(|(_, next)| next.is_whitespace() || *next == '-'));
+        was_blank = letter.is_whitespace();
         let mark = match letter {
+            _ if is_pause => Some(Token::Comma),
             ',' | ':' => Some(Token::Comma),
             '.' | '!' | '?' | ';' | '\n' => Some(Token::Stop),
             _ => None,
@@ -229,6 +239,10 @@ pub(super) fn singular(word: &str) -> String {
 
 /// How many tokens words take at a place; none where they do not stand there.
 pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
+    // Most of a table begins with another word.
+    if !words.starts_with(tokens.get(at)?.word()) {
+        return None;
+    }
     let mut count = 0;
     for word in words.split(' ') {
         if tokens.get(at + count)?.word() != word {

@@ -165,6 +165,11 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     let named =
         if is_one_of(tokens, at, &["the", "one", "some", "his", "her", "their"]) { at + 2 } else { at + 1 };
     let verb = skip(tokens, named, HAS);
+    let verb = if verb > named && is_one_of(tokens, verb - 1, &["had"]) && !is_one_of(tokens, verb, PUT) {
+        verb - 1
+    } else {
+        verb
+    };
     let is_past = is_one_of(
         tokens,
         verb,

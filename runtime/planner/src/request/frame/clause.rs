@@ -7,7 +7,8 @@ use super::pleasant::{called_for, pleasant};
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
 use crate::request::lead::skip_leads;
-use crate::request::noun::noun;
+use crate::request::noun::{Noun, noun};
+use crate::request::spot::{Relation, spot, way};
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
 use crate::request::wish::wish as to_have;
@@ -122,7 +123,9 @@ fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             let to_be = longest(tokens, at, TO_BE);
             let found = state(tokens, at + to_be.unwrap_or(0), Form::Participle)?;
             // `I want the mug on the table` is left to who knows where the mug is.
-            (to_be.is_some() || !matches!(found.0, State::At)).then_some(found)
+            let sees = stands(tokens, begin + count - 1, "see").is_some()
+                || stands(tokens, begin + count - 1, "for").is_some();
+            (to_be.is_some() || sees || !matches!(found.0, State::At)).then_some(found)
         });
     }
     let count = longest(tokens, begin, DO_NOT_WANT)?;
@@ -265,6 +268,23 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         let mut said = words("bring me");
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after));
+    }
+    // `the coke, on the table, please`
+    if is_named
+        && after == limit
+        && tokens.get(limit) == Some(&Token::Comma)
+        && let Some((place, end)) = spot(tokens, limit + 1).or_else(|| way(tokens, limit + 1))
+        && matches!(place.noun, Noun::Phrase(_))
+        && place.relation != Relation::Beside
+        && matches!(
+            tokens.get(end + longest(tokens, end, &["please", "now"]).unwrap_or(0)),
+            None | Some(Token::Stop | Token::Comma)
+        )
+    {
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        said.extend_from_slice(tokens.get(limit + 1..end)?);
+        return Some((said, end));
     }
     let ways = [
         "over to",

@@ -3,7 +3,7 @@
 use super::tags::{APART, HASTE, TAGS};
 use crate::request::lead::skip_leads;
 use crate::request::noun::{Noun, noun};
-use crate::request::token::{Token, longest, stands};
+use crate::request::token::{Token, longest, run, stands};
 use crate::request::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
@@ -146,6 +146,43 @@ const ASIDES: &[&str] = &[
 ];
 /// Who is spoken to.
 const NAMES: &[&str] = &[
+    "dearie",
+    "dear robot",
+    "dear heart",
+    "my darling",
+    "my good man",
+    "my good fellow",
+    "my lad",
+    "lad",
+    "lass",
+    "petal",
+    "poppet",
+    "flower",
+    "chuck",
+    "hen",
+    "me duck",
+    "my lovely",
+    "my sweet",
+    "mister",
+    "matey",
+    "fella",
+    "fellow",
+    "bro",
+    "bruv",
+    "bestie",
+    "genius",
+    "helper",
+    "little helper",
+    "my little helper",
+    "robo",
+    "clanker",
+    "tin man",
+    "clever clogs",
+    "smarty pants",
+    "star",
+    "superstar",
+    "hero",
+    "cutie",
     "dear",
     "my dear",
     "love",
@@ -291,7 +328,8 @@ fn aside(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
 /// `, love`, `hey buddy,`: whom somebody calls, with the comma before it.
 fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let comma = usize::from(tokens.get(at) == Some(&Token::Comma));
-    let end = at + comma + longest(tokens, at + comma, NAMES)?;
+    longest(tokens, at + comma, NAMES)?;
+    let end = at + comma + run(tokens, at + comma, NAMES);
     if !is_mark(tokens.get(end)) {
         return None;
     }
@@ -301,7 +339,7 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     // `take it, dear, and do not let go`
     let is_thing = matches!(
         tokens.get(end - 1).map_or("", Token::word),
-        "honey" | "duck" | "pet" | "treasure" | "machine"
+        "honey" | "duck" | "pet" | "treasure" | "machine" | "flower" | "hen" | "star" | "petal"
     );
     let is_clause =
         longest(tokens, end + 2, &["i", "we", "it", "you", "he", "she", "they", "there", "that", "do not"])

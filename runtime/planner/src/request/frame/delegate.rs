@@ -10,6 +10,9 @@ use crate::request::verb::verb;
 
 /// What asks for what was spoken of.
 const DO_IT: &[&str] = &[
+    "do it now",
+    "do that now",
+    "do it for me now",
     "do the job for me",
     "oblige",
     "oblige me",
@@ -410,6 +413,10 @@ fn has_to_be(said: &[Token], begin: usize) -> Option<Vec<Token>> {
     let begin = skip_leads(said, begin);
     let must = [
         "must be",
+        "should have been",
+        "ought to have been",
+        "was supposed to be",
+        "was meant to be",
         "has to be",
         "ought to be",
         "have to be",

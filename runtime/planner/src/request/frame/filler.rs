@@ -191,6 +191,9 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         // `or I will scream`
         "or" => {
             let then = [
+                "you are",
+                "i am",
+                "we are",
                 "i will",
                 "i am going to",
                 "we will",
@@ -264,7 +267,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
             let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"))
-                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need") && matches!(the.word(), "the" | "my" | "it")));
+                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need" | "see" | "sure" | "ensure" | "that") && matches!(the.word(), "the" | "my" | "it")));
             is_back && !begins_clause && (waits || sentence.windows(2).any(is_state))
         }
         _ => false,
@@ -456,6 +459,14 @@ fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
         "your",
         "over",
         "feet",
+        "hand",
+        "hands",
+        "hands free",
+        "breath",
+        "idle",
+        "bored",
+        "awake",
+        "charged",
         "already",
         "here",
         "still",

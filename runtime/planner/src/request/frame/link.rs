@@ -139,6 +139,13 @@ pub(super) const WANT: &[&str] = &[
     "i should like",
     "i would appreciate",
     "i would appreciate having",
+    "i want to see",
+    "we want to see",
+    "arrange for",
+    "organise for",
+    "organize for",
+    "see about getting",
+    "see about having",
     "let us have",
 ];
 

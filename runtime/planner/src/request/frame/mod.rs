@@ -97,6 +97,33 @@ const MIND: &[&str] = &[
 ];
 /// Going somewhere in order to do something there: only the second counts.
 const SET_OUT: &[&str] = &[
+    "be quick and",
+    "be so good and",
+    "be careful and",
+    "be gentle and",
+    "get out of here and",
+    "get out from under my feet and",
+    "get out of the road and",
+    "get out of my hair and",
+    "clear out and",
+    "get your skates on and",
+    "get a wiggle on and",
+    "get cracking and",
+    "drop whatever you are doing and",
+    "leave whatever you are doing and",
+    "leave what you are doing and",
+    "stop whatever you are doing and",
+    "stop that and",
+    "leave that and",
+    "take a break from that and",
+    "use your arm and",
+    "use your hand and",
+    "stretch out your arm and",
+    "stretch out and",
+    "do not just stand there",
+    "do not just sit there",
+    "do not stand there",
+    "do not just sit around",
     "go over and",
     "go back and",
     "go out and",
@@ -355,6 +382,24 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
         && begins(tokens, at + count)
     {
         return Some((at + count, Vec::new()));
+    }
+    // `let me into the drawer`
+    if let Some(count) = longest(
+        tokens,
+        at,
+        &[
+            "let me into",
+            "let us into",
+            "let me get into",
+            "get me into",
+            "let me inside",
+            "let me get inside",
+            "give me access to",
+        ],
+    ) && let Some((crate::request::noun::Noun::Phrase(_), after)) = noun(tokens, at + count)
+        && matches!(tokens.get(after), None | Some(Token::Stop | Token::Comma))
+    {
+        return Some((at + count, state::words("open")));
     }
     // `be holding it`
     if let Some(count) = stands(tokens, at, "be")

@@ -2,6 +2,7 @@
 
 use super::link::WANT;
 use super::state::{is_place, words};
+use crate::request::lead::skip_leads;
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, spot, way};
 use crate::request::token::{Token, longest, stands};
@@ -114,9 +115,19 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         "stop is",
         "your place is",
         "your spot is",
+        "your place now is",
+        "your post is",
+        "your position is",
     ];
     if let Some(count) = longest(tokens, begin, &stop) {
-        let at = begin + count;
+        let at = begin
+            + count
+            + longest(
+                tokens,
+                begin + count,
+                &["over at", "over by", "at", "by", "near", "next to", "beside"],
+            )
+            .unwrap_or(0);
         let (place, _) = noun(tokens, at)?;
         return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), at));
     }
@@ -172,6 +183,21 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
             (after == limit).then(|| Some(limit + 1 + stands(tokens, limit + 1, "please")?)).flatten()
         })
     };
+    // `on the table please, the coke`
+    if let Some((place, after)) = spot(here, begin).or_else(|| way(here, begin))
+        && matches!(place.noun, Noun::Phrase(_))
+        && place.relation != Relation::Beside
+        && let next = after + longest(tokens, after, &["please", "now"]).unwrap_or(0)
+        && tokens.get(next) == Some(&Token::Comma)
+        && let Some((Noun::Phrase(_), end)) = noun(tokens, next + 1)
+        && is_over(tokens, end)
+        && crate::request::verb::verb(tokens, skip_leads(tokens, next + 1)).is_none()
+    {
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(next + 1..end)?);
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, end));
+    }
     // `it is finished. In the bin, please`
     let put = spot(here, begin).or_else(|| {
         way(here, begin).filter(|(place, _)| matches!(place.relation, Relation::In | Relation::On))
@@ -334,7 +360,11 @@ pub(super) fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
 
 /// `find a spot on the table for the coke`: put there.
 pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let at = begin + longest(tokens, begin, &["find", "find me"])?;
+    let makes = ["clear", "clear me", "make", "make me", "free up", "free", "clear up", "create"];
+    let (at, is_made) = match longest(tokens, begin, &makes) {
+        Some(count) => (begin + count, true),
+        None => (begin + longest(tokens, begin, &["find", "find me"])?, false),
+    };
     let room = [
         "a spot",
         "a place",
@@ -351,6 +381,9 @@ pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, us
         "a corner",
     ];
     let at = at + longest(tokens, at, &room)?;
+    if is_made {
+        return made_room(tokens, at);
+    }
     let (thing, place, end) = match stands(tokens, at, "for") {
         Some(count) => {
             let (_, after) = noun(tokens, at + count)?;
@@ -368,6 +401,33 @@ pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, us
     said.extend_from_slice(tokens.get(thing)?);
     said.extend_from_slice(tokens.get(place)?);
     Some((said, end))
+}
+
+/// `(make room) on the table for the coke and put it there`, `… and put the coke there`: room is made by putting it there, where there
+/// is any. Alone it says nothing of what shall give way.
+fn made_room(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize)> {
+    let (_, after) = spot(tokens, at)?;
+    let named =
+        stands(tokens, after, "for").and_then(|count| Some((after + count, noun(tokens, after + count)?.1)));
+    let then = named.map_or(after, |(_, end)| end);
+    let puts =
+        ["and put", "and then put", "then put", "and set", "and place", "and stick", "and pop", "and leave"];
+    let put = then + longest(tokens, then, &puts)?;
+    let (it, end) = noun(tokens, put)?;
+    let there = longest(
+        tokens,
+        end,
+        &["there", "inside", "in it", "on it", "in there", "on there", "in", "on", "inside it"],
+    )?;
+    let thing = match (it, named) {
+        (Noun::Before(_), Some((begin, end))) => begin..end,
+        (Noun::Phrase(_), _) => put..end,
+        _ => return None,
+    };
+    let mut said = words("put");
+    said.extend_from_slice(tokens.get(thing)?);
+    said.extend_from_slice(tokens.get(at..after)?);
+    Some((said, end + there))
 }
 
 fn is_over(tokens: &[Token], at: usize) -> bool {
