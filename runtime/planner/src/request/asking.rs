@@ -49,6 +49,12 @@ const OPEN: &[&str] = &[
     "you",
     "your",
     "one",
+    "at all",
+    "in the world",
+    "slightest",
+    "remotest",
+    "earthly",
+    "by any chance",
     "thing",
     "any",
     "some",
@@ -317,6 +323,7 @@ const ABLE: &[&str] = &[
 
 /// What may follow before the verb.
 const SOFT: &[&str] = &[
+    "ever",
     "please",
     "kindly",
     "just",
@@ -447,7 +454,7 @@ pub(super) fn asking(tokens: &[Token], at: usize) -> Option<usize> {
 
 /// Where the words end with which somebody asks whether they may: `could I maybe`, `any chance that we might`, as a number of words.
 pub(super) fn before_speaker(tokens: &[Token], at: usize) -> Option<usize> {
-    const ME: &[&str] = &["i", "we"];
+    const ME: &[&str] = &["i", "we", "one", "this old man", "this old woman"];
     const MAY: &[&str] = &["could", "can", "may", "might"];
     const DOUBTS: &[&str] = &[
         "chance",
@@ -487,14 +494,46 @@ pub(super) fn before_speaker(tokens: &[Token], at: usize) -> Option<usize> {
 /// `could you`, `you would`, `are you able to`: how many words it takes.
 fn asks(tokens: &[Token], at: usize) -> Option<usize> {
     if let Some(who) = longest(tokens, at, WHO) {
-        let modal = longest(tokens, at + who, BEHIND)?;
-        // `if you should open it` tells when.
-        let is_if = at
-            .checked_sub(1)
-            .and_then(|at| tokens.get(at))
-            .is_some_and(|token| matches!(token.word(), "if" | "whether"));
-        let bounds = ["should", "must", "ought to", "to", "need to", "have to", "have got to", "are to"];
-        return (!is_if || longest(tokens, at + who, &bounds) != Some(modal)).then_some(who + modal);
+        let modal = longest(tokens, at + who, BEHIND).or_else(|| has_time(tokens, at + who))?;
+        let before = at.checked_sub(1).and_then(|at| tokens.get(at)).map_or("", Token::word);
+        let is = |table: &[&str]| longest(tokens, at + who, table) == Some(modal);
+        // `anyone can open it`, `you would open it` tell something where nothing leads up to them.
+        let is_led = matches!(
+            before,
+            "if" | "whether"
+                | "wish"
+                | "hope"
+                | "hoping"
+                | "chance"
+                | "chances"
+                | "that"
+                | "think"
+                | "suppose"
+                | "reckon"
+                | "way"
+                | "possible"
+                | "possibility"
+                | "need"
+                | "want"
+                | "like"
+                | "love"
+                | "for"
+                | "ask"
+                | "imagine"
+                | "trust"
+                | "believe"
+                | "guess"
+        );
+        let needs_lead = tokens.get(at).is_some_and(|token| token.word() != "you") || is(&["would"]);
+        // `if you should open it` tells when, `it is nice of you to open it` what is done already.
+        let tells = match before {
+            "if" | "whether" => {
+                is(&["should", "must", "ought to", "to", "need to", "have to", "have got to", "are to"])
+            }
+            "of" => is(&["to"]),
+            _ => false,
+        };
+        return (!tells && (is_led || !needs_lead)).then_some(who + modal);
     }
     if let Some(are) = longest(tokens, at, &["are", "would", "will", "could", "can"]) {
         let who = longest(tokens, at + are, WHO)?;
@@ -507,8 +546,45 @@ fn asks(tokens: &[Token], at: usize) -> Option<usize> {
     Some(modal + longest(tokens, at + modal, WHO)?)
 }
 
+/// `have two seconds to`, `have until I count to three to`: how many words it takes.
+fn has_time(tokens: &[Token], at: usize) -> Option<usize> {
+    let mut end =
+        at + longest(tokens, at, &["have", "have got", "have exactly", "have only got", "have just"])?;
+    end += longest(
+        tokens,
+        end,
+        &[
+            "a",
+            "one",
+            "two",
+            "three",
+            "five",
+            "ten",
+            "thirty",
+            "sixty",
+            "a few",
+            "a couple of",
+            "exactly one",
+            "exactly two",
+        ],
+    )?;
+    end += longest(
+        tokens,
+        end,
+        &["second", "seconds", "minute", "minutes", "moment", "moments", "sec", "secs", "min", "mins"],
+    )?;
+    Some(end + longest(tokens, end, &["to"])? - at)
+}
+
 /// Words of somebody who asks for a deed and not for somebody: `would you mind`, `how do you feel about`.
 const MINDS: &[&str] = &[
+    "give me",
+    "give us",
+    "lend me",
+    "lend us",
+    "help me with",
+    "help with",
+    "hand with",
     "mind",
     "minding",
     "consider",
@@ -577,6 +653,8 @@ pub(super) fn in_another_form(tokens: &[Token], at: usize) -> Option<(usize, Str
         let tells =
             matches!(last, "am" | "is" | "are" | "be" | "i" | "we" | "start" | "begin" | "it" | "time");
         let asks = has(&[
+            "help",
+            "hand",
             "mind",
             "minding",
             "consider",

@@ -211,7 +211,7 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Comma));
     if is_apart
         && now.act == Act::Fetch
-        && now.to.is_none()
+        && now.to.as_ref().is_none_or(|to| to.noun == Noun::Speaker)
         && matches!(now.items.as_slice(), [Noun::Before(_)])
     {
         let named =
@@ -309,7 +309,16 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         return Ok(at + count);
     }
     // `put it out with the rubbish`
-    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
+    let rubbish = [
+        "out with the rubbish",
+        "out with the trash",
+        "out with the garbage",
+        "with the rubbish",
+        "with the trash",
+        "with the garbage",
+        "in with the rubbish",
+        "in with the trash",
+    ];
     if let Some(count) = longest(tokens, at, &rubbish)
         && matches!(now.act, Act::Take | Act::Put | Act::Move | Act::Throw)
     {
@@ -356,6 +365,10 @@ fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<
         }
         now.put_at(Spot { is_behind_thing: !now.items.is_empty() && at == now.thing_end, ..place });
         return Ok(after);
+    }
+    // `put it in the drawer, and close it after`
+    if matches!(word, "after" | "afterwards" | "wide") && is_boundary(tokens, at + 1) {
+        return Ok(at + 1);
     }
     // `close the drawer if it is open`
     let conditions = [
@@ -569,6 +582,9 @@ impl Command {
             return None;
         }
         self.put_at(place);
+        if self.act == Act::Move {
+            self.act = Act::Put;
+        }
         Some(end)
     }
 

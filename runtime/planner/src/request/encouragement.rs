@@ -2,6 +2,7 @@
 
 use super::assent::{AGAIN, AGREES, PLAIN, WHOLE};
 use super::dissent::{BESIDE, DENIES, GIVES_UP};
+use super::frame::SOUNDS;
 use super::lead::skip_leads;
 use super::token::{Token, longest, stands, tokens};
 use super::verb::{Act, verb};
@@ -10,7 +11,8 @@ use super::verb::{Act, verb};
 /// that, in words; none where it does not agree.
 #[must_use]
 pub fn encourages(answer: &str) -> Option<String> {
-    let said = tokens(answer);
+    let mut said = tokens(answer);
+    said.retain(|token| !SOUNDS.contains(&token.word()) || token.word() == "huh");
     let (mut agrees, mut beside) = (false, Vec::new());
     for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {
         let begin = skip_soft(clause, 0);

@@ -167,6 +167,7 @@ const ENDS: &[&str] = &[
     "cuz",
     "since",
     "whilst",
+    "wide",
 ];
 
 /// What stands for something that was spoken of.

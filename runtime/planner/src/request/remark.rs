@@ -245,7 +245,22 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
     let joined = begin.checked_sub(1).and_then(|at| tokens.get(at));
     let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
     let same: &[&str] = match before {
-        Act::Pick | Act::Lift => &["keep it there", "hold it there"],
+        Act::Pick | Act::Lift => &[
+            "keep it there",
+            "hold it there",
+            "keep it",
+            "keep hold of it",
+            "keep holding it",
+            "just keep it",
+            "just hold it",
+            "keep them",
+            "keep it up",
+            "keep it in the air",
+            "hold on to it",
+            "hang on to it",
+            "hold it",
+            "hold it tight",
+        ],
         Act::Open => &[
             "leave it like that",
             "leave it that way",

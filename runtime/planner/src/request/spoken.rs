@@ -4,9 +4,9 @@ use super::command::{Command, command, words};
 use super::forbidden::{When, caution, forbidden};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
-use super::noun::noun;
+use super::noun::{Noun, noun};
 use super::remark::{beside, is_question, is_remark, remark_end, stays_put};
-use super::token::{Token, stands};
+use super::token::{Token, longest, stands};
 use super::verb::{begins, is_want, verb};
 
 /// What somebody says beside what they ask for.
@@ -110,6 +110,16 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         let is_no = tokens.get(at..begin).is_some_and(|led| led.iter().any(|token| token.word() == "no"));
         if is_no && !spoken.commands.is_empty() && noun(tokens, begin).is_some_and(|(_, after)| after == end)
         {
+            return Err(words(tokens, at, end));
+        }
+        // `the coke, I mean the sponge`: so is what is put right.
+        let corrects = longest(
+            tokens,
+            begin,
+            &["i mean", "i meant", "i mean to say", "make that", "or rather", "scratch that", "correction"],
+        )
+        .filter(|count| noun(tokens, begin + count).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_))));
+        if corrects.is_some() && !spoken.commands.is_empty() {
             return Err(words(tokens, at, end));
         }
         if !is_remark(tokens, begin, end) {

@@ -144,7 +144,22 @@ const CONTRACTIONS: &[(&str, &[&str])] = &[
 /// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe belongs to its
 /// word. O(bytes).
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    pieces(text).into_iter().map(|(token, _)| token).collect()
+    let mut tokens: Vec<Token> = Vec::new();
+    let mut begin = 0;
+    for (token, end) in pieces(text) {
+        let is_stop = token == Token::Stop;
+        // `want the coke?` offers it, `want the coke!` asks for it.
+        let asks = is_stop && text.get(..end).is_some_and(|said| said.ends_with('?'));
+        if asks && tokens.get(begin).is_some_and(|first| matches!(first.word(), "want" | "need" | "fancy")) {
+            let you = ["do", "you"].map(|word| Token::Word(word.to_owned()));
+            tokens.splice(begin..begin, you);
+        }
+        tokens.push(token);
+        if is_stop {
+            begin = tokens.len();
+        }
+    }
+    tokens
 }
 
 /// The same, each with the offset in bytes behind it; what is written together ends together.

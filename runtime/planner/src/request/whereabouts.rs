@@ -115,6 +115,13 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     if let Some(spots) = spots(tokens, at, false) {
         return Some((it(), spots));
     }
+    // `it in the cupboard`, behind `you will see`
+    if is_answer
+        && stands(tokens, at, "it").is_some()
+        && let Some(spots) = spots(tokens, skip(tokens, at + 1, HOW), false)
+    {
+        return Some((it(), spots));
+    }
     let look = longest(tokens, at, LOOK).filter(|_| is_answer);
     if let Some(count) = look {
         // `look for it in the cupboard`

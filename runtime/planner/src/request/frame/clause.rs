@@ -151,6 +151,10 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
         if let ("make" | "have", "stand" | "sit" | "rest" | "lie" | "live") = (verb, tokens.get(at)?.word()) {
             return is_place(tokens, at + 1).then_some((State::At, at + 1));
         }
+        // `have it on the table`
+        if verb == "have" && is_place(tokens, at) && spot(tokens, at).is_some() {
+            return Some((State::At, at));
+        }
         // `push it to`
         if let ("push" | "pull", "to") = (verb, tokens.get(at)?.word()) {
             let is_last =
@@ -249,6 +253,26 @@ fn is_spoken_of(tokens: &[Token], mut at: usize) -> bool {
 
 /// `the coke, please`: someone wants to have it.
 fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
+    // `nobody wants the toy now. Rubbish bin, please`
+    let bins = [
+        "rubbish bin",
+        "bin",
+        "trash",
+        "trash can",
+        "dustbin",
+        "rubbish",
+        "garbage",
+        "garbage can",
+        "straight in the bin",
+        "waste bin",
+    ];
+    if !begins_first(tokens, begin)
+        && let Some(count) = longest(tokens, begin, &bins)
+        && matches!(tokens.get(begin + count), None | Some(Token::Comma | Token::Stop))
+        && stands(tokens, begin + count + 1, "please").is_some()
+    {
+        return Some((words("discard it"), begin + count));
+    }
     if begins(tokens, begin) {
         return None;
     }
@@ -276,10 +300,9 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         && let Some((place, end)) = spot(tokens, limit + 1).or_else(|| way(tokens, limit + 1))
         && matches!(place.noun, Noun::Phrase(_))
         && place.relation != Relation::Beside
-        && matches!(
-            tokens.get(end + longest(tokens, end, &["please", "now"]).unwrap_or(0)),
-            None | Some(Token::Stop | Token::Comma)
-        )
+        && let asks = end + usize::from(tokens.get(end) == Some(&Token::Comma))
+        && let Some(asked) = longest(tokens, asks, &["please", "now", "quick"])
+        && matches!(tokens.get(asks + asked), None | Some(Token::Stop | Token::Comma))
     {
         let mut said = words("put");
         said.extend_from_slice(tokens.get(begin..after)?);
@@ -315,6 +338,11 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         return Some((said, after));
     }
     None
+}
+
+/// Whether nothing was said before.
+fn begins_first(tokens: &[Token], begin: usize) -> bool {
+    tokens.get(..begin).is_none_or(|before| !before.contains(&Token::Stop))
 }
 
 fn is_pronoun(word: &str) -> bool {

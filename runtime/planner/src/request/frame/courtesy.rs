@@ -1,19 +1,61 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
 use super::tags::{APART, HASTE, TAGS};
+use crate::request::inflection::{Form, base};
 use crate::request::lead::skip_leads;
 use crate::request::noun::{Noun, noun};
 use crate::request::token::{Token, longest, run, stands};
 use crate::request::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
-const SOUNDS: &[&str] = &[
+pub(in crate::request) const SOUNDS: &[&str] = &[
     "um", "umm", "uh", "uhm", "er", "erm", "hm", "hmm", "mm", "ugh", "ah", "aah", "oh", "ooh", "aw", "gosh",
     "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh", "yuck", "ew", "eww", "yikes", "ouch",
     "yay", "wow", "oof", "jeez", "sheesh", "brr",
 ];
 /// Set off by commas on both sides.
 const ASIDES: &[&str] = &[
+    "chop chop",
+    "quick quick",
+    "come come",
+    "hup hup",
+    "hurry hurry",
+    "quick smart",
+    "quick sharp",
+    "pronto",
+    "asap",
+    "careful now",
+    "easy now",
+    "steady now",
+    "off you go",
+    "on you go",
+    "off you pop",
+    "up you get",
+    "if you please",
+    "should you choose to accept it",
+    "i beg your pardon",
+    "i do beg your pardon",
+    "beg your pardon",
+    "pardon me",
+    "pardon",
+    "forgive me",
+    "apologies",
+    "my apologies",
+    "with respect",
+    "with all due respect",
+    "for the last time",
+    "once again",
+    "again",
+    "as i say",
+    "like i said",
+    "believe me",
+    "trust me",
+    "god willing",
+    "here is the thing",
+    "the thing is",
+    "long story short",
+    "guess what",
+    "news flash",
     "as you know",
     "as you may know",
     "as you can see",
@@ -146,6 +188,31 @@ const ASIDES: &[&str] = &[
 ];
 /// Who is spoken to.
 const NAMES: &[&str] = &[
+    "young fella",
+    "young man",
+    "young lady",
+    "young one",
+    "young sir",
+    "good sir",
+    "kind sir",
+    "my man",
+    "me old mate",
+    "old bean",
+    "old friend",
+    "wee man",
+    "big man",
+    "bucko",
+    "sport",
+    "captain",
+    "squire",
+    "guv",
+    "boyo",
+    "bab",
+    "ducky",
+    "sugar",
+    "sweetpea",
+    "pumpkin",
+    "princess",
     "dearie",
     "dear robot",
     "dear heart",
@@ -245,6 +312,16 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while let Some(token) = tokens.get(at) {
+        // `bring, please, the coke`
+        if token.word() == "please"
+            && tokens.get(at + 1) == Some(&Token::Comma)
+            && let [.., verb, Token::Comma] = kept.as_slice()
+            && matches!(base(verb.word()), Some((_, Form::Base)))
+        {
+            kept.pop();
+            at += 2;
+            continue;
+        }
         if SOUNDS.contains(&token.word()) {
             at += 1;
             // `the coke, um, please`
@@ -339,7 +416,17 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     // `take it, dear, and do not let go`
     let is_thing = matches!(
         tokens.get(end - 1).map_or("", Token::word),
-        "honey" | "duck" | "pet" | "treasure" | "machine" | "flower" | "hen" | "star" | "petal"
+        "honey"
+            | "duck"
+            | "pet"
+            | "treasure"
+            | "machine"
+            | "flower"
+            | "sugar"
+            | "pumpkin"
+            | "hen"
+            | "star"
+            | "petal"
     );
     let is_clause =
         longest(tokens, end + 2, &["i", "we", "it", "you", "he", "she", "they", "there", "that", "do not"])

@@ -10,6 +10,9 @@ use crate::request::verb::verb;
 
 /// What asks for what was spoken of.
 const DO_IT: &[&str] = &[
+    "try",
+    "give it a whirl",
+    "have a bash",
     "do it now",
     "do that now",
     "do it for me now",

@@ -348,7 +348,17 @@ fn deadline(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let is_unit = matches!(unit, "second" | "seconds" | "minute" | "minutes" | "moment");
     let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
     let clause = sentence.rsplit(|token| *token == Token::Comma).next().unwrap_or_default();
-    let needs = ["i need", "we need", "i want", "we want"];
+    let needs = [
+        "have",
+        "please have",
+        "make sure",
+        "i would like",
+        "we would like",
+        "i need",
+        "we need",
+        "i want",
+        "we want",
+    ];
     (is_unit && longest(clause, 0, &needs).is_some()).then_some(count + 1)
 }
 

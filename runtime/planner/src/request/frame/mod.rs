@@ -19,7 +19,7 @@ mod tags;
 
 use self::addressed::told_you;
 use self::clause::{cause, clause};
-pub(super) use self::courtesy::without_courtesy;
+pub(super) use self::courtesy::{SOUNDS, without_courtesy};
 pub(super) use self::delegate::asks_for_it;
 use self::delegate::{delegated, elliptic};
 use self::favour::{favour, in_series, stressed, told_when_done};
@@ -97,6 +97,20 @@ const MIND: &[&str] = &[
 ];
 /// Going somewhere in order to do something there: only the second counts.
 const SET_OUT: &[&str] = &[
+    "get off your backside and",
+    "get off your bottom and",
+    "get off your bum and",
+    "get off your behind and",
+    "get off your high horse and",
+    "shift yourself and",
+    "stir yourself and",
+    "stop dawdling and",
+    "stop messing about and",
+    "stop messing around and",
+    "stop faffing and",
+    "stop faffing about and",
+    "quit stalling and",
+    "do not be lazy and",
     "be quick and",
     "be so good and",
     "be careful and",
@@ -433,6 +447,14 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     }
     // `go over there, pick it up`
     let there = [
+        "move out of the way",
+        "get out of the way",
+        "get out of my way",
+        "move aside",
+        "step aside",
+        "out of the way",
+        "come along",
+        "come on",
         "go over there",
         "go on over",
         "come over here",

@@ -54,6 +54,13 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
     if matches!(place.noun, Noun::Before(_)) || place.relation == Relation::Beside {
         return None;
     }
+    // `in the drawer, please, with the sponge`
+    let mut with = after;
+    while tokens.get(with) == Some(&Token::Comma) || stands(tokens, with, "please").is_some() {
+        with += 1;
+    }
+    let after_place = after;
+    let after = if stands(tokens, with, "with").is_some() { with } else { after };
     let (thing, end) = if tokens.get(after)?.word() == "with" {
         let (thing, end) = noun(tokens, after + 1)?;
         if matches!(thing, Noun::Speaker) {
@@ -71,7 +78,7 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
     }
     let mut said = words("put");
     said.extend_from_slice(thing);
-    said.extend_from_slice(tokens.get(begin..after)?);
+    said.extend_from_slice(tokens.get(begin..after_place)?);
     Some((said, end))
 }
 

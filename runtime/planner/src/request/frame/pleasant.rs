@@ -208,7 +208,9 @@ fn said(named: &[Token]) -> Option<Vec<Token>> {
     if let Some((verb, Form::Gerund)) = base(named.get(doing)?.word()) {
         let mut said = words(&verb);
         said.extend_from_slice(named.get(doing + 1..)?);
-        return begins(&said, 0).then_some(said);
+        if begins(&said, 0) {
+            return Some(said);
+        }
     }
     // `having the coke`, `to have the coke`, `a bit of help opening it`
     let having = longest(
