@@ -27,6 +27,16 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "I think so.",
         "If you don't mind.",
         "You have my permission.",
+        "Er, I suppose so, we're in no rush.",
+        "Keep trying till you get it.",
+        "Another try won't hurt.",
+        "You can do better than that. Try again.",
+        "Aw, so close! Again!",
+        "Uh-huh!",
+        "Mm-hm.",
+        "Right you are.",
+        "I don't see why not.",
+        "Oh dear. No harm done, just do it over.",
     ] {
         assert_eq!(request::encourages(answer).as_deref().map(str::trim), Some(""), "{answer}");
     }
@@ -41,6 +51,10 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "Sure, bring me the apple.",
         "Try again later.",
         "If you would wait.",
+        "I tried again.",
+        "Did you try again?",
+        "Another try won't help.",
+        "Try opening the fridge again.",
         "I can't do it myself.",
         "never again",
         "you can let it be",
@@ -72,6 +86,13 @@ fn told(answer: &str) -> Vec<String> {
 fn where_a_thing_is_is_told_in_many_ways() {
     for answer in [
         "Isn't it in the fridge?",
+        "Tommy put it in the fridge, I saw him do it!",
+        "Grandpa had it in the fridge.",
+        "You'll see it in the fridge.",
+        "The coke lives in the fridge.",
+        "The last place I had it was in the fridge.",
+        "It might have been put in the fridge.",
+        "Wasn't it in the fridge?",
         "My wife tells me it's in the fridge now.",
         "Uh, should be in the fridge, I guess",
         "Did you check in the fridge? That's where I saw it last.",
@@ -104,6 +125,9 @@ fn where_a_thing_is_is_told_in_many_ways() {
         assert_eq!(told(answer), ["in fridge_1"], "{answer}");
     }
     for answer in [
+        "Tommy put nothing in the fridge.",
+        "You won't see it in the fridge.",
+        "The fridge lives in the kitchen.",
         "It isn't in the fridge.",
         "Is the fridge open?",
         "I did not put it in the fridge.",

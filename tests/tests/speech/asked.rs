@@ -178,11 +178,15 @@ fn what_is_left_out_is_what_was_named_just_before() {
         &["Quick, hide the sponge! In the top drawer!", "The sponge is dirty, put in the top drawer please."],
     );
     mean(&["at(robot, sink)"], &["Race you to the sink! Go!"]);
+    mean(&["not open(fridge_1)"], &["The fridge is open, please close.", "Close! The fridge!"]);
+    mean(&["holding(sponge)"], &["Pick the sponge up, there's a love, and keep it."]);
     not_taken(&[
         "Give me!",
         "Put in the drawer.",
         "Go!",
         "Want the coke?",
         "Clean the sponge! In the top drawer!",
+        "Fetch! The dog loves it.",
+        "Open up! The milk is warm.",
     ]);
 }

@@ -174,7 +174,26 @@ fn how_people_ask_is_composed_and_no_table() {
         "Bring me the coke or the sponge.",
         "Thanks for closing the fridge.",
         "You are opening the fridge.",
+        "I mind opening the fridge.",
+        "I was opening the fridge.",
+        "You have one minute to decide.",
+        "I told you not to close the fridge.",
+        "Help me with the drawer.",
+        "Go to the sink? No.",
     ]);
+    mean(
+        &["not open(fridge_1)"],
+        &[
+            "Give me a hand closing the fridge.",
+            "I could use some help closing the fridge.",
+            "You have two seconds to close the fridge.",
+            "I thought I told you to close the fridge.",
+            "Would you be amenable to closing the fridge?",
+            "It's about time somebody closed the fridge.",
+            "Get off your backside and close the fridge.",
+            "Have someone close the fridge.",
+        ],
+    );
 }
 
 #[test]

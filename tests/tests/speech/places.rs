@@ -162,6 +162,10 @@ fn a_place_may_follow_in_a_clause_of_its_own_or_tell_only_where_a_thing_lives() 
             "Get the sponge out of sight, in the top drawer.",
             "Make room in the top drawer for the sponge and put it inside.",
             "Lock the sponge away in the top drawer.",
+            "The sponge's proper place is in the top drawer. Put it back there.",
+            "In the top drawer, please, with the sponge.",
+            "The sponge has to disappear into the top drawer.",
+            "The sponge must be put in the top drawer, please.",
             "I suppose the sponge had better go in the top drawer.",
             "It's high time the sponge was put away in the top drawer.",
         ],
@@ -193,5 +197,9 @@ fn a_place_may_follow_in_a_clause_of_its_own_or_tell_only_where_a_thing_lives() 
         "Lock the fridge.",
         "The sponge must be on the counter.",
         "To me.",
+        "The sponge must have been put in the drawer.",
+        "The sponge's place is taken.",
+        "On the counter please, not the table.",
+        "Put the sponge on the counter or in the drawer.",
     ]);
 }

@@ -174,5 +174,10 @@ fn what_would_be_nice_is_wanted() {
         "The plants need the water bottle.",
         "Have the coke with you.",
         "May I take the coke?",
+        "May I get the coke myself?",
+        "Could I have the coke tomorrow?",
+        "I must have the coke somewhere.",
+        "I would be happier without the coke.",
+        "The coke would be nice later.",
     ]);
 }

@@ -578,6 +578,15 @@ fn has_time(tokens: &[Token], at: usize) -> Option<usize> {
 
 /// Words of somebody who asks for a deed and not for somebody: `would you mind`, `how do you feel about`.
 const MINDS: &[&str] = &[
+    "use",
+    "do with",
+    "be amenable to",
+    "amenable to",
+    "be averse to",
+    "see about",
+    "set about",
+    "go about",
+    "get on with",
     "give me",
     "give us",
     "lend me",
@@ -652,34 +661,44 @@ pub(super) fn in_another_form(tokens: &[Token], at: usize) -> Option<(usize, Str
         // `what are you doing`, `I am closing it` tell or ask what somebody does.
         let tells =
             matches!(last, "am" | "is" | "are" | "be" | "i" | "we" | "start" | "begin" | "it" | "time");
-        let asks = has(&[
-            "help",
-            "hand",
-            "mind",
-            "minding",
-            "consider",
-            "considering",
-            "object",
-            "opposed",
-            "averse",
-            "fancy",
-            "try",
-        ]) || (has(&["you", "somebody", "someone", "anybody", "anyone"])
-            && has(&[
-                "would",
-                "could",
-                "can",
-                "appreciate",
-                "appreciated",
-                "chance",
-                "chances",
-                "about",
-                "possibility",
-                "like",
-                "love",
-            ]));
+        let sets_about = longest(
+            tokens,
+            at,
+            &["see to", "see about", "set about", "go about", "get on with", "be amenable to", "be up for"],
+        );
+        let asks = sets_about == Some(said.len())
+            || has(&[
+                "help",
+                "hand",
+                "mind",
+                "minding",
+                "consider",
+                "considering",
+                "object",
+                "opposed",
+                "averse",
+                "fancy",
+                "try",
+            ])
+            || (has(&["you", "somebody", "someone", "anybody", "anyone"])
+                && has(&[
+                    "would",
+                    "could",
+                    "can",
+                    "appreciate",
+                    "appreciated",
+                    "chance",
+                    "chances",
+                    "about",
+                    "possibility",
+                    "like",
+                    "love",
+                ]));
+        // `I mind opening it` tells how somebody feels.
+        let feels = has(&["i", "we"])
+            && !has(&["would", "could", "need", "want", "can", "not", "hoping", "if", "you"]);
         match base(verb) {
-            Some((verb, Form::Gerund)) if asks && !tells => return Some((end + 1, verb)),
+            Some((verb, Form::Gerund)) if !feels && asks && !tells => return Some((end + 1, verb)),
             _ => {}
         }
         let who = (1..said.len()).rev().find(|at| said.get(*at).is_some_and(|token| token.word() == "if"))?;

@@ -2,6 +2,9 @@
 
 /// What says so.
 pub(super) const AGAIN: &[&str] = &[
+    "run it back",
+    "run that back",
+    "another spin",
     "another run",
     "another turn",
     "another round",
@@ -137,6 +140,12 @@ pub(super) const AGAIN: &[&str] = &[
 ];
 /// What agrees by itself.
 pub(super) const AGREES: &[&str] = &[
+    "proceed",
+    "please proceed",
+    "you may proceed",
+    "as you were",
+    "good to go",
+    "all systems go",
     "right you are",
     "right oh",
     "rightio",
@@ -293,6 +302,11 @@ pub(super) const AGREES: &[&str] = &[
 ];
 /// The only other words of a clause with one of these.
 pub(super) const PLAIN: &[&str] = &[
+    "whatever",
+    "proceed",
+    "champ",
+    "pal",
+    "dude",
     "than",
     "grand",
     "smashing",
@@ -474,6 +488,15 @@ pub(super) const PLAIN: &[&str] = &[
 ];
 /// What agrees as a whole clause, though it begins like a condition or has a no in it.
 pub(super) const WHOLE: &[&str] = &[
+    "i do not see why not",
+    "do not see why not",
+    "i can not see why not",
+    "i do not see why you should not",
+    "i have no objection",
+    "i have no objections",
+    "i can not say no to that",
+    "how could i refuse",
+    "how could i say no",
     "if you would",
     "if you could",
     "if you can",

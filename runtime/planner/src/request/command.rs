@@ -1,7 +1,7 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
 use super::lead::{contrasts, thanks};
-use super::noun::{Noun, noun};
+use super::noun::{Noun, Which, noun};
 use super::remark::{beside, is_boundary};
 use super::spot::{Relation, Spot, is_way, located, spot, way};
 use super::token::{Token, longest, stands};
@@ -588,10 +588,25 @@ impl Command {
         Some(end)
     }
 
+    /// `fetch! The sponge!`: what it is about, in a sentence of its own; where it ends.
+    pub(super) fn is_about(&mut self, tokens: &[Token], at: usize) -> Option<usize> {
+        if !self.items.is_empty() || matches!(self.act, Act::Go | Act::Come | Act::Find | Act::Move) {
+            return None;
+        }
+        let (thing, end) = noun(tokens, at)?;
+        let is_end = matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
+        if !is_end || !matches!(&thing, Noun::Phrase(phrase) if phrase.which == Which::The) {
+            return None;
+        }
+        self.items.push(thing);
+        Some(end)
+    }
+
     /// Takes what was spoken of for the thing where none is said, but where it goes.
     pub(super) fn is_of_what_was_said(&mut self) {
         let puts = matches!(self.act, Act::Put | Act::Store | Act::Stow | Act::Throw | Act::Discard);
-        if puts && self.items.is_empty() && (self.to.is_some() || self.act == Act::Discard) {
+        let is_whole = matches!(self.act, Act::Discard | Act::Open | Act::Close);
+        if self.items.is_empty() && ((puts && self.to.is_some()) || is_whole) {
             self.items.push(Noun::Before("it"));
         }
     }

@@ -3,6 +3,7 @@
 use super::assent::{AGAIN, AGREES, PLAIN, WHOLE};
 use super::dissent::{BESIDE, DENIES, GIVES_UP};
 use super::frame::SOUNDS;
+use super::inflection::{Form, base};
 use super::lead::skip_leads;
 use super::token::{Token, longest, stands, tokens};
 use super::verb::{Act, verb};
@@ -12,7 +13,11 @@ use super::verb::{Act, verb};
 #[must_use]
 pub fn encourages(answer: &str) -> Option<String> {
     let mut said = tokens(answer);
-    said.retain(|token| !SOUNDS.contains(&token.word()) || token.word() == "huh");
+    // `uh huh` and `mm hm` agree.
+    said.retain(|token| {
+        let word = token.word();
+        !SOUNDS.contains(&word) || matches!(word, "uh" | "huh" | "mm" | "hm")
+    });
     let (mut agrees, mut beside) = (false, Vec::new());
     for clause in said.split(|token| matches!(token, Token::Comma | Token::Stop)) {
         let begin = skip_soft(clause, 0);
@@ -25,7 +30,7 @@ pub fn encourages(answer: &str) -> Option<String> {
             agrees = true;
             continue;
         }
-        let is_beside = longest(clause, begin, BESIDE).is_some();
+        let is_beside = longest(clause, begin, BESIDE).max(longest(clause, 0, BESIDE)).is_some();
         if !is_beside && (0..clause.len()).any(|at| longest(clause, at, GIVES_UP).is_some()) {
             return None;
         }
@@ -108,6 +113,8 @@ fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
                 return None;
             }
             None if TELLS.contains(&token.word()) => return None,
+            // `try opening it again`
+            None if matches!(base(token.word()), Some((_, Form::Gerund))) => return None,
             None => {
                 left.push(token.word());
                 at += 1;

@@ -170,6 +170,39 @@ const ENDS: &[&str] = &[
     "wide",
 ];
 
+/// What people call themselves before those whom they ask.
+const KIN: &[&str] = &[
+    "granny",
+    "gran",
+    "grandma",
+    "grandpa",
+    "grandad",
+    "granddad",
+    "grandmother",
+    "grandfather",
+    "nan",
+    "nana",
+    "mum",
+    "mom",
+    "mummy",
+    "mommy",
+    "mother",
+    "dad",
+    "daddy",
+    "father",
+    "aunt",
+    "auntie",
+    "uncle",
+    "friend",
+    "pal",
+    "mate",
+    "master",
+    "owner",
+    "boss",
+    "mistress",
+    "human",
+];
+
 /// What stands for something that was spoken of.
 const PRONOUNS: &[&str] = &["it", "them", "that", "this", "these", "those"];
 
@@ -197,6 +230,29 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
             return Some((Noun::Speaker, at + 2));
         }
         _ => {}
+    }
+    // `bring it to your old granny`: who says so of themselves.
+    if word == "your"
+        && let Some(kin) =
+            (at + 1..at + 4).find(|at| tokens.get(*at).is_some_and(|token| KIN.contains(&token.word())))
+        && tokens.get(at + 1..kin).is_some_and(|how| {
+            how.iter().all(|token| {
+                matches!(
+                    token.word(),
+                    "old"
+                        | "dear"
+                        | "poor"
+                        | "favourite"
+                        | "favorite"
+                        | "thirsty"
+                        | "tired"
+                        | "good"
+                        | "beloved"
+                )
+            })
+        })
+    {
+        return Some((Noun::Speaker, kin + 1));
     }
     let pronoun = PRONOUNS.iter().find(|known| **known == word);
     if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {

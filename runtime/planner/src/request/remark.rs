@@ -30,6 +30,13 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     }
     // What is only named or looked at is spoken of where more follows.
     let is_named = [
+        "take a look",
+        "have a look",
+        "have a peek",
+        "take a peek",
+        "look inside",
+        "look in",
+        "peek inside",
         "be careful with",
         "be gentle with",
         "be very careful with",

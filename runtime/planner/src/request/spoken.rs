@@ -35,13 +35,26 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         }
         let begin = skip_leads(tokens, at);
         if begin >= tokens.len() || matches!(tokens.get(begin), Some(Token::Stop)) {
+            // `go to the sink? No.`
+            let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
+            let led = tokens.get(at..begin).unwrap_or_default();
+            if is_apart
+                && !spoken.commands.is_empty()
+                && led.iter().all(|token| token.word() == "no")
+                && !led.is_empty()
+            {
+                return Err(words(tokens, at, begin));
+            }
             at = begin + 1;
             continue;
         }
         let word = tokens.get(begin).map_or("", Token::word);
         let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
-        let more =
-            spoken.commands.last_mut().filter(|_| is_apart).and_then(|last| last.goes_on_at(tokens, begin));
+        let more = spoken
+            .commands
+            .last_mut()
+            .filter(|_| is_apart)
+            .and_then(|last| last.goes_on_at(tokens, begin).or_else(|| last.is_about(tokens, begin)));
         if let Some(end) = more {
             at = end;
             continue;

@@ -28,7 +28,7 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
         .or_else(|| self_moved(tokens_here, begin))
         .or_else(|| fronted(tokens_here, begin))
         .or_else(|| room_for(tokens_here, begin))
-        .or_else(|| with_it(tokens_here, begin))
+        .or_else(|| with_it(tokens, begin))
         .or_else(|| sent(tokens_here, begin))
         .or_else(|| pleasant(tokens_here, begin))
         .or_else(|| unless_so(tokens, begin, limit))
@@ -97,6 +97,12 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         }
         let needs = longest(tokens, at, &["needs", "wants"]) == Some(count);
         let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
+        // `it must be closed` may only guess; `it must be put on the table` asks.
+        if stands(tokens, at, "must be") == Some(count)
+            && (!matches!(state, State::Done(_)) || opposite_name(&state).is_some())
+        {
+            return None;
+        }
         if stands(tokens, at, STAYS) == Some(count) && opposite_name(&state).is_none() {
             return None;
         }

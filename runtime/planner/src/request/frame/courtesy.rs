@@ -15,6 +15,13 @@ pub(in crate::request) const SOUNDS: &[&str] = &[
 ];
 /// Set off by commas on both sides.
 const ASIDES: &[&str] = &[
+    "give me some space",
+    "give me some room",
+    "give me some peace",
+    "pretty please",
+    "pretty please with sugar on top",
+    "beep beep",
+    "tick tock",
     "chop chop",
     "quick quick",
     "come come",
@@ -399,7 +406,10 @@ fn is_mark(token: Option<&Token>) -> bool {
 /// `, like,`: with the comma behind it.
 fn aside(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let end = at + longest(tokens, at, ASIDES)?;
-    (is_mark(kept.last()) && tokens.get(end) == Some(&Token::Comma)).then_some(end + 1)
+    // `and, like, put it there`
+    let joins = kept.last().is_some_and(|token| matches!(token.word(), "and" | "so" | "but" | "then"))
+        && longest(tokens, at, &["like", "you know", "i mean", "well"]).is_some();
+    ((is_mark(kept.last()) || joins) && tokens.get(end) == Some(&Token::Comma)).then_some(end + 1)
 }
 
 /// `, love`, `hey buddy,`: whom somebody calls, with the comma before it.

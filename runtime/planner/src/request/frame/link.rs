@@ -6,6 +6,12 @@ pub(super) const SHALL: &[&str] = &[
     "belong",
     "goes",
     "had better be",
+    "has to disappear",
+    "needs to disappear",
+    "must disappear",
+    "should disappear",
+    "has to vanish",
+    "must be",
     "had better go",
     "had better end up",
     "had best go",
@@ -153,8 +159,18 @@ pub(super) const WANT: &[&str] = &[
     "let us have",
 ];
 
-pub(super) const DO_NOT_WANT: &[&str] =
-    &["i do not want", "we do not want", "i would not like", "do not leave", "do not keep", "never leave"];
+pub(super) const DO_NOT_WANT: &[&str] = &[
+    "do not you leave",
+    "do not you dare leave",
+    "do not you keep",
+    "do not ever leave",
+    "i do not want",
+    "we do not want",
+    "i would not like",
+    "do not leave",
+    "do not keep",
+    "never leave",
+];
 
 pub(super) const TO_BE: &[&str] = &[
     "to be",

@@ -219,7 +219,7 @@ pub(super) const ONLY_IF_SO: &str = "if it is open";
 pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
     // What is left out may stand between other words that are.
     // `I cannot open it, could you?` has to be read before courtesy is left out.
-    let tokens = elliptic(tokens);
+    let tokens = elliptic(&possessed(tokens));
     let mut tokens = without_courtesy(&without_fillers(&without_courtesy(&tokens)));
     tokens = delegated(&tokens);
     let mut said = Vec::with_capacity(tokens.len());
@@ -344,6 +344,15 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
         "it is time you",
         "it is about time you",
         "it is high time you",
+        "it is time somebody",
+        "it is time someone",
+        "it is about time somebody",
+        "it is about time someone",
+        "it is high time somebody",
+        "it is high time someone",
+        "it is time we",
+        "it is about time we",
+        "it is high time we",
         "what if you",
         "i would like it if you",
         "i would love it if you",
@@ -477,6 +486,36 @@ fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     let is_verb = base(next).is_some_and(|(_, form)| form == Form::Base) && begins(tokens, at + set_out);
     let is_verb = is_verb || cause(tokens, at + set_out).is_some();
     is_verb.then(|| (at + set_out, Vec::new()))
+}
+
+/// `the sponge's place is in the drawer`: it belongs there.
+fn possessed(tokens: &[Token]) -> Vec<Token> {
+    let mut said: Vec<Token> = Vec::with_capacity(tokens.len());
+    let mut at = 0;
+    while let Some(token) = tokens.get(at) {
+        at += 1;
+        let whose = token.word().strip_suffix("'s").filter(|whose| !whose.is_empty());
+        let how =
+            longest(tokens, at, &["usual", "proper", "right", "rightful", "normal", "own"]).unwrap_or(0);
+        let place = longest(
+            tokens,
+            at + how,
+            &["place is", "home is", "spot is", "place should be", "place has always been"],
+        )
+        .filter(|count| {
+            longest(tokens, at + how + count, &["in", "on", "inside", "at", "up on", "over on", "back in"])
+                .is_some()
+        });
+        match (whose, place) {
+            (Some(whose), Some(count)) => {
+                said.push(Token::Word(whose.to_owned()));
+                said.push(Token::Word("belongs".to_owned()));
+                at += how + count;
+            }
+            _ => said.push(token.clone()),
+        }
+    }
+    said
 }
 
 /// What somebody else wants of the one who is spoken to, as the speaker says: how many words it takes.
