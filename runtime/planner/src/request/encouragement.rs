@@ -1,6 +1,7 @@
 //! Whether somebody who was asked whether to try again says so, in whatever words: `give it another shot`, `it cannot hurt`.
 
-use super::assent::{AGAIN, AGREES, PLAIN, WHOLE};
+use super::again::{AGAIN, WHOLE};
+use super::assent::{AGREES, PLAIN};
 use super::dissent::{BESIDE, DENIES, GIVES_UP};
 use super::frame::SOUNDS;
 use super::inflection::{Form, base};

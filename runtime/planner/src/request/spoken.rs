@@ -5,7 +5,8 @@ use super::forbidden::{When, caution, forbidden};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
 use super::noun::{Noun, noun};
-use super::remark::{beside, is_question, is_remark, remark_end, stays_put};
+use super::remark::{beside, is_question, is_remark, remark_end};
+use super::staying::stays_put;
 use super::token::{Token, longest, stands};
 use super::verb::{begins, is_want, verb};
 

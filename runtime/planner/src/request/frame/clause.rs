@@ -2,8 +2,9 @@
 
 use super::ONLY_IF_SO;
 use super::link::{CAUSE, DO_NOT_WANT, HOLDS, IN_HAND, IS, SEE_TO, SHALL, SHALL_IT, TO_BE, WANT};
-use super::placed::{fronted, headed, room_for, sent, with_it};
+use super::placed::{fronted, headed, sent, with_it};
 use super::pleasant::{called_for, pleasant};
+use super::room::room_for;
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
 use crate::request::lead::skip_leads;
