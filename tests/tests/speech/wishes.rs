@@ -178,6 +178,8 @@ fn what_would_be_nice_is_wanted() {
         "Could I have the coke tomorrow?",
         "I must have the coke somewhere.",
         "I would be happier without the coke.",
+        "It would be better to have the fridge closed, but leave it for now.",
+        "I'd prefer the fridge closed. Leave it alone.",
         "The coke would be nice later.",
     ]);
 }

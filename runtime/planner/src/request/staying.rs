@@ -8,6 +8,10 @@ use super::verb::Act;
 pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<usize> {
     // `take it in your hand and keep it there`, `drive there and then stop`
     let joined = begin.checked_sub(1).and_then(|at| tokens.get(at));
+    // `close it, but leave it for now` takes it back.
+    if joined.is_some_and(|token| token.word() == "but") {
+        return None;
+    }
     let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
     let same: &[&str] = match before {
         Act::Pick | Act::Lift => &[
@@ -34,10 +38,6 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
             "keep it that way",
             "keep it so",
             "let it stay like that",
-            "leave it be",
-            "leave it",
-            "leave it alone",
-            "let it be",
             "keep it open",
             "leave it open",
             "hold it open",
@@ -50,27 +50,26 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
             "keep it that way",
             "keep it so",
             "let it stay like that",
-            "leave it be",
-            "leave it",
-            "leave it alone",
-            "let it be",
             "keep it shut",
             "leave it shut",
             "keep it closed",
             "leave it closed",
         ],
-        Act::Put | Act::Store | Act::Stow => &[
-            "leave it there",
-            "keep it there",
-            "let it stay there",
-            "leave it be",
-            "leave it alone",
-            "leave it like that",
-            "let it be",
-        ],
+        Act::Put | Act::Store | Act::Stow => {
+            &["leave it there", "keep it there", "let it stay there", "leave it like that"]
+        }
         Act::Go if is_joined => &["stop", "stop there"],
         _ => &[],
     };
+    // `open it and leave it`; as a sentence of its own it may take back what was asked for.
+    let left = ["leave it", "leave it be", "leave it alone", "let it be"];
+    if is_joined
+        && matches!(before, Act::Open | Act::Put | Act::Store | Act::Stow)
+        && let Some(count) = longest(tokens, begin, &left)
+        && is_boundary(tokens, begin + count)
+    {
+        return Some(begin + count);
+    }
     if let Some(count) = longest(tokens, begin, same)
         && is_boundary(tokens, begin + count)
     {
