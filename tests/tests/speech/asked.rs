@@ -180,6 +180,14 @@ fn what_is_left_out_is_what_was_named_just_before() {
     mean(&["at(robot, sink)"], &["Race you to the sink! Go!"]);
     mean(&["not open(fridge_1)"], &["The fridge is open, please close.", "Close! The fridge!"]);
     mean(&["holding(sponge)"], &["Pick the sponge up, there's a love, and keep it."]);
+    mean(
+        &["in(sponge, trash)"],
+        &[
+            "Pop the sponge into the bin, please, dear.",
+            "Throw, please, the sponge in the bin.",
+            "The sponge should have been thrown away ages ago. Do it now, please.",
+        ],
+    );
     not_taken(&[
         "Give me!",
         "Put in the drawer.",

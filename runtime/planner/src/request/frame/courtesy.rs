@@ -29,7 +29,8 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
         // `bring, please, the coke`
         if token.word() == "please"
             && tokens.get(at + 1) == Some(&Token::Comma)
-            && let [.., verb, Token::Comma] = kept.as_slice()
+            && let [before @ .., verb, Token::Comma] = kept.as_slice()
+            && is_mark(before.last())
             && matches!(base(verb.word()), Some((_, Form::Base)))
         {
             kept.pop();
