@@ -93,6 +93,51 @@ fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
 }
 
 #[test]
+fn where_there_is_no_room_it_is_asked_where_else() {
+    let setting = setting("hsr");
+    let blocked =
+        |nth: u32| format!(r#"{{"primitive": "place", "nth": {nth}, "then": {{"fails": "blocked"}}}}"#);
+    let sim = |times: u32| {
+        let calls: Vec<String> = (1..=times).map(blocked).collect();
+        let faults = Faults::from_json(&format!(r#"{{"calls": [{}]}}"#, calls.join(", "))).unwrap();
+        Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() })
+    };
+    for answer in ["On the kitchen table.", "the kitchen table", "put it on the kitchen table instead"] {
+        let mut sim = sim(1);
+        let (outcome, asked, _) = talk(&setting, &mut sim, "put the sponge on the counter", &[answer]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        let [question] = asked.as_slice() else { panic!("{asked:?}") };
+        assert_eq!(question.kind, Kind::NotReachable);
+        assert!(question.question.contains("Where else shall I put the"), "{}", question.question);
+        assert!(!question.options.iter().any(|option| option == "counter"), "{:?}", question.options);
+        assert_eq!(sim.holds("on", &["sponge", "kitchen_table"]), Some(true), "{answer}");
+    }
+    // What is no place is not taken for one.
+    let mut sim = sim(1);
+    let (outcome, asked, _) =
+        talk(&setting, &mut sim, "put the sponge on the counter", &["the moon", "leave it"]);
+    assert_eq!(outcome, Outcome::GivenUp, "{asked:?}");
+}
+
+#[test]
+fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
+    // The fridge stands by the counter: what is taken out of it could be put there from where the robot is, and there is no room.
+    let setting = setting("hsr");
+    let mut real = setting.scene.clone();
+    let coke = real.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("fridge_1".into()));
+    let fails = r#"{"calls": [{"primitive": "place", "nth": 1, "then": {"fails": "unreachable"}}]}"#;
+    for faults in [Faults::default(), Faults::from_json(fails).unwrap()] {
+        let mut sim = Sim::new(&setting.robot, &real, Options { faults, ..Options::default() });
+        let (outcome, asked, _) =
+            talk(&setting, &mut sim, "put the coke on the counter", &["It is in the fridge."]);
+        assert_eq!(outcome, Outcome::Done, "{asked:?}");
+        assert_eq!(asked.iter().map(|asked| asked.kind).collect::<Vec<_>>(), [Kind::NotFound]);
+        assert_eq!(sim.holds("on", &["coke", "counter"]), Some(true));
+    }
+}
+
+#[test]
 fn where_nobody_answers_the_problem_is_the_outcome() {
     let setting = setting("hsr");
     let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());

@@ -3,7 +3,7 @@
 use smol_str::SmolStr;
 
 use super::polarity::{Polarity, is_done, polarity};
-use super::problem::{Kind, Problem};
+use super::problem::{Kind, Problem, called};
 use crate::request::{self, Located, Puzzle, Situation};
 
 /// What an answer means.
@@ -81,6 +81,16 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation
         && let Some(request) = completed(request, answer, situation)
     {
         return Answer::Request(request);
+    }
+    // "Where else shall I put the plate?" "On the counter."
+    if problem.kind == Kind::NotReachable
+        && request::is_bare(answer)
+        && let Some(held) = &situation.holding
+        && problem.options.iter().any(|option| situation.scene.entities.contains_key(option))
+        && let Some(request) =
+            completed(&format!("put the {}", called(situation.scene, held)), answer, situation)
+    {
+        return Answer::Request(format!("{} instead", request.trim_end_matches(['.', '!', '?', ' '])));
     }
     let about = Situation { spoken_of: spoken(problem, situation), ..situation.clone() };
     if problem.kind == Kind::NotFound {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_graph::{Graph, NodeId, Value};
+use motet_graph::{Graph, NodeId, NodeKind, Term, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
@@ -96,10 +96,24 @@ impl<'r, 'a> Live<'r, 'a> {
         matches!(end, RunEnd::Failed { node, .. } if !self.started.contains(node))
     }
 
-    fn stood_wrong(&self, end: &RunEnd) -> bool {
+    fn stood_wrong(&self, end: &RunEnd, graph: &Graph, bound: &[(SmolStr, Value)]) -> bool {
         let RunEnd::Failed { kind, node, .. } = end else { return false };
-        matches!(kind.as_str(), "unreachable" | "blocked")
-            && (self.started.is_empty() || self.started.as_slice() == [*node])
+        let is_first = self.started.is_empty() || self.started.as_slice() == [*node];
+        match kind.as_str() {
+            // What is picked up was driven to with the rest of what is there in view.
+            "unreachable" if is_call(graph, *node, "pick") => is_first,
+            // From where it stands by chance there may be no room or no way: who drove there knows.
+            "unreachable" | "blocked" => {
+                let target = leads_to(graph, *node, bound);
+                let drove = |started: &NodeId| {
+                    started != node
+                        && leads_to(graph, *started, bound) == target
+                        && is_call(graph, *started, "go")
+                };
+                is_first || (target.is_some() && !self.started.iter().any(drove))
+            }
+            _ => false,
+        }
     }
 
     /// Runs a policy to its end, and learns from it.
@@ -155,7 +169,8 @@ impl<'r, 'a> Live<'r, 'a> {
         if let Some(first) = &mut self.first {
             first.bound.clone_from(&bound);
         }
-        let (was_refused, stood_wrong) = (self.was_refused(&end), self.stood_wrong(&end));
+        let (was_refused, stood_wrong) =
+            (self.was_refused(&end), self.stood_wrong(&end, engine.graph(), &bound));
         Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
     }
 }
@@ -215,6 +230,30 @@ impl Live<'_, '_> {
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)
     }
+}
+
+/// The last thing that a call names: where it leads.
+fn leads_to(graph: &Graph, node: NodeId, bound: &[(SmolStr, Value)]) -> Option<SmolStr> {
+    let NodeKind::Call(call) = &graph.nodes.get(node.index())?.kind else { return None };
+    let entity = |arg: &Term| match arg {
+        Term::Literal(Value::Entity(id)) => Some(id.clone()),
+        Term::Binding(id) => {
+            let name = &graph.bindings.get(id.index())?.name;
+            bound.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
+                Value::Entity(id) => Some(id.clone()),
+                _ => None,
+            })
+        }
+        _ => None,
+    };
+    call.args.iter().filter_map(entity).next_back()
+}
+
+fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
+    let Some(NodeKind::Call(call)) = graph.nodes.get(node.index()).map(|node| &node.kind) else {
+        return false;
+    };
+    graph.primitives.get(call.primitive.index()).is_some_and(|primitive| primitive.name == name)
 }
 
 /// What a line says of where things are, where it asks for nothing.

@@ -179,6 +179,15 @@ fn failed(
             format!("More than one thing could be {thing}. Which one?"),
             Vec::new(),
         ),
+        "blocked" if primitive.is_some_and(|primitive| primitive.name == "place") => {
+            let held = args().find_map(entity).filter(|held| Some(held) != about.as_ref());
+            let held = held.map_or_else(|| "it".to_owned(), |id| format!("the {}", called(scene, &id)));
+            let others = holders(scene).into_iter().filter(|id| Some(id) != about.as_ref()).collect();
+            let question = format!(
+                "I find no room on {thing} from where I can reach it. Where else shall I put {held}?"
+            );
+            (Kind::NotReachable, question, others)
+        }
         "unreachable" | "blocked" => (
             Kind::NotReachable,
             format!("I cannot reach {thing}: {doing} is {kind}. What shall I do?"),

@@ -1,8 +1,8 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
-use super::lead::{contrasts, thanks};
-use super::noun::{Noun, noun};
-use super::remark::{beside, is_boundary};
+use super::noun::{Noun, Which, noun};
+use super::part::part;
+use super::remark::is_boundary;
 use super::spot::{Relation, Spot, is_way, located, spot, way};
 use super::token::{Token, longest, stands};
 use super::verb::{Act, begins, is_want, verb};
@@ -22,8 +22,35 @@ pub(super) struct Command {
     /// `away`, `down`, `up`, `back`, `over`: what the verb goes with.
     pub(super) with: Vec<String>,
     /// Where the last thing that was named ends, as a position among the tokens.
-    thing_end: usize,
+    pub(super) thing_end: usize,
 }
+
+/// What is told of a place that was named.
+const WHERE_IT_BELONGS: &[&str] = &[
+    "where it belongs",
+    "where it lives",
+    "where it goes",
+    "where it should be",
+    "where it is supposed to be",
+    "where it always is",
+    "where it usually is",
+    "where it is kept",
+    "where it came from",
+    "where they belong",
+    "where they live",
+    "where they go",
+    "its usual place",
+    "its proper place",
+    "its home",
+    "its usual spot",
+    "as always",
+    "as usual",
+    "where it normally lives",
+    "where it always goes",
+    "where we keep it",
+    "where i keep it",
+    "where we always keep it",
+];
 
 /// Among what a verb goes with: it is done only where it is not so yet.
 pub(super) const ONLY_IF: &str = "only if";
@@ -42,18 +69,6 @@ pub(super) fn words(tokens: &[Token], begin: usize, end: usize) -> String {
     words.join(" ").trim().to_owned()
 }
 
-/// Where something goes that somebody does not want to see.
-const OUT_OF_SIGHT: &[&str] = &[
-    "out of my sight",
-    "out of sight",
-    "out of view",
-    "out of my way",
-    "out of the way",
-    "out of my face",
-    "out of here",
-    "off my hands",
-];
-
 /// Reads one command, or several that share a verb; where the next thing begins.
 pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command>) -> Result<usize, String> {
     let Some((act, mut at)) = verb(tokens, begin) else { return Err(words(tokens, begin, tokens.len())) };
@@ -68,11 +83,21 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
     loop {
         match tokens.get(at) {
             None | Some(Token::Stop) => break,
+            // `pick it up, but do not bring it`
+            Some(Token::Word(word)) if word == "but" && stands(tokens, at + 1, "do not").is_some() => break,
             Some(Token::Word(word)) if !matches!(word.as_str(), "and" | "then") => {
                 at = part(tokens, begin, at, &mut now)?;
             }
             Some(Token::Comma | Token::Word(_)) => {
                 let after = skip_and(tokens, at);
+                // `to the drawer, where it lives`
+                if now.to.is_some()
+                    && let Some(count) = longest(tokens, after, WHERE_IT_BELONGS)
+                    && is_boundary(tokens, after + count)
+                {
+                    at = after + count;
+                    continue;
+                }
                 if begins(tokens, after) {
                     break;
                 }
@@ -97,8 +122,29 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
             }
         }
     }
-    commands.push(now);
+    left_out(&mut now, commands);
+    // `race you to the sink! Go!`
+    let is_echo = stands(tokens, begin, "go").is_some()
+        && now.act == Act::Go
+        && now.items.is_empty()
+        && now.to.is_none()
+        && commands.last().is_some_and(|last| last.act == now.act && last.to.is_some());
+    if !is_echo {
+        commands.push(now);
+    }
     Ok(at)
+}
+
+/// `take the mug and put in the drawer`, `I want it! Give me!`: of what it is not said, it is that of which it was said just before.
+fn left_out(now: &mut Command, commands: &[Command]) {
+    let carries = |act: Act| !matches!(act, Act::Go | Act::Come | Act::Open | Act::Close | Act::Find);
+    let says_more = now.to.is_some()
+        || now.to_whom.is_some()
+        || ["in", "on", "away", "back", "hand", "out"].iter().any(|word| now.has(word));
+    let before = commands.iter().rev().find(|command| carries(command.act) && !command.items.is_empty());
+    if carries(now.act) && now.act != Act::Release && now.items.is_empty() && says_more && before.is_some() {
+        now.items.push(Noun::Before("it"));
+    }
 }
 
 /// Whether another place follows for a thing that has one already.
@@ -134,17 +180,34 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
         &["do not", "never", "not", "no putting", "no dropping", "no letting", "no giving"],
     )
     .is_some();
-    let another = noun(tokens, at).is_some_and(|(noun, after)| {
-        matches!(noun, Noun::Phrase(_) | Noun::Before(_)) && !is(after) && !is_clause
+    let another = noun(tokens, at).is_some_and(|(noun, after)| match noun {
+        Noun::Phrase(_) => !is(after) && !is_clause,
+        // `…, it stinks` tells something of it.
+        Noun::Before(_) => is_boundary(tokens, after) || part_follows(tokens, after),
+        Noun::Speaker | Noun::Here | Noun::There => false,
     });
     let another_place = located(tokens, at).is_some() || stands(tokens, at, "to").is_some();
     let is_place = another_place && matches!(now.act, Act::Go | Act::Move);
-    // `put it where it belongs, in the drawer`
-    if another_place && now.to.is_none() && now.has("back") {
+    // `put it where it belongs, in the drawer`, `get it out of here and into the bin`
+    if now.to.is_none() && (another_place && now.has("back") || is_place_for_it(now, tokens, at)) {
         return true;
     }
     if !(another || is_place) {
         return false;
+    }
+    // `give it here, the coke`: what `it` is.
+    let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Comma));
+    if is_apart
+        && now.act == Act::Fetch
+        && now.to.as_ref().is_none_or(|to| to.noun == Noun::Speaker)
+        && matches!(now.items.as_slice(), [Noun::Before(_)])
+    {
+        let named =
+            noun(tokens, at).filter(|(_, after)| matches!(tokens.get(*after), None | Some(Token::Stop)));
+        if matches!(named, Some((Noun::Phrase(_), _))) {
+            now.items.clear();
+            return true;
+        }
     }
     if now.to.is_some() && !matches!(now.act, Act::Go | Act::Come) {
         let next = Command { with: now.with.clone(), to_whom: None, ..Command::new(now.act) };
@@ -156,261 +219,105 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     true
 }
 
-/// One part of a command: where the next begins.
-fn part(tokens: &[Token], begin: usize, at: usize, now: &mut Command) -> Result<usize, String> {
-    // `grab the mug for me`: who takes something for somebody brings it.
-    let for_me = longest(tokens, at, &["for me", "for us"]);
-    if let (Some(count), Act::Take) = (for_me, now.act) {
-        // `take the mug to the sink for me`, `carry the mug for me` ask for a favour.
-        let carries = matches!(tokens.get(begin).map_or("", Token::word), "carry" | "cart" | "haul" | "lug");
-        if (!carries || now.has("over")) && now.to.as_ref().is_none_or(|to| !to.moves()) {
-            now.to_whom.get_or_insert(Noun::Speaker);
-        }
-        return Ok(at + count);
-    }
-    if let Some(count) = thanks(tokens, at) {
-        return Ok(at + count);
-    }
-    let word = tokens.get(at).map_or("", Token::word);
-    let lost = || words(tokens, begin, tokens.len().min(at + 4));
-    if contrasts(tokens, at) {
-        return Err(lost());
-    }
-    // `because I am thirsty`, and how long it is held
-    if let Some(end) = beside(tokens, at, now.act) {
-        return Ok(end);
-    }
-    let goes = matches!(now.act, Act::Go | Act::Come) || (now.act == Act::Move && now.items.is_empty());
-    // `carry it to the table and set it on top`
-    if let Some(count) = longest(tokens, at, &["on top", "on it", "up there", "over there", "right there"])
-        && is_boundary(tokens, at + count)
+/// Whether what follows a thing says where it goes or for whom.
+fn part_follows(tokens: &[Token], at: usize) -> bool {
+    spot(tokens, at).is_some()
+        || is_way(tokens, at)
+        || longest(tokens, at, &["over", "back", "away", "up", "down", "too"]).is_some()
+}
+
+/// Whether a place follows for what is taken, hidden or put, of which it was not said before where to.
+fn is_place_for_it(now: &Command, tokens: &[Token], at: usize) -> bool {
+    let takes = matches!(
+        now.act,
+        Act::Put
+            | Act::Stow
+            | Act::Store
+            | Act::Take
+            | Act::Throw
+            | Act::Move
+            | Act::Pick
+            | Act::Lift
+            | Act::Fetch
+    );
+    let place = spot(tokens, at).or_else(|| way(tokens, at));
+    takes
         && !now.items.is_empty()
-    {
-        // Of what is not put anywhere it tells where it is.
-        if !matches!(
-            now.act,
-            Act::Fetch | Act::Pick | Act::Lift | Act::Open | Act::Close | Act::Discard | Act::Find
-        ) {
-            now.to.get_or_insert(there("", Relation::To, Noun::There));
-        }
-        return Ok(at + count);
-    }
-    // `get it out of my sight`
-    if let Some(count) = longest(tokens, at, OUT_OF_SIGHT)
-        && matches!(now.act, Act::Fetch | Act::Take | Act::Put | Act::Move)
-    {
-        now.act = Act::Stow;
-        return Ok(at + count);
-    }
-    // `put it out with the rubbish`
-    let rubbish = ["out with the rubbish", "out with the trash", "out with the garbage"];
-    if let Some(count) = longest(tokens, at, &rubbish)
-        && matches!(now.act, Act::Take | Act::Put | Act::Move | Act::Throw)
-    {
-        now.act = Act::Discard;
-        return Ok(at + count);
-    }
-    if let Some(count) =
-        longest(tokens, at, &["from off", "from on top of", "from inside", "from", "off of", "off", "out of"])
-    {
-        let Some((source, after)) = noun(tokens, at + count) else {
-            now.with.push(word.to_owned());
-            return Ok(at + 1);
-        };
-        now.from = Some(source);
-        return Ok(after);
-    }
-    // Who gets it was said: what follows is no place but what it is for, `a drink to recover`.
-    if word == "to" && now.act == Act::Fetch && now.to_whom.is_some() && !is_determined(tokens, at + 1) {
-        return Ok(rest(tokens, at));
-    }
-    if is_way(tokens, at) {
-        let Some((place, after)) = way(tokens, at) else { return Err(lost()) };
-        if is_hand(&place.noun) {
-            now.with.push("hand".to_owned());
-            return Ok(after);
-        }
-        if matches!(place.noun, Noun::Speaker) && place.relation != Relation::Beside && !goes {
-            now.to_whom = Some(place.noun);
-        } else {
-            now.put_at(place);
-        }
-        return Ok(after);
-    }
-    if let Some((place, after)) = spot(tokens, at) {
-        // `take it in your hand`
-        if is_hand(&place.noun) {
-            now.with.push("hand".to_owned());
-            return Ok(after);
-        }
-        // `put it in my hand`
-        if matches!(place.noun, Noun::Speaker) && !goes {
-            now.to_whom = Some(place.noun);
-            return Ok(after);
-        }
-        now.put_at(Spot { is_behind_thing: !now.items.is_empty() && at == now.thing_end, ..place });
-        return Ok(after);
-    }
-    // `close the drawer if it is open`
-    let conditions = [
-        super::frame::ONLY_IF_SO,
-        "if it is still open",
-        "if it is closed",
-        "if it is not open",
-        "if it is shut",
-    ];
-    if let Some(count) = longest(tokens, at, &conditions)
-        && matches!(now.act, Act::Open | Act::Close)
-    {
-        now.with.push(ONLY_IF.to_owned());
-        return Ok(at + count);
-    }
-    // `come to me with the mug`
-    if let Some(count) = longest(tokens, at, &["with me", "with us"])
-        && matches!(now.act, Act::Go | Act::Come)
-    {
-        return Ok(at + count);
-    }
-    // `keep it with you`
-    if let Some(count) = stands(tokens, at, "with you") {
-        now.with.push("hand".to_owned());
-        return Ok(at + count);
-    }
-    if word == "with"
-        && matches!(now.act, Act::Go | Act::Come)
-        && let Some((carried, after)) = noun(tokens, at + 1)
-    {
-        let to_me = now.to.as_ref().is_some_and(|to| to.noun == Noun::Speaker);
-        now.act = if now.act == Act::Come || to_me { Act::Fetch } else { Act::Take };
-        now.items.push(carried);
-        return Ok(after);
-    }
-    if word == "for" {
-        let Some((whom, after)) = noun(tokens, at + 1) else { return Err(lost()) };
-        // Who has something thrown away or opened for them does not get it.
-        if !matches!(now.act(), Act::Discard | Act::Stow | Act::Store | Act::Open | Act::Close | Act::Find) {
-            now.to_whom.get_or_insert(whom);
-        }
-        return Ok(after);
-    }
-    // `put it back where it was`
-    let was = [
-        "where it came from",
-        "where it was",
-        "where it was before",
-        "where you found it",
-        "where you got it",
-        "where you got it from",
-    ];
-    let to = stands(tokens, at, "to").unwrap_or(0);
-    if let Some(count) = longest(tokens, at + to, &was) {
-        now.with.push("back".to_owned());
-        return Ok(at + to + count);
-    }
-    // `put it back where it belongs`
-    if let Some(count) = [
-        "to where it belongs",
-        "where it belongs",
-        "to where it goes",
-        "where it goes",
-        "where it lives",
-        "to its place",
-        "in its usual place",
-        "to its usual place",
-        "in its usual spot",
-        "in its proper place",
-        "in its place",
-    ]
-    .iter()
-    .find_map(|words| stands(tokens, at, words))
-    {
-        now.with.extend(["back".to_owned(), BELONGS.to_owned()]);
-        return Ok(at + count);
-    }
-    // `open it and put the mug inside`
-    if word == "inside" {
-        now.to.get_or_insert(there("inside", Relation::In, Noun::There));
-        return Ok(at + 1);
-    }
-    if matches!(
-        word,
-        "up" | "down"
-            | "away"
-            | "out"
-            | "back"
-            | "over"
-            | "in"
-            | "on"
-            | "please"
-            | "closed"
-            | "open"
-            | "together"
-            | "across"
-            | "along"
-            | "aside"
-            | "around"
-            | "ready"
-            | "tight"
-            | "firm"
-            | "steady"
-            | "anywhere"
-            | "elsewhere"
-    ) {
-        now.with.push(word.to_owned());
-        return Ok(at + 1);
-    }
-    let Some((found, after)) = noun(tokens, at) else { return Err(lost()) };
-    match (&found, now.act) {
-        // `bring me the mug`
-        (Noun::Speaker, _) if now.to_whom.is_none() => now.to_whom = Some(found),
-        (Noun::Here, _) => now.to = Some(there("", Relation::To, Noun::Speaker)),
-        (Noun::There, _) => {
-            now.to.get_or_insert(there("", Relation::To, found));
-        }
-        _ => {
-            now.items.push(found);
-            now.thing_end = after;
-        }
-    }
-    Ok(after)
-}
-
-/// A place that is said in one word.
-fn there(preposition: &'static str, relation: Relation, noun: Noun) -> Spot {
-    Spot { relation, preposition, noun, is_behind_thing: false }
-}
-
-/// Whether an article or the like stands at a place.
-fn is_determined(tokens: &[Token], at: usize) -> bool {
-    let word = tokens.get(at).map_or("", Token::word);
-    matches!(
-        word,
-        "the" | "a" | "an" | "my" | "your" | "our" | "his" | "her" | "their" | "this" | "that" | "me" | "us"
-    )
-}
-
-/// Whether it is the robot's own hand.
-fn is_hand(noun: &Noun) -> bool {
-    let Noun::Phrase(phrase) = noun else { return false };
-    matches!(phrase.words.as_slice(), [.., last] if matches!(last.as_str(), "hand" | "gripper" | "arm" | "claw"))
-}
-
-/// The end of the clause.
-fn rest(tokens: &[Token], mut at: usize) -> usize {
-    while tokens.get(at).is_some_and(|token| !token.word().is_empty() && token.word() != "and") {
-        at += 1;
-    }
-    at
+        && place.is_some_and(|(place, end)| {
+            place.relation != Relation::Beside
+                && is_boundary(tokens, end)
+                && (now.act != Act::Fetch || now.to_whom.is_none())
+        })
 }
 
 impl Command {
+    /// `hide it! In the drawer!`: a place that is said in a sentence of its own; where it ends.
+    pub(super) fn goes_on_at(&mut self, tokens: &[Token], at: usize) -> Option<usize> {
+        let takes = matches!(
+            self.act,
+            Act::Put | Act::Stow | Act::Store | Act::Take | Act::Throw | Act::Move | Act::Fetch
+        );
+        if !takes || self.items.is_empty() || self.to.is_some() {
+            return None;
+        }
+        let is_end = |end: usize| matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
+        let hither = [
+            "here",
+            "over here",
+            "right here",
+            "to me",
+            "over to me",
+            "here to me",
+            "for me",
+            "over here to me",
+        ];
+        if let Some(end) = longest(tokens, at, &hither).map(|count| at + count).filter(|end| is_end(*end)) {
+            self.to_whom.get_or_insert(Noun::Speaker);
+            return Some(end);
+        }
+        let (place, end) = spot(tokens, at).or_else(|| way(tokens, at))?;
+        let is_named = matches!(place.noun, Noun::Phrase(_)) && place.relation != Relation::Beside;
+        // Who brings something in a place is told where it is.
+        if !is_named || !is_end(end) || (self.act == Act::Fetch && !self.has(WANTED) && !place.moves()) {
+            return None;
+        }
+        self.put_at(place);
+        if self.act == Act::Move {
+            self.act = Act::Put;
+        }
+        Some(end)
+    }
+
+    /// `fetch! The sponge!`: what it is about, in a sentence of its own; where it ends.
+    pub(super) fn is_about(&mut self, tokens: &[Token], at: usize) -> Option<usize> {
+        if !self.items.is_empty() || matches!(self.act, Act::Go | Act::Come | Act::Find | Act::Move) {
+            return None;
+        }
+        let (thing, end) = noun(tokens, at)?;
+        let is_end = matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
+        if !is_end || !matches!(&thing, Noun::Phrase(phrase) if phrase.which == Which::The) {
+            return None;
+        }
+        self.items.push(thing);
+        Some(end)
+    }
+
+    /// Takes what was spoken of for the thing where none is said, but where it goes.
+    pub(super) fn is_of_what_was_said(&mut self) {
+        let puts = matches!(self.act, Act::Put | Act::Store | Act::Stow | Act::Throw | Act::Discard);
+        let is_whole = matches!(self.act, Act::Discard | Act::Open | Act::Close);
+        if self.items.is_empty() && ((puts && self.to.is_some()) || is_whole) {
+            self.items.push(Noun::Before("it"));
+        }
+    }
+
     fn new(act: Act) -> Self {
         let (items, with) = (Vec::new(), Vec::new());
         Self { act, items, to_whom: None, to: None, from: None, with, thing_end: 0 }
     }
 
     /// Takes in a place. `put the mug on the table in the drawer`: the last is where to, the others say which.
-    fn put_at(&mut self, place: Spot) {
+    pub(super) fn put_at(&mut self, place: Spot) {
         // `over there on the table`
         if self.to.as_ref().is_some_and(|to| to.noun == Noun::There) {
             self.to = None;

@@ -166,7 +166,9 @@ impl Reader<'_> {
     }
 
     fn release(&mut self, command: &Command) -> Result<(), Puzzle> {
-        if command.to.is_some() || command.to_whom.is_some() {
+        // `open it and drop the coke in`
+        if command.to.is_some() || command.to_whom.is_some() || (command.has("in") && !self.places.is_empty())
+        {
             return self.carry(command, Act::Put, &[]);
         }
         let items = match command.items.first() {

@@ -80,7 +80,30 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
         + longest(
             tokens,
             begin,
-            &["do not you dare", "do not you", "do not", "never", "try not to", "careful not to"],
+            &[
+                "do not you dare",
+                "do not you",
+                "do not",
+                "never",
+                "try not to",
+                "careful not to",
+                "and not",
+                "but not",
+                "not to",
+                "and not to",
+                "not",
+                "and try not to",
+                "and careful not to",
+                "be careful not to",
+                "be careful you do not",
+                "careful you do not",
+                "mind you do not",
+                "make sure you do not",
+                "make sure not to",
+                "be sure not to",
+                "take care not to",
+                "see that you do not",
+            ],
         )?;
     let of = |table: &[&str]| longest(tokens, at, table).is_some();
     // `do not forget the mug` may ask for it, `do not forget!` minds what was said.

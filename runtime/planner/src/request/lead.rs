@@ -1,172 +1,10 @@
 //! What stands before a verb out of politeness, and what someone says who wants to have something.
 
+use super::asking::asking;
 use super::lexicon::VERBS;
 use super::opening::LEADS;
 use super::token::{Token, longest, run, stands};
-
-/// What someone says who wants to have something.
-pub(super) const WANTS: &[&str] = &[
-    "i could do with having",
-    "i should like to have",
-    "i should like",
-    "i am needing",
-    "i am wanting",
-    "i would like to have",
-    "i would like to get",
-    "i would like",
-    "i would love",
-    "i want to have",
-    "i want",
-    "i need",
-    "i could use",
-    "i will have",
-    "i will take",
-    "i could do with",
-    "i will need",
-    "i am going to need",
-    "i feel like having",
-    "i feel like",
-    "i fancy having",
-    "i fancy",
-    "i would love to have",
-    "i would love to get",
-    "i would like to get hold of",
-    "i would not mind having",
-    "i would not mind",
-    "i want to get",
-    "i wish to have",
-    "i wish for",
-    "i am after",
-    "let me have",
-    "let us have",
-    "let me get",
-    "may we have",
-    "may i get",
-    "might i have",
-    "could i please have",
-    "can i please have",
-    "may i please have",
-    "could i have",
-    "could i get",
-    "can i have",
-    "can i get",
-    "may i have",
-    "can we have",
-    "could we have",
-    "we need",
-    "we want",
-    "we would like",
-    "i need to have",
-    "i would kill for",
-    "i really need",
-    "let me hold",
-    "can we get",
-    "could we get",
-    "i am ready for",
-    "i am in need of",
-    "i am in want of",
-    "i am dying for",
-    "i am desperate for",
-    "i could murder",
-    "i require",
-    "we require",
-    "me want",
-    "me need",
-    "me wants",
-    "what i need is",
-    "the thing i want is",
-    "the thing i would like is",
-    "the only thing i need is",
-    "the only thing i want is",
-    "what i want is",
-    "what i would like is",
-    "what i am after is",
-    "all i need is",
-    "all i want is",
-    "all i ask for is",
-    "the thing i need is",
-    "i am longing for",
-    "i am craving",
-    "i have been craving",
-    "i would give anything for",
-    "may i trouble you for",
-    "can i trouble you for",
-    "could i trouble you for",
-    "might i trouble you for",
-    "may i ask you for",
-    "can i ask you for",
-    "could i ask you for",
-    "can i bother you for",
-    "could i bother you for",
-    "might i bother you for",
-    "let me get hold of",
-    "let me get a hold of",
-    "let me have a hold of",
-    "i could do with",
-    "we could do with",
-    "we could use",
-    "we are after",
-];
-/// Before these somebody asks whether they can have something, which asks for it.
-const MAY_I: &[&str] = &[
-    "any chance",
-    "any chance that",
-    "is there any chance",
-    "is there any chance that",
-    "is there a chance",
-    "do you think",
-    "do you reckon",
-    "do you suppose",
-    "you think",
-    "i wonder if",
-    "i wonder whether",
-    "i was wondering if",
-    "i was wondering whether",
-    "i am wondering if",
-    "i was hoping",
-    "i was hoping that",
-    "i am hoping",
-    "i hope",
-    "would it be okay if",
-    "would it be ok if",
-    "would it be all right if",
-    "would it be possible that",
-    "is it okay if",
-    "is it possible that",
-];
-/// What they then ask for stands behind these.
-const HAVE: &[&str] = &[
-    "i could have",
-    "i can have",
-    "i might have",
-    "i may have",
-    "i could get",
-    "i can get",
-    "i could possibly have",
-    "i could please have",
-    "we could have",
-    "we can have",
-    "i had",
-    "i could borrow",
-    "i can borrow",
-];
-
-/// How many words a wish takes at a place, behind which stands what somebody wants to have.
-pub(super) fn wish(tokens: &[Token], at: usize) -> Option<usize> {
-    let asked = longest(tokens, at, MAY_I).and_then(|may| Some(may + longest(tokens, at + may, HAVE)?));
-    // `would it be possible to have the coke`, `any chance of the coke`
-    let have = [
-        "would it be possible to have",
-        "would it be possible to get",
-        "is it possible to have",
-        "any chance of having",
-        "any chance of",
-    ];
-    let chance = longest(tokens, at, &have).filter(|count| {
-        !tokens.get(at + count).is_some_and(|token| token.word() == "you" || token.word().ends_with("ing"))
-    });
-    longest(tokens, at, WANTS).max(asked).max(chance)
-}
+use super::wish::wish;
 
 /// Where the request itself begins.
 pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
@@ -178,8 +16,10 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
         let knows = longest(tokens, at, &["you know what to", "no need to", "gonnae no"]).is_some();
         let lead = longest(tokens, at, LEADS)
             .max(asked(tokens, at))
+            .max(asking(tokens, at))
             .filter(|_| !knows)
-            .or_else(|| be_kind(tokens, at));
+            .or_else(|| be_kind(tokens, at))
+            .or_else(|| does_a_favour(tokens, at));
         // `let us have the coke` is a wish, and no `let us`.
         let want = wish(tokens, at);
         // `hang on to it` is no `hang on`.
@@ -305,6 +145,42 @@ fn asked(tokens: &[Token], at: usize) -> Option<usize> {
     Some(end - at)
 }
 
+/// `do me a quick favour and`, `do your old mum a kindness`: how many words it takes.
+fn does_a_favour(tokens: &[Token], at: usize) -> Option<usize> {
+    let mut end =
+        at + longest(tokens, at, &["do", "could you do", "would you do", "can you do", "will you do"])?;
+    end += longest(
+        tokens,
+        end,
+        &[
+            "me",
+            "us",
+            "your old mum",
+            "an old man",
+            "an old woman",
+            "an old lady",
+            "your granny",
+            "mummy",
+            "grandma",
+            "grandpa",
+        ],
+    )?;
+    end += longest(tokens, end, &["a", "this", "one", "the", "this one", "just one", "another"])?;
+    end += run(
+        tokens,
+        end,
+        &[
+            "quick", "little", "small", "big", "huge", "tiny", "wee", "great", "massive", "enormous",
+            "special", "last", "one", "teeny",
+        ],
+    );
+    end += longest(tokens, end, &["favour", "favor", "kindness", "solid", "service", "good turn"])?;
+    end += longest(tokens, end, &["would you", "will you", "please", "could you"]).unwrap_or(0);
+    end += longest(tokens, end, &["and"]).unwrap_or(0);
+    // `do me a favour by opening it` is read with its verb.
+    stands(tokens, end, "by").is_none().then_some(end - at)
+}
+
 /// `be a dear and`, `be an absolute angel and`, `be so good as to`: how many words it takes.
 fn be_kind(tokens: &[Token], at: usize) -> Option<usize> {
     const KIND: &[&str] = &[
@@ -363,6 +239,16 @@ pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
         return None;
     }
     let soft = [
+        "show me",
+        "show me what you can do",
+        "show me how it is done",
+        "ready",
+        "at the ready",
+        "ready and waiting",
+        "all ready",
+        "here we go",
+        "easy does it",
+        "quick",
         "thank you very much",
         "thank you so much",
         "thank you",

@@ -2,6 +2,8 @@
 //!
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
+mod again;
+mod asking;
 mod assent;
 mod beside;
 mod carry;
@@ -9,6 +11,7 @@ mod clash;
 mod command;
 mod dissent;
 mod encouragement;
+mod ending;
 mod errand;
 mod forbidden;
 mod frame;
@@ -18,9 +21,12 @@ mod knowledge;
 mod lead;
 mod lexicon;
 mod looking;
+mod manners;
 mod meaning;
 mod noun;
 mod opening;
+mod overture;
+mod part;
 mod pick;
 mod puzzle;
 mod reference;
@@ -29,11 +35,14 @@ mod side;
 mod spoken;
 mod spot;
 mod statement;
+mod staying;
 mod telling;
 pub(crate) mod token;
 mod verb;
 mod vocabulary;
+mod wanting;
 mod whereabouts;
+mod wish;
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;

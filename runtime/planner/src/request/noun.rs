@@ -1,5 +1,6 @@
 //! What a request speaks of: a noun with its article, count, and what narrows it down.
 
+use super::ending::{ENDS, KIN, PRONOUNS};
 use super::knowledge;
 use super::spot::{Spot, is_way, spot};
 use super::token::{Token, singular, stands};
@@ -54,118 +55,6 @@ pub(super) struct Phrase {
     pub(super) is_liked: bool,
 }
 
-/// Words at which a noun ends.
-const ENDS: &[&str] = &[
-    "to",
-    "onto",
-    "on",
-    "in",
-    "into",
-    "inside",
-    "at",
-    "from",
-    "off",
-    "out",
-    "for",
-    "with",
-    "near",
-    "by",
-    "under",
-    "beside",
-    "over",
-    "up",
-    "down",
-    "away",
-    "back",
-    "and",
-    "then",
-    "please",
-    "so",
-    "because",
-    "when",
-    "if",
-    "while",
-    "that",
-    "which",
-    "who",
-    "thanks",
-    "thank",
-    "now",
-    "again",
-    "immediately",
-    "here",
-    "there",
-    "i",
-    "next",
-    "but",
-    "or",
-    "without",
-    "before",
-    "after",
-    "is",
-    "are",
-    "was",
-    "towards",
-    "toward",
-    "within",
-    "underneath",
-    "behind",
-    "it",
-    "me",
-    "them",
-    "upon",
-    "right",
-    "quickly",
-    "as",
-    "too",
-    "also",
-    "using",
-    "instead",
-    "rather",
-    "where",
-    "not",
-    "you",
-    "us",
-    "we",
-    "he",
-    "she",
-    "they",
-    "him",
-    "her",
-    "across",
-    "along",
-    "aside",
-    "around",
-    "later",
-    "soon",
-    "tonight",
-    "tomorrow",
-    "ready",
-    "tight",
-    "firm",
-    "steady",
-    "alone",
-    "somewhere",
-    "anywhere",
-    "elsewhere",
-    "gone",
-    "has",
-    "have",
-    "had",
-    "were",
-    "will",
-    "would",
-    "should",
-    "must",
-    "does",
-    "did",
-    "until",
-    "till",
-];
-
-/// What stands for something that was spoken of.
-const PRONOUNS: &[&str] = &["it", "them", "that", "this", "these", "those"];
-
 /// A noun that begins at a place, and where it ends.
 pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
     let word = tokens.get(at)?.word();
@@ -174,12 +63,45 @@ pub(super) fn noun(tokens: &[Token], at: usize) -> Option<(Noun, usize)> {
         "me" | "us" | "myself" => return Some((Noun::Speaker, at + 1)),
         "my" if matches!(
             next,
-            "place" | "hand" | "hands" | "side" | "lap" | "seat" | "spot" | "position"
+            "place"
+                | "hand"
+                | "hands"
+                | "side"
+                | "lap"
+                | "seat"
+                | "spot"
+                | "position"
+                | "way"
+                | "direction"
+                | "end"
         ) =>
         {
             return Some((Noun::Speaker, at + 2));
         }
         _ => {}
+    }
+    // `bring it to your old granny`: who says so of themselves.
+    if word == "your"
+        && let Some(kin) =
+            (at + 1..at + 4).find(|at| tokens.get(*at).is_some_and(|token| KIN.contains(&token.word())))
+        && tokens.get(at + 1..kin).is_some_and(|how| {
+            how.iter().all(|token| {
+                matches!(
+                    token.word(),
+                    "old"
+                        | "dear"
+                        | "poor"
+                        | "favourite"
+                        | "favorite"
+                        | "thirsty"
+                        | "tired"
+                        | "good"
+                        | "beloved"
+                )
+            })
+        })
+    {
+        return Some((Noun::Speaker, kin + 1));
     }
     let pronoun = PRONOUNS.iter().find(|known| **known == word);
     if let Some(pronoun) = pronoun.filter(|_| matches!(word, "it" | "them") || ends(tokens, at + 1)) {

@@ -2,7 +2,7 @@
 
 use super::beside::{ASKS, MATTERS, REASONS, SAYS, SHALL_WE, SUBJECTS, TELLS, WHETHER};
 use super::inflection::{Form, base};
-use super::token::{Token, longest, run, stands};
+use super::token::{Token, longest, stands};
 use super::verb::{Act, begins};
 
 /// A remark goes on to the end of its sentence, or to a comma or a joint behind which something is asked for.
@@ -30,6 +30,26 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     }
     // What is only named or looked at is spoken of where more follows.
     let is_named = [
+        "take a look",
+        "have a look",
+        "have a peek",
+        "take a peek",
+        "look inside",
+        "look in",
+        "peek inside",
+        "be careful with",
+        "be gentle with",
+        "be very careful with",
+        "be really careful with",
+        "careful with",
+        "easy with",
+        "go easy on",
+        "go easy with",
+        "watch out for",
+        "watch",
+        "mind",
+        "look out for",
+        "take good care of",
         "see",
         "look at",
         "about",
@@ -86,7 +106,18 @@ pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
     let is = |at: usize, table: &[&str]| tokens.get(at).is_some_and(|token| table.contains(&token.word()));
     let left = ["did i leave", "did we leave", "have i left", "have we left"];
     longest(tokens, begin, &left).is_some()
+        || is_rhetorical(tokens, begin)
         || is(begin, WHETHER) && (is(begin + 1, &whose) || (is(begin + 1, &["not"]) && is(begin + 2, &whose)))
+}
+
+/// `would it not look nice on the shelf?`, `should it not be shut?`: what is thought to be so, and asks for nothing by itself.
+fn is_rhetorical(tokens: &[Token], begin: usize) -> bool {
+    let asks = ["would", "should", "is", "does", "could", "will", "are", "do"];
+    let at = begin + longest(tokens, begin, &asks).unwrap_or(0);
+    let not = usize::from(stands(tokens, at, "not").is_some());
+    let who = ["it", "that", "this", "the", "my", "our", "everything", "they", "these", "those"];
+    let is_of_it = at > begin && longest(tokens, at + not, &who).is_some();
+    is_of_it && (not == 1 || longest(tokens, begin, &["would", "should"]).is_some())
 }
 
 /// `since you are up anyway, …`: a whole clause, behind which something is asked for.
@@ -187,6 +218,8 @@ pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
         "since",
         "as",
         "cause",
+        "coz",
+        "cuz",
         "cos",
         "now that",
         "seeing that",
@@ -199,7 +232,9 @@ pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
     let of = |table: &[&str]| {
         table.iter().find_map(|words| stands(tokens, at, words)).filter(|count| is_clause(at + count))
     };
-    let found = of(&reason).or_else(|| of(&lasts).filter(|_| holds));
+    // What somebody else does meanwhile bounds nothing of what is done now.
+    let while_other = of(&["while", "whilst"]);
+    let found = of(&reason).or(while_other).or_else(|| of(&lasts).filter(|_| holds));
     found.map(|_| remark_end(tokens, at))
 }
 
@@ -209,104 +244,4 @@ pub(super) fn is_boundary(tokens: &[Token], at: usize) -> bool {
         || tokens.get(at).is_some_and(|token| {
             matches!(token.word(), "and" | "then" | "so" | "but" | "please" | "for" | "where")
         })
-}
-
-/// `just stay there with it`: where the robot is once it has done what it was asked for. Where it ends.
-pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<usize> {
-    // `take it in your hand and keep it there`, `drive there and then stop`
-    let joined = begin.checked_sub(1).and_then(|at| tokens.get(at));
-    let is_joined = joined.is_some_and(|token| matches!(token.word(), "and" | "then"));
-    let same: &[&str] = match before {
-        Act::Pick | Act::Lift => &["keep it there", "hold it there"],
-        Act::Go if is_joined => &["stop", "stop there"],
-        _ => &[],
-    };
-    if let Some(count) = longest(tokens, begin, same)
-        && is_boundary(tokens, begin + count)
-    {
-        return Some(begin + count);
-    }
-    let awaits = [
-        "await further instructions",
-        "await instructions",
-        "await my instructions",
-        "await further orders",
-        "await orders",
-        "await my orders",
-        "await my signal",
-        "await my word",
-    ];
-    if let Some(count) = longest(tokens, begin, &awaits) {
-        return is_boundary(tokens, begin + count).then_some(begin + count);
-    }
-    let stays = longest(
-        tokens,
-        begin,
-        &[
-            "stay",
-            "wait",
-            "stand by",
-            "stand",
-            "remain",
-            "sit",
-            "hang on",
-            "hold on",
-            "hold still",
-            "stay put",
-            "hang about",
-        ],
-    )?;
-    let there = [
-        "there",
-        "put",
-        "still",
-        "where you are",
-        "right where you are",
-        "over there",
-        "in place",
-        "at the ready",
-        "ready",
-    ];
-    let mut at = begin + stays;
-    let is_there = longest(tokens, at, &there);
-    at += is_there.unwrap_or(0);
-    let what_for = [
-        "with it",
-        "with them",
-        "for me",
-        "for us",
-        "for now",
-        "please",
-        "for further instructions",
-        "for more instructions",
-        "for instructions",
-        "for my instructions",
-        "for further orders",
-        "for orders",
-        "for my orders",
-        "for my signal",
-        "for my word",
-        "for my call",
-        "for my command",
-        "for what comes next",
-        "for the next step",
-        "for the next instruction",
-        "for a bit",
-        "a bit",
-        "for me there",
-        "there",
-        "for me to come",
-        "for me to tell you",
-        "for me to say so",
-        "holding it",
-    ];
-    let begins_for = at;
-    at += run(tokens, at, &what_for);
-    // `and wait` alone, behind what it waits with or where
-    let is_waiting = is_there.is_some()
-        || (matches!(before, Act::Pick | Act::Lift | Act::Go | Act::Take) && (at > begins_for || is_joined));
-    if !is_waiting {
-        return None;
-    }
-    is_boundary(tokens, at).then_some(at)
 }

@@ -4,10 +4,11 @@ use super::command::{Command, command, words};
 use super::forbidden::{When, caution, forbidden};
 use super::frame::asks_for_it;
 use super::lead::{contrasts, skip_leads, thanks};
-use super::noun::noun;
-use super::remark::{is_question, is_remark, remark_end, stays_put};
-use super::token::{Token, stands};
-use super::verb::verb;
+use super::noun::{Noun, noun};
+use super::remark::{beside, is_question, is_remark, remark_end};
+use super::staying::stays_put;
+use super::token::{Token, longest, stands};
+use super::verb::{begins, is_want, verb};
 
 /// What somebody says beside what they ask for.
 #[derive(Clone, PartialEq, Debug)]
@@ -35,10 +36,43 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         }
         let begin = skip_leads(tokens, at);
         if begin >= tokens.len() || matches!(tokens.get(begin), Some(Token::Stop)) {
+            // `go to the sink? No.`
+            let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
+            let led = tokens.get(at..begin).unwrap_or_default();
+            if is_apart
+                && !spoken.commands.is_empty()
+                && led.iter().all(|token| token.word() == "no")
+                && !led.is_empty()
+            {
+                return Err(words(tokens, at, begin));
+            }
             at = begin + 1;
             continue;
         }
         let word = tokens.get(begin).map_or("", Token::word);
+        let is_apart = at.checked_sub(1).is_some_and(|at| tokens.get(at) == Some(&Token::Stop));
+        let more = spoken
+            .commands
+            .last_mut()
+            .filter(|_| is_apart)
+            .and_then(|last| last.goes_on_at(tokens, begin).or_else(|| last.is_about(tokens, begin)));
+        if let Some(end) = more {
+            at = end;
+            continue;
+        }
+        // `…, while I think about it`
+        if let Some(last) = spoken.commands.last()
+            && let Some(end) = beside(tokens, begin, last.act())
+        {
+            at = end;
+            continue;
+        }
+        // `I shall need it within reach, so put it on the table`: what shall be done is said behind it.
+        if let Some(end) = only_needs(tokens, begin) {
+            spoken.statements.extend(tokens.get(begin..end).map(|said| Statement { tokens: said.to_vec() }));
+            at = end;
+            continue;
+        }
         if let Some(count) = thanks(tokens, begin) {
             at = begin + count;
             continue;
@@ -75,7 +109,14 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         }
         asked_whether = false;
         if verb(tokens, begin).is_some() {
+            let before = spoken.commands.len();
             at = command(tokens, begin, &mut spoken.commands)?;
+            // `it is rubbish, put in the bin please`: what was spoken of.
+            if !spoken.statements.is_empty()
+                && let Some(first) = spoken.commands.get_mut(before)
+            {
+                first.is_of_what_was_said();
+            }
             continue;
         }
         let end = remark_end(tokens, begin);
@@ -83,6 +124,16 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         let is_no = tokens.get(at..begin).is_some_and(|led| led.iter().any(|token| token.word() == "no"));
         if is_no && !spoken.commands.is_empty() && noun(tokens, begin).is_some_and(|(_, after)| after == end)
         {
+            return Err(words(tokens, at, end));
+        }
+        // `the coke, I mean the sponge`: so is what is put right.
+        let corrects = longest(
+            tokens,
+            begin,
+            &["i mean", "i meant", "i mean to say", "make that", "or rather", "scratch that", "correction"],
+        )
+        .filter(|count| noun(tokens, begin + count).is_some_and(|(noun, _)| matches!(noun, Noun::Phrase(_))));
+        if corrects.is_some() && !spoken.commands.is_empty() {
             return Err(words(tokens, at, end));
         }
         if !is_remark(tokens, begin, end) {
@@ -94,4 +145,21 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
         at = end;
     }
     Ok(spoken)
+}
+
+/// What somebody needs who then says, behind a `so`, what shall be done with it; where that begins.
+fn only_needs(tokens: &[Token], begin: usize) -> Option<usize> {
+    if !is_want(tokens, begin) {
+        return None;
+    }
+    let end = remark_end(tokens, begin);
+    let so = end + usize::from(tokens.get(end) == Some(&Token::Comma));
+    let then = so + stands(tokens, so, "so")?;
+    let next = skip_leads(tokens, then);
+    let until = (next..tokens.len())
+        .find(|at| matches!(tokens.get(*at), Some(Token::Comma | Token::Stop)))
+        .unwrap_or(tokens.len());
+    let is_of_it =
+        tokens.get(next..until)?.iter().any(|token| matches!(token.word(), "it" | "that" | "them"));
+    (begins(tokens, next) && is_of_it).then_some(end)
 }

@@ -144,13 +144,29 @@ const CONTRACTIONS: &[(&str, &[&str])] = &[
 /// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe belongs to its
 /// word. O(bytes).
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    pieces(text).into_iter().map(|(token, _)| token).collect()
+    let mut tokens: Vec<Token> = Vec::new();
+    let mut begin = 0;
+    for (token, end) in pieces(text) {
+        let is_stop = token == Token::Stop;
+        // `want the coke?` offers it, `want the coke!` asks for it.
+        let asks = is_stop && text.get(..end).is_some_and(|said| said.ends_with('?'));
+        if asks && tokens.get(begin).is_some_and(|first| matches!(first.word(), "want" | "need" | "fancy")) {
+            let you = ["do", "you"].map(|word| Token::Word(word.to_owned()));
+            tokens.splice(begin..begin, you);
+        }
+        tokens.push(token);
+        if is_stop {
+            begin = tokens.len();
+        }
+    }
+    tokens
 }
 
 /// The same, each with the offset in bytes behind it; what is written together ends together.
 pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
     let mut pieces = Vec::new();
     let mut word = String::new();
+    let mut was_blank = true;
     let mut letters = text.char_indices().peekable();
     while let Some((at, letter)) = letters.next() {
         // A point between digits or letters without a blank belongs to the word: `1.5`.
@@ -159,14 +175,23 @@ pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
             && letters.peek().is_some_and(|(_, next)| next.is_alphanumeric());
         if matches!(letter, '\'' | '\u{2019}' | '\u{2018}') {
             word.push('\'');
+            was_blank = false;
             continue;
         }
         if letter.is_alphanumeric() || joins {
             word.extend(letter.to_lowercase());
+            was_blank = false;
             continue;
         }
         push(&mut pieces, &mut word, at);
+        // A dash between blanks is a pause.
+        let is_pause = matches!(letter, '\u{2013}' | '\u{2014}')
+            || (letter == '-'
+                && was_blank
+                && letters.peek().is_none_or(|(_, next)| next.is_whitespace() || *next == '-'));
+        was_blank = letter.is_whitespace();
         let mark = match letter {
+            _ if is_pause => Some(Token::Comma),
             ',' | ':' => Some(Token::Comma),
             '.' | '!' | '?' | ';' | '\n' => Some(Token::Stop),
             _ => None,
@@ -229,6 +254,10 @@ pub(super) fn singular(word: &str) -> String {
 
 /// How many tokens words take at a place; none where they do not stand there.
 pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
+    // Most of a table begins with another word.
+    if !words.starts_with(tokens.get(at)?.word()) {
+        return None;
+    }
     let mut count = 0;
     for word in words.split(' ') {
         if tokens.get(at + count)?.word() != word {

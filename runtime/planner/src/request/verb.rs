@@ -1,8 +1,9 @@
 //! The verbs of household requests.
 
-use super::lead::{skip_leads, wish};
+use super::lead::skip_leads;
 use super::lexicon::VERBS;
 use super::token::{Token, longest, run, stands};
+use super::wish::wish;
 
 /// What is asked for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -142,7 +143,7 @@ fn is_no_thing(tokens: &[Token], at: usize) -> bool {
     });
     is_undone
         || is_way_in
-        || tokens.get(at).is_some_and(|token| token.word() == "to")
+        || tokens.get(at).is_some_and(|token| matches!(token.word(), "to" | "you"))
         || matches!(
             what,
             "help"

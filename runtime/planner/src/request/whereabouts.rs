@@ -115,6 +115,13 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
     if let Some(spots) = spots(tokens, at, false) {
         return Some((it(), spots));
     }
+    // `it in the cupboard`, behind `you will see`
+    if is_answer
+        && stands(tokens, at, "it").is_some()
+        && let Some(spots) = spots(tokens, skip(tokens, at + 1, HOW), false)
+    {
+        return Some((it(), spots));
+    }
     let look = longest(tokens, at, LOOK).filter(|_| is_answer);
     if let Some(count) = look {
         // `look for it in the cupboard`
@@ -161,9 +168,46 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
         let (thing, after) = noun(tokens, verb + 1)?;
         return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
     }
+    // `Tommy put it in the fridge`
+    let named =
+        if is_one_of(tokens, at, &["the", "one", "some", "his", "her", "their"]) { at + 2 } else { at + 1 };
+    let verb = skip(tokens, named, HAS);
+    let verb = if verb > named && is_one_of(tokens, verb - 1, &["had"]) && !is_one_of(tokens, verb, PUT) {
+        verb - 1
+    } else {
+        verb
+    };
+    let is_past = is_one_of(
+        tokens,
+        verb,
+        &[
+            "put", "left", "placed", "moved", "saw", "hid", "dropped", "stuck", "popped", "tucked",
+            "stashed", "shoved", "chucked", "stored", "found", "threw", "set", "tidied", "took", "had",
+        ],
+    );
+    if is_answer
+        && is_past
+        && !is_one_of(tokens, at, &["it", "that", "you", "there"])
+        && let Some((thing @ Noun::Before(_), after)) = noun(tokens, verb + 1)
+    {
+        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+    }
     // `(I remember) leaving it in the fridge`
     if is_answer && tokens.get(at)?.word().ends_with("ing") && is_one_of(tokens, at, PUT) {
         let (thing, after) = noun(tokens, at + 1)?;
+        return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
+    }
+    // `the sponge lives in the drawer`: a verb that the noun would take in.
+    let before_verb = (at + 1..tokens.len()).find_map(|verb| {
+        let count = longest(
+            tokens,
+            verb,
+            &["lives", "goes", "belongs", "sits", "stands", "lies", "hides", "stays", "rests"],
+        )?;
+        let (thing, after) = noun(tokens.get(..verb)?, at)?;
+        (after == verb).then_some((thing, verb + count))
+    });
+    if let Some((thing, after)) = before_verb {
         return Some((thing, spots(tokens, skip(tokens, after, HOW), false)?));
     }
     let (thing, after) = noun(tokens, at)?;

@@ -4,6 +4,7 @@
 use super::clause::cause;
 use super::state::words;
 use crate::request::inflection::{Form, base};
+use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::spot::{is_way, spot};
 use crate::request::token::{Token, stands};
@@ -51,7 +52,11 @@ pub(super) fn told_you(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Tok
     if said.iter().any(|token| TELLS.contains(&token.word())) {
         return None;
     }
-    let is_series = here.get(..begin)?.iter().any(|token| token.word() == "and");
+    let sentence = here.get(..begin)?.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+    let asks = here.iter().skip(begin).chain(tokens.get(end..).unwrap_or_default().iter().take(2));
+    let is_series = here.get(..begin)?.iter().any(|token| token.word() == "and")
+        || verb(sentence, skip_leads(sentence, 0)).is_some()
+        || sentence.iter().chain(asks).any(|token| token.word() == "please");
     if TOLD.contains(&word) && !is_series {
         return None;
     }

@@ -2,13 +2,17 @@
 
 use super::ONLY_IF_SO;
 use super::link::{CAUSE, DO_NOT_WANT, HOLDS, IN_HAND, IS, SEE_TO, SHALL, SHALL_IT, TO_BE, WANT};
-use super::placed::{fronted, headed, room_for, sent, with_it};
+use super::placed::{fronted, headed, sent, with_it};
+use super::pleasant::{called_for, pleasant};
+use super::room::room_for;
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
 use crate::request::inflection::Form;
-use crate::request::lead::{self, skip_leads};
-use crate::request::noun::noun;
+use crate::request::lead::skip_leads;
+use crate::request::noun::{Noun, noun};
+use crate::request::spot::{Relation, spot, way};
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::begins;
+use crate::request::wish::wish as to_have;
 
 /// Behind this only `open` and `closed` ask for something: `it stays on the table` tells where it is.
 const STAYS: &str = "stays";
@@ -25,9 +29,11 @@ pub(super) fn clause(tokens: &[Token], begin: usize, begins_sentence: bool) -> O
         .or_else(|| self_moved(tokens_here, begin))
         .or_else(|| fronted(tokens_here, begin))
         .or_else(|| room_for(tokens_here, begin))
-        .or_else(|| with_it(tokens_here, begin))
+        .or_else(|| with_it(tokens, begin))
         .or_else(|| sent(tokens_here, begin))
+        .or_else(|| pleasant(tokens_here, begin))
         .or_else(|| unless_so(tokens, begin, limit))
+        .or_else(|| begins_sentence.then(|| called_for(tokens, begin, limit)).flatten())
         .or_else(|| begins_sentence.then(|| headed(tokens, begin, limit)).flatten())
         .or_else(|| begins_sentence.then(|| bare(tokens, begin, limit)).flatten())
 }
@@ -55,7 +61,13 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             (None, _) => return None,
         };
         // `see that it gets to me`
-        let to_me = ["to me", "to us", "over to me", "to where i am"];
+        let to_me = ["to me", "to us", "over to me", "to where i am", "with me", "here with me"];
+        if is_seen_to
+            && let Some(reached) = longest(tokens, at, &["reaches", "reached"])
+            && let Some(me) = longest(tokens, at + reached, &["me", "us"])
+        {
+            return Some((State::Done("bring me".to_owned()), at + reached + me));
+        }
         if (is_seen_to || belongs) && is_wanted && longest(tokens, at + count, &to_me).is_some() {
             return Some((State::At, at + count));
         }
@@ -86,6 +98,12 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
         }
         let needs = longest(tokens, at, &["needs", "wants"]) == Some(count);
         let (state, after) = state(tokens, at + count, if needs { Form::Gerund } else { Form::Participle })?;
+        // `it must be closed` may only guess; `it must be put on the table` asks.
+        if stands(tokens, at, "must be") == Some(count)
+            && (!matches!(state, State::Done(_)) || opposite_name(&state).is_some())
+        {
+            return None;
+        }
         if stands(tokens, at, STAYS) == Some(count) && opposite_name(&state).is_none() {
             return None;
         }
@@ -100,7 +118,7 @@ fn predicate(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
 /// `I need the fridge open`, `I would like the coke to be on the table`, `I want you at the door`
 fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let sees_you = ["to see you", "to meet you", "to have you", "you to be", "you"];
-    let wants = longest(tokens, begin, WANT).max(lead::wish(tokens, begin));
+    let wants = longest(tokens, begin, WANT).max(to_have(tokens, begin));
     if let Some(count) = wants
         && let Some(you) = sees_you.iter().find_map(|see| stands(tokens, begin + count, see))
         && is_place(tokens, begin + count + you)
@@ -112,7 +130,9 @@ fn wish(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
             let to_be = longest(tokens, at, TO_BE);
             let found = state(tokens, at + to_be.unwrap_or(0), Form::Participle)?;
             // `I want the mug on the table` is left to who knows where the mug is.
-            (to_be.is_some() || !matches!(found.0, State::At)).then_some(found)
+            let sees = stands(tokens, begin + count - 1, "see").is_some()
+                || stands(tokens, begin + count - 1, "for").is_some();
+            (to_be.is_some() || sees || !matches!(found.0, State::At)).then_some(found)
         });
     }
     let count = longest(tokens, begin, DO_NOT_WANT)?;
@@ -133,6 +153,20 @@ pub(super) fn cause(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize
         // `make it go on the table`
         if let ("make", Some(goes)) = (verb, stands(tokens, at, "go")) {
             return is_place(tokens, at + goes).then_some((State::At, at + goes));
+        }
+        // `make it stand on the table`
+        if let ("make" | "have", "stand" | "sit" | "rest" | "lie" | "live") = (verb, tokens.get(at)?.word()) {
+            return is_place(tokens, at + 1).then_some((State::At, at + 1));
+        }
+        // `have it on the table`
+        if verb == "have" && is_place(tokens, at) && spot(tokens, at).is_some() {
+            return Some((State::At, at));
+        }
+        // `push it to`
+        if let ("push" | "pull", "to") = (verb, tokens.get(at)?.word()) {
+            let is_last =
+                tokens.get(at + 1).is_none_or(|next| matches!(next.word(), "please" | "for" | "and"));
+            return is_last.then_some((State::Closed, at + 1));
         }
         // `have it waiting on the table`
         if let ("have", "waiting" | "ready") = (verb, tokens.get(at)?.word()) {
@@ -226,6 +260,26 @@ fn is_spoken_of(tokens: &[Token], mut at: usize) -> bool {
 
 /// `the coke, please`: someone wants to have it.
 fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
+    // `nobody wants the toy now. Rubbish bin, please`
+    let bins = [
+        "rubbish bin",
+        "bin",
+        "trash",
+        "trash can",
+        "dustbin",
+        "rubbish",
+        "garbage",
+        "garbage can",
+        "straight in the bin",
+        "waste bin",
+    ];
+    if !begins_first(tokens, begin)
+        && let Some(count) = longest(tokens, begin, &bins)
+        && matches!(tokens.get(begin + count), None | Some(Token::Comma | Token::Stop))
+        && stands(tokens, begin + count + 1, "please").is_some()
+    {
+        return Some((words("discard it"), begin + count));
+    }
     if begins(tokens, begin) {
         return None;
     }
@@ -245,6 +299,22 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         let mut said = words("bring me");
         said.extend_from_slice(tokens.get(begin..after)?);
         return Some((said, after));
+    }
+    // `the coke, on the table, please`
+    if is_named
+        && after == limit
+        && tokens.get(limit) == Some(&Token::Comma)
+        && let Some((place, end)) = spot(tokens, limit + 1).or_else(|| way(tokens, limit + 1))
+        && matches!(place.noun, Noun::Phrase(_))
+        && place.relation != Relation::Beside
+        && let asks = end + usize::from(tokens.get(end) == Some(&Token::Comma))
+        && let Some(asked) = longest(tokens, asks, &["please", "now", "quick"])
+        && matches!(tokens.get(asks + asked), None | Some(Token::Stop | Token::Comma))
+    {
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        said.extend_from_slice(tokens.get(limit + 1..end)?);
+        return Some((said, end));
     }
     let ways = [
         "over to",
@@ -275,6 +345,11 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
         return Some((said, after));
     }
     None
+}
+
+/// Whether nothing was said before.
+fn begins_first(tokens: &[Token], begin: usize) -> bool {
+    tokens.get(..begin).is_none_or(|before| !before.contains(&Token::Stop))
 }
 
 fn is_pronoun(word: &str) -> bool {

@@ -1,181 +1,19 @@
 //! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
 
-use super::tags::{APART, HASTE, TAGS};
-use crate::request::token::{Token, longest, stands};
+use super::aside::{ASIDES, NAMES};
+use super::haste::{APART, HASTE};
+use super::tags::TAGS;
+use crate::request::inflection::{Form, base};
+use crate::request::lead::skip_leads;
+use crate::request::noun::{Noun, noun};
+use crate::request::token::{Token, longest, run, stands};
 use crate::request::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
-const SOUNDS: &[&str] = &[
+pub(in crate::request) const SOUNDS: &[&str] = &[
     "um", "umm", "uh", "uhm", "er", "erm", "hm", "hmm", "mm", "ugh", "ah", "aah", "oh", "ooh", "aw", "gosh",
     "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh", "yuck", "ew", "eww", "yikes", "ouch",
     "yay", "wow", "oof", "jeez", "sheesh", "brr",
-];
-/// Set off by commas on both sides.
-const ASIDES: &[&str] = &[
-    "like",
-    "you know",
-    "i mean",
-    "i guess",
-    "i suppose",
-    "i think",
-    "i am afraid",
-    "honestly",
-    "frankly",
-    "you see",
-    "of course",
-    "as usual",
-    "as always",
-    "as i said",
-    "well",
-    "so",
-    "now",
-    "say",
-    "let me think",
-    "let me see",
-    "how do i put it",
-    "what was it",
-    "what is it called",
-    "whatever",
-    "anyway",
-    "all right then",
-    "right then",
-    "okay then",
-    "ok then",
-    "come on",
-    "go on",
-    "go ahead",
-    "go on then",
-    "come on then",
-    "no offence",
-    "no offense",
-    "pretty please",
-    "by the way",
-    "hurry",
-    "hurry up",
-    "quick",
-    "quickly",
-    "look",
-    "listen",
-    "listen up",
-    "shoo",
-    "task",
-    "new task",
-    "next task",
-    "your task",
-    "your next task",
-    "here is your task",
-    "request",
-    "command",
-    "order",
-    "instruction",
-    "instructions",
-    "new instruction",
-    "out of my way",
-    "out of the way",
-    "let me through",
-    "mummy",
-    "mommy",
-    "mum",
-    "mom",
-    "daddy",
-    "dad",
-    "attention please",
-    "attention",
-    "one more thing",
-    "one thing",
-    "last thing",
-    "last one",
-    "next one",
-    "next thing",
-    "just one thing",
-    "quick favour",
-    "quick favor",
-    "small favour",
-    "small favor",
-    "little favour",
-    "little favor",
-    "favour please",
-    "favor please",
-    "help me here",
-    "be honest",
-    "to be honest",
-    "in fact",
-    "actually",
-    "oh no",
-    "oh dear",
-    "oops",
-    "ah yes",
-    "ah right",
-    "oh yes",
-    "oh right",
-    "right so",
-    "right",
-    "okay so",
-    "ok so",
-    "alright so",
-    "yes please",
-    "thank goodness",
-    "good",
-    "great",
-    "perfect",
-    "lovely",
-    "excellent",
-    "wonderful",
-    "brilliant",
-    "super",
-];
-/// Who is spoken to.
-const NAMES: &[&str] = &[
-    "dear",
-    "my dear",
-    "love",
-    "my love",
-    "lovely",
-    "sweetheart",
-    "sweetie",
-    "sweet pea",
-    "darling",
-    "honey",
-    "hon",
-    "babe",
-    "buddy",
-    "bud",
-    "mate",
-    "pal",
-    "friend",
-    "my friend",
-    "old friend",
-    "robot",
-    "mister robot",
-    "mr robot",
-    "robbie",
-    "sir",
-    "dude",
-    "man",
-    "kiddo",
-    "champ",
-    "boss",
-    "chief",
-    "duck",
-    "pet",
-    "sunshine",
-    "treasure",
-    "angel",
-    "big guy",
-    "little one",
-    "little guy",
-    "little fella",
-    "old chap",
-    "old boy",
-    "old thing",
-    "my good robot",
-    "good robot",
-    "guys",
-    "folks",
-    "everyone",
-    "team",
-    "bot",
-    "machine",
 ];
 /// What is called before a name.
 const CALLS: &[&str] = &[
@@ -188,6 +26,17 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while let Some(token) = tokens.get(at) {
+        // `bring, please, the coke`
+        if token.word() == "please"
+            && tokens.get(at + 1) == Some(&Token::Comma)
+            && let [before @ .., verb, Token::Comma] = kept.as_slice()
+            && is_mark(before.last())
+            && matches!(base(verb.word()), Some((_, Form::Base)))
+        {
+            kept.pop();
+            at += 2;
+            continue;
+        }
         if SOUNDS.contains(&token.word()) {
             at += 1;
             // `the coke, um, please`
@@ -195,17 +44,18 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
                 at += 1;
             }
             // `the, uh, coke`
-            if let [.., article, Token::Comma] = kept.as_slice()
-                && matches!(article.word(), "the" | "a" | "an" | "my" | "that" | "to" | "in" | "on" | "me")
-            {
-                kept.pop();
-            }
+            unbroken(&mut kept, tokens.get(at));
             continue;
         }
         if let Some(end) =
             aside(tokens, at, &kept).or_else(|| called(tokens, at, &kept)).or_else(|| tag(tokens, at, &kept))
         {
+            // `the coke, if you would be so kind`: courtesy is all that says that it is wanted.
+            if is_wanted(tokens.get(at..end).unwrap_or_default(), &kept) {
+                kept.push(Token::Word("please".to_owned()));
+            }
             at = end;
+            unbroken(&mut kept, tokens.get(at));
             continue;
         }
         kept.push(token.clone());
@@ -214,6 +64,49 @@ pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     kept
 }
 
+/// Whether courtesy follows a bare noun.
+fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
+    let begs = |token: &Token| {
+        matches!(
+            token.word(),
+            "please"
+                | "kind"
+                | "mind"
+                | "grateful"
+                | "trouble"
+                | "bother"
+                | "thanks"
+                | "cheers"
+                | "ta"
+                | "obliged"
+                | "appreciated"
+                | "good"
+        )
+    };
+    let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
+    let begin = skip_leads(sentence, 0);
+    courtesy.iter().any(begs)
+        && !begins(sentence, 0)
+        && matches!(noun(sentence, begin), Some((Noun::Phrase(_), end)) if end == sentence.len())
+}
+
+/// `could I, er, have`, `the, uh, coke`: a comma behind a word that does not end a clause was put around what was left out.
+fn unbroken(kept: &mut Vec<Token>, next: Option<&Token>) {
+    if let [.., word, Token::Comma] = kept.as_slice()
+        && MIDDLE.contains(&word.word())
+        && matches!(next, Some(Token::Word(_)))
+    {
+        kept.pop();
+    }
+}
+
+/// Words behind which no clause ends.
+const MIDDLE: &[&str] = &[
+    "the", "a", "an", "my", "your", "our", "to", "in", "on", "into", "onto", "me", "i", "we", "could",
+    "would", "maybe", "perhaps", "possibly", "and", "of", "for", "have", "need", "want", "with", "at", "by",
+    "be", "if",
+];
+
 fn is_mark(token: Option<&Token>) -> bool {
     matches!(token, None | Some(Token::Comma | Token::Stop))
 }
@@ -221,13 +114,17 @@ fn is_mark(token: Option<&Token>) -> bool {
 /// `, like,`: with the comma behind it.
 fn aside(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let end = at + longest(tokens, at, ASIDES)?;
-    (is_mark(kept.last()) && tokens.get(end) == Some(&Token::Comma)).then_some(end + 1)
+    // `and, like, put it there`
+    let joins = kept.last().is_some_and(|token| matches!(token.word(), "and" | "so" | "but" | "then"))
+        && longest(tokens, at, &["like", "you know", "i mean", "well"]).is_some();
+    ((is_mark(kept.last()) || joins) && tokens.get(end) == Some(&Token::Comma)).then_some(end + 1)
 }
 
 /// `, love`, `hey buddy,`: whom somebody calls, with the comma before it.
 fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let comma = usize::from(tokens.get(at) == Some(&Token::Comma));
-    let end = at + comma + longest(tokens, at + comma, NAMES)?;
+    longest(tokens, at + comma, NAMES)?;
+    let end = at + comma + run(tokens, at + comma, NAMES);
     if !is_mark(tokens.get(end)) {
         return None;
     }
@@ -237,10 +134,24 @@ fn called(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     // `take it, dear, and do not let go`
     let is_thing = matches!(
         tokens.get(end - 1).map_or("", Token::word),
-        "honey" | "duck" | "pet" | "treasure" | "machine"
+        "honey"
+            | "duck"
+            | "pet"
+            | "treasure"
+            | "machine"
+            | "flower"
+            | "sugar"
+            | "pumpkin"
+            | "hen"
+            | "star"
+            | "petal"
     );
-    let goes_on =
-        goes_on && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
+    let is_clause =
+        longest(tokens, end + 2, &["i", "we", "it", "you", "he", "she", "they", "there", "that", "do not"])
+            .is_some();
+    let goes_on = goes_on
+        && !is_clause
+        && (is_thing || (!begins(tokens, end + 2) && stands(tokens, end + 2, "do not").is_none()));
     let is_called = match kept.last() {
         _ if comma == 1 => !kept.is_empty() && !goes_on,
         None | Some(Token::Stop) => tokens.get(end).is_some(),
@@ -262,6 +173,8 @@ fn tag(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     }
     let is_apart = comma == 1 || kept.last() == Some(&Token::Stop);
     let apart = longest(tokens, at + comma, APART).filter(|_| is_apart);
-    let end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
+    let mut end = at + comma + longest(tokens, at + comma, TAGS).max(apart)?;
+    // `would you mate`, `cheers love`
+    end += longest(tokens, end, NAMES).filter(|count| is_mark(tokens.get(end + count))).unwrap_or(0);
     (!kept.is_empty() && is_mark(tokens.get(end))).then_some(end)
 }

@@ -1,174 +1,13 @@
 //! What somebody says that they have to do, cannot do or forgot, and then asks for: `I forgot to close the fridge, could you
 //! do that for me?`
 
+use super::task::{ASIDE, BEHIND, DO_IT, NOT_TO, TO_DO, WISHED};
 use crate::request::inflection::{Form, base};
 use crate::request::lead::skip_leads;
 use crate::request::noun::noun;
 use crate::request::spot::spot;
 use crate::request::token::{Token, longest, stands};
 use crate::request::verb::verb;
-
-/// What asks for what was spoken of.
-const DO_IT: &[&str] = &[
-    "do it",
-    "do that",
-    "do this",
-    "do so",
-    "do the job",
-    "see to it",
-    "see to that",
-    "see to this",
-    "take care of it",
-    "take care of that",
-    "take care of this",
-    "handle it",
-    "handle that",
-    "manage that",
-    "manage it",
-    "sort it out",
-    "sort that out",
-    "arrange that",
-    "make that happen",
-    "make it happen",
-    "help me",
-    "help me out",
-    "help me with that",
-    "help me with it",
-    "help",
-    "help out",
-    "lend me a hand",
-    "give me a hand",
-    "give me a hand with that",
-    "give me a hand with it",
-    "make it so",
-    "give it a try",
-    "give it a go",
-    "give that a try",
-    "give that a go",
-    "have a go",
-    "have a try",
-    "try it",
-    "do the honours",
-    "do the honors",
-    "sort that",
-    "sort it",
-    "arrange it",
-    "see what you can do",
-    "be so kind",
-    "take over",
-    "jump in",
-    "step in",
-    "do it for me",
-    "do that for me",
-    "get that done",
-    "get it done",
-    "make sure of it",
-    "make sure of that",
-    "make sure it happens",
-    "deal with it",
-    "deal with that",
-    "that is your job",
-    "it is your job",
-];
-/// What may follow that.
-const BEHIND: &[&str] = &[
-    "for me",
-    "for us",
-    "instead",
-    "now",
-    "please",
-    "then",
-    "too",
-    "quickly",
-    "yourself",
-    "today",
-    "in my place",
-    "soon",
-];
-/// What somebody has to do, or cannot, stands behind these.
-const TO_DO: &[&str] = &[
-    "have to",
-    "has to",
-    "need to",
-    "needs to",
-    "have got to",
-    "ought to",
-    "am supposed to",
-    "was supposed to",
-    "have been meaning to",
-    "meant to",
-    "wanted to",
-    "want to",
-    "was going to",
-    "am going to",
-    "was about to",
-    "forgot to",
-    "have forgotten to",
-    "keep forgetting to",
-    "can not manage to",
-    "could not manage to",
-    "am not able to",
-    "am unable to",
-    "was not able to",
-    "have been trying to",
-    "am trying to",
-    "tried to",
-    "have no time to",
-    "do not have time to",
-    "do not have the time to",
-    "do not have the strength to",
-    "am too tired to",
-    "am too lazy to",
-    "am too busy to",
-    "i should",
-    "i must",
-    "i can not",
-    "i could not",
-    "someone should",
-    "somebody should",
-    "someone must",
-    "somebody must",
-    "someone has to",
-    "somebody has to",
-    "it is time to",
-    "would love to",
-    "would like to",
-    "promised to",
-    "promised i would",
-    "promised that i would",
-    "i would get up and",
-    "i would",
-    "bet you can not",
-];
-/// Behind these stands how things shall be.
-const WISHED: &[&str] = &[
-    "i would like to see",
-    "i would love to see",
-    "i want to see",
-    "i would rather have",
-    "i would sooner have",
-    "i would rather see",
-    "i would prefer to have",
-    "i would prefer to see",
-];
-/// What tells when somebody meant to do it, or who.
-const ASIDE: &[&str] =
-    &["this morning", "this afternoon", "yesterday", "last night", "earlier", "last week", "myself", "today"];
-/// None of it is meant behind these: `I do not have to close it`.
-const NOT_TO: &[&str] = &[
-    "do not have to",
-    "do not need to",
-    "do not want to",
-    "does not have to",
-    "does not need to",
-    "never wanted to",
-    "never meant to",
-    "did not want to",
-    "did not mean to",
-    "do not want you to",
-    "would not like to",
-    "would not want to",
-];
 
 /// A request with what is delegated in the place of what asks for it.
 pub(super) fn delegated(tokens: &[Token]) -> Vec<Token> {
@@ -206,6 +45,19 @@ pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
                 "have forgotten to",
                 "can not manage to",
                 "can not seem to",
+                "asked for",
+                "has asked for",
+                "is asking for",
+                "asked me to",
+                "was asked to",
+                "told me to",
+                "am supposed to",
+                "was supposed to",
+                "meant to",
+                "have no time to",
+                "do not have time to",
+                "never got round to",
+                "never got around to",
             ];
             let sentence = said.get(begin..).unwrap_or_default();
             if (0..sentence.len()).any(|at| longest(sentence, at, &cannot).is_some()) {
@@ -306,11 +158,17 @@ fn asked_for(tokens: &[Token], at: usize) -> Option<(usize, usize, Vec<Token>)> 
         return Some((begin, end, words));
     }
     let task = (begin..said.len()).find_map(|at| to_do(at).filter(|task| verb(said, *task).is_some()));
-    let Some(task) = task else { return wished_for(said, begin).map(|said| (begin, end, said)) };
+    let Some(task) = task else {
+        let wished =
+            wished_for(said, begin).or_else(|| of_another(said, begin)).or_else(|| has_to_be(said, begin));
+        return wished.map(|said| (begin, end, said));
+    };
     let until = (task..said.len())
         .find(|at| {
             matches!(said.get(*at), Some(Token::Comma | Token::Stop))
                 || matches!(said.get(*at).map_or("", Token::word), "but" | "so")
+                // `with this bad wrist`
+                || longest(said, *at, &["with this", "with these", "with my", "with only", "on my own", "by myself", "because of", "due to"]).is_some()
                 // `and never got round to it`
                 || (stands(said, *at, "and").is_some() && verb(said, *at + 1).is_none())
         })
@@ -331,6 +189,59 @@ fn wished_for(said: &[Token], begin: usize) -> Option<Vec<Token>> {
     let mut wanted = vec![Token::Word("put".to_owned())];
     wanted.extend_from_slice(said.get(thing)?);
     wanted.extend_from_slice(said.get(place)?);
+    Some(wanted)
+}
+
+/// `my wife wants the coke on the counter, could you see to that?`, `Mum asked for it to be put away. Would you?`
+fn of_another(said: &[Token], begin: usize) -> Option<Vec<Token>> {
+    const WANTS: &[&str] = &[
+        "wants",
+        "needs",
+        "would like",
+        "would love",
+        "would prefer",
+        "would rather have",
+        "prefers",
+        "asked for",
+        "is asking for",
+        "has asked for",
+        "insists on having",
+        "likes to have",
+        "wanted",
+        "is expecting",
+        "expects",
+    ];
+    let at = (begin + 1..said.len()).find_map(|at| Some(at + longest(said, at, WANTS)?))?;
+    let mut wanted = vec![Token::Word("i".to_owned()), Token::Word("want".to_owned())];
+    wanted.extend_from_slice(said.get(at..clause_end(said, at))?);
+    Some(wanted)
+}
+
+/// `the fridge must be closed, you do it?`: seen to.
+fn has_to_be(said: &[Token], begin: usize) -> Option<Vec<Token>> {
+    let begin = skip_leads(said, begin);
+    let must = [
+        "must be",
+        "should have been",
+        "ought to have been",
+        "was supposed to be",
+        "was meant to be",
+        "has to be",
+        "ought to be",
+        "have to be",
+        "should be",
+        "needs to be",
+        "is supposed to be",
+        "must go",
+        "has to go",
+        "should go",
+    ];
+    let at = (begin + 1..clause_end(said, begin)).find(|at| longest(said, *at, &must).is_some())?;
+    let count = longest(said, at, &must)?;
+    let mut wanted = vec![Token::Word("ensure".to_owned())];
+    wanted.extend_from_slice(said.get(begin..at)?);
+    wanted.push(Token::Word("is".to_owned()));
+    wanted.extend_from_slice(said.get(at + count..clause_end(said, at))?);
     Some(wanted)
 }
 

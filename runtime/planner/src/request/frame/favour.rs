@@ -159,12 +159,18 @@ pub(super) fn in_series(tokens: &mut [Token], mut at: usize) {
         let is_joint = token.word() == "and";
         at += 1;
         if is_joint
-            && let Some(verb) = tokens.get(at).and_then(|token| of_past(token.word()))
+            && let Some(verb) =
+                tokens.get(at).and_then(|token| of_past(token.word()).or_else(|| doing(token.word())))
             && let Some(token) = tokens.get_mut(at)
         {
             *token = Token::Word(verb);
         }
     }
+}
+
+/// `… picking it up and hanging on to it`
+fn doing(word: &str) -> Option<String> {
+    base(word).filter(|(_, form)| *form == Form::Gerund).map(|(verb, _)| verb)
 }
 
 /// `let me know once you have put it there`: that it shall be done, and told.

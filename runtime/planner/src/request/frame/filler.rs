@@ -1,6 +1,7 @@
 //! Words of a request that say how, why or when it is convenient, and not what: they are left out.
 
 use super::fill::{FILLERS, LASTING, NOT_MANNER, OTHERS, STRESSED};
+use super::leisure::leisure;
 use crate::request::inflection::{Form, base};
 use crate::request::token::{Token, longest, stands};
 
@@ -164,7 +165,8 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let is_aim = match tokens.get(at)?.word() {
         "so" => {
             let that = stands(tokens, at, "so that").unwrap_or(1);
-            !begins_clause && clause(at + that).is_some()
+            let negated = then_negated(tokens, at + that);
+            !begins_clause && (clause(at + that).is_some() || negated || purpose(tokens, at + that))
         }
         "where" => {
             let will = ["i will", "we will", "i am sure to", "i am going to"];
@@ -187,7 +189,64 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
                 && tokens.get(at + 2).is_some_and(|token| state.contains(&token.word()))
                 && !begins_clause
         }
-        "before" => other(at + 1).is_some(),
+        // `or I will scream`
+        "or" => {
+            let then = [
+                "you are",
+                "i am",
+                "we are",
+                "i will",
+                "i am going to",
+                "we will",
+                "you will",
+                "he will",
+                "she will",
+                "they will",
+                "it will",
+                "there will be",
+                "somebody will",
+                "someone will",
+                "mum will",
+                "mummy will",
+                "dad will",
+                "daddy will",
+                "heads will",
+            ];
+            !begins_clause && longest(tokens, at + 1, &then).is_some()
+        }
+        // `…, not lying about`
+        "not" => {
+            let state = [
+                "lying",
+                "sitting",
+                "standing",
+                "hanging",
+                "lounging",
+                "rolling",
+                "cluttering",
+                "gathering",
+                "left",
+                "out",
+                "strewn",
+                "scattered",
+                "just",
+                "on the floor",
+                "all over",
+            ];
+            kept.last() == Some(&Token::Comma) && longest(tokens, at + 1, &state).is_some()
+        }
+        "before" => {
+            // `before dinner`, `before Granny comes`; `before you open it`, `before opening it` set an order.
+            let next = tokens.get(at + 1).map_or("", Token::word);
+            let is_task = base(next).is_some_and(|(_, form)| form == Form::Gerund);
+            let is_told = !begins_clause || other(at + 1).is_some();
+            is_told
+                && !next.is_empty()
+                && next != "you"
+                && next != "putting"
+                && !is_task
+                && !orders(tokens, at + 1)
+        }
         "until" | "till" => {
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             other(at + 1).is_some() && sentence.iter().any(|token| LASTING.contains(&token.word()))
@@ -209,15 +268,76 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
             let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
             // Who wants something to be so by then wants it done before.
             let waits = sentence.iter().any(|token| matches!(token.word(), "waiting" | "ready"))
-                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need") && matches!(the.word(), "the" | "my" | "it")));
+                || sentence.windows(2).any(|two| matches!(two, [have, the] if matches!(have.word(), "have" | "want" | "need" | "see" | "sure" | "ensure" | "that") && matches!(the.word(), "the" | "my" | "it")));
             is_back && !begins_clause && (waits || sentence.windows(2).any(is_state))
         }
         _ => false,
     };
     let rest = tokens.get(at..).unwrap_or_default();
-    is_aim.then(|| {
-        rest.iter().position(|token| matches!(token, Token::Comma | Token::Stop)).unwrap_or(rest.len())
-    })
+    let end = rest.iter().position(|token| matches!(token, Token::Comma | Token::Stop)).unwrap_or(rest.len());
+    // `before we go out I want it shut`: what is asked for begins without a comma.
+    let asks = (at + 3..at + end).find(|begin| {
+        crate::request::wish::wish(tokens, *begin).is_some()
+            || longest(
+                tokens,
+                *begin,
+                &[
+                    "please",
+                    "make sure",
+                    "could you",
+                    "would you",
+                    "can you",
+                    "will you",
+                    "you need to",
+                    "you have to",
+                    "you must",
+                ],
+            )
+            .is_some()
+    });
+    if begins_clause && let Some(begin) = asks {
+        let said = tokens.get(at..begin)?;
+        let is_before =
+            stands(said, 0, "before").is_some() && !said.iter().any(|token| token.word() == "you");
+        return is_before.then_some(begin - at);
+    }
+    is_aim.then_some(end)
+}
+
+/// `so the dog can not get it`: what shall not be asks for nothing else.
+fn then_negated(tokens: &[Token], who: usize) -> bool {
+    let not =
+        ["can not", "could not", "will not", "would not", "does not", "do not", "is not", "are not", "never"];
+    let is_other = longest(tokens, who, OTHERS).is_some() && stands(tokens, who, "you").is_none();
+    is_other && (who + 1..=who + 4).any(|at| longest(tokens, at, &not).is_some())
+}
+
+/// `so nobody trips over it`, `so that we all know where it is`: somebody else does or does not do something then.
+fn purpose(tokens: &[Token], who: usize) -> bool {
+    let nobody = [
+        "nobody",
+        "no one",
+        "none of us",
+        "none of them",
+        "everybody",
+        "everyone",
+        "we all",
+        "they all",
+        "anybody",
+        "anyone",
+    ];
+    let is_told = |at: usize| {
+        let does = [
+            "is", "will", "would", "should", "must", "has", "had", "needs", "wants", "goes", "belongs",
+            "please", "could",
+        ];
+        tokens.get(at).is_some_and(|token| !token.word().is_empty() && !does.contains(&token.word()))
+    };
+    let that = who.checked_sub(1).is_some_and(|at| stands(tokens, at, "that").is_some());
+    let person = longest(tokens, who, &["i", "we", "he", "she", "they"]);
+    let does = ["need", "want", "would", "should", "must", "will", "am", "have to"];
+    longest(tokens, who, &nobody).is_some_and(|count| is_told(who + count))
+        || person.is_some_and(|count| that && longest(tokens, who + count, &does).is_none())
 }
 
 /// `I need it there in two minutes`: by when. Of what somebody is told to do it says when, and stays.
@@ -229,126 +349,31 @@ fn deadline(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let is_unit = matches!(unit, "second" | "seconds" | "minute" | "minutes" | "moment");
     let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
     let clause = sentence.rsplit(|token| *token == Token::Comma).next().unwrap_or_default();
-    let needs = ["i need", "we need", "i want", "we want"];
+    let needs = [
+        "have",
+        "please have",
+        "make sure",
+        "i would like",
+        "we would like",
+        "i need",
+        "we need",
+        "i want",
+        "we want",
+    ];
     (is_unit && longest(clause, 0, &needs).is_some()).then_some(count + 1)
+}
+
+/// Whether a clause says what the one who is spoken to does.
+fn orders(tokens: &[Token], at: usize) -> bool {
+    let is_end = |token: &&Token| matches!(token, Token::Comma | Token::Stop);
+    tokens
+        .get(at..)
+        .unwrap_or_default()
+        .iter()
+        .take_while(|token| !is_end(token))
+        .any(|token| token.word() == "you")
 }
 
 fn is_state(two: &[Token]) -> bool {
     matches!(two, [to, be] if matches!(to.word(), "to" | "should" | "must") && matches!(be.word(), "be" | "stay"))
-}
-
-/// `when you get a moment`, `if it is not too much trouble`, `when you are done with that`: how many words it takes.
-fn leisure(tokens: &[Token], at: usize) -> Option<usize> {
-    const LEISURE: &[&str] = &[
-        "when",
-        "whenever",
-        "if",
-        "once",
-        "as",
-        "soon",
-        "you",
-        "get",
-        "got",
-        "have",
-        "has",
-        "find",
-        "can",
-        "could",
-        "are",
-        "would",
-        "not",
-        "too",
-        "much",
-        "trouble",
-        "is",
-        "it",
-        "a",
-        "the",
-        "some",
-        "spare",
-        "free",
-        "at",
-        "up",
-        "moment",
-        "minute",
-        "second",
-        "sec",
-        "time",
-        "chance",
-        "ready",
-        "able",
-        "so",
-        "kind",
-        "do",
-        "mind",
-        "like",
-        "good",
-        "there",
-        "that",
-        "next",
-        "around",
-        "about",
-        "by",
-        "manage",
-        "bother",
-        "to",
-        "ask",
-        "okay",
-        "getting",
-        "doing",
-        "bringing",
-        "fetching",
-        "passing",
-        "reaching",
-        "helping",
-        "me",
-        "anyway",
-        "feel",
-        "found",
-        "located",
-        "spotted",
-        "them",
-        "finished",
-        "done",
-        "with",
-        "nothing",
-        "else",
-        "better",
-        "busy",
-        "otherwise",
-        "occupied",
-        "please",
-        "happen",
-        "come",
-        "back",
-        "pass",
-        "passing",
-        "going",
-        "way",
-        "on",
-        "your",
-        "over",
-    ];
-    let starts = ["when", "whenever", "if", "once", "as soon as", "while", "since", "as"];
-    let subject = |begin: &str| stands(tokens, at, &format!("{begin} you"));
-    let count = starts.iter().find_map(|begin| subject(begin));
-    let count = count.or_else(|| longest(tokens, at, &["if it is not", "if that is not"]))?;
-    let mut end = at + count;
-    if let Some(done) = longest(tokens, end, &["are done", "are finished", "have finished", "are through"]) {
-        end += done;
-        // What it is done with may be another task, which is not asked for; `done putting the mug away` asks for more.
-        while tokens.get(end).is_some_and(|token| !token.word().is_empty() && !is_task(token.word())) {
-            end += 1;
-        }
-    }
-    while tokens.get(end).is_some_and(|token| LEISURE.contains(&token.word())) {
-        end += 1;
-    }
-    let is_whole = matches!(tokens.get(end), None | Some(Token::Stop | Token::Comma));
-    (is_whole && end > at + count).then_some(end - at)
-}
-
-/// Whether a word is a verb of requests, in any form.
-fn is_task(word: &str) -> bool {
-    base(word).is_some_and(|(_, form)| matches!(form, Form::Base | Form::Gerund | Form::Participle))
 }

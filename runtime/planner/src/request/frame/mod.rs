@@ -5,168 +5,37 @@
 //! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
 
 mod addressed;
+mod aside;
 mod clause;
 mod courtesy;
 mod delegate;
 mod favour;
 mod fill;
 mod filler;
+mod haste;
+mod leisure;
 mod link;
 mod placed;
+mod pleasant;
+mod room;
+mod setting_out;
 mod state;
 mod tags;
+mod task;
+mod unwrap;
 
 use self::addressed::told_you;
-use self::clause::{cause, clause};
-pub(super) use self::courtesy::without_courtesy;
+use self::clause::clause;
+pub(super) use self::courtesy::{SOUNDS, without_courtesy};
 pub(super) use self::delegate::asks_for_it;
 use self::delegate::{delegated, elliptic};
-use self::favour::{favour, in_series, stressed, told_when_done};
+use self::favour::{favour, in_series};
 use self::filler::without_fillers;
 use self::placed::wanted_there;
-use super::inflection::{Form, base, of_past};
+use self::unwrap::unwrapped;
+use super::asking::in_another_form;
 use super::lead::skip_leads;
-use super::token::{Token, longest, stands};
-use super::verb::{Act, begins, verb};
-
-/// What asks for the form in `-ing`.
-const MIND: &[&str] = &[
-    "you would not mind",
-    "you do not mind",
-    "i hope you do not mind",
-    "fancy",
-    "do you fancy",
-    "would you fancy",
-    "do you feel like",
-    "feel like",
-    "try",
-    "please try",
-    "why not try",
-    "consider",
-    "please consider",
-    "you could start by",
-    "please start by",
-    "begin by",
-    "finish by",
-    "would you mind",
-    "do you mind",
-    "mind",
-    "how about",
-    "what about",
-    "any chance of you",
-    "i could do with you",
-    "i could use you",
-    "could i have you",
-    "can i have you",
-    "i would love you",
-    "what do you say to",
-    "how do you feel about",
-    "would you consider",
-    "would you object to",
-    "would you be opposed to",
-    "it would be great you",
-    "it would help me out you",
-    "help me by",
-    "help me out by",
-    "help out by",
-    "do me a favour by",
-    "do me a favor by",
-    "you can help me by",
-    "you could help me by",
-    "you would be helping me by",
-    "you would help me by",
-    "you would do me a favour by",
-    "you would do me a favor by",
-    "i am thinking of you",
-    "be so kind as to start",
-    "get on with",
-    "get busy",
-    "you can start by",
-    "let us start by",
-    "would you be up for",
-    "is there any chance of you",
-    "what are the chances of you",
-    "any chance of",
-    "is there any chance of",
-    "i would appreciate you",
-    "after",
-    "start by",
-];
-/// Going somewhere in order to do something there: only the second counts.
-const SET_OUT: &[&str] = &[
-    "go over and",
-    "go back and",
-    "go out and",
-    "go ahead and",
-    "go and",
-    "run over and",
-    "run and",
-    "hurry and",
-    "come and",
-    "head over and",
-    "head on over and",
-    "pop over and",
-    "pop across and",
-    "nip over and",
-    "get up and",
-    "run along and",
-    "go right ahead and",
-    "go on over and",
-    "go over there and",
-    "come over and",
-    "come over here and",
-    "come here and",
-    "make sure to",
-    "make sure you",
-    "be sure to",
-    "take care to",
-    "go",
-    "run",
-    "come",
-    "try and",
-    "try to",
-    "turn around and",
-    "turn round and",
-    "reach out and",
-    "reach over and",
-    "bend down and",
-    "lean over and",
-    "get out of the way and",
-    "get out of my way and",
-    "move out of the way and",
-    "step aside and",
-    "move aside and",
-    "leave me alone and",
-    "leave me in peace and",
-    "stop what you are doing and",
-    "drop what you are doing and",
-    "drop everything and",
-    "get a move on and",
-    "wake up and",
-    "get moving and",
-    "come along and",
-    "come on and",
-    "go along and",
-    "go straight over and",
-    "take a trip over and",
-    "make your way over and",
-    "find the time to",
-    "tidy up and",
-    "clean up and",
-    "tidy up a bit and",
-];
-/// Who sets out to take something goes for it.
-const GOES_FOR: &[&str] = &[
-    "go and",
-    "go over and",
-    "run and",
-    "run over and",
-    "go out and",
-    "hurry and",
-    "pop over and",
-    "nip over and",
-    "go on over and",
-];
+use super::token::{Token, longest};
 
 /// Behind a verb of opening or closing: only where it is not so already, which has to be seen first.
 pub(super) const ONLY_IF_SO: &str = "if it is open";
@@ -175,7 +44,7 @@ pub(super) const ONLY_IF_SO: &str = "if it is open";
 pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
     // What is left out may stand between other words that are.
     // `I cannot open it, could you?` has to be read before courtesy is left out.
-    let tokens = elliptic(tokens);
+    let tokens = elliptic(&possessed(tokens));
     let mut tokens = without_courtesy(&without_fillers(&without_courtesy(&tokens)));
     tokens = delegated(&tokens);
     let mut said = Vec::with_capacity(tokens.len());
@@ -188,6 +57,11 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
             let begin = skip_leads(&tokens, at);
             if let Some((from, words)) = told_you(&tokens, begin).or_else(|| wanted_there(&tokens, begin)) {
                 tokens.splice(begin..from, words);
+                continue;
+            }
+            if let Some((from, verb)) = in_another_form(&tokens, begin) {
+                tokens.splice(begin..from, [Token::Word(verb)]);
+                in_series(&mut tokens, begin);
                 continue;
             }
             if let Some((from, words)) = unwrapped(&tokens, begin) {
@@ -222,109 +96,32 @@ fn is_lead(tokens: &[Token], at: usize) -> bool {
     skip_leads(tokens, at) > at
 }
 
-/// A frame around an imperative: what stands for the tokens up to where.
-fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
-    let mind = longest(tokens, at, MIND);
-    if let Some(count) = mind
-        && let Some((verb, Form::Gerund)) = base(tokens.get(at + count)?.word())
-    {
-        return Some((at + count + 1, vec![Token::Word(verb)]));
-    }
-    if let Some(found) = told_when_done(tokens, at).or_else(|| stressed(tokens, at)) {
-        return Some(found);
-    }
-    // `would you mind going to get it`
-    if let Some(count) = stands(tokens, at, "go to").or_else(|| stands(tokens, at, "go over to"))
-        && let "get" | "fetch" | "grab" | "bring" | "pick" | "open" | "close" | "shut" =
-            tokens.get(at + count)?.word()
-    {
-        return Some((at + count, Vec::new()));
-    }
-    // `I would rather you waited at the sink`
-    let rather = [
-        "i would rather you",
-        "i would sooner you",
-        "i would prefer it if you",
-        "i would prefer that you",
-        "i would prefer you to",
-        "i wish you",
-        "it is time you",
-        "it is about time you",
-        "it is high time you",
-        "what if you",
-        "i would like it if you",
-        "i would love it if you",
-        "i would be glad if you",
-        "i would be happy if you",
-    ];
-    if let Some(count) = longest(tokens, at, &rather) {
-        let word = tokens.get(at + count)?.word();
-        if matches!(word, "were" | "was") {
-            return Some((at + count + 1, state::words("go")));
+/// `the sponge's place is in the drawer`: it belongs there.
+fn possessed(tokens: &[Token]) -> Vec<Token> {
+    let mut said: Vec<Token> = Vec::with_capacity(tokens.len());
+    let mut at = 0;
+    while let Some(token) = tokens.get(at) {
+        at += 1;
+        let whose = token.word().strip_suffix("'s").filter(|whose| !whose.is_empty());
+        let how =
+            longest(tokens, at, &["usual", "proper", "right", "rightful", "normal", "own"]).unwrap_or(0);
+        let place = longest(
+            tokens,
+            at + how,
+            &["place is", "home is", "spot is", "place should be", "place has always been"],
+        )
+        .filter(|count| {
+            longest(tokens, at + how + count, &["in", "on", "inside", "at", "up on", "over on", "back in"])
+                .is_some()
+        });
+        match (whose, place) {
+            (Some(whose), Some(count)) => {
+                said.push(Token::Word(whose.to_owned()));
+                said.push(Token::Word("belongs".to_owned()));
+                at += how + count;
+            }
+            _ => said.push(token.clone()),
         }
-        let verb = base(word).filter(|(_, form)| *form == Form::Base).map(|(verb, _)| verb);
-        return Some((at + count + 1, vec![Token::Word(verb.or_else(|| of_past(word))?)]));
     }
-    // `once you have opened it, …`
-    if let Some(count) = longest(tokens, at, &["once you have", "after you have", "as soon as you have"])
-        && let Some((verb, Form::Participle)) = base(tokens.get(at + count)?.word())
-    {
-        return Some((at + count + 1, vec![Token::Word(verb)]));
-    }
-    // `once you have got hold of it, …`
-    let got = ["once you have got hold of", "after you have got hold of", "as soon as you have got hold of"];
-    if let Some(count) = longest(tokens, at, &got) {
-        return Some((at + count, state::words("get hold of")));
-    }
-    // `off you trot to the sink`
-    if let Some(count) = stands(tokens, at, "off you")
-        && let Some((Act::Go, after)) = verb(tokens, at + count)
-        && matches!(tokens.get(after)?.word(), "to" | "over" | "across")
-    {
-        return Some((at + count, Vec::new()));
-    }
-    // `make sure I get the coke`
-    let gets = [
-        "make sure i get",
-        "make sure that i get",
-        "make sure i have",
-        "see that i get",
-        "see to it that i get",
-        "see to it that i have",
-        "ensure i get",
-        "ensure that i get",
-    ];
-    if let Some(count) = longest(tokens, at, &gets) {
-        return Some((at + count, state::words("bring me")));
-    }
-    if let Some(count) = longest(tokens, at, GOES_FOR)
-        && tokens.get(at + count)?.word() == "grab"
-        && stands(tokens, at + count + 1, "hold").is_none()
-    {
-        return Some((at + count + 1, state::words("fetch")));
-    }
-    // `go over there, pick it up`
-    let there = [
-        "go over there",
-        "go on over",
-        "come over here",
-        "come here",
-        "turn around",
-        "get up",
-        "wake up",
-        "go ahead",
-        "look here",
-        "look there",
-    ];
-    if let Some(count) = longest(tokens, at, &there)
-        && tokens.get(at + count) == Some(&Token::Comma)
-        && begins(tokens, at + count + 1)
-    {
-        return Some((at + count + 1, Vec::new()));
-    }
-    let set_out = longest(tokens, at, SET_OUT)?;
-    let next = tokens.get(at + set_out)?.word();
-    let is_verb = base(next).is_some_and(|(_, form)| form == Form::Base) && begins(tokens, at + set_out);
-    let is_verb = is_verb || cause(tokens, at + set_out).is_some();
-    is_verb.then(|| (at + set_out, Vec::new()))
+    said
 }

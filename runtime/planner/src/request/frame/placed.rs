@@ -2,6 +2,7 @@
 
 use super::link::WANT;
 use super::state::{is_place, words};
+use crate::request::lead::skip_leads;
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, spot, way};
 use crate::request::token::{Token, longest, stands};
@@ -18,11 +19,34 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
         return Some((said, end));
     }
     // `out it goes`
-    if let Some(count) =
-        longest(tokens, begin, &["out it goes", "out it should go", "away it goes", "out they go"])
-        && is_over(tokens, begin + count)
-    {
-        return Some((words("discard it"), begin + count));
+    if let Some(count) = longest(
+        tokens,
+        begin,
+        &[
+            "out it goes",
+            "out it should go",
+            "away it goes",
+            "out they go",
+            "out it must go",
+            "out it has to go",
+        ],
+    ) {
+        let rubbish = [
+            "with the rubbish",
+            "with the trash",
+            "with the garbage",
+            "with the bins",
+            "into the bin",
+            "in the bin",
+            "into the trash",
+            "in the trash",
+            "in the rubbish",
+            "in the garbage",
+            "into the garbage",
+            "to the bin",
+        ];
+        let end = begin + count + longest(tokens, begin + count, &rubbish).unwrap_or(0);
+        return is_over(tokens, end).then(|| (words("discard it"), end));
     }
     // `off to the bin with it`
     let begin = begin + longest(tokens, begin, &["off", "straight"]).unwrap_or(0);
@@ -30,6 +54,13 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
     if matches!(place.noun, Noun::Before(_)) || place.relation == Relation::Beside {
         return None;
     }
+    // `in the drawer, please, with the sponge`
+    let mut with = after;
+    while tokens.get(with) == Some(&Token::Comma) || stands(tokens, with, "please").is_some() {
+        with += 1;
+    }
+    let after_place = after;
+    let after = if stands(tokens, with, "with").is_some() { with } else { after };
     let (thing, end) = if tokens.get(after)?.word() == "with" {
         let (thing, end) = noun(tokens, after + 1)?;
         if matches!(thing, Noun::Speaker) {
@@ -47,7 +78,7 @@ pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
     }
     let mut said = words("put");
     said.extend_from_slice(thing);
-    said.extend_from_slice(tokens.get(begin..after)?);
+    said.extend_from_slice(tokens.get(begin..after_place)?);
     Some((said, end))
 }
 
@@ -70,6 +101,18 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         said.extend_from_slice(tokens.get(at..after)?);
         return Some((said, after + with_you.unwrap_or(0)));
     }
+    // `back to the sink with you`
+    if let Some((place, after)) = way(tokens, begin)
+        && place.relation == Relation::To
+        && matches!(place.noun, Noun::Phrase(_))
+        && let Some(with_you) =
+            longest(tokens, after, &["with you", "you go", "you pop", "you trot", "then you"])
+        && is_over(tokens, after + with_you)
+    {
+        let mut said = words("go");
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, after + with_you));
+    }
     let stop = [
         "your next stop is",
         "next stop for you is",
@@ -79,9 +122,19 @@ pub(super) fn sent(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)
         "stop is",
         "your place is",
         "your spot is",
+        "your place now is",
+        "your post is",
+        "your position is",
     ];
     if let Some(count) = longest(tokens, begin, &stop) {
-        let at = begin + count;
+        let at = begin
+            + count
+            + longest(
+                tokens,
+                begin + count,
+                &["over at", "over by", "at", "by", "near", "next to", "beside"],
+            )
+            .unwrap_or(0);
         let (place, _) = noun(tokens, at)?;
         return matches!(place, Noun::Phrase(_)).then(|| (words("go to"), at));
     }
@@ -137,6 +190,21 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
             (after == limit).then(|| Some(limit + 1 + stands(tokens, limit + 1, "please")?)).flatten()
         })
     };
+    // `on the table please, the coke`
+    if let Some((place, after)) = spot(here, begin).or_else(|| way(here, begin))
+        && matches!(place.noun, Noun::Phrase(_))
+        && place.relation != Relation::Beside
+        && let next = after + longest(tokens, after, &["please", "now"]).unwrap_or(0)
+        && tokens.get(next) == Some(&Token::Comma)
+        && let Some((Noun::Phrase(_), end)) = noun(tokens, next + 1)
+        && is_over(tokens, end)
+        && crate::request::verb::verb(tokens, skip_leads(tokens, next + 1)).is_none()
+    {
+        let mut said = words("put");
+        said.extend_from_slice(tokens.get(next + 1..end)?);
+        said.extend_from_slice(tokens.get(begin..after)?);
+        return Some((said, end));
+    }
     // `it is finished. In the bin, please`
     let put = spot(here, begin).or_else(|| {
         way(here, begin).filter(|(place, _)| matches!(place.relation, Relation::In | Relation::On))
@@ -153,7 +221,10 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
     let over = longest(here, begin, &["over", "on over", "straight", "back", "off"]).unwrap_or(0);
     let (place, after) = way(here, begin).or_else(|| way(here, begin + over))?;
     let is_place = place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_));
-    let please = please(after)?;
+    let is_first = (0..begin).all(|at| crate::request::verb::verb(tokens, at).is_none());
+    let now = longest(tokens, after, &["now", "next", "then", "this time"]).map(|count| after + count);
+    let alone = (is_first && after == limit).then_some(after);
+    let please = please(after).or(now).or(alone)?;
     (is_place && is_over(tokens, please)).then(|| {
         let mut said = words("go");
         said.extend_from_slice(tokens.get(begin..after).unwrap_or_default());
@@ -294,44 +365,6 @@ pub(super) fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usi
     Some((said, end))
 }
 
-/// `find a spot on the table for the coke`: put there.
-pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
-    let at = begin + longest(tokens, begin, &["find", "find me"])?;
-    let room = [
-        "a spot",
-        "a place",
-        "a space",
-        "space",
-        "room",
-        "a home",
-        "some space",
-        "some room",
-        "a nice spot",
-        "a nice place",
-        "a good spot",
-        "a good place",
-        "a corner",
-    ];
-    let at = at + longest(tokens, at, &room)?;
-    let (thing, place, end) = match stands(tokens, at, "for") {
-        Some(count) => {
-            let (_, after) = noun(tokens, at + count)?;
-            let (_, end) = spot(tokens, after)?;
-            (at + count..after, after..end, end)
-        }
-        None => {
-            let (_, after) = spot(tokens, at)?;
-            let count = stands(tokens, after, "for")?;
-            let (_, end) = noun(tokens, after + count)?;
-            (after + count..end, at..after, end)
-        }
-    };
-    let mut said = words("put");
-    said.extend_from_slice(tokens.get(thing)?);
-    said.extend_from_slice(tokens.get(place)?);
-    Some((said, end))
-}
-
-fn is_over(tokens: &[Token], at: usize) -> bool {
+pub(super) fn is_over(tokens: &[Token], at: usize) -> bool {
     matches!(tokens.get(at), None | Some(Token::Comma | Token::Stop))
 }

@@ -3,7 +3,7 @@
 use crate::request::inflection::{Form, base};
 use crate::request::noun::{Noun, noun};
 use crate::request::spot::{Relation, located, way};
-use crate::request::token::{Token, longest, stands};
+use crate::request::token::{Token, longest, run, stands};
 
 /// What is wanted of something.
 pub(super) enum State {
@@ -48,6 +48,32 @@ pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, u
     let is_door = tokens.get(at + 1).is_some_and(|next| matches!(next.word(), "open" | "closed" | "shut"));
     let skips = skipped.contains(&word) || (is_door && matches!(word, "standing" | "left" | "kept"));
     let at = if skips && tokens.get(at + 1).is_some() { at + 1 } else { at };
+    let posed = [
+        "sitting",
+        "standing",
+        "lying",
+        "resting",
+        "waiting",
+        "living",
+        "sat",
+        "up",
+        "over",
+        "out",
+        "right",
+        "safe",
+        "ready",
+        "safe and sound",
+        "down",
+        "somewhere",
+        "properly",
+        "tucked up",
+        "back",
+    ];
+    let at = match run(tokens, at, &posed) {
+        0 => at,
+        count if is_place(tokens, at + count) => at + count,
+        _ => at,
+    };
     let word = tokens.get(at)?.word();
     let is_last = tokens.get(at + 1).is_none_or(|next| {
         matches!(next, Token::Comma | Token::Stop)
