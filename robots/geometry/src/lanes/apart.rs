@@ -69,7 +69,7 @@ impl<S: Simd> Axis<S> {
 
     /// Negative where the middle or an end of the axis is nearer to a box than `wanted` for certain.
     #[inline(always)]
-    pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: f32) -> Number<S> {
+    pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Number<S>) -> Number<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
         let off = [between.dot(x), between.dot(y), between.dot(z)];
@@ -77,7 +77,7 @@ impl<S: Simd> Axis<S> {
         let middle = squared(simd, off, along, other.half, [0.0, 0.0]);
         let first = squared(simd, off, along, other.half, [-1.0, 0.0]);
         let last = squared(simd, off, along, other.half, [1.0, 0.0]);
-        middle.least(first).least(last) - Number::splat(simd, wanted * wanted)
+        middle.least(first).least(last) - wanted * wanted
     }
 
     /// Positive where two axes are farther from each other than `wanted` for certain: by the planes square to the way between two

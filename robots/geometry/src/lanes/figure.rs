@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
+use super::pose::Rows;
 use super::slab::{sides, single};
 use super::{FAR, LONG, MOVED, TURNED, TURNS};
 use crate::collision::{Body, Shape, Solid};
@@ -14,9 +15,11 @@ pub(crate) struct Figure {
     pub(super) joints: Vec<Joint>,
     drivers: Vec<Driver>,
     pub(super) parts: Vec<Part>,
-    pub(super) pairs: Vec<Parts>,
+    /// For each part, in rows of eight, the later ones that it may not touch.
+    pub(super) beside: Vec<Vec<Beside>>,
     /// For each frame the joints that move it, from the root on.
     pub(super) levers: Vec<Vec<usize>>,
+    stride: usize,
 }
 
 /// A pose by the images of the three directions, and of the origin.
@@ -53,6 +56,8 @@ pub(super) struct Part {
     pub(super) inner: f32,
     /// The radius of the ball around the centre that holds it.
     pub(super) reach: f32,
+    /// The radius of the ball around the frame's origin that holds it.
+    pub(super) far: f32,
     /// How far it may be off as it is placed, twice, in m.
     pub(super) slack: f32,
     /// What is no capsule: the box that holds it, by its directions and half of its sides.
@@ -61,13 +66,13 @@ pub(super) struct Part {
     pub(super) is_round: bool,
 }
 
-/// Two parts that may not touch, in different frames.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Parts {
-    pub(super) one: usize,
-    pub(super) other: usize,
+/// Of eight parts those that may not touch another one and are in other frames than it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Beside {
+    /// A bit for each of them.
+    pub(super) parts: u8,
     /// How many joints, from the root on, move both.
-    pub(super) common: usize,
+    pub(super) common: [usize; 8],
 }
 
 /// Eight states, and how far the robot may go from each.
@@ -75,8 +80,13 @@ pub(super) struct Parts {
 pub(crate) struct Eight {
     /// x and y from the origin, and yaw.
     pub(super) base: [[f32; 8]; 3],
+    /// The directions and the origin of the root's frame, where it is not on a base.
+    pub(super) root: Option<[Rows; 4]>,
     /// For each joint.
     pub(super) positions: Vec<[f32; 8]>,
+    /// By how much each joint changes on the way, and the base.
+    pub(super) changes: Vec<f32>,
+    pub(super) shift: [f32; 3],
     /// How far each joint goes, and the base slides and turns.
     pub(super) amounts: Vec<f32>,
     pub(super) slides: f32,
@@ -110,14 +120,16 @@ impl Figure {
             if far + long <= LONG { Part::new((*frame, carriers), &solid, slack) } else { None }
         });
         let parts = parts.collect::<Option<Vec<Part>>>()?;
-        let mut pairs = Vec::new();
+        let mut beside = vec![vec![Beside::default(); parts.len().div_ceil(8)]; parts.len()];
         for [one, other] in body.pairs() {
             let frames = (parts.get(*one)?.frame, parts.get(*other)?.frame);
             // What is in one frame is as far apart as it was.
             if frames.0 != frames.1 {
                 let (a, b) = (levers.get(frames.0)?, levers.get(frames.1)?);
                 let common = a.iter().zip(b).take_while(|(a, b)| a == b).count();
-                pairs.push(Parts { one: *one, other: *other, common });
+                let row = beside.get_mut(*one)?.get_mut(other / 8)?;
+                row.parts |= 1 << (other % 8);
+                *row.common.get_mut(other % 8)? = common;
             }
         }
         Some(Self {
@@ -125,16 +137,66 @@ impl Figure {
             joints: rig.joints.iter().map(Joint::new).collect(),
             drivers: rig.joints.iter().map(|joint| joint.driver).collect(),
             parts,
-            pairs,
+            beside,
+            stride: levers.iter().map(Vec::len).max().unwrap_or_default() + 2,
             levers,
         })
+    }
+
+    /// Solids that move as one, in a frame of their own; `None` where they are too large.
+    pub(crate) fn rigid<'s>(solids: impl Iterator<Item = &'s Solid>) -> Option<Self> {
+        let parts = solids.map(|solid| {
+            let long = solid.centre.norm() + solid.reach();
+            let slack = 2.0 * (4.0 * TURNED + MOVED + TURNED * long + MOVED);
+            if long <= LONG { Part::new((0, 0), solid, slack) } else { None }
+        });
+        let parts = parts.collect::<Option<Vec<Part>>>()?;
+        let beside = vec![vec![]; parts.len()];
+        let base_from_root = Rigid::new(&Isometry3::identity());
+        Some(Self {
+            base_from_root,
+            joints: vec![],
+            drivers: vec![],
+            parts,
+            beside,
+            levers: vec![vec![]],
+            stride: 2,
+        })
+    }
+
+    /// The root's frame at some poses, at most eight, the first again for what is left; `None` where one is too far away.
+    pub(crate) fn at(&self, poses: &[Isometry3<f64>]) -> Option<Eight> {
+        let mut root = [[[0.0; 8]; 3]; 4];
+        let first = poses.first()?;
+        for lane in 0..8 {
+            let pose = poses.get(lane).unwrap_or(first);
+            let at = &pose.translation.vector;
+            if at.iter().any(|value| value.abs() > FAR) {
+                return None;
+            }
+            let [x, y, z] = columns(pose.rotation.to_rotation_matrix().matrix());
+            for (rows, values) in root.iter_mut().zip([x, y, z, single(at)]) {
+                for (row, value) in rows.iter_mut().zip(values) {
+                    row.get_mut(lane).into_iter().for_each(|slot| *slot = value);
+                }
+            }
+        }
+        Some(Eight { root: Some(root), ..self.eight() })
+    }
+
+    /// One more than the most joints that move a part, and one more.
+    pub(super) fn stride(&self) -> usize {
+        self.stride
     }
 
     /// Eight times the same state, which is nowhere yet.
     pub(crate) fn eight(&self) -> Eight {
         Eight {
             base: [[0.0; 8]; 3],
+            root: None,
             positions: vec![[0.0; 8]; self.joints.len()],
+            changes: vec![0.0; self.joints.len()],
+            shift: [0.0; 3],
             amounts: vec![0.0; self.joints.len()],
             slides: 0.0,
             turns: 0.0,
@@ -157,16 +219,51 @@ impl Figure {
         is_within
     }
 
+    /// Sets eight states at shares of the straight way between two free ones, from each of which the robot goes on by `half` of the
+    /// way to either side; whether the way is within what is accurate.
+    pub(crate) fn set_on(
+        &self,
+        eight: &mut Eight,
+        [(from, from_joints), (to, to_joints)]: [([f64; 3], &[f64]); 2],
+        shares: &[f64; 8],
+        half: f64,
+    ) -> bool {
+        let mut is_within = true;
+        let mut set = |slots: &mut [f32; 8], [from, to]: [f64; 2], limit: f64| {
+            is_within &= from.abs() <= limit && to.abs() <= limit;
+            for (slot, share) in slots.iter_mut().zip(shares) {
+                *slot = (from + (to - from) * share) as f32;
+            }
+        };
+        let [x, y, yaw] = &mut eight.base;
+        let [from_x, from_y, from_yaw] = from;
+        let [to_x, to_y, to_yaw] = to;
+        set(x, [from_x, to_x], FAR);
+        set(y, [from_y, to_y], FAR);
+        set(yaw, [from_yaw, to_yaw], TURNS);
+        for (slots, driver) in eight.positions.iter_mut().zip(&self.drivers) {
+            set(slots, [driver.position(from_joints), driver.position(to_joints)], TURNS);
+        }
+        let change = |from: f64, to: f64| (to - from) * half;
+        let base = [change(from_x, to_x), change(from_y, to_y), change(from_yaw, to_yaw)];
+        self.spread(eight, base, |at| {
+            from_joints.get(at).zip(to_joints.get(at)).map_or(0.0, |(from, to)| change(*from, *to))
+        });
+        is_within
+    }
+
     /// Says that the states are on a way between free ones, and how far the robot goes from each: by a change of the base, and of
     /// the tree's variables.
     pub(crate) fn spread(&self, eight: &mut Eight, base: [f64; 3], change: impl Fn(usize) -> f64) {
         eight.is_way = true;
         // Rounded up.
         let single = |value: f64| (value.abs() * (1.0 + 1e-5)) as f32;
-        for (slot, driver) in eight.amounts.iter_mut().zip(&self.drivers) {
-            *slot = single(change(driver.variable) * driver.multiplier);
+        for ((slot, signed), driver) in eight.amounts.iter_mut().zip(&mut eight.changes).zip(&self.drivers) {
+            let change = change(driver.variable) * driver.multiplier;
+            (*slot, *signed) = (single(change), change as f32);
         }
         let [x, y, yaw] = base;
+        eight.shift = base.map(|value| value as f32);
         (eight.slides, eight.turns) = (single((x * x + y * y).sqrt()), single(yaw));
     }
 }
@@ -195,6 +292,13 @@ impl Joint {
 }
 
 impl Part {
+    /// Whether a joint of which the frame's bit is set moves one of two and not the other.
+    #[inline(always)]
+    pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
+        let last = frame_bit(usize::MAX);
+        ((self.carriers ^ other.carriers) | ((self.carriers | other.carriers) & last)) & moving != 0
+    }
+
     fn new((frame, carriers): (usize, u64), solid: &Solid, slack: f64) -> Option<Self> {
         let sides = sides(&solid.shape)?;
         let along = |axis: usize, half: f64| solid.axes.get(axis).map(|axis| axis * half);
@@ -222,10 +326,19 @@ impl Part {
             radius: radius as f32,
             inner: if is_capsule { radius as f32 } else { 0.0 },
             reach: solid.reach() as f32,
+            far: ((solid.centre.norm() + solid.reach()) * (1.0 + 1e-6)) as f32,
             slack: slack as f32,
             is_round: matches!(solid.shape, Shape::Cylinder { .. }),
             slab: (!is_capsule).then(|| (axes, single(&sides))),
         })
+    }
+}
+
+impl Eight {
+    /// Bits of the frames whose joints move on the way.
+    pub(super) fn moving(&self) -> u64 {
+        let moving = self.amounts.iter().zip(1..).filter(|(amount, _)| **amount > 0.0);
+        moving.fold(0, |bits, (_, frame)| bits | frame_bit(frame))
     }
 }
 

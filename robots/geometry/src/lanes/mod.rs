@@ -10,17 +10,21 @@
 //! adds less than [`TURNED`], three times as much as an entry, to how far any direction is off, and [`MOVED`] for the sums of places
 //! below 8 m. These are added up along the chain of each part ([`figure::Part::slack`]), so that the bound grows with the lengths
 //! in between: 1e-5 m to 6e-5 m for arms. It is taken off every distance twice for each part, once for how far it goes, as
-//! is [`TOLD`] for the distance itself.
+//! is [`TOLD`] for the distance itself. A velocity is off by that for each rad that the joints turn, which is added to it ([`drift`]).
 
 mod apart;
+mod bounds;
+mod drift;
 mod figure;
 mod look;
 mod number;
+mod pair;
 mod pose;
 
 pub(crate) use figure::{Eight, Figure};
 pub(crate) use look::{Against, Look, Met, Pair};
-pub(crate) use slab::Slab;
+pub(crate) use pose::Posed;
+pub(crate) use slab::{Slab, Slabs};
 
 mod slab;
 #[cfg(test)]

@@ -8,7 +8,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use pulp::{Simd, bytemuck};
+use pulp::Simd;
 
 /// Numbers in as many lanes as `S` has.
 #[derive(Clone, Copy)]
@@ -104,30 +104,32 @@ impl<S: Simd> Number<S> {
         self.0.reduce_max_f32s(self.1)
     }
 
-    /// A bit for each lane, the first lowest: whether it is not above 0.
+    /// A bit for each lane, the first lowest: whether it is not above 0. What is no number at all is not.
     #[inline(always)]
     pub(super) fn not_positive(self) -> u8 {
-        if self.least_lane() > 0.0 {
-            return 0;
-        }
-        let lanes: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&self.1));
-        let mut bits = 0;
-        for lane in lanes.iter().rev() {
-            // What is no number at all is not above 0.
-            bits = bits << 1 | u8::from(lane.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater));
-        }
-        bits
+        let zero = self.like(0.0);
+        let is_above = self.0.less_than_f32s(zero.1, self.1);
+        Self(self.0, self.0.select_f32s(is_above, zero.1, self.bits().1)).summed()
     }
 
     /// A bit for each lane, the first lowest: whether it is below 0.
     #[inline(always)]
     pub(super) fn negative(self) -> u8 {
-        let lanes: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&self.1));
-        let mut bits = 0;
-        for lane in lanes.iter().rev() {
-            bits = bits << 1 | u8::from(*lane < 0.0);
-        }
-        bits
+        let zero = self.like(0.0);
+        let is_below = self.0.less_than_f32s(self.1, zero.1);
+        Self(self.0, self.0.select_f32s(is_below, self.bits().1, zero.1)).summed()
+    }
+
+    /// In each lane the number that its bit alone is.
+    #[inline(always)]
+    fn bits(self) -> Self {
+        Self::of(self.0, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0], 0)
+    }
+
+    /// The sum of lanes that are zero or their bit: exact, and the same in every order.
+    #[inline(always)]
+    fn summed(self) -> u8 {
+        self.0.reduce_sum_f32s(self.1) as u8
     }
 
     /// The sum of the powers of this from the zeroth on, times the terms.

@@ -2,6 +2,8 @@
 
 use pulp::Simd;
 
+use super::bounds::{Bound, Bounds};
+use super::drift::{Drift, Drifted, Drifting};
 use super::figure::{Eight, Figure, Joint, frame_bit};
 use super::number::{Number, Vector};
 
@@ -9,11 +11,15 @@ use super::number::{Number, Vector};
 pub(super) type Row = [f32; 8];
 pub(super) type Rows = [Row; 3];
 
-/// Where all is in eight states, and how far each part goes from there.
+/// Where all is in eight states, and how far each part goes from there. What is not needed is anywhere.
 #[derive(Debug, Default)]
-pub(super) struct Posed {
+pub(crate) struct Posed {
     frames: Vec<Frame>,
     pub(super) parts: Vec<Place>,
+    /// The boxes of all parts.
+    pub(super) bounds: Bounds,
+    /// On a way, for each frame: see [`Posed::drift`].
+    drifts: Vec<Drifted>,
 }
 
 /// A frame: its directions and its origin, and the axis of its joint.
@@ -34,28 +40,41 @@ pub(super) struct Place {
     pub(super) goes: Row,
     /// Whether it goes anywhere.
     pub(super) moves: bool,
-    /// Corners of the box around all places that it takes, but for the slack.
-    pub(super) low: [f32; 3],
-    pub(super) high: [f32; 3],
+    /// The box around all places that it takes, but for the slack.
+    pub(super) bound: Bound,
 }
 
 impl Posed {
     /// Places a figure, of its parts those that are needed.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(simd: S, figure: &Figure, eight: &Eight, needed: &[bool]) -> Self {
-        let none = Place { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3], ..Place::default() };
-        let mut posed = Self {
-            frames: vec![Frame::default(); figure.joints.len() + 1],
-            parts: vec![none; figure.parts.len()],
-        };
-        for chunk in 0..8 / S::F32_LANES {
-            posed.place(simd, figure, eight, needed, chunk);
+    pub(super) fn set<S: Simd>(
+        &mut self,
+        simd: S,
+        figure: &Figure,
+        eight: &Eight,
+        needed: impl Fn(usize) -> bool,
+    ) {
+        self.frames.resize(figure.joints.len() + 1, Frame::default());
+        self.parts.resize(figure.parts.len(), Place::default());
+        self.drifts.resize(figure.levers.len() * figure.stride(), Drifted::default());
+        let mut frames = 0;
+        for (part, at) in figure.parts.iter().zip(0..) {
+            if needed(at) {
+                frames |= part.carriers;
+            }
         }
-        posed
+        for chunk in 0..8 / S::F32_LANES {
+            self.carry(simd, figure, eight, frames, chunk);
+            if eight.is_way {
+                self.drift(simd, figure, eight, frames, chunk);
+            }
+            self.place(simd, figure, eight, &needed, chunk);
+        }
     }
 
+    /// Places frames, those of which the bit is set.
     #[inline(always)]
-    fn place<S: Simd>(&mut self, simd: S, figure: &Figure, eight: &Eight, needed: &[bool], chunk: usize) {
+    fn carry<S: Simd>(&mut self, simd: S, figure: &Figure, eight: &Eight, frames: u64, chunk: usize) {
         let base = Vector::of(simd, &eight.base, chunk);
         let root = &figure.base_from_root;
         let [sin, cos] = base.0[2].sin_cos();
@@ -66,11 +85,8 @@ impl Posed {
             let Vector([x, y, z]) = about(simd, [sin, cos], root.at);
             Vector([x + base.0[0], y + base.0[1], z]).store(&mut frame.at, chunk);
         }
-        let mut frames = 0;
-        for (part, is_needed) in figure.parts.iter().zip(needed) {
-            if *is_needed {
-                frames |= part.carriers;
-            }
+        if let (Some([x, y, z, at]), Some(frame)) = (eight.root, self.frames.first_mut()) {
+            (frame.turn, frame.at) = ([x, y, z], at);
         }
         for ((joint, positions), at) in figure.joints.iter().zip(&eight.positions).zip(1..) {
             if frames & frame_bit(at) == 0 {
@@ -81,33 +97,45 @@ impl Posed {
                 parent.carry(simd, joint, Number::of(simd, positions, chunk), slot, chunk);
             }
         }
-        for ((place, part), is_needed) in self.parts.iter_mut().zip(&figure.parts).zip(needed) {
-            if !*is_needed {
+    }
+
+    #[inline(always)]
+    fn place<S: Simd>(
+        &mut self,
+        simd: S,
+        figure: &Figure,
+        eight: &Eight,
+        needed: &impl Fn(usize) -> bool,
+        chunk: usize,
+    ) {
+        let stride = figure.stride();
+        for ((place, part), at) in self.parts.iter_mut().zip(&figure.parts).zip(0..) {
+            if !needed(at) {
                 continue;
+            }
+            if chunk == 0 {
+                place.moves = false;
+                place.bound = Bound::NOWHERE;
             }
             let Some(frame) = self.frames.get(part.frame) else { continue };
             let centre = frame.point(simd, part.centre, chunk);
             centre.store(&mut place.centre, chunk);
             let half = frame.direction(simd, part.half, chunk);
             half.store(&mut place.half, chunk);
-            let levers = figure.levers.get(part.frame).map_or(&[][..], Vec::as_slice);
-            let goes = goes(simd, &self.frames, figure, eight, levers, (centre, part.reach), chunk);
-            let mut whole = goes + Number::splat(simd, eight.slides);
-            if eight.turns > 0.0 {
-                let Vector([x, y, _]) = centre - base;
-                let arm = (x * x + y * y).sqrt() + Number::splat(simd, part.reach);
-                whole = whole + Number::splat(simd, eight.turns) * (arm + goes);
-            }
+            let whole = match self.drifts.get(part.frame * stride) {
+                Some(drift) if eight.is_way => drift.goes(simd, part.far, chunk),
+                Some(_) | None => Number::splat(simd, 0.0),
+            };
             whole.store(&mut place.goes, chunk);
             let wide = whole + Number::splat(simd, part.radius);
             place.moves |= whole.most_lane() > 0.0;
             let (Vector([x, y, z]), Vector([a, b, c])) = (centre, half);
             let (a, b, c) = (a.abs() + wide, b.abs() + wide, c.abs() + wide);
-            let [low_x, low_y, low_z] = &mut place.low;
+            let [low_x, low_y, low_z] = &mut place.bound.low;
             lower(low_x, (x - a).least_lane());
             lower(low_y, (y - b).least_lane());
             lower(low_z, (z - c).least_lane());
-            let [high_x, high_y, high_z] = &mut place.high;
+            let [high_x, high_y, high_z] = &mut place.bound.high;
             higher(high_x, (x + a).most_lane());
             higher(high_y, (y + b).most_lane());
             higher(high_z, (z + c).most_lane());
@@ -127,21 +155,101 @@ impl Posed {
         self.frames.get(frame).unwrap_or(&none).direction(simd, vector, chunk)
     }
 
-    /// How far a part goes by those of its joints that come after the first so many.
+    /// How a part drifts by those of its joints that come after the first so many.
     #[inline(always)]
-    pub(super) fn goes_after<S: Simd>(
+    pub(super) fn drifting<S: Simd>(
         &self,
         simd: S,
         figure: &Figure,
-        eight: &Eight,
         (part, common): (usize, usize),
         chunk: usize,
-    ) -> Number<S> {
-        let zero = Number::splat(simd, 0.0);
-        let Some((own, place)) = figure.parts.get(part).zip(self.parts.get(part)) else { return zero };
-        let levers = figure.levers.get(own.frame).and_then(|levers| levers.get(common..)).unwrap_or_default();
-        let centre = Vector::of(simd, &place.centre, chunk);
-        goes(simd, &self.frames, figure, eight, levers, (centre, own.reach), chunk)
+    ) -> Drifting<S> {
+        self.drifting_by(simd, figure, part, common + 1, chunk)
+    }
+
+    /// The same by all of its joints and by the base.
+    #[inline(always)]
+    pub(super) fn drifting_in_map<S: Simd>(
+        &self,
+        simd: S,
+        figure: &Figure,
+        part: usize,
+        chunk: usize,
+    ) -> Drifting<S> {
+        self.drifting_by(simd, figure, part, 0, chunk)
+    }
+
+    #[inline(always)]
+    fn drifting_by<S: Simd>(
+        &self,
+        simd: S,
+        figure: &Figure,
+        part: usize,
+        from: usize,
+        chunk: usize,
+    ) -> Drifting<S> {
+        let Some((own, place)) = figure.parts.get(part).zip(self.parts.get(part)) else {
+            return Drifting::still(simd);
+        };
+        let known = self.frames.get(own.frame).zip(self.drifts.get(own.frame * figure.stride() + from));
+        let Some((frame, drift)) = known else { return Drifting::still(simd) };
+        let off = Vector::of(simd, &place.centre, chunk) - Vector::of(simd, &frame.at, chunk);
+        let half = Vector::of(simd, &place.half, chunk);
+        Drifting::new(simd, drift.of(simd, chunk), off, half, [own.radius, own.far])
+    }
+
+    /// Finds out how frames drift, those of which the bit is set: each by the base and all of its joints, by all joints, by those after the
+    /// first, and so on, one after the other.
+    #[inline(always)]
+    fn drift<S: Simd>(&mut self, simd: S, figure: &Figure, eight: &Eight, frames: u64, chunk: usize) {
+        let stride = figure.stride();
+        let base = Vector::of(simd, &eight.base, chunk);
+        for (levers, own) in figure.levers.iter().zip(0..) {
+            if own > 0 && frames & frame_bit(own) == 0 {
+                continue;
+            }
+            let Some(origin) = self.frames.get(own).map(|frame| Vector::of(simd, &frame.at, chunk)) else {
+                continue;
+            };
+            let Some(slots) = self.drifts.get_mut(own * stride..(own + 1) * stride) else { continue };
+            let mut drift = Drift::still(simd);
+            let mut set = |at: usize, drift: Drift<S>| {
+                slots.get_mut(at).into_iter().for_each(|slot| slot.set(drift, chunk));
+            };
+            set(levers.len() + 1, drift);
+            for (place, at) in levers.iter().enumerate().rev() {
+                let known = eight.changes.get(*at).zip(eight.amounts.get(*at));
+                let known = known.zip(self.frames.get(at + 1)).zip(figure.joints.get(*at));
+                if let Some((((change, amount), frame), joint)) = known
+                    && *amount > 0.0
+                {
+                    let axis = Vector::of(simd, &frame.axis, chunk);
+                    if joint.slides {
+                        drift.slide(simd, axis, [*change, *amount]);
+                    } else {
+                        drift.turn(
+                            simd,
+                            origin - Vector::of(simd, &frame.at, chunk),
+                            axis,
+                            [*change, *amount],
+                        );
+                    }
+                }
+                set(place + 1, drift);
+            }
+            let [x, y, yaw] = eight.shift;
+            if eight.turns > 0.0 {
+                let Vector([off_x, off_y, _]) = origin - base;
+                let off = Vector([off_x, off_y, Number::splat(simd, 0.0)]);
+                drift.turn(simd, off, Vector::splat(simd, [0.0, 0.0, 1.0]), [yaw, eight.turns]);
+            }
+            if eight.slides > 0.0 {
+                let share = 1.0 / eight.slides;
+                let axis = Vector::splat(simd, [x * share, y * share, 0.0]);
+                drift.slide(simd, axis, [eight.slides; 2]);
+            }
+            set(0, drift);
+        }
     }
 }
 
@@ -150,37 +258,6 @@ impl Posed {
 fn about<S: Simd>(simd: S, [sin, cos]: [Number<S>; 2], vector: [f32; 3]) -> Vector<S> {
     let Vector([x, y, z]) = Vector::splat(simd, vector);
     Vector([cos * x - sin * y, sin * x + cos * y, z])
-}
-
-/// How far a ball goes at most while joints move, joint by joint from the last on: one that turns by `a` moves a point at a
-/// distance `r` from its axis by at most `a r`.
-#[inline(always)]
-fn goes<S: Simd>(
-    simd: S,
-    frames: &[Frame],
-    figure: &Figure,
-    eight: &Eight,
-    levers: &[usize],
-    (centre, reach): (Vector<S>, f32),
-    chunk: usize,
-) -> Number<S> {
-    let mut goes = Number::splat(simd, 0.0);
-    for at in levers.iter().rev() {
-        let amount = eight.amounts.get(*at).copied().unwrap_or(0.0);
-        if amount == 0.0 {
-            continue;
-        }
-        let Some((frame, joint)) = frames.get(at + 1).zip(figure.joints.get(*at)) else { continue };
-        goes = goes
-            + if joint.slides {
-                Number::splat(simd, amount)
-            } else {
-                let off = centre - Vector::of(simd, &frame.at, chunk);
-                let across = off.cross(Vector::of(simd, &frame.axis, chunk));
-                Number::splat(simd, amount) * (across.dot(across).sqrt() + Number::splat(simd, reach) + goes)
-            };
-    }
-    goes
 }
 
 impl Frame {
@@ -239,7 +316,7 @@ fn higher(slot: &mut f32, value: f32) {
 /// How far each part goes in the first of eight states.
 #[cfg(test)]
 pub(super) fn goes_in_map(figure: &Figure, eight: &Eight) -> Vec<f32> {
-    let needed = vec![true; figure.parts.len()];
-    let posed = Posed::new(pulp::Scalar, figure, eight, &needed);
+    let mut posed = Posed::default();
+    posed.set(pulp::Scalar, figure, eight, |_| true);
     posed.parts.iter().map(|place| place.goes[0]).collect()
 }

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use pulp::Simd;
 
 use super::FAR;
+use super::bounds::{Bound, Bounds};
 use super::number::{Number, Vector};
 use crate::collision::{Shape, Solid};
 
@@ -15,11 +16,24 @@ pub(crate) struct Slab {
     pub(super) centre: [f32; 3],
     pub(super) axes: [[f32; 3]; 3],
     pub(super) half: [f32; 3],
-    /// Corners of the box around it along the directions of the map.
-    pub(super) low: [f32; 3],
-    pub(super) high: [f32; 3],
+    /// The box around it along the directions of the map.
+    pub(super) bound: Bound,
     /// Whether the thing is that box, and so small and near that a tenth of a millimetre is more than it is rounded by.
     pub(super) is_exact: bool,
+}
+
+/// What stands around.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slabs {
+    pub(super) all: Vec<Slab>,
+    pub(super) bounds: Bounds,
+}
+
+impl FromIterator<Slab> for Slabs {
+    fn from_iter<I: IntoIterator<Item = Slab>>(slabs: I) -> Self {
+        let all: Vec<Slab> = slabs.into_iter().collect();
+        Self { bounds: all.iter().map(|slab| slab.bound).collect(), all }
+    }
 }
 
 impl Slab {
@@ -27,7 +41,7 @@ impl Slab {
     #[inline(always)]
     pub(super) fn aside<S: Simd>(&self, simd: S, point: Vector<S>, wanted: Number<S>) -> Number<S> {
         let (Vector([x, y, z]), Vector([a, b, c]), Vector([d, e, f])) =
-            (point, Vector::splat(simd, self.low), Vector::splat(simd, self.high));
+            (point, Vector::splat(simd, self.bound.low), Vector::splat(simd, self.bound.high));
         let x = (a - x).most(x - d).above_zero();
         let y = (b - y).most(y - e).above_zero();
         let z = (c - z).most(z - f).above_zero();
@@ -52,8 +66,7 @@ impl Slab {
             centre: single(&centre),
             axes: [0, 1, 2].map(|at: usize| solid.axes.get(at).map_or([0.0; 3], single)),
             half: single(&half),
-            low: single(&low.add_scalar(-1e-5)),
-            high: single(&high.add_scalar(1e-5)),
+            bound: Bound { low: single(&low.add_scalar(-1e-5)), high: single(&high.add_scalar(1e-5)) },
             is_exact: matches!(solid.shape, Shape::Box(_)) && size < 50.0,
         })
     }

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 use pulp::Arch;
 
-use super::{Against, Eight, Figure, Look, Met, Slab};
+use super::{Against, Eight, Figure, Look, Met, Posed, Slab, Slabs};
 use crate::collision::{Body, Shape, Solid};
 use crate::kinematics::{Tree, planar, spread};
 use motet_robots::{card, urdf};
@@ -69,10 +69,11 @@ fn things() -> Vec<Solid> {
     (0..12).map(thing).collect()
 }
 
-fn met(robot: &Robot, eight: &Eight, slabs: &[Slab], gap: f32, arch: Arch) -> Vec<Met> {
+fn met(robot: &Robot, eight: &Eight, slabs: &Slabs, gap: f32, arch: Arch) -> Vec<Met> {
     let counts = |_: usize, _: Option<usize>| true;
-    let (figure, pairs) = (&robot.figure, None);
-    Look { figure, eight, slabs, gap, is_own: true, is_first: false, pairs, counts }.met_on(arch)
+    let (figure, pairs, posed) = (&robot.figure, None, &mut Posed::default());
+    let gaps = [gap; 8];
+    Look { figure, eight, slabs, gaps, is_own: true, is_first: false, pairs, posed, counts }.met_on(arch)
 }
 
 const GAP: f32 = 0.01;
@@ -80,7 +81,7 @@ const GAP: f32 = 0.01;
 #[test]
 fn what_is_near_is_met() {
     let things = things();
-    let slabs: Vec<Slab> = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let slabs: Slabs = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         let (mut told, mut near, mut sure) = (0, 0, 0);
@@ -144,7 +145,7 @@ fn what_is_near_is_met() {
 
 #[test]
 fn every_processor_tells_the_same() {
-    let slabs: Vec<Slab> = things().iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let slabs: Slabs = things().iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         for block in 0..24 {
@@ -161,6 +162,73 @@ fn every_processor_tells_the_same() {
             assert!(!told[0].is_empty());
         }
     }
+}
+
+/// What is told to stay apart on a leg does, wherever the robot is on it.
+#[test]
+fn what_is_told_to_stay_apart_on_a_leg_does() {
+    let things = things();
+    let slabs: Slabs = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    for name in ["hsr", "anymal_z1", "panda"] {
+        let robot = robot(name);
+        let (mut near, mut told) = (0, 0);
+        for block in 0..40 {
+            let (from, to) = (robot.joints(block), robot.joints(block + 1));
+            let start = base(block);
+            // Every third turns only joints, as most ways of an arm do.
+            let end =
+                if block % 3 == 0 { start } else { [0, 1, 2].map(|at| start[at] + [0.3, -0.2, 0.4][at]) };
+            let half = [0.01, 0.03, 0.1][block % 3];
+            let shares = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
+            let mut eight = robot.figure.eight();
+            assert!(robot.figure.set_on(&mut eight, [(start, &from), (end, &to)], &shares, half));
+            let met = met(&robot, &eight, &slabs, GAP, Arch::new());
+            told += met.iter().map(|met| met.lanes.count_ones()).sum::<u32>();
+            for (lane, share) in shares.iter().enumerate() {
+                let at = |part: f64| {
+                    let part = share + half * part;
+                    let joints: Vec<f64> = from.iter().zip(&to).map(|(a, b)| a + (b - a) * part).collect();
+                    robot
+                        .placed([0, 1, 2].map(|axis| start[axis] + (end[axis] - start[axis]) * part), &joints)
+                };
+                let is_met = |part: usize, is: &dyn Fn(Against) -> bool| {
+                    let mut all = met.iter().filter(|met| met.lanes >> lane & 1 == 1);
+                    all.any(|met| met.pair.part == part && is(met.pair.against))
+                };
+                let still = robot.placed(start, &from);
+                for placed in [-1.0, -0.6, -0.2, 0.3, 0.7, 1.0].map(at) {
+                    for (part, solid) in placed.iter().enumerate() {
+                        for (at, thing) in things.iter().enumerate() {
+                            // What does not move on a way is free.
+                            let is_near =
+                                !solid.is_farther(thing, f64::from(GAP)) && moves(solid, &still[part]);
+                            near += u32::from(is_near);
+                            assert!(
+                                !is_near || is_met(part, &|it| it == Against::Slab(at)),
+                                "{name} {block}"
+                            );
+                        }
+                    }
+                    for [one, other] in robot.body.pairs() {
+                        let distance = placed[*one].distance(&placed[*other]);
+                        if (distance - still[*one].distance(&still[*other])).abs() < 1e-9 {
+                            continue;
+                        }
+                        let is_near = distance <= f64::from(GAP);
+                        near += u32::from(is_near);
+                        let is = |it| matches!(it, Against::Part(at, _) if at == *other);
+                        assert!(!is_near || is_met(*one, &is), "{name} {block}: {one} {other} {distance}");
+                    }
+                }
+            }
+        }
+        assert!(near > 500 && told > 200, "{name}: {near} near, {told} told");
+    }
+}
+
+fn moves(one: &Solid, other: &Solid) -> bool {
+    (one.centre - other.centre).norm() > 1e-9
+        || one.axes.iter().zip(other.axes).any(|(a, b)| (a - b).norm() > 1e-9)
 }
 
 /// No point of a part goes farther than is said.

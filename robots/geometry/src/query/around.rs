@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use super::quick::{Pieces, Quick};
+use super::quick::{Legs, Near as Pairing, Quick};
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
@@ -197,6 +197,45 @@ impl Around<'_, '_> {
         least
     }
 
+    /// The least distance of some pairs of parts and what stands around in a state, where it is less than `least`.
+    pub(super) fn clearance_among<'n>(
+        &self,
+        state: &State,
+        near: impl Iterator<Item = &'n Pairing>,
+        mut least: f64,
+    ) -> f64 {
+        let mut placed: Option<(usize, Solid)> = None;
+        for pair in near {
+            let solid = match placed {
+                Some((part, solid)) if part == pair.part => solid,
+                Some(_) | None => {
+                    let Some(solid) = self.part_at(pair.part, state) else { continue };
+                    placed = Some((pair.part, solid));
+                    solid
+                }
+            };
+            let metres = match pair.other {
+                Other::Thing(at) => {
+                    let Some((near, limb)) = self.things.get(at).zip(self.limbs.get(pair.part)) else {
+                        continue;
+                    };
+                    solid.distance_to(limb.reach, &near.solid, near.reach, least)
+                }
+                Other::Floor => above_floor(&solid),
+                Other::Part(_) => continue,
+            };
+            least = metres.min(least);
+        }
+        least
+    }
+
+    /// A part of the robot in a state.
+    pub(super) fn part_at(&self, part: usize, state: &State) -> Option<Solid> {
+        let (machine, own) = (self.room.machine, self.room.body.parts().get(part)?);
+        let pose = machine.map_from_root(state.base) * machine.tree().root_from_link(&state.joints, own.link);
+        Some(own.solid.moved(&pose))
+    }
+
     /// Whether the straight way between two states is free throughout.
     ///
     /// # Errors
@@ -225,7 +264,7 @@ impl Around<'_, '_> {
 impl Around<'_, '_> {
     /// Whether a straight way is free where nothing turns on it, so that what each part sweeps over is convex and one distance tells all.
     pub(super) fn swept(&self, from: &State, to: &State, allowed: Allowed) -> Result<(), Touch> {
-        let near = self.near_on([from, to], Pieces::WHOLE, allowed, None);
+        let near = self.near_on([from, to], &Legs::WHOLE, allowed, None);
         if near.as_ref().is_some_and(Vec::is_empty) {
             return Ok(());
         }

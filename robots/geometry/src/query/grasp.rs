@@ -93,12 +93,13 @@ impl Found<'_> {
         let first = square.normalize();
         let ball = half == 0.0;
         let heights: &[f64] = if half > 0.03 { &[0.0, 0.5, -0.5] } else { &[0.0] };
-        for tilt in [0.0, FRAC_PI_6, 2.0 * FRAC_PI_6] {
-            for step in 0..16 {
-                let out = turn(&Unit::new_normalize(*axis), TAU * f64::from(step) / 16.0) * first;
-                let (sin, cos) = sin_cos(tilt);
+        let about = Unit::new_normalize(*axis);
+        let outs: Vec<Vector3<f64>> =
+            (0..16).map(|step| turn(&about, TAU * f64::from(step) / 16.0) * first).collect();
+        for (sin, cos) in [0.0, FRAC_PI_6, 2.0 * FRAC_PI_6].map(sin_cos) {
+            for out in &outs {
                 let approach = down * sin - out * cos;
-                let along = axis.cross(&out);
+                let along = axis.cross(out);
                 for height in heights {
                     let shift = axis * (half * height);
                     // Bent, the fingers still close across the axis, and meet it where it is widest.
@@ -107,11 +108,10 @@ impl Found<'_> {
                 }
             }
         }
-        for step in 0..16 {
-            let along = turn(&Unit::new_normalize(*axis), TAU * f64::from(step) / 16.0) * first;
+        for along in &outs {
             self.add(
                 &down,
-                &along,
+                along,
                 2.0 * radius,
                 if ball { Grip::Round } else { Grip::Flat },
                 Vector3::zeros(),

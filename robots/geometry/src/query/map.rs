@@ -4,13 +4,16 @@
 //! The clearance of a place changes by no more than the way between two places, so a straight way is certified by steps as
 //! long as the clearance where each begins.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::sync::Mutex;
 
 use super::outlines::{Outline, Outlines};
 use super::room::Room;
 use super::state::State;
 use super::touch::about_vertical;
+
+mod way;
+
+use way::Visits;
 
 /// A cell's side in m, where the room is not too large for it.
 const CELL: f64 = 0.05;
@@ -20,13 +23,11 @@ const CELLS: usize = 400;
 const MARGIN: f64 = 1.5;
 /// The greatest clearance that is told, in m.
 const CAP: f64 = 2.0;
-/// How much longer than the shortest a way along the cells may be before its corners are cut: fewer cells are looked at.
-const DETOUR: f64 = 2.0;
 /// The side of a square of cells that are looked at one by one.
 const LEAF: usize = 4;
 
 /// The map of a room for one configuration of the arm.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Map {
     outlines: Outlines,
     origin: [f64; 2],
@@ -39,6 +40,8 @@ pub(super) struct Map {
     /// Free cells but for those within a square of which all are free.
     rim: Vec<usize>,
     is_anywhere: bool,
+    /// Room for a search.
+    visits: Mutex<Visits>,
 }
 
 impl Map {
@@ -78,6 +81,7 @@ impl Map {
             first: vec![0; size[0] * size[1]],
             rim: vec![],
             is_anywhere: is_around,
+            visits: Mutex::default(),
         };
         let all: Vec<u32> = (0..).take(map.outlines.all().len()).collect();
         map.fill([0, 0], [size[0], size[1]], &all);
@@ -206,31 +210,6 @@ impl Map {
         }
     }
 
-    /// The corners of a free way between two places, both included; `None` where none was found.
-    pub(super) fn way(&self, from: [f64; 2], to: [f64; 2]) -> Option<Vec<[f64; 2]>> {
-        if self.is_clear(from, to) {
-            return Some(vec![from, to]);
-        }
-        let (start, goal) = (self.entry(from)?, self.entry(to)?);
-        let cells = self.search(start, goal)?;
-        let mut corners = vec![from];
-        let all: Vec<[f64; 2]> = cells.into_iter().map(|cell| self.centre(cell)).chain([to]).collect();
-        // From each corner to the farthest that can be seen; the next can be, by the cells' clearances.
-        let mut at = 0;
-        while at < all.len() {
-            let here = corners.last().copied().unwrap_or(from);
-            let is_seen = |next: &usize| all.get(*next).is_some_and(|next| self.is_clear(here, *next));
-            let last = all.len() - 1;
-            // In ever larger strides as long as the way is clear.
-            let strides = (0..16).map(|power| (at + (1 << power)).min(last));
-            let seen = is_seen(&last).then_some(last);
-            let next = seen.unwrap_or_else(|| strides.take_while(is_seen).last().unwrap_or(at));
-            corners.extend(all.get(next));
-            at = next + 1;
-        }
-        Some(corners)
-    }
-
     fn centre(&self, at: usize) -> [f64; 2] {
         let (row, column) = (at / self.size[0], at % self.size[0]);
         [self.origin[0] + column as f64 * self.cell, self.origin[1] + row as f64 * self.cell]
@@ -261,20 +240,6 @@ impl Map {
             }
         }
         best.map(|(_, cell)| cell)
-    }
-
-    /// The neighbours of a cell to which the straight way is free, with its length.
-    fn next(&self, at: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (row, column) = ((at / self.size[0]) as i64, (at % self.size[0]) as i64);
-        let here = self.free(at);
-        let around = [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)];
-        around.into_iter().filter_map(move |(down, right): (i64, i64)| {
-            let (row, column) = (usize::try_from(row + down).ok()?, usize::try_from(column + right).ok()?);
-            let cell = row * self.size[0] + column;
-            let far = self.cell * if down != 0 && right != 0 { std::f64::consts::SQRT_2 } else { 1.0 };
-            let is_free = row < self.size[1] && column < self.size[0] && self.free(cell) > 0.0;
-            (is_free && here + self.free(cell) > far).then_some((cell, far))
-        })
     }
 
     /// Finds out which cells hang together. O(rim).
@@ -318,51 +283,6 @@ impl Map {
             }
         }
     }
-
-    /// A way from cell to cell, no longer than [`DETOUR`] times the shortest (A* with the way where all is free, weighted: Pohl 1970).
-    fn search(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
-        if self.root(start) != self.root(goal) {
-            return None;
-        }
-        let [goal_x, goal_y] = self.centre(goal);
-        // Straight and diagonal steps alone are no shorter than this where nothing is in the way.
-        let left = |at: usize| {
-            let [x, y] = self.centre(at);
-            let (far, near) = ((goal_x - x).abs(), (goal_y - y).abs());
-            let (far, near) = if far < near { (near, far) } else { (far, near) };
-            DETOUR * (far + near * (std::f64::consts::SQRT_2 - 1.0))
-        };
-        // One more than the length of the way to a cell and than the cell before it; 0 where none is known.
-        let mut cost = vec![0.0_f64; self.clearance.len()];
-        let mut from = vec![0_u32; self.clearance.len()];
-        let mut open = BinaryHeap::from([Open { bound: left(start), cell: start }]);
-        *cost.get_mut(start)? = 1.0;
-        while let Some(Open { cell, bound }) = open.pop() {
-            if cell == goal {
-                let mut way = vec![goal];
-                let mut at = goal;
-                while at != start {
-                    at = (*from.get(at)? as usize).checked_sub(1)?;
-                    way.push(at);
-                }
-                way.reverse();
-                return Some(way);
-            }
-            let here = *cost.get(cell)?;
-            if bound > here - 1.0 + left(cell) + 1e-9 {
-                continue;
-            }
-            for (next, far) in self.next(cell) {
-                let whole = here + far;
-                if let Some(known) = cost.get_mut(next).filter(|known| **known == 0.0 || whole < **known) {
-                    *known = whole;
-                    *from.get_mut(next)? = cell as u32 + 1;
-                    open.push(Open { bound: whole - 1.0 + left(next), cell: next });
-                }
-            }
-        }
-        None
-    }
 }
 
 /// The first of the cells that a cell hangs together with; ways to it become shorter.
@@ -377,26 +297,5 @@ fn shortened(first: &mut [u32], mut at: usize) -> usize {
             *slot = after;
         }
         at = next;
-    }
-}
-
-/// A cell to look at, the least bound first, then the lower index.
-#[derive(PartialEq)]
-struct Open {
-    bound: f64,
-    cell: usize,
-}
-
-impl Eq for Open {}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(other.cell.cmp(&self.cell))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }

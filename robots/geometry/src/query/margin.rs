@@ -2,13 +2,14 @@
 
 use super::answer::Margins;
 use super::around::Around;
+use super::quick::Near;
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::plane;
 
 /// Clearances within which something is looked for first, in m.
-const NEARBY: [f64; 3] = [0.01, 0.04, 0.16];
+const NEARBY: [f32; 8] = [0.004, 0.008, 0.012, 0.02, 0.03, 0.05, 0.1, 0.2];
 
 impl<'w> Room<'w> {
     /// All that may be within `metres` of the robot in some states.
@@ -44,11 +45,15 @@ impl Around<'_, '_> {
         }
         for states in states.chunks(8) {
             let around = self.room.all_around(states, clearance);
-            let is_near = around.within(states, allowed, clearance);
-            for (state, is_near) in states.iter().zip(is_near) {
-                if is_near {
-                    clearance = around.clearance(state, allowed, clearance);
-                }
+            let all: Vec<&State> = states.iter().collect();
+            // Rounded up.
+            let metres = (clearance * (1.0 + 1e-6)) as f32;
+            let near = around.within(&all, allowed, [metres; 8]);
+            for (state, lane) in states.iter().zip(0..) {
+                clearance = match &near {
+                    Some(near) => around.clearance_among(state, in_lane(near, lane), clearance),
+                    None => around.clearance(state, allowed, clearance),
+                };
             }
         }
         let variables = self.room.machine.tree().variables().iter();
@@ -66,9 +71,9 @@ impl Around<'_, '_> {
 
     /// The clearance of a state, looked for nearby first.
     fn clearance_of(&self, state: &State, allowed: Allowed) -> f64 {
-        for metres in NEARBY {
-            if self.within(std::slice::from_ref(state), allowed, metres) == [true] {
-                let found = self.clearance_at(state, allowed, metres);
+        if let Some(near) = self.within(&[state], allowed, NEARBY) {
+            for (metres, lane) in NEARBY.into_iter().map(f64::from).zip(0..) {
+                let found = self.clearance_among(state, in_lane(&near, lane), metres);
                 if found < metres {
                     return found;
                 }
@@ -76,4 +81,9 @@ impl Around<'_, '_> {
         }
         self.clearance_at(state, allowed, 1.0)
     }
+}
+
+/// The pairs that may be near in one of eight states.
+fn in_lane(near: &[Near], lane: usize) -> impl Iterator<Item = &Near> {
+    near.iter().filter(move |near| near.still >> lane & 1 == 1)
 }

@@ -1,6 +1,8 @@
 //! The hand alone at a pose: what it touches there is in the way of every arm.
 
-use nalgebra::{Isometry3, Vector3};
+use std::cell::RefCell;
+
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::around::{above_floor, touches};
 use super::machine::Hand;
@@ -8,6 +10,7 @@ use super::room::{GAP, Room};
 use super::things::Thing;
 use super::touch::{Allowed, Touch};
 use crate::collision::Solid;
+use crate::lanes::{Against, Figure, Look, Met, Posed, Slab, Slabs};
 
 /// An open hand without its arm, and what is near the thing that it goes around.
 pub(super) struct Palm<'r, 'w> {
@@ -16,6 +19,11 @@ pub(super) struct Palm<'r, 'w> {
     beneath: Option<usize>,
     parts: Vec<Own>,
     things: Vec<Thing>,
+    /// The same for a quick look, seen from a place in the middle of the poses.
+    figure: Option<Figure>,
+    slabs: Slabs,
+    middle: Vector3<f64>,
+    posed: RefCell<Posed>,
 }
 
 /// A part of the hand, or what it holds.
@@ -52,12 +60,78 @@ impl<'w> Room<'w> {
             let wide = far + thing.reach;
             allowed.hand != Some(thing.entity) && (thing.solid.centre - centre).norm_squared() <= wide * wide
         });
-        let things = near.map(|(_, thing)| *thing).collect();
-        Palm { room: self, beneath: allowed.held, parts, things }
+        let things: Vec<Thing> = near.map(|(_, thing)| *thing).collect();
+        let middle = Vector3::new(centre.x, centre.y, 0.0);
+        // What has no box is known to be apart from nothing.
+        let slabs = things.iter().map(|thing| Slab::new(thing.entity, &thing.solid, [middle.x, middle.y]));
+        let slabs: Option<Slabs> = slabs.collect();
+        let figure = slabs.is_some().then(|| Figure::rigid(parts.iter().map(|own| &own.solid))).flatten();
+        let (slabs, posed) = (slabs.unwrap_or_default(), RefCell::default());
+        Palm { room: self, beneath: allowed.held, parts, things, figure, slabs, middle, posed }
     }
 }
 
 impl Palm<'_, '_> {
+    /// What it touches at some poses, at most eight.
+    pub(super) fn touches(&self, map_from_tips: &[Isometry3<f64>]) -> Vec<Option<Touch>> {
+        let Some(near) = self.near(map_from_tips) else {
+            return map_from_tips.iter().map(|tip| self.touch(tip)).collect();
+        };
+        let touch = |(tip, lane): (&Isometry3<f64>, usize)| {
+            let sure = near.iter().find(|met| met.sure >> lane & 1 == 1);
+            let mut near = near.iter().filter(|met| met.still >> lane & 1 == 1);
+            sure.or_else(|| near.find(|met| self.is_touching(met, tip))).and_then(|met| self.told(met))
+        };
+        map_from_tips.iter().zip(0..).map(touch).collect()
+    }
+
+    /// The pairs that are near each other at some poses; `None` where it cannot be told this way.
+    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<Met>> {
+        let figure = self.figure.as_ref()?;
+        let seen = |tip: &Isometry3<f64>| {
+            Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
+        };
+        let eight = figure.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
+        let counts = |part: usize, entity: Option<usize>| {
+            self.parts.get(part).is_some_and(|own| entity.is_none() || !own.is_held || self.beneath != entity)
+        };
+        let look = Look {
+            figure,
+            eight: &eight,
+            slabs: &self.slabs,
+            gaps: [GAP as f32; 8],
+            is_own: false,
+            is_first: true,
+            pairs: None,
+            posed: &mut self.posed.borrow_mut(),
+            counts,
+        };
+        Some(look.met())
+    }
+
+    /// Whether a part touches something at a pose.
+    fn is_touching(&self, met: &Met, map_from_tip: &Isometry3<f64>) -> bool {
+        let Some(own) = self.parts.get(met.pair.part) else { return false };
+        let solid = own.solid.moved(map_from_tip);
+        match met.pair.against {
+            Against::Slab(at) => {
+                self.things.get(at).is_some_and(|thing| touches(&solid, own.reach, &thing.solid, thing.reach))
+            }
+            Against::Floor => above_floor(&solid) <= GAP,
+            Against::Part(..) => false,
+        }
+    }
+
+    fn told(&self, met: &Met) -> Option<Touch> {
+        let link = self.room.machine.tree().links().get(self.parts.get(met.pair.part)?.link).cloned()?;
+        let other = match met.pair.against {
+            Against::Slab(at) => self.room.name(self.things.get(at)?.entity),
+            Against::Floor => "floor".into(),
+            Against::Part(..) => return None,
+        };
+        Some(Touch { link, other, is_own: false })
+    }
+
     /// What it touches.
     pub(super) fn touch(&self, map_from_tip: &Isometry3<f64>) -> Option<Touch> {
         for own in &self.parts {

@@ -1,17 +1,21 @@
 //! States and ways looked at eight at a time before they are looked at one by one: what is apart for certain in `f32` is left
 //! out, so that only what is near is looked at in `f64`.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 
 use super::around::{Around, touches};
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
-use crate::lanes::{Against, Eight, Figure, Look, Met, Pair, Slab};
+use crate::lanes::{Against, Eight, Figure, Look, Met, Pair, Posed, Slab, Slabs};
 
 /// What the quick look needs of a neighbourhood, made when it is first asked for.
 #[derive(Default)]
-pub(super) struct Quick(OnceCell<Option<Vec<Slab>>>);
+pub(super) struct Quick {
+    slabs: OnceCell<Option<Slabs>>,
+    /// Where the robot was placed last: nothing but room for the next time.
+    posed: RefCell<Posed>,
+}
 
 /// A part and another solid that are near each other in one of eight states.
 #[derive(Clone, Copy)]
@@ -28,31 +32,28 @@ pub(super) struct Near {
 /// What counts as near.
 #[derive(Clone, Copy)]
 struct Gap {
-    metres: f64,
+    /// In each of eight states, in m.
+    metres: [f32; 8],
     /// Whether the parts of the robot count among each other.
     is_own: bool,
 }
 
 impl Gap {
-    const LEAST: Self = Self { metres: GAP, is_own: true };
+    const LEAST: Self = Self { metres: [GAP as f32; 8], is_own: true };
 }
 
-/// Eight pieces of a way, one after the other: the middle of all, and half of the length of all, as shares of the way.
+/// Eight legs of a way, all of a length, as shares of it.
 #[derive(Clone, Copy)]
-pub(super) struct Pieces {
-    pub(super) middle: f64,
+pub(super) struct Legs {
+    pub(super) middles: [f64; 8],
+    /// Half of the length of each.
     pub(super) half: f64,
 }
 
-impl Pieces {
-    /// Those of a whole way.
-    pub(super) const WHOLE: Self = Self { middle: 0.5, half: 0.5 };
-
-    /// The middle of a piece, and half of its length.
-    pub(super) fn piece(self, lane: usize) -> (f64, f64) {
-        let half = self.half / 8.0;
-        (self.middle - self.half + half * (2 * lane + 1) as f64, half)
-    }
+impl Legs {
+    /// Those of a whole way, one after the other.
+    pub(super) const WHOLE: Self =
+        Self { middles: [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375], half: 0.0625 };
 }
 
 impl Room<'_> {
@@ -93,12 +94,12 @@ impl Room<'_> {
 }
 
 impl Around<'_, '_> {
-    fn slabs(&self) -> Option<&[Slab]> {
+    fn slabs(&self) -> Option<&Slabs> {
         let make = || {
             let slabs = self.things.iter().map(|near| Slab::new(near.entity, &near.solid, self.place()));
             slabs.collect()
         };
-        self.quick.0.get_or_init(make).as_deref()
+        self.quick.slabs.get_or_init(make).as_ref()
     }
 
     /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
@@ -115,59 +116,48 @@ impl Around<'_, '_> {
         self.near(figure, &eight, allowed, None, Gap::LEAST)
     }
 
-    /// The pairs that are near each other on eight pieces of a way; of these only, where some are given.
+    /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
+    /// bit is set in `lanes`.
     pub(super) fn near_on(
         &self,
-        [from, to]: [&State; 2],
-        pieces: Pieces,
+        way: [&State; 2],
+        legs: &Legs,
         allowed: Allowed,
         pairs: Option<&[Near]>,
     ) -> Option<Vec<Near>> {
         let figure = self.room.figure()?;
+        if !way.iter().all(|state| self.room.is_drawn(state)) {
+            return None;
+        }
         let mut eight = figure.eight();
-        let mut state = from.clone();
-        let mut half = 0.0;
+        let ends = way.map(|state| (self.seen(state.base), state.joints.as_slice()));
+        let is_within = figure.set_on(&mut eight, ends, &legs.middles, legs.half);
+        if is_within { self.near(figure, &eight, allowed, pairs, Gap::LEAST) } else { None }
+    }
+
+    /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
+    /// where it cannot be told this way.
+    pub(super) fn within(&self, states: &[&State], allowed: Allowed, metres: [f32; 8]) -> Option<Vec<Near>> {
+        let figure = self.room.figure()?;
+        let first = states.first()?;
+        let mut eight = figure.eight();
         for lane in 0..8 {
-            let (middle, own) = pieces.piece(lane);
-            half = own;
-            state.set_towards(from, to, middle);
-            if !self.set(figure, &mut eight, lane, &state) {
+            let state = states.get(lane).unwrap_or(first);
+            if !self.holds(state) || !self.set(figure, &mut eight, lane, state) {
                 return None;
             }
         }
-        let change = |one: f64, other: f64| (other - one) * half;
-        let [x, y, yaw] = from.base;
-        let [to_x, to_y, to_yaw] = to.base;
-        let base = [change(x, to_x), change(y, to_y), change(yaw, to_yaw)];
-        figure.spread(&mut eight, base, |at| {
-            from.joints.get(at).zip(to.joints.get(at)).map_or(0.0, |(one, other)| change(*one, *other))
-        });
-        self.near(figure, &eight, allowed, pairs, Gap::LEAST)
-    }
-
-    /// Whether anything that stands around, or the floor, may be within `metres` of the robot in each of some states of at most eight.
-    pub(super) fn within(&self, states: &[State], allowed: Allowed, metres: f64) -> Vec<bool> {
-        let near = || {
-            let figure = self.room.figure()?;
-            let first = states.first()?;
-            let mut eight = figure.eight();
-            for lane in 0..8 {
-                let state = states.get(lane).unwrap_or(first);
-                if !self.holds(state) || !self.set(figure, &mut eight, lane, state) {
-                    return None;
-                }
-            }
-            let gap = Gap { metres, is_own: false };
-            let near = self.near(figure, &eight, allowed, None, gap)?;
-            Some(near.iter().fold(0, |lanes, near| lanes | near.still))
-        };
-        let lanes = near().unwrap_or(u8::MAX);
-        (0..states.len()).map(|lane| lanes >> lane & 1 == 1).collect()
+        self.near(figure, &eight, allowed, None, Gap { metres, is_own: false })
     }
 
     fn set(&self, figure: &Figure, eight: &mut Eight, lane: usize, state: &State) -> bool {
-        let ([x, y, yaw], [a, b]) = (state.base, self.place());
-        self.room.is_drawn(state) && figure.set(eight, lane, [x - a, y - b, yaw], &state.joints)
+        self.room.is_drawn(state) && figure.set(eight, lane, self.seen(state.base), &state.joints)
+    }
+
+    /// A pose of the base from the origin of the neighbourhood.
+    fn seen(&self, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
+        let [a, b] = self.place();
+        [x - a, y - b, yaw]
     }
 
     /// The pairs that are near each other in eight states.
@@ -184,7 +174,9 @@ impl Around<'_, '_> {
         gap: Gap,
     ) -> Option<Vec<Near>> {
         let slabs = self.slabs()?;
-        let pairs: Option<Vec<Pair>> = pairs.map(|pairs| pairs.iter().map(|near| near.pair).collect());
+        let pairs: Option<Vec<(Pair, u8)>> =
+            pairs.map(|pairs| pairs.iter().map(|near| (near.pair, near.lanes)).collect());
+        let mut posed = self.quick.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
                 Some(entity) => limb.counts && !limb.may_touch(entity, allowed),
@@ -195,10 +187,11 @@ impl Around<'_, '_> {
             figure,
             eight,
             slabs,
-            gap: gap.metres as f32,
+            gaps: gap.metres,
             is_own: gap.is_own,
             is_first: true,
             pairs: pairs.as_deref(),
+            posed: &mut posed,
             counts,
         };
         Some(look.met().into_iter().map(Near::new).collect())
@@ -238,13 +231,7 @@ impl Around<'_, '_> {
 
     /// Whether a pair touches in a state.
     pub(super) fn touch_of(&self, near: &Near, state: &State) -> Option<Touch> {
-        let machine = self.room.machine;
-        let solid = |part: usize| {
-            let own = self.room.body.parts().get(part)?;
-            let pose =
-                machine.map_from_root(state.base) * machine.tree().root_from_link(&state.joints, own.link);
-            Some((own.solid.moved(&pose), self.limbs.get(part)?))
-        };
+        let solid = |part: usize| Some((self.part_at(part, state)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.part)?;
         let is_touched = match near.other {
             Other::Thing(at) => {
@@ -269,5 +256,15 @@ impl Near {
             Against::Floor => Other::Floor,
         };
         Self { part: pair.part, other, pair, lanes, still, sure }
+    }
+
+    /// The same pair, to be looked at on these legs.
+    pub(super) fn on(&self, lanes: u8) -> Self {
+        Self { lanes, ..*self }
+    }
+
+    /// Whether it is the same pair.
+    pub(super) fn is_of(&self, other: &Self) -> bool {
+        self.pair == other.pair
     }
 }

@@ -85,7 +85,7 @@ impl Room<'_> {
     }
 
     /// Holds from the robot's side come first; from above there is room, most often.
-    fn sort(&self, holds: &mut [Hold], goal: &Goal<'_>) {
+    fn sort(&self, holds: &mut Vec<Hold>, goal: &Goal<'_>) {
         let [x, y, _] = self.world.robot.base;
         let ahead = Vector3::new(goal.pose.translation.x - x, goal.pose.translation.y - y, 0.0);
         let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
@@ -94,11 +94,9 @@ impl Room<'_> {
             // In steps, so that what differs by rounding alone keeps its order.
             Side::Side | Side::Front => libm::round(hold.approach.dot(&ahead) / far * 20.0) / 20.0,
         };
-        let mut ranked: Vec<(f64, Hold)> = holds.iter().map(|hold| (worth(hold), *hold)).collect();
-        ranked.sort_by(|(one, _), (other, _)| other.total_cmp(one));
-        for (slot, (_, hold)) in holds.iter_mut().zip(ranked) {
-            *slot = hold;
-        }
+        let mut ranked: Vec<(f64, usize)> = holds.iter().map(worth).zip(0..).collect();
+        ranked.sort_unstable_by(|(one, first), (other, second)| other.total_cmp(one).then(first.cmp(second)));
+        *holds = ranked.into_iter().filter_map(|(_, at)| holds.get(at).copied()).collect();
     }
 }
 

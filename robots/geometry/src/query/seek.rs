@@ -114,15 +114,18 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         }
     }
 
-    /// Whether the hand alone is free in a pose.
+    /// Whether the hand alone is free in a pose. Where that is not known it is found out for the next ones as well.
     fn is_free(&mut self, at: usize) -> bool {
-        let Some((_, tip, known)) = self.tips.get_mut(at) else { return false };
-        if *known == Alone::Unknown {
-            let touch = self.sought.palm.touch(tip);
-            *known = if touch.is_some() { Alone::Blocked } else { Alone::Free };
-            touch.iter().for_each(|touch| self.hands.add(touch));
+        if self.tips.get(at).is_some_and(|(_, _, known)| *known == Alone::Unknown) {
+            let next = self.tips.iter_mut().skip(at).filter(|(_, _, known)| *known == Alone::Unknown);
+            let mut next: Vec<_> = next.take(BATCH).collect();
+            let poses: Vec<Isometry3<f64>> = next.iter().map(|(_, tip, _)| *tip).collect();
+            for ((_, _, known), touch) in next.iter_mut().zip(self.sought.palm.touches(&poses)) {
+                *known = if touch.is_some() { Alone::Blocked } else { Alone::Free };
+                touch.iter().for_each(|touch| self.hands.add(touch));
+            }
         }
-        *known == Alone::Free
+        self.tips.get(at).is_some_and(|(_, _, known)| *known == Alone::Free)
     }
 
     /// Leaves out the poses in which the hand alone is not free: so many rounds are left for the others.
@@ -209,39 +212,42 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         while drafts.len() >= least {
             let rest = drafts.split_off(drafts.len().min(LANES));
             let seen = screen.seen(drafts);
-            let mut is_any_free = false;
-            for (draft, seen) in drafts.iter().zip(seen) {
-                if let Seen::Touches(touch) = &seen {
-                    self.poses.add(touch);
-                    continue;
+            for (draft, _) in drafts.iter().zip(&seen).filter(|(_, seen)| matches!(seen, Seen::Free)) {
+                if let Some(candidate) = self.solved(screen, draft, true) {
+                    let others = std::mem::replace(&mut self.batch, vec![candidate]);
+                    self.tries()?;
+                    self.batch = others;
                 }
-                let Some(state) = screen.state(draft) else { continue };
-                if !self.sought.around.room.is_near_drivable(state.base) {
-                    self.is_cut_off = true;
-                    if matches!(seen, Seen::Free) {
-                        self.met.get_or_insert(state);
-                    }
-                    continue;
-                }
-                let candidate = Candidate { at: At::Tip(draft.at), tip: draft.tip, state };
+            }
+            for (draft, seen) in drafts.iter().zip(&seen) {
                 match seen {
-                    Seen::Free => {
-                        is_any_free = true;
-                        self.batch.insert(0, candidate);
+                    Seen::Free => {}
+                    Seen::Touches(touch) => self.poses.add(touch),
+                    Seen::Open => {
+                        let candidate = self.solved(screen, draft, false);
+                        self.batch.extend(candidate);
                     }
-                    Seen::Open | Seen::Touches(_) => self.batch.push(candidate),
                 }
                 if self.batch.len() == BATCH {
                     self.tries()?;
-                    is_any_free = false;
                 }
             }
             *drafts = rest;
-            if is_any_free {
-                self.tries()?;
-            }
         }
         ControlFlow::Continue(())
+    }
+
+    /// A draft to what `f64` can tell, where a way may lead to it.
+    fn solved(&mut self, screen: &Screen<'_, '_, '_>, draft: &Draft, is_free: bool) -> Option<Candidate> {
+        let state = screen.state(draft)?;
+        if self.sought.around.room.is_near_drivable(state.base) {
+            return Some(Candidate { at: At::Tip(draft.at), tip: draft.tip, state });
+        }
+        self.is_cut_off = true;
+        if is_free {
+            self.met.get_or_insert(state);
+        }
+        None
     }
 
     /// Tries candidates one after the other; what ends the search.

@@ -35,15 +35,16 @@ impl Solver {
 
     /// Values of the arm's variables that put the tip at a pose a little way from where it is with others: near to these.
     pub(super) fn followed(&self, base_from_tip: &Isometry3<f64>, values: &[f64]) -> Option<Vec<f64>> {
+        let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
         let closed = match self {
-            Self::Parallel(arm) => arm.nearest(base_from_tip, values).map(Vec::from),
+            // All solutions are known, so that there is none nearby where the nearest is not.
+            Self::Parallel(arm) => return arm.nearest(base_from_tip, values).map(Vec::from).filter(is_near),
             Self::Seven(arm) => {
                 let last = values.last().copied().unwrap_or_default();
                 arm.nearest(base_from_tip, &[last], values, 1).pop().map(Vec::from)
             }
             Self::Lift(_) | Self::Steps(_) => None,
         };
-        let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
         let numeric = || numeric::refined(self.chain(), base_from_tip, values, 20, Tolerance::EXACT);
         // Another branch of the arm is no straight line.
         closed.filter(is_near).or_else(|| numeric().filter(is_near))

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::around::{Around, above_floor};
 use super::excursion::Excursion;
-use super::quick::{Near, Pieces};
+use super::quick::{Legs, Near};
 use super::room::GAP;
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
@@ -19,6 +19,8 @@ use crate::kinematics::Lever;
 const DEPTH: u32 = 10;
 /// As often halved, legs are no longer looked at eight at a time.
 const QUICK: u32 = 9;
+/// How often an eighth of a way is.
+const EIGHTH: u32 = 3;
 
 impl Around<'_, '_> {
     /// Whether the straight way between two free states is free throughout.
@@ -77,40 +79,103 @@ impl Around<'_, '_> {
         open: &mut VecDeque<Leg>,
         pairs: &mut Vec<Pair>,
     ) -> Result<bool, Touch> {
-        let mut left: VecDeque<(Pieces, u32, Option<Vec<Near>>)> = VecDeque::from([(Pieces::WHOLE, 3, None)]);
-        while let Some((pieces, depth, known)) = left.pop_front() {
-            let Some(near) = self.near_on(way, pieces, allowed, known.as_deref()) else { return Ok(false) };
-            self.still(way, pieces, &near)?;
-            for lane in 0..8 {
-                let mut own = near.iter().filter(|near| near.lanes >> lane & 1 == 1).peekable();
-                if own.peek().is_none() {
-                    continue;
-                }
-                let (middle, half) = pieces.piece(lane);
-                if depth < QUICK {
-                    left.push_back((Pieces { middle, half }, depth + 3, Some(own.copied().collect())));
-                } else {
-                    let first = pairs.len();
-                    pairs.extend(own.map(|near| Pair::new(near.part, near.other)));
-                    open.push_back(Leg { middle, half, depth, pairs: Some([first, pairs.len()]) });
-                }
+        let Some(near) = self.near_on(way, &Legs::WHOLE, allowed, None) else { return Ok(false) };
+        let mut left = OpenLegs::default();
+        left.add(way, self, &Legs::WHOLE, &near)?;
+        for _ in EIGHTH..QUICK {
+            let mut next = OpenLegs::default();
+            for four in left.legs.chunks(4) {
+                let (legs, pairs) = left.halves(four);
+                let Some(near) = self.near_on(way, &legs, allowed, Some(&pairs)) else { return Ok(false) };
+                next.add(way, self, &legs, &near)?;
             }
+            left = next;
+        }
+        for leg in &left.legs {
+            let first = pairs.len();
+            pairs.extend(left.near(leg).iter().map(|near| Pair::new(near.part, near.other)));
+            let OpenLeg { middle, .. } = *leg;
+            open.push_back(Leg { middle, half: left.half, depth: QUICK, pairs: Some([first, pairs.len()]) });
         }
         Ok(true)
     }
 
     /// Of the pairs that look as if they touch in the middle of a leg, whether one does.
-    fn still(&self, [from, to]: [&State; 2], pieces: Pieces, near: &[Near]) -> Result<(), Touch> {
-        for lane in 0..8 {
+    fn still(&self, [from, to]: [&State; 2], legs: &Legs, near: &[Near]) -> Result<(), Touch> {
+        for (lane, middle) in legs.middles.iter().enumerate() {
             if !near.iter().any(|near| near.still >> lane & 1 == 1) {
                 continue;
             }
-            let state = from.towards(to, pieces.piece(lane).0);
+            let state = from.towards(to, *middle);
             if let Some(touch) = self.touch_among(near, lane, &state) {
                 return Err(touch);
             }
         }
         Ok(())
+    }
+}
+
+/// Legs of a length on which something is near.
+#[derive(Default)]
+struct OpenLegs {
+    legs: Vec<OpenLeg>,
+    /// Half of the length of each, as a share of the way.
+    half: f64,
+    /// What is near on one leg after the other.
+    near: Vec<Near>,
+}
+
+/// A leg with what is near on it, by indices.
+struct OpenLeg {
+    middle: f64,
+    near: [usize; 2],
+}
+
+impl OpenLegs {
+    /// Adds those of eight legs on which something is near; an error where something touches in the middle of one.
+    fn add(
+        &mut self,
+        way: [&State; 2],
+        around: &Around<'_, '_>,
+        legs: &Legs,
+        near: &[Near],
+    ) -> Result<(), Touch> {
+        around.still(way, legs, near)?;
+        self.half = legs.half;
+        for (lane, middle) in legs.middles.iter().enumerate() {
+            let first = self.near.len();
+            self.near.extend(near.iter().filter(|near| near.lanes >> lane & 1 == 1));
+            if self.near.len() > first {
+                self.legs.push(OpenLeg { middle: *middle, near: [first, self.near.len()] });
+            }
+        }
+        Ok(())
+    }
+
+    fn near(&self, leg: &OpenLeg) -> &[Near] {
+        let [first, end] = leg.near;
+        self.near.get(first..end).unwrap_or_default()
+    }
+
+    /// The halves of at most four legs, with the pairs to look at on them.
+    fn halves(&self, legs: &[OpenLeg]) -> (Legs, Vec<Near>) {
+        let half = 0.5 * self.half;
+        let first = legs.first().map_or(0.0, |leg| leg.middle - half);
+        let mut halves = Legs { middles: [first; 8], half };
+        let mut pairs: Vec<Near> = Vec::new();
+        for ((leg, slots), at) in legs.iter().zip(halves.middles.chunks_mut(2)).zip(0..) {
+            for (slot, middle) in slots.iter_mut().zip([leg.middle - half, leg.middle + half]) {
+                *slot = middle;
+            }
+            let lanes = 0b11 << (2 * at);
+            for near in self.near(leg) {
+                match pairs.iter_mut().find(|known| known.is_of(near)) {
+                    Some(known) => known.lanes |= lanes,
+                    None => pairs.push(near.on(lanes)),
+                }
+            }
+        }
+        (halves, pairs)
     }
 }
 

@@ -1,0 +1,163 @@
+//! How two solids drift apart or towards each other on a leg, to the first order, and how far they may be from that.
+//!
+//! On a leg all joints change evenly. A place on a part is at `p + v t + r(t)` then, with `t` from −1 to 1 and `v` its velocity in
+//! the middle. Its acceleration is no more than twice the sum of all angles by which joints turn, times how far it goes by all of
+//! them, joint by joint: so `r` is no longer than that sum times that way. A place that goes along something, and not towards it,
+//! may so be known to stay clear of it, however far it goes.
+
+use pulp::Simd;
+
+use super::number::{Number, Vector};
+use super::pose::{Row, Rows};
+
+/// How much a place may be off as it is placed, for each rad that it turns, in m.
+const OFF: f32 = 2e-4;
+
+/// How a frame moves until the end of a leg, by some of the joints that move it.
+#[derive(Clone, Copy)]
+pub(super) struct Drift<S: Simd> {
+    /// Of its origin.
+    shift: Vector<S>,
+    /// The axis about which it turns, as long as the angle.
+    spin: Vector<S>,
+    /// How far its origin goes at most, and how much more what is 1 m from it.
+    goes: Number<S>,
+    spread: f32,
+    /// The sum of all angles.
+    turns: f32,
+}
+
+/// The same in eight lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Drifted {
+    shift: Rows,
+    spin: Rows,
+    goes: Row,
+    spread: f32,
+    turns: f32,
+}
+
+impl Drifted {
+    #[inline(always)]
+    pub(super) fn of<S: Simd>(&self, simd: S, chunk: usize) -> Drift<S> {
+        Drift {
+            shift: Vector::of(simd, &self.shift, chunk),
+            spin: Vector::of(simd, &self.spin, chunk),
+            goes: Number::of(simd, &self.goes, chunk),
+            spread: self.spread,
+            turns: self.turns,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn set<S: Simd>(&mut self, drift: Drift<S>, chunk: usize) {
+        drift.shift.store(&mut self.shift, chunk);
+        drift.spin.store(&mut self.spin, chunk);
+        drift.goes.store(&mut self.goes, chunk);
+        (self.spread, self.turns) = (drift.spread, drift.turns);
+    }
+
+    /// How far any place goes that is no farther from the frame's origin than `reach`.
+    #[inline(always)]
+    pub(super) fn goes<S: Simd>(&self, simd: S, reach: f32, chunk: usize) -> Number<S> {
+        Number::of(simd, &self.goes, chunk) + Number::splat(simd, self.spread * reach)
+    }
+}
+
+impl<S: Simd> Drift<S> {
+    /// What does not move.
+    #[inline(always)]
+    pub(super) fn still(simd: S) -> Self {
+        let none = Vector::splat(simd, [0.0; 3]);
+        Self { shift: none, spin: none, goes: Number::splat(simd, 0.0), spread: 0.0, turns: 0.0 }
+    }
+
+    /// Adds a joint that turns about an axis, from a place on which the frame's origin stands off, and by how much and, at least as much,
+    /// how far. Joints come from the last on.
+    #[inline(always)]
+    pub(super) fn turn(&mut self, simd: S, off: Vector<S>, axis: Vector<S>, [change, amount]: [f32; 2]) {
+        let across = axis.cross(off);
+        let change = Number::splat(simd, change);
+        self.shift = self.shift + across.times(change);
+        self.spin = self.spin + axis.times(change);
+        // It turns a place at a distance `r` from its axis by at most `amount` times `r`.
+        self.goes = self.goes + Number::splat(simd, amount) * (across.dot(across).sqrt() + self.goes);
+        self.spread += amount * (1.0 + self.spread);
+        self.turns += amount;
+    }
+
+    /// Adds a joint that slides.
+    #[inline(always)]
+    pub(super) fn slide(&mut self, simd: S, axis: Vector<S>, [change, amount]: [f32; 2]) {
+        self.shift = self.shift + axis.times(Number::splat(simd, change));
+        self.goes = self.goes + Number::splat(simd, amount);
+    }
+}
+
+/// A capsule on a leg, in a frame that drifts.
+#[derive(Clone, Copy)]
+pub(super) struct Drifting<S: Simd> {
+    /// Of its centre, and the axis about which it turns.
+    shift: Vector<S>,
+    spin: Vector<S>,
+    /// From its centre to an end of its axis.
+    half: Vector<S>,
+    /// How far what is beside the axis goes by turning.
+    round: Number<S>,
+    /// How far any of its places goes, and may be from the first order.
+    goes: Number<S>,
+    beyond: Number<S>,
+}
+
+impl<S: Simd> Drifting<S> {
+    /// A capsule with such a half axis and radius, its centre so far off the frame's origin and no part of it farther from it than `reach`.
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        drift: Drift<S>,
+        off: Vector<S>,
+        half: Vector<S>,
+        [radius, reach]: [f32; 2],
+    ) -> Self {
+        let goes = drift.goes + Number::splat(simd, drift.spread * reach);
+        let turning = drift.spin.dot(drift.spin).sqrt();
+        Self {
+            shift: drift.shift + drift.spin.cross(off),
+            spin: drift.spin,
+            half,
+            round: turning * Number::splat(simd, radius),
+            goes,
+            beyond: (goes + Number::splat(simd, OFF)) * Number::splat(simd, drift.turns),
+        }
+    }
+
+    /// A ball that holds it.
+    #[inline(always)]
+    pub(super) fn ball(self, simd: S, radius: f32) -> Self {
+        let turning = self.spin.dot(self.spin).sqrt();
+        Self { half: Vector::splat(simd, [0.0; 3]), round: turning * Number::splat(simd, radius), ..self }
+    }
+
+    /// What does not move.
+    #[inline(always)]
+    pub(super) fn still(simd: S) -> Self {
+        let (none, zero) = (Vector::splat(simd, [0.0; 3]), Number::splat(simd, 0.0));
+        Self { shift: none, spin: none, half: none, round: zero, goes: zero, beyond: zero }
+    }
+
+    /// How far any of its places goes.
+    #[inline(always)]
+    pub(super) fn goes(self) -> Number<S> {
+        self.goes
+    }
+
+    /// By how much it and another one may come nearer to each other along a direction until the end of the leg, of which the length is
+    /// given: at most so much, times that length, and no more than both go.
+    #[inline(always)]
+    pub(super) fn approach(self, other: Self, way: Vector<S>, length: Number<S>) -> Number<S> {
+        let along = way.dot(self.shift - other.shift).abs();
+        let ends = way.dot(self.spin.cross(self.half)).abs() + way.dot(other.spin.cross(other.half)).abs();
+        let rest = self.round + other.round + self.beyond + other.beyond;
+        (along + ends + length * rest).least(length * (self.goes + other.goes))
+    }
+}
