@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use motet_robots::card::Drive;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::machine::Hand;
@@ -137,16 +138,40 @@ impl Room<'_> {
             first.base = [x + shift.x, y + shift.y, yaw];
             return Some(vec![first, state.clone()]);
         }
-        let map_from_base = self.map_from_base(state.base);
+        let along = self.follows(hand, state, map_from_tip, shift, &Vector3::zeros());
+        // A base that drives anywhere takes the arm along, which has to lift the hand only.
+        let level = Vector3::new(shift.x, shift.y, 0.0);
+        along.or_else(|| self.slides().then(|| self.follows(hand, state, map_from_tip, shift, &level))?)
+    }
+
+    /// Whether the base goes in every direction.
+    fn slides(&self) -> bool {
+        self.machine.drives() && self.machine.card().base.drive != Drive::Differential
+    }
+
+    /// The states on that line with the base coming from `by`, in m in the map and level.
+    fn follows(
+        &self,
+        hand: &Hand,
+        state: &State,
+        map_from_tip: &Isometry3<f64>,
+        shift: &Vector3<f64>,
+        by: &Vector3<f64>,
+    ) -> Option<Vec<State>> {
         let chain = hand.solver.chain();
         let mut values: Vec<f64> =
             chain.in_tree.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect();
+        let [x, y, yaw] = state.base;
         let mut states = vec![state.clone()];
         for step in 1..=STEPS {
-            let part = Translation3::from(shift * (step as f64 / STEPS as f64));
-            let wanted = map_from_base.inverse() * (part * map_from_tip);
-            values = hand.solver.followed(&wanted, &values)?;
-            states.push(self.with(hand, state.base, &values));
+            let share = step as f64 / STEPS as f64;
+            let base = [x + by.x * share, y + by.y * share, yaw];
+            let wanted =
+                self.map_from_base(base).inverse() * (Translation3::from(shift * share) * map_from_tip);
+            if shift != by {
+                values = hand.solver.followed(&wanted, &values)?;
+            }
+            states.push(self.with(hand, base, &values));
         }
         states.reverse();
         Some(states)

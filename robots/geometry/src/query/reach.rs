@@ -69,7 +69,7 @@ impl Room<'_> {
             grips: Some(&grips),
             allowed: goal.allowed,
             around: &around,
-            backs: &|tip| BACK.map(|back| away(tip, hand, back)).to_vec(),
+            backs: &|tip| self.backs(&away(tip, hand, 1.0)),
         };
         match self.seek(&sought, budget) {
             Ok((at, path)) => {
@@ -82,6 +82,25 @@ impl Room<'_> {
             }
             Err(none) => none,
         }
+    }
+
+    /// From a pose of the tip back to where the hand turns straight to it, by the direction in which its fingers do not point: along that;
+    /// else, where there is a base to do so, level or from above.
+    fn backs(&self, away: &Vector3<f64>) -> Vec<Vector3<f64>> {
+        let [long, _] = BACK;
+        let mut backs: Vec<_> = BACK.map(|back| away * back).to_vec();
+        if !self.machine.drives() {
+            return backs;
+        }
+        let level = Vector3::new(away.x, away.y, 0.0);
+        let share = level.norm();
+        if share > 0.3 && share < 0.999 {
+            backs.push(level * (long / share));
+        }
+        if away.z < 0.9 {
+            backs.push(Vector3::z() * long);
+        }
+        backs
     }
 
     /// Holds from the robot's side come first; from above there is room, most often.
