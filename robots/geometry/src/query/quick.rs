@@ -105,15 +105,7 @@ impl Around<'_, '_> {
     /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
     pub(super) fn near_in(&self, states: &[&State], allowed: Allowed) -> Option<Vec<Near>> {
         let figure = self.room.figure()?;
-        let first = states.first()?;
-        let mut eight = figure.eight();
-        for lane in 0..8 {
-            let state = states.get(lane).unwrap_or(first);
-            if !self.set(figure, &mut eight, lane, state) {
-                return None;
-            }
-        }
-        self.near(figure, &eight, allowed, None, Gap::LEAST)
+        self.near(figure, &self.eight(figure, states)?, allowed, None, Gap::LEAST)
     }
 
     /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
@@ -139,19 +131,21 @@ impl Around<'_, '_> {
     /// where it cannot be told this way.
     pub(super) fn within(&self, states: &[&State], allowed: Allowed, metres: [f32; 8]) -> Option<Vec<Near>> {
         let figure = self.room.figure()?;
-        let first = states.first()?;
-        let mut eight = figure.eight();
-        for lane in 0..8 {
-            let state = states.get(lane).unwrap_or(first);
-            if !self.holds(state) || !self.set(figure, &mut eight, lane, state) {
-                return None;
-            }
+        if !states.iter().all(|state| self.holds(state)) {
+            return None;
         }
-        self.near(figure, &eight, allowed, None, Gap { metres, is_own: false })
+        self.near(figure, &self.eight(figure, states)?, allowed, None, Gap { metres, is_own: false })
     }
 
-    fn set(&self, figure: &Figure, eight: &mut Eight, lane: usize, state: &State) -> bool {
-        self.room.is_drawn(state) && figure.set(eight, lane, self.seen(state.base), &state.joints)
+    /// Some states, at most eight, the first again for what is left.
+    fn eight(&self, figure: &Figure, states: &[&State]) -> Option<Eight> {
+        let first = states.first()?;
+        let mut eight = figure.eight();
+        let set = |lane: usize| {
+            let state = states.get(lane).unwrap_or(first);
+            self.room.is_drawn(state) && figure.set(&mut eight, lane, self.seen(state.base), &state.joints)
+        };
+        (0..8).all(set).then_some(eight)
     }
 
     /// A pose of the base from the origin of the neighbourhood.
