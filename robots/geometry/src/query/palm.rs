@@ -1,8 +1,9 @@
 //! The hand alone at a pose: what it touches there is in the way of every arm.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 use nalgebra::{Isometry3, Translation3, Vector3};
+use smol_str::SmolStr;
 
 use super::around::{above_floor, touches};
 use super::machine::Hand;
@@ -19,10 +20,10 @@ pub(super) struct Palm<'r, 'w> {
     beneath: Option<usize>,
     parts: Vec<Own>,
     things: Vec<Thing>,
-    /// The same for a quick look, seen from a place in the middle of the poses.
-    figure: Option<Figure>,
-    slabs: Slabs,
+    /// A place in the middle of the poses.
     middle: Vector3<f64>,
+    /// The same for a quick look, seen from there; made when it is first asked for.
+    quick: OnceCell<Option<(Figure, Slabs)>>,
     posed: RefCell<Posed>,
 }
 
@@ -62,12 +63,15 @@ impl<'w> Room<'w> {
         });
         let things: Vec<Thing> = near.map(|(_, thing)| *thing).collect();
         let middle = Vector3::new(centre.x, centre.y, 0.0);
-        // What has no box is known to be apart from nothing.
-        let slabs = things.iter().map(|thing| Slab::new(thing.entity, &thing.solid, [middle.x, middle.y]));
-        let slabs: Option<Slabs> = slabs.collect();
-        let figure = slabs.is_some().then(|| Figure::rigid(parts.iter().map(|own| &own.solid))).flatten();
-        let (slabs, posed) = (slabs.unwrap_or_default(), RefCell::default());
-        Palm { room: self, beneath: allowed.held, parts, things, figure, slabs, middle, posed }
+        Palm {
+            room: self,
+            beneath: allowed.held,
+            parts,
+            things,
+            middle,
+            quick: OnceCell::new(),
+            posed: RefCell::default(),
+        }
     }
 }
 
@@ -85,9 +89,20 @@ impl Palm<'_, '_> {
         map_from_tips.iter().zip(0..).map(touch).collect()
     }
 
+    /// `None` where something is too large, or has no box and is known to be apart from nothing.
+    fn quick(&self) -> Option<&(Figure, Slabs)> {
+        let place = [self.middle.x, self.middle.y];
+        let make = || {
+            let slabs = self.things.iter().map(|thing| Slab::new(thing.entity, &thing.solid, place));
+            let slabs = slabs.collect::<Option<Slabs>>()?;
+            Some((Figure::rigid(self.parts.iter().map(|own| &own.solid))?, slabs))
+        };
+        self.quick.get_or_init(make).as_ref()
+    }
+
     /// The pairs that are near each other at some poses; `None` where it cannot be told this way.
     fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<Met>> {
-        let figure = self.figure.as_ref()?;
+        let (figure, slabs) = self.quick()?;
         let seen = |tip: &Isometry3<f64>| {
             Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
         };
@@ -98,7 +113,7 @@ impl Palm<'_, '_> {
         let look = Look {
             figure,
             eight: &eight,
-            slabs: &self.slabs,
+            slabs,
             gaps: [GAP as f32; 8],
             is_own: false,
             is_first: true,
@@ -122,34 +137,35 @@ impl Palm<'_, '_> {
         }
     }
 
+    /// What is told of a pair that touches.
     fn told(&self, met: &Met) -> Option<Touch> {
-        let link = self.room.machine.tree().links().get(self.parts.get(met.pair.part)?.link).cloned()?;
-        let other = match met.pair.against {
-            Against::Slab(at) => self.room.name(self.things.get(at)?.entity),
-            Against::Floor => "floor".into(),
-            Against::Part(..) => return None,
-        };
-        Some(Touch { link, other, is_own: false })
+        let own = self.parts.get(met.pair.part)?;
+        match met.pair.against {
+            Against::Slab(at) => Some(self.touch_of(own, self.room.name(self.things.get(at)?.entity))),
+            Against::Floor => Some(self.touch_of(own, "floor".into())),
+            Against::Part(..) => None,
+        }
+    }
+
+    fn touch_of(&self, own: &Own, other: SmolStr) -> Touch {
+        let link = self.room.machine.tree().links().get(own.link).cloned().unwrap_or_default();
+        Touch { link, other, is_own: false }
     }
 
     /// What it touches.
     pub(super) fn touch(&self, map_from_tip: &Isometry3<f64>) -> Option<Touch> {
         for own in &self.parts {
             let solid = own.solid.moved(map_from_tip);
-            let told = |other| {
-                let link = self.room.machine.tree().links().get(own.link).cloned().unwrap_or_default();
-                Some(Touch { link, other, is_own: false })
-            };
             for thing in &self.things {
                 if own.is_held && self.beneath == Some(thing.entity) {
                     continue;
                 }
                 if touches(&solid, own.reach, &thing.solid, thing.reach) {
-                    return told(self.room.name(thing.entity));
+                    return Some(self.touch_of(own, self.room.name(thing.entity)));
                 }
             }
             if above_floor(&solid) <= GAP {
-                return told("floor".into());
+                return Some(self.touch_of(own, "floor".into()));
             }
         }
         None
