@@ -163,7 +163,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                     }
                     self.batch.push(Candidate { at: At::Tip(at), tip, state });
                     if self.batch.len() == BATCH {
-                        self.tries()?;
+                        self.tries_batch()?;
                     }
                 }
             }
@@ -172,7 +172,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             }
             round += 1;
         }
-        self.tries()
+        self.tries_batch()
     }
 
     /// The same candidates, eight at a time.
@@ -198,7 +198,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             }
         }
         self.screened(screen, &mut drafts, 1)?;
-        self.tries()
+        self.tries_batch()
     }
 
     /// Looks at drafts while there are at least so many: the free ones are tried at once, those that come near something when
@@ -214,9 +214,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             let seen = screen.seen(drafts);
             for (draft, _) in drafts.iter().zip(&seen).filter(|(_, seen)| matches!(seen, Seen::Free)) {
                 if let Some(candidate) = self.solved(screen, draft, true) {
-                    let others = std::mem::replace(&mut self.batch, vec![candidate]);
-                    self.tries()?;
-                    self.batch = others;
+                    self.tries(vec![candidate])?;
                 }
             }
             for (draft, seen) in drafts.iter().zip(&seen) {
@@ -229,7 +227,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                     }
                 }
                 if self.batch.len() == BATCH {
-                    self.tries()?;
+                    self.tries_batch()?;
                 }
             }
             *drafts = rest;
@@ -250,9 +248,14 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         None
     }
 
-    /// Tries candidates one after the other; what ends the search.
-    fn tries(&mut self) -> ControlFlow<Found> {
+    /// Tries what is left of the candidates that were to be tried together.
+    fn tries_batch(&mut self) -> ControlFlow<Found> {
         let batch = std::mem::take(&mut self.batch);
+        self.tries(batch)
+    }
+
+    /// Tries candidates one after the other; what ends the search.
+    fn tries(&mut self, batch: Vec<Candidate>) -> ControlFlow<Found> {
         let states: Vec<&State> = batch.iter().map(|candidate| &candidate.state).collect();
         let touches = self.sought.around.touches(&states, self.sought.allowed);
         for (candidate, touch) in batch.into_iter().zip(touches) {
