@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::number::Number;
+use super::number::{Number, Vector};
 
 /// A box by its least and its greatest corner.
 #[derive(Clone, Copy, Debug)]
@@ -76,8 +76,8 @@ impl Bounds {
         let Some([low_x, low_y, low_z, high_x, high_y, high_z]) = self.rows.get(row) else { return 0 };
         let mut bits = 0;
         for chunk in 0..8 / S::F32_LANES {
-            let [x, y, z] = other.low.map(|value| Number::splat(simd, value));
-            let [a, b, c] = other.high.map(|value| Number::splat(simd, value));
+            let (Vector([x, y, z]), Vector([a, b, c])) =
+                (Vector::splat(simd, other.low), Vector::splat(simd, other.high));
             let of = |row: &[f32; 8]| Number::of(simd, row, chunk);
             let along_x = (of(low_x) - a).most(x - of(high_x));
             let along_y = (of(low_y) - b).most(y - of(high_y));

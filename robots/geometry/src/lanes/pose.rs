@@ -131,14 +131,10 @@ impl Posed {
             place.moves |= whole.most_lane() > 0.0;
             let (Vector([x, y, z]), Vector([a, b, c])) = (centre, half);
             let (a, b, c) = (a.abs() + wide, b.abs() + wide, c.abs() + wide);
-            let [low_x, low_y, low_z] = &mut place.bound.low;
-            lower(low_x, (x - a).least_lane());
-            lower(low_y, (y - b).least_lane());
-            lower(low_z, (z - c).least_lane());
-            let [high_x, high_y, high_z] = &mut place.bound.high;
-            higher(high_x, (x + a).most_lane());
-            higher(high_y, (y + b).most_lane());
-            higher(high_z, (z + c).most_lane());
+            place.bound.add(&Bound {
+                low: [(x - a).least_lane(), (y - b).least_lane(), (z - c).least_lane()],
+                high: [(x + a).most_lane(), (y + b).most_lane(), (z + c).most_lane()],
+            });
         }
     }
 
@@ -301,16 +297,6 @@ impl Frame {
             (a.times(x) + b.times(y) + c.times(z)).store(slot, chunk);
         }
     }
-}
-
-#[inline(always)]
-fn lower(slot: &mut f32, value: f32) {
-    *slot = if value < *slot { value } else { *slot };
-}
-
-#[inline(always)]
-fn higher(slot: &mut f32, value: f32) {
-    *slot = if value > *slot { value } else { *slot };
 }
 
 /// How far each part goes in the first of eight states.
