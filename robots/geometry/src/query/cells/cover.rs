@@ -347,9 +347,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
                 if placing.steps.is_empty() {
                     return Err(NOTHING);
                 }
-                self.join(placing);
-                self.ensure_own(placing, part);
-                self.ensure_own(placing, at);
+                self.ensure_both(placing, part, at);
                 let (one, other) = self.both(placing, part, at).ok_or(NOTHING)?;
                 let drift = 0.0;
                 let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };

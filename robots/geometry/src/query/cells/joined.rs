@@ -66,8 +66,7 @@ impl Cover<'_, '_, '_> {
         let mut left: Vec<[u16; 2]> = Vec::new();
         for pair in tied.pairs.iter() {
             let [part, at] = *pair;
-            self.ensure_own(placing, part);
-            self.ensure_own(placing, at);
+            self.ensure_both(placing, part, at);
             let Some((own, other)) = self.both(placing, part, at) else { continue };
             if is_fewer && own.is_apart(other, drift) {
                 continue;
@@ -130,9 +129,7 @@ impl Cover<'_, '_, '_> {
 
     /// Whether two parts touch throughout.
     pub(super) fn own_touches(&self, placing: &mut Placing, part: u16, at: u16) -> bool {
-        self.join(placing);
-        self.ensure_own(placing, part);
-        self.ensure_own(placing, at);
+        self.ensure_both(placing, part, at);
         let both = self.both(placing, part, at);
         both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other]))
     }
@@ -156,8 +153,15 @@ impl Cover<'_, '_, '_> {
         placing.own.axes = Ties::axes(&self.rig, &placing.own.frames, &offs);
     }
 
+    /// Puts two parts where the joints do.
+    pub(super) fn ensure_both(&self, placing: &mut Placing, part: u16, at: u16) {
+        self.join(placing);
+        self.ensure_own(placing, part);
+        self.ensure_own(placing, at);
+    }
+
     /// Puts a part where the joints do.
-    pub(super) fn ensure_own(&self, placing: &mut Placing, part: u16) {
+    fn ensure_own(&self, placing: &mut Placing, part: u16) {
         let at = usize::from(part);
         let Some(slot @ None) = placing.own.parts.get_mut(at) else { return };
         let Some(limb) = self.limbs.get(at) else { return };
@@ -199,10 +203,8 @@ impl Cover<'_, '_, '_> {
         use super::board::Goes as _;
         let mut most = f64::NEG_INFINITY;
         for tied in self.ties().iter() {
-            self.join(placing);
             for [part, at] in tied.pairs.iter() {
-                self.ensure_own(placing, *part);
-                self.ensure_own(placing, *at);
+                self.ensure_both(placing, *part, *at);
                 let Some((one, other)) = self.both(placing, *part, *at) else { return f64::INFINITY };
                 let (from, to) = (one.limb.frame, other.limb.frame);
                 let tie = self.ties.tie(from, to, &placing.own.axes).unwrap();
