@@ -42,6 +42,17 @@ impl Robot {
         joints
     }
 
+    /// Pairs of parts with how far they are apart, but for those that do not move against each other, which are not looked at.
+    fn moved_pairs<'a>(
+        &'a self,
+        placed: &'a [Solid],
+        still: &'a [Solid],
+    ) -> impl Iterator<Item = ([usize; 2], f64)> + 'a {
+        let apart = |solids: &[Solid], [one, other]: [usize; 2]| solids[one].distance(&solids[other]);
+        let pairs = self.body.pairs().iter().map(move |pair| (*pair, apart(placed, *pair)));
+        pairs.filter(move |(pair, distance)| (distance - apart(still, *pair)).abs() >= 1e-9)
+    }
+
     fn placed(&self, base: [f64; 3], joints: &[f64]) -> Vec<Solid> {
         let map_from_root = planar(base[0], base[1], base[2]) * Isometry3::translation(0.0, 0.0, 0.3);
         let poses: Vec<_> =
@@ -124,16 +135,11 @@ fn what_is_near_is_met() {
                     assert!(!is_near || is_met(part, &|it| it == Against::Floor, lane), "{name}");
                 }
                 let still = robot.placed(*base, &robot.joints(0));
-                for [one, other] in robot.body.pairs() {
-                    let distance = placed[*one].distance(&placed[*other]);
-                    // What never moves is not looked at.
-                    if (distance - still[*one].distance(&still[*other])).abs() < 1e-9 {
-                        continue;
-                    }
+                for ([one, other], distance) in robot.moved_pairs(&placed, &still) {
                     let is_near = distance <= f64::from(GAP);
                     near += u32::from(is_near);
-                    let is = |it| matches!(it, Against::Part(at, _) if at == *other);
-                    assert!(!is_near || is_met(*one, &is, lane), "{name}: {one} {other} {distance}");
+                    let is = |it| matches!(it, Against::Part(at, _) if at == other);
+                    assert!(!is_near || is_met(one, &is, lane), "{name}: {one} {other} {distance}");
                 }
             }
         }
@@ -209,15 +215,11 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                             );
                         }
                     }
-                    for [one, other] in robot.body.pairs() {
-                        let distance = placed[*one].distance(&placed[*other]);
-                        if (distance - still[*one].distance(&still[*other])).abs() < 1e-9 {
-                            continue;
-                        }
+                    for ([one, other], distance) in robot.moved_pairs(&placed, &still) {
                         let is_near = distance <= f64::from(GAP);
                         near += u32::from(is_near);
-                        let is = |it| matches!(it, Against::Part(at, _) if at == *other);
-                        assert!(!is_near || is_met(*one, &is), "{name} {block}: {one} {other} {distance}");
+                        let is = |it| matches!(it, Against::Part(at, _) if at == other);
+                        assert!(!is_near || is_met(one, &is), "{name} {block}: {one} {other} {distance}");
                     }
                 }
             }
