@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_graph::{Graph, NodeId, NodeKind, Term, Value};
+use motet_graph::{Graph, NodeId, NodeKind, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
@@ -11,6 +11,7 @@ use smol_str::SmolStr;
 
 use super::first::First;
 use super::polarity;
+use super::problem::named_entity;
 use super::sense::sense;
 use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
@@ -235,18 +236,7 @@ impl Live<'_, '_> {
 /// The last thing that a call names: where it leads.
 fn leads_to(graph: &Graph, node: NodeId, bound: &[(SmolStr, Value)]) -> Option<SmolStr> {
     let NodeKind::Call(call) = &graph.nodes.get(node.index())?.kind else { return None };
-    let entity = |arg: &Term| match arg {
-        Term::Literal(Value::Entity(id)) => Some(id.clone()),
-        Term::Binding(id) => {
-            let name = &graph.bindings.get(id.index())?.name;
-            bound.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-                Value::Entity(id) => Some(id.clone()),
-                _ => None,
-            })
-        }
-        _ => None,
-    };
-    call.args.iter().filter_map(entity).next_back()
+    call.args.iter().filter_map(|arg| named_entity(graph, bound, arg)).next_back()
 }
 
 fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {

@@ -146,17 +146,7 @@ fn failed(
     });
     let primitive = call.and_then(|call| graph.primitives.get(call.primitive.index()));
     let args = || call.into_iter().flat_map(|call| &call.args);
-    let entity = |arg: &Term| match arg {
-        Term::Literal(Value::Entity(id)) => Some(id.clone()),
-        Term::Binding(id) => {
-            let name = &graph.bindings.get(id.index())?.name;
-            bound.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-                Value::Entity(id) => Some(id.clone()),
-                _ => None,
-            })
-        }
-        _ => None,
-    };
+    let entity = |arg: &Term| named_entity(graph, bound, arg);
     // What cannot be got at is where the step leads last: of what is put somewhere the place, since the thing is in the hand.
     let about = match (kind, args().next()) {
         ("unreachable" | "blocked", _) => args().filter_map(entity).next_back(),
@@ -288,5 +278,21 @@ impl Problem {
             about: None,
             said: None,
         }
+    }
+}
+
+/// The entity that an argument names, by itself or by what it is bound to.
+pub(super) fn named_entity(graph: &Graph, bound: &[(SmolStr, Value)], arg: &Term) -> Option<SmolStr> {
+    let value = match arg {
+        Term::Literal(value) => value,
+        Term::Binding(id) => {
+            let name = &graph.bindings.get(id.index())?.name;
+            bound.iter().find(|(known, _)| known == name).map(|(_, value)| value)?
+        }
+        _ => return None,
+    };
+    match value {
+        Value::Entity(id) => Some(id.clone()),
+        _ => None,
     }
 }
