@@ -1,6 +1,6 @@
 //! What is said beside a request and asks for nothing: how things are, why, what somebody wonders, and what to mind.
 
-use super::beside::{ASKS, MATTERS, REASONS, SAYS, SHALL_WE, SUBJECTS, TELLS, WHETHER};
+use super::beside::{ASKS, MATTERS, NAMES, REASONS, SAYS, SHALL_WE, SUBJECTS, TELLS, WHETHER};
 use super::inflection::{Form, base};
 use super::token::{Token, longest, stands};
 use super::verb::{Act, begins};
@@ -29,39 +29,7 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
         return false;
     }
     // What is only named or looked at is spoken of where more follows.
-    let is_named = [
-        "take a look",
-        "have a look",
-        "have a peek",
-        "take a peek",
-        "look inside",
-        "look in",
-        "peek inside",
-        "be careful with",
-        "be gentle with",
-        "be very careful with",
-        "be really careful with",
-        "careful with",
-        "easy with",
-        "go easy on",
-        "go easy with",
-        "watch out for",
-        "watch",
-        "mind",
-        "look out for",
-        "take good care of",
-        "see",
-        "look at",
-        "about",
-        "as for",
-        "regarding",
-        "concerning",
-        "speaking of",
-        "talking of",
-        "talking about",
-        "with regard to",
-    ];
-    if longest(here, begin, &is_named).is_some() && !(end..tokens.len()).any(|at| begins(tokens, at)) {
+    if of(NAMES) && !(end..tokens.len()).any(|at| begins(tokens, at)) {
         return false;
     }
     // `leaving the fridge open wastes power`
@@ -72,6 +40,7 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     let is_name = here.get(begin).is_some_and(|token| !is_open(token.word()));
     of(SUBJECTS)
         || of(ASKS)
+        || of(NAMES)
         || of(SHALL_WE)
         || is_question(here, begin)
         || reason(tokens, begin, end)

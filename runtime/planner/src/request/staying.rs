@@ -4,6 +4,17 @@ use super::remark::is_boundary;
 use super::token::{Token, longest, run};
 use super::verb::Act;
 
+/// What keeps open or shut what is.
+const SO: &[&str] = &[
+    "leave it like that",
+    "leave it that way",
+    "leave it so",
+    "keep it like that",
+    "keep it that way",
+    "keep it so",
+    "let it stay like that",
+];
+
 /// `just stay there with it`: where the robot is once it has done what it was asked for. Where it ends.
 pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<usize> {
     // `take it in your hand and keep it there`, `drive there and then stop`
@@ -30,31 +41,8 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
             "hold it",
             "hold it tight",
         ],
-        Act::Open => &[
-            "leave it like that",
-            "leave it that way",
-            "leave it so",
-            "keep it like that",
-            "keep it that way",
-            "keep it so",
-            "let it stay like that",
-            "keep it open",
-            "leave it open",
-            "hold it open",
-        ],
-        Act::Close => &[
-            "leave it like that",
-            "leave it that way",
-            "leave it so",
-            "keep it like that",
-            "keep it that way",
-            "keep it so",
-            "let it stay like that",
-            "keep it shut",
-            "leave it shut",
-            "keep it closed",
-            "leave it closed",
-        ],
+        Act::Open => &["keep it open", "leave it open", "hold it open"],
+        Act::Close => &["keep it shut", "leave it shut", "keep it closed", "leave it closed"],
         Act::Put | Act::Store | Act::Stow => {
             &["leave it there", "keep it there", "let it stay there", "leave it like that"]
         }
@@ -70,7 +58,8 @@ pub(super) fn stays_put(tokens: &[Token], begin: usize, before: Act) -> Option<u
     {
         return Some(begin + count);
     }
-    if let Some(count) = longest(tokens, begin, same)
+    let so: &[&str] = if matches!(before, Act::Open | Act::Close) { SO } else { &[] };
+    if let Some(count) = longest(tokens, begin, same).max(longest(tokens, begin, so))
         && is_boundary(tokens, begin + count)
     {
         return Some(begin + count);

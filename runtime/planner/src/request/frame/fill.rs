@@ -277,3 +277,7 @@ pub(super) const OTHERS: &[&str] = &[
 /// Verbs of a state in which something shall be until something happens.
 pub(super) const LASTING: &[&str] =
     &["hold", "hang", "keep", "stay", "wait", "stand", "leave", "carry", "grip", "holding", "remain"];
+
+/// Where something lies about now, and is no other place.
+pub(super) const LIES: &[&str] =
+    &["lying", "sitting", "standing", "hanging", "lounging", "rolling", "cluttering", "gathering"];

@@ -1,6 +1,6 @@
 //! Words of a request that say how, why or when it is convenient, and not what: they are left out.
 
-use super::fill::{FILLERS, LASTING, NOT_MANNER, OTHERS, STRESSED};
+use super::fill::{FILLERS, LASTING, LIES, NOT_MANNER, OTHERS, STRESSED};
 use super::leisure::leisure;
 use crate::request::inflection::{Form, base};
 use crate::request::token::{Token, longest, stands};
@@ -174,19 +174,10 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         }
         // The state in which it is now is no other thing.
         "instead" => {
-            let state = [
-                "out",
-                "lying",
-                "sitting",
-                "standing",
-                "hanging",
-                "lounging",
-                "rolling",
-                "cluttering",
-                "gathering",
-            ];
             stands(tokens, at, "instead of").is_some()
-                && tokens.get(at + 2).is_some_and(|token| state.contains(&token.word()))
+                && tokens
+                    .get(at + 2)
+                    .is_some_and(|token| token.word() == "out" || LIES.contains(&token.word()))
                 && !begins_clause
         }
         // `or I will scream`
@@ -216,24 +207,9 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
         }
         // `…, not lying about`
         "not" => {
-            let state = [
-                "lying",
-                "sitting",
-                "standing",
-                "hanging",
-                "lounging",
-                "rolling",
-                "cluttering",
-                "gathering",
-                "left",
-                "out",
-                "strewn",
-                "scattered",
-                "just",
-                "on the floor",
-                "all over",
-            ];
-            kept.last() == Some(&Token::Comma) && longest(tokens, at + 1, &state).is_some()
+            let left = ["left", "out", "strewn", "scattered", "just", "on the floor", "all over"];
+            kept.last() == Some(&Token::Comma)
+                && [LIES, left.as_slice()].iter().any(|state| longest(tokens, at + 1, state).is_some())
         }
         "before" => {
             // `before dinner`, `before Granny comes`; `before you open it`, `before opening it` set an order.
