@@ -29,6 +29,10 @@ pub(super) const LAST: f64 = 0.65;
 const SIMPLE: usize = 6;
 /// States to which a way is searched for at a time.
 const SEARCHED: usize = 3;
+/// After so many rounds without a free state it is asked whether a short proof tells that there is none, where a round takes long, and by how
+/// many cells.
+const LOOKED: usize = 8;
+const SHORT: usize = 128;
 /// Free states that a proof meets to which a simple way is looked for.
 const MET: usize = 8;
 /// States that are looked at at a time for what they touch.
@@ -170,6 +174,10 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             if round == 0 {
                 rounds = self.rounds();
             }
+            if round == LOOKED {
+                self.tries_batch()?;
+                self.covered(SHORT.min(self.budget.cells))?;
+            }
             round += 1;
         }
         self.tries_batch()
@@ -285,6 +293,22 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         ControlFlow::Continue(())
     }
 
+    /// Proves with so many cells that no state is free, or tries those that are met on the way; nothing where one is known already.
+    fn covered(&mut self, cells: usize) -> ControlFlow<Found> {
+        let (sought, None) = (self.sought, &self.met) else { return ControlFlow::Continue(()) };
+        let Some(grips) = sought.grips else { return ControlFlow::Continue(()) };
+        let mut found = None;
+        let covered = sought.around.covered(sought.hand, grips, sought.allowed, cells, |hold, state| {
+            self.meets(hold, state, &mut found)
+        });
+        if covered == Covered::Nowhere {
+            let by = self.poses.most().or(self.hands.most());
+            let none = Infeasible::proven(Reason::NoFreePose { by }, None);
+            return ControlFlow::Break(Err(Answer::Infeasible(none)));
+        }
+        found.map_or(ControlFlow::Continue(()), |found| ControlFlow::Break(Ok(found)))
+    }
+
     /// Tries a free state that a proof met.
     fn meets(&mut self, hold: &Hold, state: State, found: &mut Option<(At, Vec<State>)>) -> ControlFlow<()> {
         self.met.get_or_insert_with(|| state.clone());
@@ -336,20 +360,11 @@ impl Room<'_> {
         if let Some(found) = search.searched() {
             return Ok(found);
         }
-        // Where a free state was found there is nothing to prove.
-        if let (Some(grips), None) = (sought.grips, &search.met) {
-            let mut found = None;
-            let (hand, cells) = (sought.hand, budget.cells);
-            let covered = sought.around.covered(hand, grips, sought.allowed, cells, |hold, state| {
-                search.meets(hold, state, &mut found)
-            });
-            if covered == Covered::Nowhere {
-                let by = search.poses.most().or(search.hands.most());
-                return Err(Answer::Infeasible(Infeasible::proven(Reason::NoFreePose { by }, None)));
-            }
-            if let Some(found) = found.or_else(|| search.searched()) {
-                return Ok(found);
-            }
+        if let ControlFlow::Break(found) = search.covered(budget.cells) {
+            return found;
+        }
+        if let Some(found) = search.searched() {
+            return Ok(found);
         }
         let state = search.met.take();
         let is_met = state.is_some() || search.is_cut_off;

@@ -48,7 +48,8 @@ impl LiftArm {
         let Some([first, middle, last]) = wrist_held(&self.wrist, turns, drifts, cell.way) else {
             return Over::Unclear;
         };
-        let Some(values) = values_over(&self.chain, &[[lift, lifts], [angle, bends], first, middle, last])
+        let Some(values) =
+            values_over(&self.chain, &[[lift, lifts], [angle, bends], first, middle, last], tips.is_any)
         else {
             return Over::Nothing;
         };
@@ -80,6 +81,7 @@ impl LiftArm {
             base_drift: upright(carries.level()),
             frames: placed.into_iter().zip(drifts).collect(),
             values,
+            short: [0.0; 2],
             is_joined: true,
         }))
     }

@@ -39,6 +39,19 @@ pub(crate) struct Cell {
 pub(crate) struct Tips {
     pub(crate) map_from_tip: Isometry3<f64>,
     pub(crate) drift: Drift,
+    /// Whether joints count that are beyond their limits, and an arm that is too short.
+    pub(crate) is_any: bool,
+}
+
+impl Tips {
+    pub(crate) fn new(map_from_tip: Isometry3<f64>, drift: Drift) -> Self {
+        Self { map_from_tip, drift, is_any: false }
+    }
+
+    /// The same, whatever the limits of joints.
+    pub(crate) fn any(self) -> Self {
+        Self { is_any: true, ..self }
+    }
 }
 
 /// What is known of a cell.
@@ -60,6 +73,8 @@ pub(crate) struct Stretch {
     pub(crate) frames: Vec<(Isometry3<f64>, Drift)>,
     /// Of each variable its value, and how far it can be from there.
     pub(crate) values: Vec<[f64; 2]>,
+    /// By how much an arm is too short in the middle, in m, and how far that can be off.
+    pub(crate) short: [f64; 2],
     /// Whether the frames are where the values put them, from the base on.
     pub(crate) is_joined: bool,
 }
@@ -146,8 +161,8 @@ fn wave(slope: f64, long: f64, off: f64) -> f64 {
 }
 
 /// Values of a chain's variables for positions of its joints, each with how far it can be off; `None` where one is beyond its
-/// limits throughout.
-fn values_over(chain: &Chain, positions: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
+/// limits throughout and that counts.
+fn values_over(chain: &Chain, positions: &[[f64; 2]], is_any: bool) -> Option<Vec<[f64; 2]>> {
     let joints = chain.joints.iter().zip(&chain.variables).zip(positions);
     let values = joints.map(|((joint, variable), [position, off])| {
         let size = joint.driver.multiplier.abs();
@@ -159,7 +174,7 @@ fn values_over(chain: &Chain, positions: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
             let turn = TAU / size;
             value += turn * libm::ceil((least - value) / turn);
         }
-        (least <= value && value <= greatest).then_some([value, off])
+        (is_any || (least <= value && value <= greatest)).then_some([value, off])
     });
     values.collect()
 }

@@ -58,7 +58,7 @@ impl ParallelArm {
             + moves;
         let rise = centre.z - height - self.first.z - to_two.z - end.z - fore.z;
         let (low, high) = ((rise - rises) / long, (rise + rises) / long);
-        if low > 1.0 + ROUNDED || high < -1.0 - ROUNDED {
+        if !tips.is_any && (low > 1.0 + ROUNDED || high < -1.0 - ROUNDED) {
             return Over::Nothing;
         }
         let (least, greatest) = (acos(high), acos(low));
@@ -76,7 +76,7 @@ impl ParallelArm {
             fifth,
             sixth,
         ];
-        let Some(values) = values_over(&self.chain, &positions) else { return Over::Nothing };
+        let Some(values) = values_over(&self.chain, &positions, tips.is_any) else { return Over::Nothing };
         // Back from the wrist's centre to the first axis.
         let four = centre - facing * end;
         let elbow = four - facing * fore;
@@ -117,6 +117,7 @@ impl ParallelArm {
             base_drift: base_drift.spun(Vector3::z(), first, yaws),
             frames: placed.into_iter().zip(drifts).collect(),
             values,
+            short: [rise.abs() - long, rises],
             is_joined: false,
         }))
     }

@@ -133,7 +133,7 @@ impl SevenArm {
             return Over::Unclear;
         };
         let positions = [first, second, third, [q4, fourth], [q5, fifths], [q6, sixth], [last, lasts]];
-        let Some(known) = values_over(&self.chain, &positions) else { return Over::Nothing };
+        let Some(known) = values_over(&self.chain, &positions, tips.is_any) else { return Over::Nothing };
 
         // From the base up to the forearm, from the tip down to the wrist.
         let mut placed = frames(&self.chain, *map_from_base, &known);
@@ -165,6 +165,7 @@ impl SevenArm {
             base_drift: Drift::none(),
             frames: placed.into_iter().zip(drifts).collect(),
             values: known,
+            short: [0.0; 2],
             is_joined: false,
         }))
     }

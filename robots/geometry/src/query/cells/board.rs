@@ -44,6 +44,19 @@ impl Goes for Drift {
     }
 }
 
+/// What goes by a share of what another does.
+pub(super) struct Share<'a, T>(pub(super) f64, pub(super) &'a T);
+
+impl<T: Goes> Goes for Share<'_, T> {
+    fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+        self.0 * self.1.along(point, direction)
+    }
+
+    fn stays_upright(&self) -> bool {
+        self.1.stays_upright()
+    }
+}
+
 /// What is within a solid for certain: all that is so near to half of its line to both sides, by no more than a share of that from its centre.
 struct Inside {
     step: Vector3<f64>,
@@ -126,11 +139,21 @@ fn is_in_round(solid: &Solid, inside: &Inside, goes: &impl Goes, other: &Solid, 
                 .normalize()
         };
         let place = point + other.centre;
-        let [along, away, about] = [*z, away, z.cross(&away)].map(|axis| goes.along(&place, &axis) + SLACK);
-        let out = (libm::hypot(far + away, about) - round.radius).max(0.0);
-        let up = (up.abs() + along - round.half).max(0.0);
+        let gone = |axis: &Vector3<f64>| goes.along(&place, axis) + SLACK;
+        // What goes too far in one direction needs no look at the others.
+        let wide = round.radius + near;
+        let away_by = far + gone(&away);
+        if away_by.is_nan() || away_by > wide {
+            return false;
+        }
+        let about = gone(&z.cross(&away));
+        if about.is_nan() || about > wide {
+            return false;
+        }
+        let (out, up) =
+            ((libm::hypot(away_by, about) - round.radius).max(0.0), up.abs() + gone(z) - round.half);
         // What is not known is nothing.
-        along.is_finite() && away.is_finite() && about.is_finite() && out * out + up * up <= near * near
+        up.is_finite() && out * out + up.max(0.0) * up.max(0.0) <= near * near
     };
     let places = nearest(&between, &inside.step, z, round.half);
     places.into_iter().any(|at| is_near(at.clamp(-inside.share, inside.share)))
@@ -165,12 +188,16 @@ fn is_in_box(solid: &Solid, inside: &Inside, goes: &impl Goes, board: &Solid, ha
             return false;
         }
     }
-    for (gone, end) in line.gone.iter_mut().zip([solid.centre - step, solid.centre + step]) {
-        for (gone, axis) in gone.iter_mut().zip(&board.axes) {
-            *gone = goes.along(&end, axis) + SLACK;
-            if !gone.is_finite() {
-                return false;
-            }
+    let Line { ends: [first, last], gone: [gone, goes_last], .. } = &mut line;
+    let sides = first.iter().zip(last).zip(gone.iter_mut().zip(goes_last)).zip(board.axes.iter().zip(half));
+    for (((first, last), (gone, other)), (axis, half)) in sides {
+        *gone = goes.along(&(solid.centre - step), axis) + SLACK;
+        *other = goes.along(&(solid.centre + step), axis) + SLACK;
+        // All of it goes too far in this direction, and it does not lead through the middle either.
+        let is_through = *first * *last < 0.0 && first.abs() > *gone && last.abs() > *other;
+        let least = gone.min(*other);
+        if !gone.is_finite() || !other.is_finite() || (!is_through && least > half + near) {
+            return false;
         }
     }
     // At the ends of what is not round there is no ball within.

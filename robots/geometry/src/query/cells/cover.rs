@@ -5,7 +5,7 @@ use std::rc::Rc;
 use nalgebra::{Isometry3, Vector3};
 
 use super::Family;
-use super::board::is_in;
+use super::board::{Share, is_in};
 use super::joined::Own;
 use super::tie::Ties;
 use crate::collision::Solid;
@@ -64,6 +64,14 @@ pub(super) struct Group {
     is_above_floor: bool,
     /// Those first that the largest balls are in.
     things: Rc<[u16]>,
+}
+
+impl Group {
+    /// One after the other.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = Pair> + '_ {
+        let things = self.things.iter().map(|at| Pair::Thing(self.part, *at));
+        things.chain(self.is_above_floor.then_some(Pair::Floor(self.part)))
+    }
 }
 
 /// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
@@ -173,7 +181,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         let part = group.part;
         self.ensure(placing, part);
         let Some(own) = placing.part(part) else { return Ok(None) };
-        if group.is_above_floor && self.is_on_floor(placing, own, part) {
+        if group.is_above_floor && self.is_on_floor(placing, own, part, 1.0) {
             return Err(Pair::Floor(part));
         }
         let is_fewer = own.drift < FEWER * group.drift;
@@ -183,7 +191,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             if is_fewer && own.is_apart(&near.solid, near.reach, own.drift) {
                 continue;
             }
-            if self.is_in(placing, own, part, at) {
+            if self.is_in(placing, own, part, at, 1.0) {
                 return Err(Pair::Thing(part, at));
             }
             if is_fewer {
@@ -197,13 +205,17 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         Ok(Some(Group { drift, things: kept(things, &group.things), ..*group }))
     }
 
+    /// How far a pair can be off.
+    pub(super) fn off_by(&self, placing: &mut Placing, pair: Pair) -> f64 {
+        match pair {
+            Pair::Thing(part, _) | Pair::Floor(part) => self.part(placing, part).map_or(0.0, |own| own.drift),
+            Pair::Own(part, at) => self.own_off(placing, part, at),
+        }
+    }
+
     /// Whether something of some groups touches in the middle.
     pub(super) fn is_stuck_in_middle(&self, placing: &mut Placing, groups: &[Group]) -> bool {
-        groups.iter().any(|group| {
-            let things = group.things.iter().map(|at| Pair::Thing(group.part, *at));
-            let floor = group.is_above_floor.then_some(Pair::Floor(group.part));
-            things.chain(floor).any(|pair| self.touches_in_middle(placing, pair))
-        })
+        groups.iter().flat_map(Group::pairs).any(|pair| self.touches_in_middle(placing, pair))
     }
 
     /// Puts the hand alone where its tip is at any of some poses; what is elsewhere is not known to be anywhere.
@@ -273,28 +285,28 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         *slot = Some(Placed { solid, inner: limb.inner, reach: limb.reach, drift: drift.of(&solid) });
     }
 
-    /// Whether a pair touches throughout.
-    pub(super) fn touches(&self, placing: &mut Placing, pair: Pair) -> bool {
+    /// Whether a pair touches wherever both go by no more than a share of how far they can be off.
+    pub(super) fn touches(&self, placing: &mut Placing, pair: Pair, share: f64) -> bool {
         match pair {
             Pair::Thing(part, at) => {
                 self.ensure(placing, part);
-                placing.part(part).is_some_and(|own| self.is_in(placing, own, part, at))
+                placing.part(part).is_some_and(|own| self.is_in(placing, own, part, at, share))
             }
             Pair::Own(part, at) => {
                 if placing.steps.is_empty() {
                     return false;
                 }
-                self.own_touches(placing, part, at)
+                self.own_touches(placing, part, at, share)
             }
             Pair::Floor(part) => {
                 self.ensure(placing, part);
-                placing.part(part).is_some_and(|own| self.is_on_floor(placing, own, part))
+                placing.part(part).is_some_and(|own| self.is_on_floor(placing, own, part, share))
             }
         }
     }
 
     /// Whether a part touches a thing throughout.
-    fn is_in(&self, placing: &Placing, own: &Placed, part: u16, at: u16) -> bool {
+    fn is_in(&self, placing: &Placing, own: &Placed, part: u16, at: u16, share: f64) -> bool {
         let at = usize::from(at);
         let Some((near, inner)) = self.around.things.get(at).zip(self.things.get(at)) else { return false };
         let wide = own.reach + near.reach + GAP;
@@ -302,17 +314,22 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             return false;
         }
         let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
-        frame.is_some_and(|(_, drift)| is_in(&own.solid, drift, &near.solid))
-            || own.touches(&near.solid, *inner, near.reach, own.drift)
+        frame.is_some_and(|(_, drift)| is_in(&own.solid, &Share(share, drift), &near.solid))
+            || Placed { drift: share * own.drift, ..*own }.touches(
+                &near.solid,
+                *inner,
+                near.reach,
+                share * own.drift,
+            )
     }
 
     /// Whether a part is on the floor throughout, by the lowest point of it in the middle.
-    fn is_on_floor(&self, placing: &Placing, own: &Placed, part: u16) -> bool {
+    fn is_on_floor(&self, placing: &Placing, own: &Placed, part: u16, share: f64) -> bool {
         let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
         let Some((_, drift)) = frame else { return false };
         let up = Vector3::z();
         let lowest = own.solid.support(&-up);
-        lowest.z - own.solid.rim() + drift.along(&lowest, &up) + SLACK <= GAP
+        lowest.z - own.solid.rim() + share * drift.along(&lowest, &up) + SLACK <= GAP
     }
 
     /// Whether a pair touches in the middle.

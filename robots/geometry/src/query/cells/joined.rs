@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::board::is_in;
+use super::board::{Share, is_in};
 use super::cover::{Cover, FAR, FEWER, Limb, Pair, Placing, kept};
 use super::tie::{Axis, Tied, Ties};
 use crate::collision::{Shape, Solid};
@@ -72,7 +72,7 @@ impl Cover<'_, '_, '_> {
                 continue;
             }
             // What is not near in the middle does not touch throughout.
-            if own.is_near(other) && self.touches_by(placing, [own, other]) {
+            if own.is_near(other) && self.touches_by(placing, [own, other], 1.0) {
                 return Err(Pair::Own(part, at));
             }
             if is_fewer {
@@ -84,8 +84,7 @@ impl Cover<'_, '_, '_> {
 
     /// Whether two parts of any touch in the middle.
     pub(super) fn is_folded_in_middle(&self, placing: &mut Placing, ties: &[Tied]) -> bool {
-        let mut pairs = ties.iter().flat_map(|tied| tied.pairs.iter());
-        pairs.any(|[part, at]| self.touches_in_middle(placing, Pair::Own(*part, *at)))
+        ties.iter().flat_map(Tied::pairs).any(|pair| self.touches_in_middle(placing, pair))
     }
 
     /// Two parts where they are to each other in the middle of a cell, where that was asked for.
@@ -102,8 +101,8 @@ impl Cover<'_, '_, '_> {
         Some((joined(part)?, joined(at)?))
     }
 
-    /// Whether two parts touch wherever the joints between them put them.
-    pub(super) fn touches_by(&self, placing: &Placing, [one, other]: [Joined<'_>; 2]) -> bool {
+    /// Whether two parts touch wherever the joints between them put them, by no more than a share of how far those go.
+    pub(super) fn touches_by(&self, placing: &Placing, [one, other]: [Joined<'_>; 2], share: f64) -> bool {
         let (from, to) = (one.limb.frame, other.limb.frame);
         let ties = [(from, to), (to, from)].map(|(from, to)| self.ties.tie(from, to, &placing.own.axes));
         let [Some(tie), Some(back)] = ties else { return false };
@@ -113,25 +112,34 @@ impl Cover<'_, '_, '_> {
         }
         if let Some(step) = tie.slide() {
             // What touches at both ends of a straight way touches on all of it.
-            let ends = [step, -step].map(|step| Solid { centre: other.solid.centre + step, ..*other.solid });
+            let ends =
+                [step, -step].map(|step| Solid { centre: other.solid.centre + step * share, ..*other.solid });
             return ends.iter().all(|end| one.solid.is_nearer(end, GAP - SLACK));
         }
         let is_round = |joined: &Joined<'_>| matches!(joined.solid.shape, Shape::Capsule { .. });
-        if is_round(&other) && is_in(other.solid, &tie, one.solid)
-            || (is_round(&one) || !is_round(&other)) && is_in(one.solid, &back, other.solid)
+        if is_round(&other) && is_in(other.solid, &Share(share, &tie), one.solid)
+            || (is_round(&one) || !is_round(&other)) && is_in(one.solid, &Share(share, &back), other.solid)
         {
             return true;
         }
-        let drift = tie.drift(other.solid);
+        let drift = share * tie.drift(other.solid);
         let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
         own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
     }
 
-    /// Whether two parts touch throughout.
-    pub(super) fn own_touches(&self, placing: &mut Placing, part: u16, at: u16) -> bool {
+    /// The same of any two.
+    pub(super) fn own_touches(&self, placing: &mut Placing, part: u16, at: u16, share: f64) -> bool {
         self.ensure_both(placing, part, at);
         let both = self.both(placing, part, at);
-        both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other]))
+        both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other], share))
+    }
+
+    /// How far the second of two parts can be off, seen from the first.
+    pub(super) fn own_off(&self, placing: &mut Placing, part: u16, at: u16) -> f64 {
+        self.ensure_both(placing, part, at);
+        let Some((one, other)) = self.both(placing, part, at) else { return 0.0 };
+        let tie = self.ties.tie(one.limb.frame, other.limb.frame, &placing.own.axes);
+        tie.map_or(0.0, |tie| tie.drift(other.solid))
     }
 
     /// Puts the joints where they are to each other.

@@ -96,7 +96,7 @@ fn a_state_is_in_its_cell(
         true => still.shifted(0.2 * tilt).turned(about, tilt),
         false => still.slid(axis * (0.2 * tilt)).spun(axis, about, tilt),
     };
-    let tips = Tips { map_from_tip, drift };
+    let tips = Tips::new(map_from_tip, drift);
     let mut nearest = (f64::INFINITY, String::new());
     for root in &roots {
         let half = root.half.map(|half| half * size);
@@ -280,7 +280,7 @@ fn a_grip_is_in_its_patch() {
             // Small ones, so that how far they say they go is not more than a hand is long.
             let (mut open, mut patches) = (grips.patches(), vec![]);
             while let Some(patch) = open.pop() {
-                let (size, across) = super::widest(&grips.sizes(&patch));
+                let (size, across) = super::look::widest(&grips.sizes(&patch));
                 if size > 0.08 {
                     open.extend(patch.halves(across));
                 } else {
@@ -349,7 +349,8 @@ fn a_grip_of_a_bar_is_in_its_patch() {
         let tip = Isometry3::from_parts(at.into(), hand.turned(&approach, &closes));
         let mut open = grips.patches();
         for _ in 0..12 {
-            let halves = open.iter().flat_map(|patch| patch.halves(super::widest(&grips.sizes(patch)).1));
+            let halves =
+                open.iter().flat_map(|patch| patch.halves(super::look::widest(&grips.sizes(patch)).1));
             open = halves.collect();
             open.retain(|patch| {
                 let Some((other, drift)) = grips.over(patch) else { return false };

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use nalgebra::{Isometry3, Vector3};
 
 use super::board::Goes;
+use super::cover::Pair;
 use crate::collision::Solid;
 use crate::inverse::family::{Spin, farthest};
 use crate::kinematics::Rig;
@@ -177,4 +178,11 @@ pub(super) struct Tied {
     /// How far that could be off when others were last left out.
     pub(super) drift: f64,
     pub(super) pairs: Rc<[[u16; 2]]>,
+}
+
+impl Tied {
+    /// One after the other.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = Pair> + '_ {
+        self.pairs.iter().map(|[part, at]| Pair::Own(*part, *at))
+    }
 }

@@ -1,0 +1,141 @@
+//! What is nearest to closing a cell, and by which of its parameters that is kept from doing so: across that one it is cut. A hand that is turned
+//! beyond its wrist is so whatever the base's yaw, so that this needs no cutting.
+//!
+//! Near to it is what would close the cell if all went by a share only of how far it may go: half of it is one cut away. What is nowhere near
+//! that is no culprit, since at the edge of where it touches no cell is small enough.
+
+use super::cover::{Cover, Group, Pair, Placing};
+use super::tie::Tied;
+use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+
+/// The shares by which all may go for a culprit to be one, the farthest from closing a cell first.
+const SHARES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
+/// By this share nothing else is looked at until the culprit has closed the cell, or has not.
+pub(super) const TRUSTED: f64 = 0.25;
+/// Less than this is rounding, in rad or m, for what is beyond a limit.
+const BEYOND: f64 = 1e-4;
+/// Below this a culprit is not off at all, in rad or m.
+const STILL: f64 = 1e-3;
+
+/// What is so in the middle of a cell and would close it if it were so throughout.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Culprit {
+    /// A variable of the arm is beyond its limits, by its index.
+    Joint(usize),
+    /// The arm is too short.
+    Short,
+    /// Two touch.
+    Pair(Pair),
+}
+
+/// What keeps a culprit from closing a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blame {
+    pub(super) culprit: Culprit,
+    /// By which it closes the cell.
+    pub(super) share: f64,
+    /// How far it can be off by each parameter of the cell alone, in rad or m.
+    pub(super) cell: [f64; 3],
+    /// The same by the patch alone.
+    pub(super) patch: f64,
+}
+
+impl Blame {
+    /// Whether something is to blame at all.
+    pub(super) fn tells(&self) -> bool {
+        self.cell.iter().fold(self.patch, |most, off| most.max(*off)) > STILL
+    }
+
+    /// The same in a half of the cell.
+    pub(super) fn halved(mut self, across: usize) -> Self {
+        self.cell.get_mut(across).into_iter().for_each(|off| *off *= 0.5);
+        self
+    }
+}
+
+impl Cover<'_, '_, '_> {
+    /// Whether a culprit closes a cell in which all goes by no more than a share of how far it may go.
+    pub(super) fn closes(
+        &self,
+        placing: &mut Placing,
+        stretch: &Stretch,
+        culprit: Culprit,
+        share: f64,
+    ) -> bool {
+        let is_beyond = |beyond: f64, off: f64| beyond > BEYOND && beyond >= share * off;
+        match culprit {
+            Culprit::Joint(at) => {
+                let variable = self.hand.solver.chain().variables.get(at);
+                let limits = variable.and_then(|variable| variable.limits).zip(stretch.values.get(at));
+                limits.is_some_and(|((lower, upper), [value, off])| {
+                    is_beyond((lower - value).max(value - upper), *off)
+                })
+            }
+            Culprit::Short => {
+                let [short, off] = stretch.short;
+                is_beyond(short, off)
+            }
+            Culprit::Pair(pair) => self.touches(placing, pair, share),
+        }
+    }
+
+    /// What is nearest to closing a cell, and by which share of how far all may go it does.
+    pub(super) fn culprit(
+        &self,
+        placing: &mut Placing,
+        stretch: &Stretch,
+        groups: &[Group],
+        ties: &[Tied],
+    ) -> Option<(Culprit, f64)> {
+        let limits = (0..stretch.values.len()).map(Culprit::Joint).chain([Culprit::Short]);
+        let pairs = groups.iter().flat_map(Group::pairs).chain(ties.iter().flat_map(Tied::pairs));
+        let mut best: Option<(Culprit, f64)> = None;
+        for culprit in limits.chain(pairs.map(Culprit::Pair)) {
+            for share in SHARES {
+                if best.is_some_and(|(_, most)| share <= most) {
+                    continue;
+                }
+                if !self.closes(placing, stretch, culprit, share) {
+                    break;
+                }
+                best = Some((culprit, share));
+            }
+        }
+        best
+    }
+
+    /// What keeps a culprit from closing a cell, with the share by which it does.
+    pub(super) fn blame(
+        &self,
+        placing: &mut Placing,
+        tips: &Tips,
+        cell: &Cell,
+        culprit: Culprit,
+        share: f64,
+    ) -> Blame {
+        let none = Cell { half: [0.0; 3], ..*cell };
+        let still = Tips::new(tips.map_from_tip, Drift::none());
+        let mut blame =
+            Blame { culprit, share, cell: [0.0; 3], patch: self.off(placing, tips, &none, culprit) };
+        for ((slot, half), at) in blame.cell.iter_mut().zip(cell.half).zip(0..) {
+            if half > 0.0 {
+                let only = std::array::from_fn(|other: usize| if other == at { half } else { 0.0 });
+                *slot = self.off(placing, &still, &Cell { half: only, ..*cell }, culprit);
+            }
+        }
+        blame
+    }
+
+    /// How far a culprit can be off in a cell, whatever the limits of joints.
+    fn off(&self, placing: &mut Placing, tips: &Tips, cell: &Cell, culprit: Culprit) -> f64 {
+        let Over::Near(stretch) = self.family.over(&tips.any(), cell) else { return 0.0 };
+        match culprit {
+            Culprit::Joint(at) => stretch.values.get(at).map_or(0.0, |[_, off]| *off),
+            Culprit::Short => stretch.short[1],
+            Culprit::Pair(pair) => {
+                self.place(&stretch, placing);
+                self.off_by(placing, pair)
+            }
+        }
+    }
+}
