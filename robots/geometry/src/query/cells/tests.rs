@@ -7,18 +7,21 @@ use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
-use super::super::answer::Side;
 use super::super::machine::{Hand, Machine};
 use super::super::room::Room;
 use super::super::state::State;
 use super::super::touch::Allowed;
 use super::super::world::World;
-use super::cover::{Cover, Placing};
+use super::cover::{Cover, Group, Placing};
+use super::culprit::Culprit;
+use super::tie::Tied;
 use super::{Covered, Family, Grips};
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::{Cell, Drift, Over, Tips};
 use crate::query::shrunk::Placed;
 use crate::trigonometry::wrapped;
+
+mod grips;
 
 fn machine(name: &str) -> Machine {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
@@ -256,54 +259,6 @@ proptest! {
     }
 }
 
-/// Grips that a search goes through are where the patches say.
-#[test]
-fn a_grip_is_in_its_patch() {
-    let machine = machine("hsr");
-    let hand = machine.hand().unwrap();
-    let shapes = [
-        Shape::Cylinder { radius: 0.03, half: 0.08 },
-        Shape::Cylinder { radius: 0.05, half: 0.02 },
-        Shape::Capsule { radius: 0.03, half: 0.06 },
-        Shape::Capsule { radius: 0.04, half: 0.0 },
-        Shape::Box(Vector3::new(0.02, 0.05, 0.09)),
-    ];
-    let lean = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.2, 1.0);
-    let upright = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, 1.0);
-    for (shape, rotation) in shapes.into_iter().flat_map(|shape| [(shape, upright), (shape, lean)]) {
-        let pose = Isometry3::from_parts(nalgebra::Translation3::new(1.0, 0.3, 0.8), rotation);
-        let thing = Solid::new(&pose, shape);
-        for side in [None, Some(Side::Top), Some(Side::Side), Some(Side::Front)] {
-            let grips = Grips::new(hand, &thing, side, [0.0; 3]);
-            let (holds, _) = super::super::grasp::holds(hand, &thing, side, [0.0; 3]);
-            assert!(side.is_some() || !holds.is_empty(), "{shape:?}");
-            // Small ones, so that how far they say they go is not more than a hand is long.
-            let (mut open, mut patches) = (grips.patches(), vec![]);
-            while let Some(patch) = open.pop() {
-                let (size, across) = super::look::widest(&grips.sizes(&patch));
-                if size > 0.08 {
-                    open.extend(patch.halves(across));
-                } else {
-                    patches.push(patch);
-                }
-            }
-            let tips: Vec<_> = patches.iter().filter_map(|patch| grips.over(patch)).collect();
-            for hold in &holds {
-                let is_in = |(tip, drift): &(Isometry3<f64>, Drift)| {
-                    [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()].iter().all(|at| {
-                        let at = nalgebra::Point3::from(at * 0.2);
-                        let (one, other) = (hold.map_from_tip * at, tip * at);
-                        let ball = Shape::Capsule { radius: 0.0, half: 0.0 };
-                        let place = Isometry3::from_parts(other.coords.into(), upright);
-                        (one - other).norm() <= drift.of(&Solid::new(&place, ball)) + 1e-6
-                    })
-                };
-                assert!(tips.iter().any(is_in), "{shape:?}, {side:?}: {hold:?}");
-            }
-        }
-    }
-}
-
 #[test]
 fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
     let draws: Vec<[f64; 4]> = (0..200)
@@ -328,39 +283,60 @@ fn what_a_panda_does_not_get_to_is_covered_and_what_it_does_is_not() {
     assert_eq!(covered("panda", &near, 100_000, &draws), Some(false));
 }
 
-/// What is taken of a bar in steps is where the patches of all grips of it say.
-#[test]
-fn a_grip_of_a_bar_is_in_its_patch() {
-    let machine = machine("anymal_z1");
+/// What closes a cell does so however much less all goes in it, what is said to be nearest to that is, and nothing goes farther by one
+/// parameter than by all.
+fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: [f64; 3], size: f64) -> bool {
+    let machine = machine(name);
+    let world = World::new(&machine, scene);
+    let room = Room::new(&machine, scene, &world);
     let hand = machine.hand().unwrap();
-    let (along, out) = (Vector3::new(0.0, 0.6, 0.8), Vector3::x());
-    let centre = Vector3::new(1.0, 0.2, 0.7);
-    let bar = Solid {
-        centre,
-        axes: [out, along.cross(&out), along],
-        shape: Shape::Capsule { radius: 0.008, half: 0.2 },
-    };
-    let grips = Grips::of_bar(hand, &bar, out, 0.03, [1.05, 0.6]);
-    for (tilt, place, sign) in [(0.0, 0.0, 1.0), (0.9, 0.6, -1.0), (-0.52, -0.6, 1.0), (-0.9, 0.3, -1.0)] {
-        let turned = nalgebra::UnitQuaternion::from_scaled_axis(along * tilt);
-        let approach = turned * -out;
-        let closes = along.cross(&approach) * sign;
-        let at = centre + along * (place * 0.2) - approach * 0.03 - closes * hand.middle(0.016);
-        let tip = Isometry3::from_parts(at.into(), hand.turned(&approach, &closes));
-        let mut open = grips.patches();
-        for _ in 0..12 {
-            let halves =
-                open.iter().flat_map(|patch| patch.halves(super::look::widest(&grips.sizes(patch)).1));
-            open = halves.collect();
-            open.retain(|patch| {
-                let Some((other, drift)) = grips.over(patch) else { return false };
-                [Vector3::zeros(), Vector3::x(), Vector3::y()].iter().all(|point| {
-                    let point = nalgebra::Point3::from(point * 0.2);
-                    let (one, other) = (tip * point, other * point);
-                    (one - other).norm() <= drift.point(&other.coords, 0.0) + 1e-6
-                })
-            });
-        }
-        assert!(!open.is_empty(), "{tilt}, {place}, {sign}");
+    let (tips, allowed, _) = poses(&room, hand, scene);
+    let around = room.around([2.0, 0.0], 4.0);
+    let cover = Cover::new(&around, hand, allowed).unwrap();
+    let ([_, groups], ties) = (cover.groups(), cover.ties());
+    let Some(tip) = tips.first() else { return false };
+    let tips = Tips::new(*tip, Drift::none().shifted(0.1 * size));
+    let root = cover.family.cells()[0];
+    let half = root.half.map(|half| half * size);
+    let middle = [0, 1, 2].map(|at: usize| root.middle[at] + (2.0 * places[at] - 1.0) * root.half[at]);
+    let cell = Cell { way: root.way, middle, half };
+    let Over::Near(stretch) = cover.family.over(&tips, &cell) else { return false };
+    let (mut placing, mut aside) = (Placing::default(), Placing::default());
+    cover.place(&stretch, &mut placing);
+    let found = cover.culprit(&mut placing, &stretch, &groups, &ties);
+    let pairs = groups.iter().flat_map(Group::pairs).chain(ties.iter().flat_map(Tied::pairs));
+    let limits = (0..stretch.values.len()).map(Culprit::Joint).chain([Culprit::Short]);
+    for culprit in limits.chain(pairs.map(Culprit::Pair)) {
+        let mut closes = |share: f64| cover.closes(&mut placing, &stretch, culprit, share);
+        let shares = [1.0, 0.5, 0.25, 0.125, 0.0625];
+        assert!(shares.windows(2).all(|pair| !closes(pair[0]) || closes(pair[1])), "{name}: {culprit:?}");
+        let most = shares[1..].iter().find(|share| closes(**share));
+        assert!(most.copied().unwrap_or(0.0) <= found.map_or(0.0, |(_, share)| share), "{name}: {culprit:?}");
     }
+    let Some((culprit, share)) = found else { return false };
+    let blame = cover.blame(&mut aside, &tips, &cell, culprit, share);
+    let all = match culprit {
+        Culprit::Joint(at) => stretch.values[at][1],
+        Culprit::Short => stretch.short[1],
+        Culprit::Pair(pair) => cover.off_by(&mut placing, pair),
+    };
+    assert!(
+        blame.cell.iter().all(|off| *off <= all + 1e-9) && blame.patch <= all + 1e-9,
+        "{name}: {blame:?} {all}"
+    );
+    true
+}
+
+#[test]
+fn what_keeps_a_cell_open_is_told() {
+    let scene = niche([0.6, 0.4, 0.8], [0.7, 0.4], [0.2, 0.5]);
+    let mut told = 0;
+    for name in ["hsr", "anymal_z1", "panda"] {
+        for at in 0..60 {
+            let places = [1, 2, 3].map(|n| super::super::arm::part(at, n, super::super::arm::SPACE));
+            let size = [0.2, 0.05, 0.01][at % 3];
+            told += u32::from(what_is_nearest_to_closing_a_cell_is_told(name, &scene, places, size));
+        }
+    }
+    assert!(told > 20, "{told}");
 }
