@@ -25,7 +25,7 @@ mod trial;
 use trial::Lined;
 
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
-/// most candidates have no solution at all.
+/// most candidates have no solution at all, and the poses that were given have more.
 const SHARED: [usize; 2] = [8, 32];
 /// How far the base comes from where it stands in the end while the hand reaches, in m.
 pub(super) const LAST: f64 = 0.65;
@@ -74,8 +74,8 @@ type Ended = ControlFlow<Option<Way>>;
 enum Times {
     /// All, by which it is found out in which poses the hand alone is free.
     First,
-    /// All once more.
-    Again,
+    /// All once more, with a budget so many times as large.
+    Again(usize),
     /// Those that come after them with a budget so many times as large.
     More(usize),
 }
@@ -168,7 +168,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
     fn rounds(&mut self, times: usize) -> usize {
         self.tips.retain(|(_, _, known)| *known == Alone::Free);
         let [few, many] = SHARED;
-        let shared = if self.places_base() { few } else { many };
+        let shared = if self.places_base() || self.finer.is_some() { few } else { many };
         let candidates = self.budget.candidates.saturating_mul(times);
         candidates.min(candidates.saturating_mul(shared).div_ceil(self.tips.len().max(1)))
     }
@@ -189,7 +189,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         let is_passed = |base| room.is_near_drivable(base) != (places == Places::Open);
         let (mut round, mut rounds) = match times {
             Times::First => (0, 1),
-            Times::Again => (0, self.rounds(1)),
+            Times::Again(times) => (0, self.rounds(times)),
             Times::More(times) => (self.rounds(1), self.rounds(times)),
         };
         while round < rounds {
@@ -241,7 +241,7 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         }
         let rounds = match times {
             Times::First => 1..self.rounds(1),
-            Times::Again => 0..self.rounds(1),
+            Times::Again(times) => 0..self.rounds(times),
             Times::More(times) => self.rounds(1)..self.rounds(times),
         };
         for round in rounds {

@@ -31,6 +31,8 @@ const MET: usize = 8;
 const FINE: [f64; 2] = [0.05, 0.005];
 /// Fewer are few; and about the most of them.
 const POSES: [usize; 2] = [128, 1024];
+/// So many times as many candidates are tried where the base is cut off, of which most are of no use.
+const CUT_OFF: usize = 4;
 /// So many times as many are tried in the end, where it is known that there is a free state, or nothing is.
 const MORE: usize = 8;
 
@@ -61,7 +63,7 @@ impl Search<'_, '_, '_> {
         self.refines(grips);
         self.goes(screen, Places::Open, Times::First)?;
         if self.is_cut_off {
-            self.goes(None, Places::CutOff, Times::Again)?;
+            self.goes(None, Places::CutOff, Times::Again(CUT_OFF))?;
         }
         self.searches_long()?;
         // Where a free state was found there is nothing to prove.
@@ -69,6 +71,9 @@ impl Search<'_, '_, '_> {
             return ControlFlow::Continue(true);
         }
         self.goes(screen, Places::Open, Times::More(MORE))?;
+        if self.is_cut_off {
+            self.goes(None, Places::CutOff, Times::More(MORE))?;
+        }
         self.searches_long()?;
         ControlFlow::Continue(false)
     }
