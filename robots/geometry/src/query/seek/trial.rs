@@ -225,13 +225,14 @@ impl Search<'_, '_, '_> {
 
 /// Poses in the middle of patches that are cut until they are small.
 fn finer(grips: &Grips<'_>) -> Vec<Hold> {
+    let ([near, nearer], [few, most]) = (FINE, POSES);
     let mut open = VecDeque::from(grips.patches());
     let mut found = Vec::new();
     while let Some(patch) = open.pop_front() {
         let sizes = grips.sizes(&patch).into_iter().zip(0..);
         let (size, across) = sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
         let count = open.len() + found.len();
-        if (size > FINE[0] && count < POSES[1]) || (size > FINE[1] && count < POSES[0]) {
+        if (size > near && count < most) || (size > nearer && count < few) {
             open.extend(patch.halves(across));
         } else {
             found.extend(grips.hold(&patch));
