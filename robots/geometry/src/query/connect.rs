@@ -1,68 +1,157 @@
-//! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still: two trees of certified edges towards samples of a
-//! low-discrepancy sequence, so that the same question has the same answer.
+//! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still, or for both: two trees of certified edges towards samples of
+//! a low-discrepancy sequence, so that the same question has the same answer.
+
+use smol_str::SmolStr;
 
 use super::around::Around;
 use super::state::State;
 use super::touch::Allowed;
-use crate::kinematics::spread;
+use crate::kinematics::{Variable, spread};
 
-/// The largest change of a joint on one edge, in rad or m.
-const STEP: f64 = 0.7;
-/// Samples that the trees grow towards.
-const SAMPLES: usize = 80;
+/// What the trees move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Moving {
+    /// The arm, with the base still.
+    Arm,
+    /// The base with the arm.
+    All,
+}
+
+/// How long a search goes on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Effort {
+    /// As long as most that find something take.
+    Short,
+    Long,
+}
+
+impl Effort {
+    /// Samples that the trees grow towards.
+    fn samples(self) -> usize {
+        match self {
+            Self::Short => 80,
+            Self::Long => 400,
+        }
+    }
+}
+
+impl Moving {
+    /// The greatest length of an edge.
+    fn step(self) -> f64 {
+        match self {
+            Self::Arm => 0.7,
+            Self::All => 0.4,
+        }
+    }
+
+    /// How far apart two states are: of the arm alone the largest change of a joint, in rad or m; else as a length, where a turn counts a third.
+    fn far(self, from: &State, to: &State) -> f64 {
+        let changes = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs());
+        match self {
+            Self::Arm => changes.fold(0.0, f64::max),
+            Self::All => {
+                let [x, y, yaw] = [0, 1, 2].map(|at: usize| match (from.base.get(at), to.base.get(at)) {
+                    (Some(a), Some(b)) => b - a,
+                    _ => 0.0,
+                });
+                let turns = changes.map(|change| change * change).sum::<f64>() + yaw * yaw;
+                (x * x + y * y + 0.1 * turns).sqrt()
+            }
+        }
+    }
+}
+
+/// How far beside both ends the base goes, in m.
+const ASIDE: f64 = 0.8;
 
 /// A tree of states, each with the index of the one before it.
 struct Grown(Vec<(State, usize)>);
 
-impl Around<'_, '_> {
-    /// A way of the arm between two free states with the base at one place, both included.
-    pub(super) fn connect(&self, from: &State, to: &State) -> Option<Vec<State>> {
-        let machine = self.room.machine;
-        let chain = machine.hand()?.solver.chain();
-        // The fingers first: the trees move the arm alone.
-        let mut start = to.clone();
-        for at in &chain.in_tree {
-            *start.joints.get_mut(*at)? = *from.joints.get(*at)?;
-        }
-        self.edge(from, &start, Allowed::default()).ok()?;
-        let mut trees = [Grown(vec![(start, 0)]), Grown(vec![(to.clone(), 0)])];
-        for sample in 0..SAMPLES {
-            let mut aim = to.clone();
-            for (at, value) in chain.in_tree.iter().zip(spread(&chain.variables, sample)) {
-                *aim.joints.get_mut(*at)? = value;
+/// Samples between two states.
+struct Samples<'a> {
+    moving: Moving,
+    from: &'a State,
+    to: &'a State,
+    variables: Vec<Variable>,
+    /// Which joints the last of them are.
+    joints: &'a [usize],
+}
+
+impl<'a> Samples<'a> {
+    fn new(moving: Moving, from: &'a State, to: &'a State, arm: &'a [Variable], joints: &'a [usize]) -> Self {
+        let between = |one: f64, other: f64, aside: f64| Variable {
+            name: SmolStr::default(),
+            limits: Some((one.min(other) - aside, one.max(other) + aside)),
+            is_turn: false,
+        };
+        let base = from.base.iter().zip(to.base).zip([ASIDE, ASIDE, std::f64::consts::PI]);
+        let base = base.map(|((one, other), aside)| between(*one, other, aside));
+        let base: Vec<Variable> = if moving == Moving::All { base.collect() } else { vec![] };
+        let variables = base.into_iter().chain(arm.iter().cloned()).collect();
+        Self { moving, from, to, variables, joints }
+    }
+
+    /// A state to grow towards. In the open the arm need not move, and often not while the base does.
+    fn aim(&self, sample: usize) -> Option<State> {
+        let mut aim = self.to.clone();
+        let values = spread(&self.variables, sample);
+        let (base, arm) = values.split_at(values.len().checked_sub(self.joints.len())?);
+        aim.base.iter_mut().zip(base).for_each(|(slot, value)| *slot = *value);
+        match (self.moving, sample / 2 % 4) {
+            (Moving::All, 1) => aim.joints.clone_from(&self.from.joints),
+            (Moving::All, 3) => {}
+            (Moving::All | Moving::Arm, _) => {
+                for (at, value) in self.joints.iter().zip(arm) {
+                    *aim.joints.get_mut(*at)? = *value;
+                }
             }
+        }
+        Some(aim)
+    }
+}
+
+impl Around<'_, '_> {
+    /// A way between two free states, both included.
+    pub(super) fn connect(
+        &self,
+        from: &State,
+        to: &State,
+        moving: Moving,
+        effort: Effort,
+    ) -> Option<Vec<State>> {
+        let chain = self.room.machine.hand()?.solver.chain();
+        let samples = Samples::new(moving, from, to, &chain.variables, &chain.in_tree);
+        let mut trees = [Grown(vec![(from.clone(), 0)]), Grown(vec![(to.clone(), 0)])];
+        for sample in 0..effort.samples() {
+            let aim = samples.aim(sample)?;
             let [first, second] = &mut trees;
             let is_turned = sample % 2 == 1;
             let (near, far) = if is_turned { (second, first) } else { (first, second) };
-            let Some(new) = self.grow(near, &aim) else { continue };
-            while let Some(next) = self.grow(far, &new) {
-                if next.joints != new.joints {
+            let Some(new) = self.grow(near, &aim, moving) else { continue };
+            while let Some(next) = self.grow(far, &new, moving) {
+                if next != new {
                     continue;
                 }
                 let (near, far) = (near.back(), far.back());
                 let (mut path, rest) = if is_turned { (far, near) } else { (near, far) };
                 path.reverse();
                 path.extend(rest.into_iter().skip(1));
-                let mut path = self.shortened(path);
-                path.insert(0, from.clone());
-                return Some(path);
+                return Some(self.shortened(path));
             }
         }
         None
     }
 
     /// One step of a tree towards a state: the new state, where the way to it is free.
-    fn grow(&self, tree: &mut Grown, aim: &State) -> Option<State> {
-        let far = |state: &State| {
-            state.joints.iter().zip(&aim.joints).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-        };
-        let best = tree.0.iter().map(|(state, _)| far(state)).enumerate();
+    fn grow(&self, tree: &mut Grown, aim: &State, moving: Moving) -> Option<State> {
+        let best = tree.0.iter().map(|(state, _)| moving.far(state, aim)).enumerate();
         let (at, way) = best.reduce(|best, next| if next.1 < best.1 { next } else { best })?;
         if way == 0.0 {
             return None;
         }
         let near = tree.0.get(at).map(|(state, _)| state)?;
-        let next = if way <= STEP { aim.clone() } else { near.towards(aim, STEP / way) };
+        let step = moving.step();
+        let next = if way <= step { aim.clone() } else { near.towards(aim, step / way) };
         if self.touch(&next, Allowed::default()).is_some() {
             return None;
         }

@@ -16,6 +16,7 @@ mod go;
 mod grasp;
 mod grip;
 mod help;
+mod lead;
 mod look;
 mod machine;
 mod map;

@@ -76,7 +76,6 @@ impl Room<'_> {
         }
         let sought = Sought {
             hand: held.hand,
-            palm: self.palm(held.hand, &tips, allowed),
             tips,
             grips: None,
             allowed,

@@ -64,12 +64,11 @@ impl Room<'_> {
         let around = self.around([centre.x, centre.y], self.farthest(hand) + grasp + LAST);
         let sought = Sought {
             hand,
-            palm: self.palm(hand, &tips, goal.allowed),
             tips,
             grips: Some(&grips),
             allowed: goal.allowed,
             around: &around,
-            backs: &|tip| self.backs(&away(tip, hand, 1.0)),
+            backs: &|tip| self.backs(tip, hand),
         };
         match self.seek(&sought, budget) {
             Ok((at, path)) => {
@@ -84,9 +83,10 @@ impl Room<'_> {
         }
     }
 
-    /// From a pose of the tip back to where the hand turns straight to it, by the direction in which its fingers do not point: along that;
-    /// else, where there is a base to do so, level or from above.
-    fn backs(&self, away: &Vector3<f64>) -> Vec<Vector3<f64>> {
+    /// From a pose of the tip back to where the hand turns straight to it: against where its fingers point;
+    /// else, where there is a base to do so, level or from above, or, where they point down, level past the thing between them.
+    fn backs(&self, tip: &Isometry3<f64>, hand: &Hand) -> Vec<Vector3<f64>> {
+        let away = away(tip, hand, 1.0);
         let [long, _] = BACK;
         let mut backs: Vec<_> = BACK.map(|back| away * back).to_vec();
         if !self.machine.drives() {
@@ -99,6 +99,9 @@ impl Room<'_> {
         }
         if away.z < 0.9 {
             backs.push(Vector3::z() * long);
+        } else {
+            let past = away.cross(&(tip.rotation * Vector3::from(hand.card.closes))) * long;
+            backs.extend([past, -past]);
         }
         backs
     }

@@ -16,13 +16,13 @@ use super::touch::{Allowed, Touch};
 /// How far before the goal the arm unfolds, in m: where there is room, most often, first.
 const BACK: [f64; 4] = [0.2, 0.45, 0.0, 0.1];
 
-/// How the arm gets from where it is folded to where it is wanted.
+/// Why no way leads along a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Unfolding {
-    /// In one of a few simple ways.
-    Simple,
-    /// By a search, which takes long.
-    Searched,
+pub(super) enum NoWay {
+    /// The line itself is not free.
+    Line,
+    /// None of the ways that are tried leads to where it begins.
+    Route,
 }
 
 /// What is met, and how often.
@@ -83,7 +83,7 @@ impl Room<'_> {
         met: &mut Tally,
     ) -> Option<Vec<State>> {
         let around = self.around(plane(line.last()?), LAST);
-        around.route_along(line, inwards, allowed, Unfolding::Simple, met)
+        around.route_along(line, inwards, allowed, met)
     }
 
     /// The arm from one configuration to another with the base still; both are free.
@@ -112,6 +112,11 @@ impl Room<'_> {
             || [0.5 * widest, widest].into_iter().any(|far| {
                 around.into_iter().any(|(cos, sin)| map.is_among([x + cos * far, y + sin * far], homes))
             })
+    }
+
+    /// Whether ways lead to a place, about.
+    pub(super) fn is_at_home(&self, place: [f64; 2]) -> bool {
+        self.map().is_none_or(|map| map.is_among(place, self.homes(map)))
     }
 
     /// Whether the base can drive to a state with the arm as it is.
@@ -172,6 +177,15 @@ impl Room<'_> {
         if end.base != last.base {
             path.push(end);
         }
+        Some(path)
+    }
+
+    /// The way of the base to the first of some states, which the arm is folded in, and then along them.
+    pub(super) fn driven(&self, states: Vec<State>) -> Option<Vec<State>> {
+        let folded = states.first()?;
+        let mut path = self.drive(folded)?;
+        let turns = path.last().map_or(0.0, |last| last.base[2] - folded.base[2]);
+        path.extend(states.into_iter().skip(1).map(|state| state.turned(turns)));
         Some(path)
     }
 
@@ -237,27 +251,29 @@ impl Around<'_, '_> {
         line: &[State],
         inwards: [f64; 2],
         allowed: Allowed,
-        unfolding: Unfolding,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
         if let Some(touch) = self.first_touch(&line.iter().collect::<Vec<_>>(), allowed) {
             met.add(&touch);
             return None;
         }
-        self.route_to(line, inwards, allowed, unfolding, met)
+        self.route_to(line, inwards, allowed, met).ok()
     }
 
     /// The same with a line of states that touch nothing but what is allowed. `inwards` is the direction in the plane in which the robot
     /// comes to the first; of length 1.
+    ///
+    /// # Errors
+    ///
+    /// What is in the way.
     pub(super) fn route_to(
         &self,
         line: &[State],
         inwards: [f64; 2],
         allowed: Allowed,
-        unfolding: Unfolding,
         met: &mut Tally,
-    ) -> Option<Vec<State>> {
-        let (first, rest) = line.split_first()?;
+    ) -> Result<Vec<State>, NoWay> {
+        let (first, rest) = line.split_first().ok_or(NoWay::Line)?;
         let backs = if self.room.machine.drives() { &BACK[..] } else { &[0.0] };
         let outside = |back: &f64| {
             let [x, y, yaw] = first.base;
@@ -273,18 +289,18 @@ impl Around<'_, '_> {
         };
         if let Some(touch) = touches.next().flatten().or_else(|| line.windows(2).rev().find_map(way)) {
             met.add(&touch);
-            return None;
+            return Err(NoWay::Line);
         }
         let outsides = outsides.into_iter().skip(1).zip(touches).zip(backs);
         for ((outside, touch), back) in outsides {
-            let Some(mut path) = self.route(&outside, touch, first, unfolding, met) else { continue };
+            let Some(mut path) = self.route(&outside, touch, first, met) else { continue };
             let shifted = (*back > 0.0).then_some(first).into_iter().chain(rest);
             // The way may end some full turns from where it was asked to.
-            let turns = path.last()?.base[2] - first.base[2];
+            let turns = path.last().map_or(0.0, |last| last.base[2] - first.base[2]);
             path.extend(shifted.map(|state| state.turned(turns)));
-            return Some(path);
+            return Ok(path);
         }
-        None
+        Err(NoWay::Route)
     }
 
     /// A way from where the robot is to a state, both included, from which a straight way without a turn leads to another one that is
@@ -294,7 +310,6 @@ impl Around<'_, '_> {
         outside: &State,
         touch: Option<Touch>,
         to: &State,
-        unfolding: Unfolding,
         met: &mut Tally,
     ) -> Option<Vec<State>> {
         let room = self.room;
@@ -311,15 +326,7 @@ impl Around<'_, '_> {
         if !is_drivable {
             return None;
         }
-        let unfolded = match unfolding {
-            Unfolding::Simple => self.unfold(&folded, outside, met),
-            Unfolding::Searched => self.connect(&folded, outside),
-        }?;
-        let mut path = room.drive(&folded)?;
-        let last = path.last().map_or([0.0; 3], |state| state.base);
-        let turns = last[2] - folded.base[2];
-        path.extend(unfolded.into_iter().skip(1).map(|state| state.turned(turns)));
-        Some(path)
+        room.driven(self.unfold(&folded, outside, met)?)
     }
 
     /// The arm from one configuration to another with the base still: straight, by way of a raised lift, or by way of a

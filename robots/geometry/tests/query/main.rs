@@ -12,6 +12,7 @@
 )]
 
 mod help;
+mod narrow;
 mod opening;
 mod verify;
 

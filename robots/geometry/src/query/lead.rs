@@ -1,0 +1,51 @@
+//! Ways to where a line of the hand begins for which base and arm move together: out of a drawer, or between what stands closer than the
+//! robot is wide when it is taken for a disc. A search that takes long, for when nothing simple does.
+
+use std::f64::consts::TAU;
+
+use super::around::Around;
+use super::connect::{Effort, Moving};
+use super::state::State;
+use super::travel::plane;
+
+/// How far from where the line begins the base stands with the arm as it was, in m.
+const OUT: [f64; 11] = [0.3, 0.45, 0.6, 0.2, 0.1, 0.0, 0.8, 1.0, 1.3, 1.6, 2.0];
+/// Directions in which that may be.
+const DIRECTIONS: usize = 16;
+
+impl Around<'_, '_> {
+    /// A way from where the robot is to the beginning of a line of states, which is free, and then along the line. The robot comes from
+    /// where the line leads `inwards`, most often.
+    pub(super) fn lead(&self, line: &[State], inwards: [f64; 2], effort: Effort) -> Option<Vec<State>> {
+        let room = self.room;
+        let first = line.first()?;
+        let (from, moving) = if room.machine.drives() {
+            (self.landing(first, inwards)?, Moving::All)
+        } else {
+            (room.world.robot.clone(), Moving::Arm)
+        };
+        let mut states = self.connect(&from, first, moving, effort)?;
+        states.extend(line.iter().skip(1).cloned());
+        room.driven(states)
+    }
+
+    /// A place near a state to which the base drives with the arm as it was.
+    fn landing(&self, near: &State, [x, y]: [f64; 2]) -> Option<State> {
+        let room = self.room;
+        let [near_x, near_y, yaw] = near.base;
+        let outwards = libm::atan2(-y, -x);
+        let folded = |far: f64, step: usize| {
+            let turn = step.div_ceil(2) as f64 * if step.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let (sin, cos) = libm::sincos(outwards + turn * TAU / DIRECTIONS as f64);
+            State {
+                base: [near_x + cos * far, near_y + sin * far, yaw],
+                joints: room.world.robot.joints.clone(),
+            }
+        };
+        let mut places = OUT.into_iter().flat_map(|far| (0..DIRECTIONS).map(move |step| (far, step)));
+        places.find_map(|(far, step)| {
+            let place = folded(far, step);
+            (room.is_at_home(plane(&place)) && room.is_drivable(&place)).then_some(place)
+        })
+    }
+}
