@@ -145,7 +145,7 @@ impl Room<'_> {
     }
 
     /// Whether the base goes in every direction.
-    fn slides(&self) -> bool {
+    pub(super) fn slides(&self) -> bool {
         self.machine.drives() && self.machine.card().base.drive != Drive::Differential
     }
 

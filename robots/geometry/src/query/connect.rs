@@ -44,7 +44,7 @@ impl Moving {
         }
     }
 
-    /// How far apart two states are: of the arm alone the largest change of a joint, in rad or m; else as a length, where a turn counts a third.
+    /// How far apart two states are: of the arm alone the largest change of a joint, in rad or m; else as a length, where a turn or the change of a joint counts a third.
     fn far(self, from: &State, to: &State) -> f64 {
         let changes = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs());
         match self {

@@ -1,11 +1,12 @@
-//! Ways to where a line of the hand begins for which base and arm move together: out of a drawer, or between what stands closer than the
-//! robot is wide when it is taken for a disc. A search that takes long, for when nothing simple does.
+//! Ways to where a line of the hand begins, searched for when nothing simple does. Base and arm move together where the base goes in every
+//! direction: out of a drawer, or between what stands closer than the robot is wide when it is taken for a disc.
 
 use std::f64::consts::TAU;
 
 use super::around::Around;
 use super::connect::{Effort, Moving};
 use super::state::State;
+use super::touch::Allowed;
 use super::travel::plane;
 
 /// How far from where the line begins the base stands with the arm as it was, in m.
@@ -19,11 +20,17 @@ impl Around<'_, '_> {
     pub(super) fn lead(&self, line: &[State], inwards: [f64; 2], effort: Effort) -> Option<Vec<State>> {
         let room = self.room;
         let first = line.first()?;
-        let (from, moving) = if room.machine.drives() {
+        let (from, moving) = if room.slides() {
             (self.landing(first, inwards)?, Moving::All)
         } else {
-            (room.world.robot.clone(), Moving::Arm)
+            let folded = State { base: first.base, joints: room.world.robot.joints.clone() };
+            (folded, Moving::Arm)
         };
+        if moving == Moving::Arm
+            && !(self.touch(&from, Allowed::default()).is_none() && room.is_drivable(&from))
+        {
+            return None;
+        }
         let mut states = self.connect(&from, first, moving, effort)?;
         states.extend(line.iter().skip(1).cloned());
         room.driven(states)

@@ -27,7 +27,7 @@ use trial::Lined;
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
 /// most candidates have no solution at all, and the poses that were given have more.
 const SHARED: [usize; 2] = [8, 32];
-/// Rounds that are few.
+/// Rounds after which a short proof is tried, where a round takes long.
 const FEW: usize = 9;
 /// How far the base comes from where it stands in the end while the hand reaches, in m.
 pub(super) const LAST: f64 = 0.65;
@@ -54,7 +54,7 @@ pub(super) struct Sought<'a, 'r, 'w> {
 pub(super) enum At {
     /// At a pose that was given, by its index.
     Tip(usize),
-    /// Where a proof found room for it.
+    /// At another, between those or where a proof found room for it.
     Hold(Hold),
 }
 
@@ -74,9 +74,9 @@ type Ended = ControlFlow<Option<Way>>;
 /// Which rounds of candidates are gone through.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Times {
-    /// All, by which it is found out in which poses the hand alone is free.
+    /// All; in the first it is found out in which poses the hand alone is free.
     First,
-    /// The first few of them.
+    /// The first few of them, likewise.
     Few,
     /// The others.
     Rest,
@@ -107,12 +107,12 @@ enum Alone {
 struct Search<'a, 'r, 'w> {
     sought: &'a Sought<'a, 'r, 'w>,
     budget: Budget,
-    /// The poses by their index; after the first round those in which the hand alone is free.
+    /// The poses by their index; after the first round without those in which the hand alone is not free.
     tips: Vec<(usize, Isometry3<f64>, Alone)>,
     /// What they are, where they are none of those that were given.
     finer: Option<Vec<Hold>>,
     palm: Palm<'r, 'w>,
-    /// Free states that were tried.
+    /// Free states that were tried since the last time that as many began to be tried as may be.
     tried: usize,
     /// Of these so many to which the hand comes straight.
     lined: usize,
@@ -169,10 +169,10 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         self.tips.get(at).is_some_and(|(_, _, known)| *known == Alone::Free)
     }
 
-    /// Leaves out the poses in which the hand alone is not free: so many rounds are left for the others, with a budget so many times as
+    /// Leaves out the poses in which the hand alone is known not to be free: so many rounds are left for the others, with a budget so many times as
     /// large.
     fn rounds(&mut self, times: usize) -> usize {
-        self.tips.retain(|(_, _, known)| *known == Alone::Free);
+        self.tips.retain(|(_, _, known)| *known != Alone::Blocked);
         let [few, many] = SHARED;
         let shared = if self.places_base() || self.finer.is_some() { few } else { many };
         let candidates = self.budget.candidates.saturating_mul(times);

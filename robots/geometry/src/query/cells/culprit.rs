@@ -54,7 +54,8 @@ impl Blame {
 }
 
 impl Cover<'_, '_, '_> {
-    /// Whether a culprit closes a cell in which all goes by no more than a share of how far it may go.
+    /// Whether a culprit would close a cell in which all goes by no more than a share of how far it may go. Of joints and the arm's length that
+    /// is about so, and no proof.
     pub(super) fn closes(
         &self,
         placing: &mut Placing,
@@ -126,7 +127,7 @@ impl Cover<'_, '_, '_> {
         blame
     }
 
-    /// How far a culprit can be off in a cell, whatever the limits of joints.
+    /// How far a culprit can be off in a cell, whatever the limits of joints; 0 where that is not known, so that nothing is cut for it.
     fn off(&self, placing: &mut Placing, tips: &Tips, cell: &Cell, culprit: Culprit) -> f64 {
         let Over::Near(stretch) = self.family.over(&tips.any(), cell) else { return 0.0 };
         match culprit {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use nalgebra::Isometry3;
 
 use super::cover::{Cover, Group, Pair, Placing};
-use super::culprit::{Blame, TRUSTED};
+use super::culprit::{Blame, Culprit, TRUSTED};
 use super::tie::Tied;
 use super::{Family, Node, Open};
 use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
@@ -188,9 +188,12 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
         if let Some(blame) = blame
             && self.cover.closes(&mut self.placing, &stretch, blame.culprit, TRUSTED)
         {
-            return match self.cover.closes(&mut self.placing, &stretch, blame.culprit, 1.0) {
-                true => Seen::Closed,
-                false => Seen::Open(Node { cell, groups, ties }, Some(blame)),
+            return match blame.culprit {
+                Culprit::Pair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => Seen::Closed,
+                // Of joints and the arm's length all is told already, with what rounding may take.
+                Culprit::Pair(_) | Culprit::Joint(_) | Culprit::Short => {
+                    Seen::Open(Node { cell, groups, ties }, Some(blame))
+                }
             };
         }
         let Some(groups) = self.left_of(&groups) else { return Seen::Closed };

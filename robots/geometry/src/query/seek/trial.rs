@@ -27,7 +27,7 @@ const CHEAP: usize = 8;
 /// Many proofs are short: so many cells are looked at after the first candidates, and so many after all for the poses that were given.
 const SHORT: usize = 128;
 const LONGER: usize = 1024;
-/// Free states that a proof meets to which a way is looked for.
+/// Free states that a proof meets to which ways are looked for, simple ones and by a short search.
 const MET: usize = 8;
 /// Finer poses of the hand are so near to each other, in m that any of its points goes from one to the next, about; where they are few, so
 /// near.
@@ -81,7 +81,7 @@ impl Search<'_, '_, '_> {
             self.goes(None, Places::CutOff, Times::Again(CUT_OFF))?;
         }
         self.searches_long()?;
-        if self.proves(usize::MAX)? == Covered::Nowhere {
+        if self.budget.cells > LONGER && self.proves(usize::MAX)? == Covered::Nowhere {
             return ControlFlow::Continue(true);
         }
         self.goes(screen, Places::Open, Times::More(MORE))?;
@@ -99,7 +99,10 @@ impl Search<'_, '_, '_> {
         places: Places,
         times: Times,
     ) -> ControlFlow<Way, bool> {
-        (self.tried, self.lined) = (0, 0);
+        self.batch.clear();
+        if times != Times::Rest {
+            (self.tried, self.lined) = (0, 0);
+        }
         let ended = match screen {
             Some(screen) => self.by_eights(screen, times),
             None => self.one_by_one(places, times),
@@ -111,7 +114,7 @@ impl Search<'_, '_, '_> {
         }
     }
 
-    /// Goes on to poses of the hand between those that were given.
+    /// Goes on to poses of the hand between those that were given: indices are of these then.
     fn refines(&mut self, grips: &Grips<'_>) {
         let sought = self.sought;
         let finer = finer(grips);
@@ -130,10 +133,11 @@ impl Search<'_, '_, '_> {
         };
         let cells = cells.min(self.budget.cells);
         let mut found = None;
-        self.tried = 0;
+        let before = std::mem::take(&mut self.tried);
         let covered = sought.around.covered(sought.hand, grips, sought.allowed, cells, |hold, state| {
             self.meets(hold, state, &mut found)
         });
+        self.tried += before;
         match found {
             Some(way) => ControlFlow::Break(way),
             None => ControlFlow::Continue(covered),
@@ -234,7 +238,7 @@ impl Search<'_, '_, '_> {
     /// The same with a long one, to all of them.
     fn searches_long(&mut self) -> ControlFlow<Way> {
         let around = self.sought.around;
-        let mut left = self.searched.drain(..).chain(self.left.drain(..));
+        let mut left = self.searched.drain(..).chain(self.left.drain(..)).take(LEFT);
         let way = left.find_map(|Lined { at, line, inwards, .. }| {
             Some((at, around.lead(&line, inwards, Effort::Long)?))
         });
