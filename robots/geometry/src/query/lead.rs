@@ -24,13 +24,11 @@ impl Around<'_, '_> {
             (self.landing(first, inwards)?, Moving::All)
         } else {
             let folded = State { base: first.base, joints: room.world.robot.joints.clone() };
+            if self.touch(&folded, Allowed::default()).is_some() || !room.is_drivable(&folded) {
+                return None;
+            }
             (folded, Moving::Arm)
         };
-        if moving == Moving::Arm
-            && !(self.touch(&from, Allowed::default()).is_none() && room.is_drivable(&from))
-        {
-            return None;
-        }
         let mut states = self.connect(&from, first, moving, effort)?;
         states.extend(line.iter().skip(1).cloned());
         room.driven(states)
