@@ -315,12 +315,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         }
         let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
         frame.is_some_and(|(_, drift)| is_in(&own.solid, &Share(share, drift), &near.solid))
-            || Placed { drift: share * own.drift, ..*own }.touches(
-                &near.solid,
-                *inner,
-                near.reach,
-                share * own.drift,
-            )
+            || own.touches(&near.solid, *inner, near.reach, share * own.drift)
     }
 
     /// Whether a part is on the floor throughout, by the lowest point of it in the middle.
@@ -332,48 +327,26 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         lowest.z - own.solid.rim() + share * drift.along(&lowest, &up) + SLACK <= GAP
     }
 
-    /// Whether a pair touches in the middle.
+    /// Whether a pair touches in the middle; what is not known to be anywhere touches nothing.
     pub(super) fn touches_in_middle(&self, placing: &mut Placing, pair: Pair) -> bool {
-        let found = self.with(placing, pair, |one, other, inner, reach, drift| {
-            drift.is_finite() && one.touches(other, inner, reach, 0.0)
-        });
-        found.unwrap_or_else(|(above, drift)| drift.is_finite() && above + SLACK <= GAP)
-    }
-
-    /// What is told of a part, and another solid with the balls within and around it and how far both can be off.
-    ///
-    /// # Errors
-    ///
-    /// How far it is above the floor, and how far it can be off, where that is asked for.
-    fn with<T>(
-        &self,
-        placing: &mut Placing,
-        pair: Pair,
-        told: impl FnOnce(&Placed, &Solid, f64, f64, f64) -> T,
-    ) -> Result<T, (f64, f64)> {
-        // What is not there touches nothing for certain, and is not known to be apart.
-        const NOTHING: (f64, f64) = (0.0, f64::INFINITY);
         match pair {
             Pair::Thing(part, at) => {
                 let at = usize::from(at);
-                let (near, inner) = self.around.things.get(at).zip(self.things.get(at)).ok_or(NOTHING)?;
-                let own = self.part(placing, part).ok_or(NOTHING)?;
-                Ok(told(own, &near.solid, *inner, near.reach, own.drift))
+                let thing = self.around.things.get(at).zip(self.things.get(at));
+                self.part(placing, part).zip(thing).is_some_and(|(own, (near, inner))| {
+                    own.drift.is_finite() && own.touches(&near.solid, *inner, near.reach, 0.0)
+                })
             }
             Pair::Own(part, at) => {
                 if placing.steps.is_empty() {
-                    return Err(NOTHING);
+                    return false;
                 }
                 self.ensure_both(placing, part, at);
-                let (one, other) = self.both(placing, part, at).ok_or(NOTHING)?;
-                let drift = 0.0;
-                let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
-                Ok(told(&own, other.solid, other.limb.inner, other.limb.reach, drift))
+                self.both(placing, part, at).is_some_and(|(one, other)| one.touches(other, 0.0))
             }
-            Pair::Floor(part) => {
-                let own = self.part(placing, part).ok_or(NOTHING)?;
-                Err((above_floor(&own.solid), own.drift))
-            }
+            Pair::Floor(part) => self
+                .part(placing, part)
+                .is_some_and(|own| own.drift.is_finite() && above_floor(&own.solid) + SLACK <= GAP),
         }
     }
 }

@@ -122,9 +122,7 @@ impl Cover<'_, '_, '_> {
         {
             return true;
         }
-        let drift = share * tie.drift(other.solid);
-        let own = Placed { solid: *one.solid, inner: one.limb.inner, reach: one.limb.reach, drift };
-        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
+        one.touches(other, share * tie.drift(other.solid))
     }
 
     /// The same of any two.
@@ -189,6 +187,12 @@ impl Joined<'_> {
     pub(super) fn is_near(&self, other: Joined<'_>) -> bool {
         let near = self.limb.reach + other.limb.reach + GAP;
         (self.solid.centre - other.solid.centre).norm_squared() <= near * near
+    }
+
+    /// Whether two touch, wherever they are by so much.
+    pub(super) fn touches(&self, other: Joined<'_>, drift: f64) -> bool {
+        let own = Placed { solid: *self.solid, inner: self.limb.inner, reach: self.limb.reach, drift };
+        own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
     }
 
     /// Whether two are apart, wherever they are by so much.
