@@ -2,7 +2,7 @@
 //! candidate for the base and the arm after the other. Which ways are looked for to a candidate, and what is tried where there is none, is
 //! in `trial`.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -84,6 +84,13 @@ enum Times {
     Again(usize),
     /// Those that come after them with a budget so many times as large.
     More(usize),
+}
+
+impl Times {
+    /// Whether it is found out in the first round in which poses the hand alone is free.
+    fn begins(self) -> bool {
+        matches!(self, Self::First | Self::Few)
+    }
 }
 
 /// Which places of the base are looked at.
@@ -179,6 +186,16 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         candidates.min(candidates.saturating_mul(shared).div_ceil(self.tips.len().max(1)))
     }
 
+    fn rounds_of(&mut self, times: Times) -> Range<usize> {
+        match times {
+            Times::First => 0..self.rounds(1),
+            Times::Few => 0..self.rounds(1).min(FEW),
+            Times::Rest => FEW..self.rounds(1),
+            Times::Again(times) => 0..self.rounds(times),
+            Times::More(times) => self.rounds(1)..self.rounds(times),
+        }
+    }
+
     fn at(&self, index: usize) -> At {
         let finer = self.finer.as_ref().and_then(|holds| holds.get(index));
         finer.map_or(At::Tip(index), |hold| At::Hold(*hold))
@@ -193,13 +210,8 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
         let (sought, room) = (self.sought, self.sought.around.room);
         let places_base = self.places_base();
         let is_passed = |base| room.is_near_drivable(base) != (places == Places::Open);
-        let (mut round, mut rounds) = match times {
-            Times::First | Times::Few => (0, 1),
-            Times::Rest => (FEW, self.rounds(1)),
-            Times::Again(times) => (0, self.rounds(times)),
-            Times::More(times) => (self.rounds(1), self.rounds(times)),
-        };
-        while round < rounds {
+        let mut rounds = if times.begins() { 0..1 } else { self.rounds_of(times) };
+        while let Some(round) = rounds.next() {
             for index in 0..self.tips.len() {
                 if !self.is_free(index) {
                     continue;
@@ -220,14 +232,9 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
                     }
                 }
             }
-            if round == 0 {
-                match times {
-                    Times::First => rounds = self.rounds(1),
-                    Times::Few => rounds = self.rounds(1).min(FEW),
-                    Times::Rest | Times::Again(_) | Times::More(_) => {}
-                }
+            if round == 0 && times.begins() {
+                rounds = 1..self.rounds_of(times).end;
             }
-            round += 1;
         }
         self.tries_batch()
     }
@@ -243,21 +250,14 @@ impl<'a, 'r, 'w> Search<'a, 'r, 'w> {
             }
             if tips.len() == LANES || (index + 1 == self.tips.len() && !tips.is_empty()) {
                 let group = screen.group(std::mem::take(&mut tips));
-                if matches!(times, Times::First | Times::Few) {
+                if times.begins() {
                     screen.drafts(&group, 0, &mut drafts);
                     self.screened(screen, &mut drafts, LANES)?;
                 }
                 groups.push(group);
             }
         }
-        let rounds = match times {
-            Times::First => 1..self.rounds(1),
-            Times::Few => 1..self.rounds(1).min(FEW),
-            Times::Rest => FEW..self.rounds(1),
-            Times::Again(times) => 0..self.rounds(times),
-            Times::More(times) => self.rounds(1)..self.rounds(times),
-        };
-        for round in rounds {
+        for round in self.rounds_of(times).skip(usize::from(times.begins())) {
             for group in &groups {
                 screen.drafts(group, round, &mut drafts);
                 self.screened(screen, &mut drafts, LANES)?;
