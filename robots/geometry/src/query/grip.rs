@@ -210,13 +210,13 @@ impl<'a> Grips<'a> {
         patches.collect()
     }
 
-    /// How far the hand goes for the half of each side of a patch, about, in m.
-    pub(super) fn sizes(&self, patch: &Patch) -> [f64; 4] {
+    /// How far the hand goes for the half of the widest side of a patch, about, in m, and which that is.
+    pub(super) fn widest(&self, patch: &Patch) -> (f64, usize) {
         let [about, bend, place, deep] = patch.half;
-        let Some(slot) = self.slots.get(patch.slot) else { return [0.0; 4] };
+        let Some(slot) = self.slots.get(patch.slot) else { return (0.0, 0) };
         let far = self.hand.palm.abs() + self.thing.reach() + WRIST;
         let deep = deep * (self.hand.fingers - self.hand.palm).abs();
-        [about * far, bend * far, place * slot.along.norm(), deep]
+        widest(&[about * far, bend * far, place * slot.along.norm(), deep])
     }
 
     /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
@@ -292,9 +292,7 @@ impl<'a> Grips<'a> {
             let Some(patch) = open.pop() else { return true };
             let Some((tip, drift)) = self.over(&patch) else { continue };
             if !is(&tip, &drift) {
-                let sizes = self.sizes(&patch).into_iter().zip(0..);
-                let (_, across) =
-                    sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
+                let (_, across) = self.widest(&patch);
                 open.extend(patch.halves(across));
             }
         }
@@ -383,6 +381,12 @@ impl Kind {
             }
         }
     }
+}
+
+/// The largest of some sizes, the first of equals, and which it is.
+pub(super) fn widest(sizes: &[f64]) -> (f64, usize) {
+    let all = sizes.iter().copied().zip(0..);
+    all.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
 }
 
 impl Patch {

@@ -366,3 +366,18 @@ fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
     }
     f64::NEG_INFINITY
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+impl Machine {
+    /// A robot that the crates bring along.
+    pub(super) fn embedded(name: &str) -> Self {
+        use motet_robots::{card, urdf};
+        use motet_syntax::{FileId, Source};
+        let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+        let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+        let text = card::embedded_urdf(name).unwrap();
+        let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
+        Self::new(&card, &urdf)
+    }
+}

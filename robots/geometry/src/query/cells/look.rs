@@ -10,7 +10,7 @@ use super::tie::Tied;
 use super::{Family, Node, Open};
 use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 use crate::query::grasp::Hold;
-use crate::query::grip::{Grips, Patch};
+use crate::query::grip::{Grips, Patch, widest};
 use crate::query::state::State;
 
 /// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
@@ -66,7 +66,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
             let Some((map_from_tip, drift)) = self.grips.over(&patch) else { continue };
             self.cover.place_hand(&Tips::new(map_from_tip, drift), &mut self.placing);
             let Some(groups) = self.left_of(&groups) else { continue };
-            let (size, across) = widest(&self.grips.sizes(&patch));
+            let (size, across) = self.grips.widest(&patch);
             if size < FINE || self.is_spent() {
                 return false;
             }
@@ -82,7 +82,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
         }
         let Some((map_from_tip, drift)) = self.grips.over(&patch) else { return Looked::Done };
         let tips = Tips::new(map_from_tip, drift);
-        let (size, across) = widest(&self.grips.sizes(&patch));
+        let (size, across) = self.grips.widest(&patch);
         self.cover.place_hand(&tips, &mut self.placing);
         let Some(hand) = self.left_of(&hand) else { return Looked::Done };
         let nodes = if size > COARSE {
@@ -307,12 +307,6 @@ fn fewer<T: Clone>(
         }
     }
     Some(left.map_or_else(|| Rc::clone(all), Into::into))
-}
-
-/// The largest of some sizes, and which it is.
-pub(super) fn widest(sizes: &[f64]) -> (f64, usize) {
-    let all = sizes.iter().copied().zip(0..);
-    all.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
 }
 
 /// Pairs that touched lately; those that did often stand at the end.

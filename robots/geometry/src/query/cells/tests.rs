@@ -1,9 +1,6 @@
 //! What cells say of a robot holds for every one of its states, and what is covered has no free one.
 
-use motet_robots::card;
 use motet_robots::scene::{Entity, Placement, Scene, Shape as Listed};
-use motet_robots::urdf;
-use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
@@ -22,13 +19,6 @@ use crate::query::shrunk::Placed;
 use crate::trigonometry::wrapped;
 
 mod grips;
-
-fn machine(name: &str) -> Machine {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    Machine::new(&card, &urdf)
-}
 
 /// A state with the arm's joints at shares of their ranges.
 fn state(room: &Room<'_>, hand: &Hand, base: [f64; 3], shares: &[f64]) -> (State, Vec<f64>) {
@@ -76,7 +66,7 @@ fn a_state_is_in_its_cell(
     places: [f64; 3],
     [size, tilt]: [f64; 2],
 ) {
-    let machine = machine(name);
+    let machine = Machine::embedded(name);
     let scene = Scene::default();
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);
@@ -169,7 +159,7 @@ fn poses(room: &Room<'_>, hand: &Hand, scene: &Scene) -> (Vec<Isometry3<f64>>, A
 
 /// Whether it is covered that no state is free in a niche, with so many cells; draws states at random to contradict it.
 fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Option<bool> {
-    let machine = machine(name);
+    let machine = Machine::embedded(name);
     let world = World::new(&machine, scene);
     let room = Room::new(&machine, scene, &world);
     let hand = machine.hand().unwrap();
@@ -286,7 +276,7 @@ fn what_a_panda_does_not_get_to_is_covered_and_what_it_does_is_not() {
 /// What closes a cell does so however much less all goes in it, what is said to be nearest to that is, and nothing goes farther by one
 /// parameter than by all.
 fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: [f64; 3], size: f64) -> bool {
-    let machine = machine(name);
+    let machine = Machine::embedded(name);
     let world = World::new(&machine, scene);
     let room = Room::new(&machine, scene, &world);
     let hand = machine.hand().unwrap();

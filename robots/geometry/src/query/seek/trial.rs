@@ -252,8 +252,7 @@ fn finer(grips: &Grips<'_>) -> Vec<Hold> {
     let mut open = VecDeque::from(grips.patches());
     let mut found = Vec::new();
     while let Some(patch) = open.pop_front() {
-        let sizes = grips.sizes(&patch).into_iter().zip(0..);
-        let (size, across) = sizes.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most });
+        let (size, across) = grips.widest(&patch);
         let count = open.len() + found.len();
         if (size > near && count < most) || (size > nearer && count < few) {
             open.extend(patch.halves(across));

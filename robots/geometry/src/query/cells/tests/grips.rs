@@ -2,18 +2,17 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::machine;
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::Drift;
 use crate::query::answer::Side;
-use crate::query::cells::look::widest;
 use crate::query::grasp::holds;
 use crate::query::grip::Grips;
+use crate::query::machine::Machine;
 
 /// Grips that a search goes through are where the patches say.
 #[test]
 fn a_grip_is_in_its_patch() {
-    let machine = machine("hsr");
+    let machine = Machine::embedded("hsr");
     let hand = machine.hand().unwrap();
     let shapes = [
         Shape::Cylinder { radius: 0.03, half: 0.08 },
@@ -34,7 +33,7 @@ fn a_grip_is_in_its_patch() {
             // Small ones, so that how far they say they go is not more than a hand is long.
             let (mut open, mut patches) = (grips.patches(), vec![]);
             while let Some(patch) = open.pop() {
-                let (size, across) = widest(&grips.sizes(&patch));
+                let (size, across) = grips.widest(&patch);
                 if size > 0.08 {
                     open.extend(patch.halves(across));
                 } else {
@@ -61,7 +60,7 @@ fn a_grip_is_in_its_patch() {
 /// What is taken of a bar in steps is where the patches of all grips of it say.
 #[test]
 fn a_grip_of_a_bar_is_in_its_patch() {
-    let machine = machine("anymal_z1");
+    let machine = Machine::embedded("anymal_z1");
     let hand = machine.hand().unwrap();
     let (along, out) = (Vector3::new(0.0, 0.6, 0.8), Vector3::x());
     let centre = Vector3::new(1.0, 0.2, 0.7);
@@ -79,7 +78,7 @@ fn a_grip_of_a_bar_is_in_its_patch() {
         let tip = Isometry3::from_parts(at.into(), hand.turned(&approach, &closes));
         let mut open = grips.patches();
         for _ in 0..12 {
-            let halves = open.iter().flat_map(|patch| patch.halves(widest(&grips.sizes(patch)).1));
+            let halves = open.iter().flat_map(|patch| patch.halves(grips.widest(patch).1));
             open = halves.collect();
             open.retain(|patch| {
                 let Some((other, drift)) = grips.over(patch) else { return false };

@@ -1,8 +1,5 @@
 //! Finer poses lie close to every other.
 
-use motet_robots::card;
-use motet_robots::urdf;
-use motet_syntax::{FileId, Source};
 use nalgebra::{Isometry3, Vector3};
 
 use super::{FINE, POSES, finer};
@@ -11,16 +8,9 @@ use crate::query::grasp::holds;
 use crate::query::grip::Grips;
 use crate::query::machine::Machine;
 
-fn machine(name: &str) -> Machine {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    Machine::new(&card, &urdf)
-}
-
 #[test]
 fn every_hold_has_finer_ones_nearby() {
-    let machine = machine("hsr");
+    let machine = Machine::embedded("hsr");
     let hand = machine.hand().unwrap();
     let shapes = [
         Shape::Capsule { radius: 0.03, half: 0.0 },
