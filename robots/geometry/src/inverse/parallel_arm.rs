@@ -101,7 +101,16 @@ impl ParallelArm {
         polished(&self.chain, values, base_from_tip).filter(|values| self.chain.allows(values))
     }
 
-    /// Joint positions, up to full turns, regardless of limits.
+    /// Whether a joint may be at a position, or at one that differs by full turns.
+    fn may_be(&self, joint: usize, position: f64) -> bool {
+        let known = self.chain.joints.get(joint).zip(self.chain.variables.get(joint));
+        known.is_some_and(|(joint, variable)| {
+            let value = (position - joint.driver.offset) / joint.driver.multiplier % TAU;
+            within(variable, value).next().is_some()
+        })
+    }
+
+    /// Joint positions, up to full turns, with the first, the fifth and the sixth within their limits, on which the others turn.
     fn positions(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
         let [h1, h, _, _, h5, h6] = &self.axes;
         let [to_two, to_three, to_four, to_centre] = &self.offsets;
@@ -117,11 +126,20 @@ impl ParallelArm {
         let mut found = Vec::new();
         // Turning the point back by the first joint is turning it by minus its angle.
         for q1 in component(h1, &from_first, h, along).into_iter().flatten().map(|angle| -angle) {
+            if !self.may_be(0, q1) {
+                continue;
+            }
             let back = turn(&Unit::new_unchecked(*h1), -q1);
             let rotation = back * turned_by;
             let Some(fifths) = component(h5, h6, h, h.dot(&(rotation * h6))) else { continue };
             for q5 in fifths {
+                if !self.may_be(4, q5) {
+                    continue;
+                }
                 let q6 = angle_between(h6, &(rotation.inverse() * h), &turned(h5, -q5, h));
+                if !self.may_be(5, q6) {
+                    continue;
+                }
                 let rest =
                     rotation * turn(&Unit::new_unchecked(*h6), -q6) * turn(&Unit::new_unchecked(*h5), -q5);
                 let side = h1.cross(h);
