@@ -1,11 +1,11 @@
 //! Inverse kinematics of any chain: Levenberg–Marquardt within the limits, from a start and then from seeds of a
 //! low-discrepancy sequence. It finds one solution or none, and that it finds none proves nothing.
 
-use nalgebra::{Isometry3, Vector6};
+use nalgebra::{Isometry3, Vector3};
 
 use super::Tolerance;
 use crate::kinematics::{Chain, spread};
-use crate::trigonometry::rotation_vector;
+use crate::trigonometry::{rotation_vector, turn};
 
 /// How long to look.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -51,17 +51,20 @@ pub fn refined(
     let mut values = from.to_vec();
     values.resize(chain.variables.len(), 0.0);
     clamp(chain, &mut values);
-    let mut error = gap(chain, base_from_tip, &values);
+    let (mut placed, mut after) = (Placed::default(), Placed::default());
+    placed.set(chain, base_from_tip, &values);
+    let mut columns = placed.jacobian(chain);
     let mut damping = 1e-3;
     for _ in 0..steps {
-        if is_within(&error, tolerance) {
+        if is_within(&placed.error, tolerance) {
             return Some(values);
         }
-        let columns = jacobian(chain, &values);
-        let next = step(chain, &values, &columns, &error, damping)?;
-        let after = gap(chain, base_from_tip, &next);
-        if after.norm_squared() < error.norm_squared() {
-            (values, error) = (next, after);
+        let next = step(chain, &values, &columns, &placed.error, damping)?;
+        after.set(chain, base_from_tip, &next);
+        if squared(&after.error) < squared(&placed.error) {
+            values = next;
+            std::mem::swap(&mut placed, &mut after);
+            columns = placed.jacobian(chain);
             damping = (damping * 0.2).max(1e-12);
         } else {
             damping *= 8.0;
@@ -70,7 +73,7 @@ pub fn refined(
             }
         }
     }
-    is_within(&error, tolerance).then_some(values)
+    is_within(&placed.error, tolerance).then_some(values)
 }
 
 /// A solution of a closed form as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
@@ -85,55 +88,76 @@ pub(super) fn polished<const N: usize>(
     refined(chain, base_from_tip, &values, 4, Tolerance::EXACT)?.try_into().ok()
 }
 
-fn is_within(error: &Vector6<f64>, tolerance: Tolerance) -> bool {
-    let [x, y, z, a, b, c] = error.data.0[0];
+/// Metres, then a rotation vector in rad: in the base's frame.
+type Twist = [f64; 6];
+
+fn squared(twist: &Twist) -> f64 {
+    twist.iter().map(|value| value * value).sum()
+}
+
+fn is_within([x, y, z, a, b, c]: &Twist, tolerance: Tolerance) -> bool {
     (x * x + y * y + z * z).sqrt() <= tolerance.position && (a * a + b * b + c * c).sqrt() <= tolerance.angle
 }
 
-/// What is missing, in the base's frame: metres, then a rotation vector in rad.
-fn gap(chain: &Chain, wanted: &Isometry3<f64>, values: &[f64]) -> Vector6<f64> {
-    let pose = chain.base_from_tip(values);
-    let shift = wanted.translation.vector - pose.translation.vector;
-    let turn = rotation_vector(&(wanted.rotation * pose.rotation.inverse()));
-    Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+/// A chain with its variables at some values.
+#[derive(Default)]
+struct Placed {
+    /// For each joint its axis, as long as its position changes with its variable, and where it is.
+    axes: Vec<[Vector3<f64>; 2]>,
+    tip: Vector3<f64>,
+    /// What is missing to the pose that is wanted.
+    error: Twist,
 }
 
-/// For each variable how the tip moves with it: velocity, then angular velocity, in the base's frame.
-fn jacobian(chain: &Chain, values: &[f64]) -> Vec<Vector6<f64>> {
-    let tip = chain.base_from_tip(values).translation.vector;
-    let mut columns = vec![Vector6::zeros(); chain.variables.len()];
-    let mut pose = Isometry3::identity();
-    for joint in &chain.joints {
-        pose *= joint.before;
-        let axis = pose * joint.axis.into_inner() * joint.driver.multiplier;
-        let arm = if joint.slides { axis } else { axis.cross(&(tip - pose.translation.vector)) };
-        let turn = if joint.slides { nalgebra::Vector3::zeros() } else { axis };
-        if let Some(column) = columns.get_mut(joint.driver.variable) {
-            *column += Vector6::new(arm.x, arm.y, arm.z, turn.x, turn.y, turn.z);
+impl Placed {
+    fn set(&mut self, chain: &Chain, wanted: &Isometry3<f64>, values: &[f64]) {
+        self.axes.clear();
+        let mut pose = Isometry3::identity();
+        for joint in &chain.joints {
+            pose *= joint.before;
+            let axis = pose.rotation * joint.axis.into_inner() * joint.driver.multiplier;
+            self.axes.push([axis, pose.translation.vector]);
+            let position = joint.driver.position(values);
+            if joint.slides {
+                pose *= joint.motion(position);
+            } else {
+                pose.rotation *= turn(&joint.axis, position);
+            }
         }
-        pose *= joint.motion(joint.driver.position(values));
+        pose *= chain.last_from_tip;
+        self.tip = pose.translation.vector;
+        let shift = wanted.translation.vector - self.tip;
+        let turn = rotation_vector(&(wanted.rotation * pose.rotation.inverse()));
+        self.error = [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z];
     }
-    columns
+
+    /// For each variable how the tip moves with it: velocity, then angular velocity.
+    fn jacobian(&self, chain: &Chain) -> Vec<Twist> {
+        let mut columns = vec![[0.0; 6]; chain.variables.len()];
+        for (joint, [axis, at]) in chain.joints.iter().zip(&self.axes) {
+            let (arm, turn) = match joint.slides {
+                true => (*axis, Vector3::zeros()),
+                false => (axis.cross(&(self.tip - at)), *axis),
+            };
+            if let Some(column) = columns.get_mut(joint.driver.variable) {
+                let more = [arm.x, arm.y, arm.z, turn.x, turn.y, turn.z];
+                column.iter_mut().zip(more).for_each(|(slot, more)| *slot += more);
+            }
+        }
+        columns
+    }
 }
 
 /// The damped step `Jᵀ (J Jᵀ + damping)⁻¹ error`, within the limits. A variable that stands at a limit and would be
 /// pushed beyond is held, and the others share its part.
-fn step(
-    chain: &Chain,
-    values: &[f64],
-    columns: &[Vector6<f64>],
-    error: &Vector6<f64>,
-    damping: f64,
-) -> Option<Vec<f64>> {
+fn step(chain: &Chain, values: &[f64], columns: &[Twist], error: &Twist, damping: f64) -> Option<Vec<f64>> {
     let mut held = vec![false; values.len()];
     // Every round holds one variable more, or is the last.
     for _ in 0..=values.len() {
         let mut normal = [[0.0; 6]; 6];
         for (column, _) in columns.iter().zip(&held).filter(|(_, held)| !**held) {
             for (row, a) in normal.iter_mut().zip(column) {
-                for (slot, b) in row.iter_mut().zip(column) {
-                    *slot += a * b;
-                }
+                row.iter_mut().zip(column).for_each(|(slot, b)| *slot += a * b);
             }
         }
         for (at, row) in normal.iter_mut().enumerate() {
@@ -141,7 +165,7 @@ fn step(
                 *slot += damping;
             }
         }
-        let pull = solved(normal, error.data.0[0])?;
+        let pull = solved(normal, *error)?;
         let mut next = values.to_vec();
         let mut again = false;
         for ((((value, column), held), variable), before) in
@@ -186,9 +210,8 @@ fn solved(mut rows: [[f64; 6]; 6], mut right: [f64; 6]) -> Option<[f64; 6]> {
         }
         for (row, slot) in rows.iter_mut().zip(&mut right).skip(pivot + 1) {
             let factor = row.get(pivot)? / first;
-            for (entry, above) in row.iter_mut().zip(&top).skip(pivot) {
-                *entry -= factor * above;
-            }
+            // What stands before the pivot is not looked at again.
+            row.iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
             *slot -= factor * value;
         }
     }
