@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
-use nalgebra::{Isometry3, Translation3, Unit, Vector3};
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::answer::Side;
 use super::machine::Hand;
@@ -42,8 +42,8 @@ pub(super) fn holds(hand: &Hand, thing: &Solid, side: Option<Side>, base: [f64; 
             // By its rim, across its height: so is a plate held.
             for step in 0..16 {
                 let out = turn(&Unit::new_normalize(z), TAU * f64::from(step) / 16.0) * x;
-                found.add(&-out, &z, 2.0 * half, Grip::Flat, Vector3::zeros());
-                found.add(&-out, &-z, 2.0 * half, Grip::Flat, Vector3::zeros());
+                found.add(&-out, &z, 2.0 * half, Grip::Flat);
+                found.add(&-out, &-z, 2.0 * half, Grip::Flat);
             }
         }
         Shape::Capsule { radius, half } if half > 0.0 => found.around(&z, radius, half),
@@ -77,6 +77,18 @@ enum Grip {
     Flat,
 }
 
+/// Fingers that go around a thing, wherever along it they do.
+struct Way {
+    approach: Vector3<f64>,
+    along: Vector3<f64>,
+    width: f64,
+    side: Side,
+    /// How far the centre is from the tip, and how far it may be from above.
+    depth: f64,
+    shallow: Option<f64>,
+    rotation: UnitQuaternion<f64>,
+}
+
 struct Found<'a> {
     hand: &'a Hand,
     thing: &'a Solid,
@@ -100,22 +112,17 @@ impl Found<'_> {
             for out in &outs {
                 let approach = down * sin - out * cos;
                 let along = axis.cross(out);
+                // Bent, the fingers still close across the axis, and meet it where it is widest.
+                let ways =
+                    [along, -along].map(|along| self.way(&approach, &along, 2.0 * radius, Grip::Round));
                 for height in heights {
-                    let shift = axis * (half * height);
-                    // Bent, the fingers still close across the axis, and meet it where it is widest.
-                    self.add(&approach, &along, 2.0 * radius, Grip::Round, shift);
-                    self.add(&approach, &-along, 2.0 * radius, Grip::Round, shift);
+                    ways.iter().flatten().for_each(|way| self.hold(way, axis * (half * height)));
                 }
             }
         }
         for along in &outs {
-            self.add(
-                &down,
-                along,
-                2.0 * radius,
-                if ball { Grip::Round } else { Grip::Flat },
-                Vector3::zeros(),
-            );
+            let grip = if ball { Grip::Round } else { Grip::Flat };
+            self.add(&down, along, 2.0 * radius, grip);
         }
     }
 
@@ -132,32 +139,32 @@ impl Found<'_> {
                     if *half > 0.04 { vec![0.0, half * 0.5, half * -0.5] } else { vec![0.0] }
                 });
                 let direction = third.map_or(Vector3::zeros(), |(_, (axis, _))| *axis);
+                let ways =
+                    [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)]
+                        .map(|(approach, along)| self.way(&approach, &along, 2.0 * wide, Grip::Flat));
                 for shift in shifts {
-                    for (approach, along) in
-                        [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)]
-                    {
-                        self.add(&approach, &along, 2.0 * wide, Grip::Flat, direction * shift);
-                    }
+                    ways.iter().flatten().for_each(|way| self.hold(way, direction * shift));
                 }
             }
         }
     }
 
-    fn add(
-        &mut self,
-        approach: &Vector3<f64>,
-        along: &Vector3<f64>,
-        width: f64,
-        grip: Grip,
-        shift: Vector3<f64>,
-    ) {
+    /// Around its middle.
+    fn add(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, grip: Grip) {
+        if let Some(way) = self.way(approach, along, width, grip) {
+            self.hold(&way, Vector3::zeros());
+        }
+    }
+
+    /// Fingers that point along `approach` and close along `along`; `None` where they do not go around the thing.
+    fn way(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, grip: Grip) -> Option<Way> {
         // From below there is no way for a hand.
         if approach.z > 0.5 {
-            return;
+            return None;
         }
         self.least = self.least.min(width);
         if width > self.hand.card.opening_m {
-            return;
+            return None;
         }
         let half = match grip {
             Grip::Flat => self.thing.extent(approach),
@@ -171,16 +178,22 @@ impl Found<'_> {
             Grip::Flat => self.hand.fingers + half - GRIP.min(half),
         };
         if depth > most {
-            return;
+            return None;
         }
         let side = if approach.z < TOP { Side::Top } else { Side::Side };
-        let rotation = self.hand.turned(approach, along);
         // From above the finger tips may have to stay above what the thing stands on.
         let shallow = (side == Side::Top && most > depth + 0.005).then_some(most);
-        for depth in [depth].into_iter().chain(shallow) {
+        let rotation = self.hand.turned(approach, along);
+        Some(Way { approach: *approach, along: *along, width, side, depth, shallow, rotation })
+    }
+
+    /// Around a place so far from its middle.
+    fn hold(&mut self, way: &Way, shift: Vector3<f64>) {
+        let Way { approach, along, width, side, rotation, .. } = *way;
+        for depth in [way.depth].into_iter().chain(way.shallow) {
             let at = self.thing.centre + shift - approach * depth - along * self.hand.middle(width);
             let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
-            self.holds.push(Hold { map_from_tip, approach: *approach, side, width });
+            self.holds.push(Hold { map_from_tip, approach, side, width });
         }
     }
 

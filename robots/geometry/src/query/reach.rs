@@ -18,6 +18,8 @@ use crate::collision::Solid;
 
 /// How far before a thing the hand turns straight towards it, in m; the shorter where the longer does not do.
 const BACK: [f64; 2] = [0.1, 0.05];
+/// How finely holds are told apart by how much they point away from the robot.
+const STEPS: usize = 20;
 
 impl Room<'_> {
     /// A grasp of an entity.
@@ -111,14 +113,19 @@ impl Room<'_> {
         let [x, y, _] = self.world.robot.base;
         let ahead = Vector3::new(goal.pose.translation.x - x, goal.pose.translation.y - y, 0.0);
         let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
-        let worth = |hold: &Hold| match hold.side {
-            Side::Top => 0.5,
-            // In steps, so that what differs by rounding alone keeps its order.
-            Side::Side | Side::Front => libm::round(hold.approach.dot(&ahead) / far * 20.0) / 20.0,
+        // In steps, so that what differs by rounding alone keeps its order; the best is the least.
+        let step = |hold: &Hold| match hold.side {
+            Side::Top => STEPS / 2,
+            Side::Side | Side::Front => {
+                let worth = hold.approach.dot(&ahead) / far;
+                STEPS.saturating_sub_signed(libm::round(worth * f64::from(STEPS as u32)) as isize)
+            }
         };
-        let mut ranked: Vec<(f64, usize)> = holds.iter().map(worth).zip(0..).collect();
-        ranked.sort_unstable_by(|(one, first), (other, second)| other.total_cmp(one).then(first.cmp(second)));
-        *holds = ranked.into_iter().filter_map(|(_, at)| holds.get(at).copied()).collect();
+        let mut steps: [Vec<usize>; 2 * STEPS + 1] = [const { vec![] }; 2 * STEPS + 1];
+        for (hold, at) in holds.iter().zip(0..) {
+            steps.get_mut(step(hold)).into_iter().for_each(|slot| slot.push(at));
+        }
+        *holds = steps.iter().flatten().filter_map(|at| holds.get(*at).copied()).collect();
     }
 }
 
