@@ -80,16 +80,6 @@ impl<S: Simd> Axis<S> {
         middle.least(first).least(last) - wanted * wanted
     }
 
-    /// Positive where two axes are farther from each other than `wanted` for certain: by the planes square to the way between two
-    /// places on them, which are nearly the nearest.
-    #[inline(always)]
-    pub(super) fn apart(self, simd: S, other: Self, wanted: Number<S>) -> Number<S> {
-        let way = self.way(simd, other);
-        let between = self.centre - other.centre;
-        let length = way.dot(way).sqrt();
-        way.dot(between) - way.dot(self.half).abs() - way.dot(other.half).abs() - wanted * length
-    }
-
     /// The way from a place on another axis to one on this, of which both are nearly the nearest (Ericson 2005, 5.1.9).
     #[inline(always)]
     pub(super) fn way(self, simd: S, other: Self) -> Vector<S> {
@@ -103,6 +93,15 @@ impl<S: Simd> Axis<S> {
         let t = (b * s + f).over(e).within();
         let s = (b * t - c).over(a).within();
         between + d1.times(s) - d2.times(t)
+    }
+}
+
+/// A bit for each state in which an axis may be no farther from a box than wanted; in pieces where it matters.
+#[inline(always)]
+pub(super) fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> u8 {
+    match axis.beside(simd, other, wanted, 1).not_positive() {
+        0 => 0,
+        bits => bits & axis.beside(simd, other, wanted, pieces).not_positive(),
     }
 }
 

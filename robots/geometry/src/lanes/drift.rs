@@ -1,12 +1,14 @@
 //! How two solids drift apart or towards each other on a leg, to the first order, and how far they may be from that.
 //!
 //! On a leg all joints change evenly. A place on a part is at `p + v t + r(t)` then, with `t` from −1 to 1 and `v` its velocity in
-//! the middle. Its acceleration is no more than twice the sum of all angles by which joints turn, times how far it goes by all of
-//! them, joint by joint: so `r` is no longer than that sum times that way. A place that goes along something, and not towards it,
-//! may so be known to stay clear of it, however far it goes.
+//! the middle. Two joints that turn by angles `a` and `b`, the first nearer to the root, accelerate a place at a distance `d` from the
+//! axis of the second by no more than `2 a b d`, one alone by `a² d`, and what slides is accelerated by what turns it only. So `r` is no
+//! longer than the sum of `a b d` over all pairs of joints and of `a² d / 2` over all joints. A place that goes along something, and not
+//! towards it, may so be known to stay clear of it, however far it goes.
 
 use pulp::Simd;
 
+use super::apart::{Axis, Cuboid};
 use super::number::{Number, Vector};
 use super::pose::{Row, Rows};
 
@@ -23,6 +25,9 @@ pub(super) struct Drift<S: Simd> {
     /// How far its origin goes at most, and how much more what is 1 m from it.
     goes: Number<S>,
     spread: f32,
+    /// How far its origin may be from the first order, and how much more what is 1 m from it.
+    bends: Number<S>,
+    bend: f32,
     /// The sum of all angles.
     turns: f32,
 }
@@ -34,6 +39,8 @@ pub(super) struct Drifted {
     spin: Rows,
     goes: Row,
     spread: f32,
+    bends: Row,
+    bend: f32,
     turns: f32,
 }
 
@@ -45,6 +52,8 @@ impl Drifted {
             spin: Vector::of(simd, &self.spin, chunk),
             goes: Number::of(simd, &self.goes, chunk),
             spread: self.spread,
+            bends: Number::of(simd, &self.bends, chunk),
+            bend: self.bend,
             turns: self.turns,
         }
     }
@@ -54,7 +63,8 @@ impl Drifted {
         drift.shift.store(&mut self.shift, chunk);
         drift.spin.store(&mut self.spin, chunk);
         drift.goes.store(&mut self.goes, chunk);
-        (self.spread, self.turns) = (drift.spread, drift.turns);
+        drift.bends.store(&mut self.bends, chunk);
+        (self.spread, self.bend, self.turns) = (drift.spread, drift.bend, drift.turns);
     }
 
     /// How far any place goes that is no farther from the frame's origin than `reach`.
@@ -68,8 +78,8 @@ impl<S: Simd> Drift<S> {
     /// What does not move.
     #[inline(always)]
     pub(super) fn still(simd: S) -> Self {
-        let none = Vector::splat(simd, [0.0; 3]);
-        Self { shift: none, spin: none, goes: Number::splat(simd, 0.0), spread: 0.0, turns: 0.0 }
+        let (none, zero) = (Vector::splat(simd, [0.0; 3]), Number::splat(simd, 0.0));
+        Self { shift: none, spin: none, goes: zero, spread: 0.0, bends: zero, bend: 0.0, turns: 0.0 }
     }
 
     /// Adds a joint that turns about an axis, from a place on which the frame's origin stands off, and by how much and, at least as much,
@@ -80,9 +90,13 @@ impl<S: Simd> Drift<S> {
         let change = Number::splat(simd, change);
         self.shift = self.shift + across.times(change);
         self.spin = self.spin + axis.times(change);
-        // It turns a place at a distance `r` from its axis by at most `amount` times `r`.
-        self.goes = self.goes + Number::splat(simd, amount) * (across.dot(across).sqrt() + self.goes);
-        self.spread += amount * (1.0 + self.spread);
+        // A place is no farther from its axis than it is in the middle and goes by the joints after it.
+        let (far, farther) = (across.dot(across).sqrt() + self.goes, 1.0 + self.spread);
+        let (all, half) = (Number::splat(simd, amount), Number::splat(simd, 0.5 * amount));
+        self.bends = self.bends + all * (self.goes + half * far);
+        self.bend += amount * (self.spread + 0.5 * amount * farther);
+        self.goes = self.goes + all * far;
+        self.spread += amount * farther;
         self.turns += amount;
     }
 
@@ -127,7 +141,7 @@ impl<S: Simd> Drifting<S> {
             half,
             round: turning * Number::splat(simd, radius),
             goes,
-            beyond: (goes + Number::splat(simd, OFF)) * Number::splat(simd, drift.turns),
+            beyond: drift.bends + Number::splat(simd, drift.bend * reach + OFF * drift.turns),
         }
     }
 
@@ -145,12 +159,6 @@ impl<S: Simd> Drifting<S> {
         Self { shift: none, spin: none, half: none, round: zero, goes: zero, beyond: zero }
     }
 
-    /// How far any of its places goes.
-    #[inline(always)]
-    pub(super) fn goes(self) -> Number<S> {
-        self.goes
-    }
-
     /// By how much it and another one may come nearer to each other along a direction until the end of the leg, of which the length is
     /// given: at most so much, times that length, and no more than both go.
     #[inline(always)]
@@ -160,4 +168,26 @@ impl<S: Simd> Drifting<S> {
         let rest = self.round + other.round + self.beyond + other.beyond;
         (along + ends + length * rest).least(length * (self.goes + other.goes))
     }
+}
+
+/// A bit for each state in which a capsule may come no farther from a box than wanted along any of the directions of that, with how
+/// both drift.
+#[inline(always)]
+pub(super) fn drifting_off<S: Simd>(
+    simd: S,
+    cuboid: Cuboid<S>,
+    (axis, radius): (Axis<S>, f32),
+    [capsule, turning]: [Drifting<S>; 2],
+    least: Number<S>,
+) -> u8 {
+    let between = axis.centre - cuboid.centre;
+    let unit = Number::splat(simd, 1.0);
+    let radius = Number::splat(simd, radius) + least;
+    let (Vector([a, b, c]), [x, y, z]) = (cuboid.half, cuboid.axes);
+    let mut bits = u8::MAX;
+    for (direction, half) in [(x, a), (y, b), (z, c)] {
+        let room = between.dot(direction).abs() - half - axis.half.dot(direction).abs() - radius;
+        bits &= (room - capsule.approach(turning, direction, unit)).not_positive();
+    }
+    bits
 }

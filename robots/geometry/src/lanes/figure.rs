@@ -116,7 +116,7 @@ impl Figure {
             let [far, turned, moved] = frames.get(*frame)?;
             let long = solid.centre.norm() + solid.reach();
             let slack = 2.0 * (moved + turned * long + MOVED);
-            let carriers = levers.get(*frame)?.iter().fold(0, |bits, joint| bits | frame_bit(joint + 1));
+            let carriers = levers.get(*frame)?.iter().fold(0, |bits, joint| bits | bit(joint + 1));
             if far + long <= LONG { Part::new((*frame, carriers), &solid, slack) } else { None }
         });
         let parts = parts.collect::<Option<Vec<Part>>>()?;
@@ -295,7 +295,7 @@ impl Part {
     /// Whether a joint of which the frame's bit is set moves one of two and not the other.
     #[inline(always)]
     pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
-        let last = frame_bit(usize::MAX);
+        let last = bit(usize::MAX);
         ((self.carriers ^ other.carriers) | ((self.carriers | other.carriers) & last)) & moving != 0
     }
 
@@ -338,13 +338,14 @@ impl Eight {
     /// Bits of the frames whose joints move on the way.
     pub(super) fn moving(&self) -> u64 {
         let moving = self.amounts.iter().zip(1..).filter(|(amount, _)| **amount > 0.0);
-        moving.fold(0, |bits, (_, frame)| bits | frame_bit(frame))
+        moving.fold(0, |bits, (_, frame)| bits | bit(frame))
     }
 }
 
-/// The bit of a frame; the last of them stand together.
-pub(super) fn frame_bit(frame: usize) -> u64 {
-    1 << frame.min(63)
+/// A bit for each of some, of which the last stand together.
+#[inline(always)]
+pub(super) fn bit(at: usize) -> u64 {
+    1 << at.min(63)
 }
 
 fn columns(matrix: &Matrix3<f64>) -> [[f32; 3]; 3] {

@@ -4,9 +4,12 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::TOLD;
 use super::bounds::Bound;
-use super::figure::{Eight, Figure};
+use super::figure::{Eight, Figure, bit};
 use super::pose::{Posed, Row};
 use super::slab::Slabs;
+
+/// There is room for so many pairs from the beginning.
+const MET: usize = 16;
 
 /// What a part may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,17 +78,16 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for Look<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<Met> {
         match self.pairs {
-            None => self.posed.set(simd, self.figure, self.eight, |_| true),
+            None => self.posed.set(simd, self.figure, self.eight, |_| true, true),
             Some(pairs) => {
-                let mut needed = vec![false; self.figure.parts.len()];
-                let mut need = |part: usize| needed.get_mut(part).into_iter().for_each(|slot| *slot = true);
+                let mut needed = 0;
                 for (Pair { part, against }, _) in pairs {
-                    need(*part);
+                    needed |= bit(*part);
                     if let Against::Part(at, _) = against {
-                        need(*at);
+                        needed |= bit(*at);
                     }
                 }
-                self.posed.set(simd, self.figure, self.eight, |part| needed.get(part) == Some(&true));
+                self.posed.set(simd, self.figure, self.eight, |part| needed & bit(part) != 0, false);
             }
         }
         let mut looked = Looked {
@@ -96,7 +98,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for Look<'_, F> {
             is_first: self.is_first,
             posed: self.posed,
         };
-        let mut met = Vec::new();
+        let mut met = Vec::with_capacity(MET);
         match self.pairs {
             Some(pairs) => {
                 for (pair, lanes) in pairs {
@@ -139,15 +141,20 @@ impl Looked<'_> {
         }
         let posed = &*self.posed;
         let slabs = &self.slabs.bounds;
-        let rows: Vec<usize> =
-            (0..slabs.rows()).filter(|row| slabs.near(simd, *row, &all, wide) != 0).collect();
+        let mut rows = 0;
+        for row in 0..slabs.rows() {
+            rows |= if slabs.near(simd, row, &all, wide) == 0 { 0 } else { bit(row) };
+        }
         let mut touched = 0;
         for (place, part) in posed.parts.iter().zip(0..) {
             if self.eight.is_way && !place.moves {
                 continue;
             }
-            for row in &rows {
-                for lane in ones(slabs.near(simd, *row, &place.bound, wide)) {
+            for row in 0..slabs.rows() {
+                if rows & bit(row) == 0 {
+                    continue;
+                }
+                for lane in ones(slabs.near(simd, row, &place.bound, wide)) {
                     let at = 8 * row + lane;
                     if self.slabs.all.get(at).is_some_and(|slab| counts(part, Some(slab.entity))) {
                         touched |= self.look(simd, Pair { part, against: Against::Slab(at) }, u8::MAX, met);

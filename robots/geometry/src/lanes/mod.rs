@@ -29,6 +29,7 @@ pub(crate) use slab::{Slab, Slabs};
 mod slab;
 #[cfg(test)]
 mod tests;
+mod two;
 
 /// How far from the origin of a neighbourhood the base may be, in m along either side.
 const FAR: f64 = 3.0;

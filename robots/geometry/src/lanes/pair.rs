@@ -3,12 +3,13 @@
 
 use pulp::Simd;
 
-use super::apart::{Axis, Cuboid};
-use super::drift::Drifting;
+use super::apart::{Axis, Cuboid, beside};
+use super::drift::{Drifting, drifting_off};
 use super::figure::Part;
 use super::look::{Against, Looked, Pair};
 use super::number::{Number, Vector};
 use super::pose::Place;
+use super::two::Two;
 use super::{SURE, TOLD};
 
 impl Looked<'_> {
@@ -84,41 +85,48 @@ impl Looked<'_> {
                     return [0; 3];
                 };
                 let least = gap + Number::splat(simd, own.slack + far.slack + TOLD);
-                // What moves both counts twice here, which is no less than it does.
-                let both = goes + Number::of(simd, &beyond.goes, chunk);
-                let balls = Number::splat(simd, own.reach + far.reach) + least + both;
+                // What moves both leaves them as far apart as they were.
+                let goes = match self.eight.is_way {
+                    true => {
+                        let goes = |part| self.posed.goes(simd, self.figure, (part, common), chunk);
+                        goes(part) + goes(at)
+                    }
+                    false => Number::splat(simd, 0.0),
+                };
+                let balls = Number::splat(simd, own.reach + far.reach) + least + goes;
                 let between = axis.centre - Vector::of(simd, &beyond.centre, chunk);
                 let balls = (between.dot(between) - balls * balls).not_positive();
                 if balls == 0 {
                     return [0; 3];
                 }
-                let pair = [(own, place), (far, beyond)];
+                let two = Two::new(simd, [(own, axis), (far, beyond.axis(simd, chunk))]);
+                let capsules = balls & two.capsules(least + goes);
+                if capsules == 0 {
+                    return [0; 3];
+                }
+                let cuboids = [self.cuboid(simd, own, place, chunk), self.cuboid(simd, far, beyond, chunk)];
                 let going = match self.eight.is_way {
                     true => {
                         let drifting = |part| self.posed.drifting(simd, self.figure, (part, common), chunk);
-                        let both = [drifting(part), drifting(at)];
-                        match balls & self.drifting_parts(simd, pair, both, least, chunk) {
-                            0 => 0,
-                            going => {
-                                let [one, other] = both;
-                                going & self.parts(simd, pair, least + one.goes() + other.goes(), chunk)
-                            }
-                        }
+                        capsules & two.drifting(simd, [drifting(part), drifting(at)], cuboids, least)
                     }
-                    false => balls & self.parts(simd, pair, least, chunk),
+                    false => capsules,
                 };
+                let going = if going == 0 { 0 } else { going & two.near(simd, cuboids, least + goes) };
                 match going {
                     0 => [0; 3],
                     going => {
                         let still = match self.eight.is_way {
-                            true => going & self.parts(simd, pair, least, chunk),
+                            true => match going & two.capsules(least) {
+                                0 => 0,
+                                still => still & two.near(simd, cuboids, least),
+                            },
                             false => going,
                         };
                         let near =
                             gap + Number::splat(simd, own.inner + far.inner - own.slack - far.slack - SURE);
                         let sure = if still != 0 && near.least_lane() > 0.0 {
-                            let way = axis.way(simd, beyond.axis(simd, chunk));
-                            (way.dot(way) - near * near).negative()
+                            (two.way.dot(two.way) - near * near).negative()
                         } else {
                             0
                         };
@@ -148,59 +156,6 @@ impl Looked<'_> {
         bits
     }
 
-    /// A bit for each state in which two parts may be no farther apart than wanted.
-    #[inline(always)]
-    fn parts<S: Simd>(&self, simd: S, pair: [(&Part, &Place); 2], wanted: Number<S>, chunk: usize) -> u8 {
-        let [(own, place), (far, beyond)] = pair;
-        let (axis, other) = (place.axis(simd, chunk), beyond.axis(simd, chunk));
-        let radii = Number::splat(simd, own.radius + far.radius);
-        let mut bits = axis.apart(simd, other, wanted + radii).not_positive();
-        if bits == 0 {
-            return 0;
-        }
-        let (one, two) = (self.cuboid(simd, own, place, chunk), self.cuboid(simd, far, beyond, chunk));
-        if let Some(cuboid) = two {
-            bits &= beside(simd, axis, cuboid, wanted + Number::splat(simd, own.radius), 4);
-        }
-        if let Some(cuboid) = one {
-            bits &= beside(simd, other, cuboid, wanted + Number::splat(simd, far.radius), 4);
-        }
-        if let (Some(one), Some(two)) = (one, two) {
-            bits &= one.aside(simd, two, wanted).not_positive();
-            bits &= two.aside(simd, one, wanted).not_positive();
-        }
-        bits
-    }
-
-    /// A bit for each state in which two parts may come no farther apart than wanted, by how they drift along the way between them and
-    /// the directions of what is a box.
-    #[inline(always)]
-    fn drifting_parts<S: Simd>(
-        &self,
-        simd: S,
-        pair: [(&Part, &Place); 2],
-        both: [Drifting<S>; 2],
-        least: Number<S>,
-        chunk: usize,
-    ) -> u8 {
-        let [(own, place), (far, beyond)] = pair;
-        let (axis, other) = (place.axis(simd, chunk), beyond.axis(simd, chunk));
-        let [one, two] = both;
-        let way = axis.way(simd, other);
-        let length = way.dot(way).sqrt();
-        let room =
-            (axis.centre - other.centre).dot(way) - way.dot(axis.half).abs() - way.dot(other.half).abs();
-        let radii = Number::splat(simd, own.radius + far.radius) + least;
-        let mut bits = (room - radii * length - one.approach(two, way, length)).not_positive();
-        if let (true, Some(cuboid)) = (bits != 0, self.cuboid(simd, far, beyond, chunk)) {
-            bits &= drifting_off(simd, cuboid, (axis, own.radius), [one, two.ball(simd, far.reach)], least);
-        }
-        if let (true, Some(cuboid)) = (bits != 0, self.cuboid(simd, own, place, chunk)) {
-            bits &= drifting_off(simd, cuboid, (other, far.radius), [two, one.ball(simd, own.reach)], least);
-        }
-        bits
-    }
-
     /// The box of a part that is no capsule.
     #[inline(always)]
     fn cuboid<S: Simd>(&self, simd: S, part: &Part, place: &Place, chunk: usize) -> Option<Cuboid<S>> {
@@ -217,37 +172,6 @@ impl Looked<'_> {
             is_round: part.is_round,
         })
     }
-}
-
-/// A bit for each state in which an axis may be no farther from a box than wanted; in pieces where it matters.
-#[inline(always)]
-fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> u8 {
-    match axis.beside(simd, other, wanted, 1).not_positive() {
-        0 => 0,
-        bits => bits & axis.beside(simd, other, wanted, pieces).not_positive(),
-    }
-}
-
-/// A bit for each state in which a capsule may come no farther from a box than wanted along any of the directions of that, with how
-/// both drift.
-#[inline(always)]
-fn drifting_off<S: Simd>(
-    simd: S,
-    cuboid: Cuboid<S>,
-    (axis, radius): (Axis<S>, f32),
-    [capsule, turning]: [Drifting<S>; 2],
-    least: Number<S>,
-) -> u8 {
-    let between = axis.centre - cuboid.centre;
-    let unit = Number::splat(simd, 1.0);
-    let radius = Number::splat(simd, radius) + least;
-    let (Vector([a, b, c]), [x, y, z]) = (cuboid.half, cuboid.axes);
-    let mut bits = u8::MAX;
-    for (direction, half) in [(x, a), (y, b), (z, c)] {
-        let room = between.dot(direction).abs() - half - axis.half.dot(direction).abs() - radius;
-        bits &= (room - capsule.approach(turning, direction, unit)).not_positive();
-    }
-    bits
 }
 
 impl Place {

@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::bounds::{Bound, Bounds};
 use super::drift::{Drift, Drifted, Drifting};
-use super::figure::{Eight, Figure, Joint, frame_bit};
+use super::figure::{Eight, Figure, Joint, bit};
 use super::number::{Number, Vector};
 
 /// Eight numbers, and eight vectors.
@@ -40,12 +40,12 @@ pub(super) struct Place {
     pub(super) goes: Row,
     /// Whether it goes anywhere.
     pub(super) moves: bool,
-    /// The box around all places that it takes, but for the slack.
+    /// The box around all places that it takes, but for the slack, where it was asked for.
     pub(super) bound: Bound,
 }
 
 impl Posed {
-    /// Places a figure, of its parts those that are needed.
+    /// Places a figure, of its parts those that are needed, and where they are, with the boxes around them.
     #[inline(always)]
     pub(super) fn set<S: Simd>(
         &mut self,
@@ -53,6 +53,7 @@ impl Posed {
         figure: &Figure,
         eight: &Eight,
         needed: impl Fn(usize) -> bool,
+        needs_bounds: bool,
     ) {
         self.frames.resize(figure.joints.len() + 1, Frame::default());
         self.parts.resize(figure.parts.len(), Place::default());
@@ -68,7 +69,7 @@ impl Posed {
             if eight.is_way {
                 self.drift(simd, figure, eight, frames, chunk);
             }
-            self.place(simd, figure, eight, &needed, chunk);
+            self.place(simd, figure, eight, &needed, needs_bounds, chunk);
         }
     }
 
@@ -89,7 +90,7 @@ impl Posed {
             (frame.turn, frame.at) = ([x, y, z], at);
         }
         for ((joint, positions), at) in figure.joints.iter().zip(&eight.positions).zip(1..) {
-            if frames & frame_bit(at) == 0 {
+            if frames & bit(at) == 0 {
                 continue;
             }
             let Some(parent) = self.frames.get(joint.parent).copied() else { continue };
@@ -106,6 +107,7 @@ impl Posed {
         figure: &Figure,
         eight: &Eight,
         needed: &impl Fn(usize) -> bool,
+        needs_bounds: bool,
         chunk: usize,
     ) {
         let stride = figure.stride();
@@ -127,8 +129,11 @@ impl Posed {
                 Some(_) | None => Number::splat(simd, 0.0),
             };
             whole.store(&mut place.goes, chunk);
-            let wide = whole + Number::splat(simd, part.radius);
             place.moves |= whole.most_lane() > 0.0;
+            if !needs_bounds {
+                continue;
+            }
+            let wide = whole + Number::splat(simd, part.radius);
             let (Vector([x, y, z]), Vector([a, b, c])) = (centre, half);
             let (a, b, c) = (a.abs() + wide, b.abs() + wide, c.abs() + wide);
             place.bound.add(&Bound {
@@ -161,6 +166,21 @@ impl Posed {
         chunk: usize,
     ) -> Drifting<S> {
         self.drifting_by(simd, figure, part, common + 1, chunk)
+    }
+
+    /// How far any place of a part goes by those of its joints that come after the first so many.
+    #[inline(always)]
+    pub(super) fn goes<S: Simd>(
+        &self,
+        simd: S,
+        figure: &Figure,
+        (part, common): (usize, usize),
+        chunk: usize,
+    ) -> Number<S> {
+        let own = figure.parts.get(part);
+        let known =
+            own.and_then(|own| Some((own, self.drifts.get(own.frame * figure.stride() + common + 1)?)));
+        known.map_or(Number::splat(simd, 0.0), |(own, drift)| drift.goes(simd, own.far, chunk))
     }
 
     /// The same by all of its joints and by the base.
@@ -201,7 +221,7 @@ impl Posed {
         let stride = figure.stride();
         let base = Vector::of(simd, &eight.base, chunk);
         for (levers, own) in figure.levers.iter().zip(0..) {
-            if own > 0 && frames & frame_bit(own) == 0 {
+            if own > 0 && frames & bit(own) == 0 {
                 continue;
             }
             let Some(origin) = self.frames.get(own).map(|frame| Vector::of(simd, &frame.at, chunk)) else {
@@ -303,6 +323,6 @@ impl Frame {
 #[cfg(test)]
 pub(super) fn goes_in_map(figure: &Figure, eight: &Eight) -> Vec<f32> {
     let mut posed = Posed::default();
-    posed.set(pulp::Scalar, figure, eight, |_| true);
+    posed.set(pulp::Scalar, figure, eight, |_| true, true);
     posed.parts.iter().map(|place| place.goes[0]).collect()
 }

@@ -3,12 +3,13 @@
 
 use nalgebra::Vector3;
 
-use super::quick::{Legs, Near as Pairing, Quick};
+use super::quick::{Legs, Quick, other};
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
 use super::travel::Tally;
 use crate::collision::Solid;
+use crate::lanes::Met;
 
 /// A neighbourhood, and the robot in it.
 pub(super) struct Around<'r, 'w> {
@@ -201,11 +202,11 @@ impl Around<'_, '_> {
     pub(super) fn clearance_among<'n>(
         &self,
         state: &State,
-        near: impl Iterator<Item = &'n Pairing>,
+        near: impl Iterator<Item = &'n Met>,
         mut least: f64,
     ) -> f64 {
         let mut placed: Option<(usize, Solid)> = None;
-        for pair in near {
+        for Met { pair, .. } in near {
             let solid = match placed {
                 Some((part, solid)) if part == pair.part => solid,
                 Some(_) | None => {
@@ -214,7 +215,7 @@ impl Around<'_, '_> {
                     solid
                 }
             };
-            let metres = match pair.other {
+            let metres = match other(pair) {
                 Other::Thing(at) => {
                     let Some((near, limb)) = self.things.get(at).zip(self.limbs.get(pair.part)) else {
                         continue;
@@ -281,7 +282,7 @@ impl Around<'_, '_> {
             None => Ok(()),
         };
         if let Some(near) = near {
-            return near.into_iter().try_for_each(|near| look(near.part, near.other));
+            return near.into_iter().try_for_each(|near| look(near.pair.part, other(&near.pair)));
         }
         for (limb, part) in self.limbs.iter().zip(0..).filter(|(limb, _)| limb.counts) {
             for (near, at) in self.things.iter().zip(0..) {

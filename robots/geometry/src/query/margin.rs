@@ -2,14 +2,15 @@
 
 use super::answer::Margins;
 use super::around::Around;
-use super::quick::Near;
 use super::room::Room;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::plane;
+use crate::lanes::Met;
 
-/// Clearances within which something is looked for first, in m.
-const NEARBY: [f32; 8] = [0.004, 0.008, 0.012, 0.02, 0.03, 0.05, 0.1, 0.2];
+/// Clearances within which something is looked for first, in m, and then.
+const NEARBY: [[f32; 8]; 2] =
+    [[0.003, 0.005, 0.007, 0.01, 0.013, 0.017, 0.022, 0.03], [0.04, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16, 0.2]];
 
 impl<'w> Room<'w> {
     /// All that may be within `metres` of the robot in some states.
@@ -71,8 +72,9 @@ impl Around<'_, '_> {
 
     /// The clearance of a state, looked for nearby first.
     fn clearance_of(&self, state: &State, allowed: Allowed) -> f64 {
-        if let Some(near) = self.within(&[state], allowed, NEARBY) {
-            for (metres, lane) in NEARBY.into_iter().map(f64::from).zip(0..) {
+        for nearby in NEARBY {
+            let Some(near) = self.within(&[state], allowed, nearby) else { break };
+            for (metres, lane) in nearby.into_iter().map(f64::from).zip(0..) {
                 let found = self.clearance_among(state, in_lane(&near, lane), metres);
                 if found < metres {
                     return found;
@@ -84,6 +86,6 @@ impl Around<'_, '_> {
 }
 
 /// The pairs that may be near in one of eight states.
-fn in_lane(near: &[Near], lane: usize) -> impl Iterator<Item = &Near> {
+fn in_lane(near: &[Met], lane: usize) -> impl Iterator<Item = &Met> {
     near.iter().filter(move |near| near.still >> lane & 1 == 1)
 }

@@ -17,18 +17,6 @@ pub(super) struct Quick {
     posed: RefCell<Posed>,
 }
 
-/// A part and another solid that are near each other in one of eight states.
-#[derive(Clone, Copy)]
-pub(super) struct Near {
-    pub(super) part: usize,
-    pub(super) other: Other,
-    pair: Pair,
-    pub(super) lanes: u8,
-    pub(super) still: u8,
-    /// Of these the states in which it touches for certain.
-    pub(super) sure: u8,
-}
-
 /// What counts as near.
 #[derive(Clone, Copy)]
 struct Gap {
@@ -103,7 +91,7 @@ impl Around<'_, '_> {
     }
 
     /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
-    pub(super) fn near_in(&self, states: &[&State], allowed: Allowed) -> Option<Vec<Near>> {
+    pub(super) fn near_in(&self, states: &[&State], allowed: Allowed) -> Option<Vec<Met>> {
         let figure = self.room.figure()?;
         self.near(figure, &self.eight(figure, states)?, allowed, None, Gap::LEAST)
     }
@@ -115,8 +103,8 @@ impl Around<'_, '_> {
         way: [&State; 2],
         legs: &Legs,
         allowed: Allowed,
-        pairs: Option<&[Near]>,
-    ) -> Option<Vec<Near>> {
+        pairs: Option<&[(Pair, u8)]>,
+    ) -> Option<Vec<Met>> {
         let figure = self.room.figure()?;
         if !way.iter().all(|state| self.room.is_drawn(state)) {
             return None;
@@ -129,7 +117,7 @@ impl Around<'_, '_> {
 
     /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
     /// where it cannot be told this way.
-    pub(super) fn within(&self, states: &[&State], allowed: Allowed, metres: [f32; 8]) -> Option<Vec<Near>> {
+    pub(super) fn within(&self, states: &[&State], allowed: Allowed, metres: [f32; 8]) -> Option<Vec<Met>> {
         let figure = self.room.figure()?;
         if !states.iter().all(|state| self.holds(state)) {
             return None;
@@ -155,7 +143,7 @@ impl Around<'_, '_> {
     }
 
     /// The pairs that are near each other in eight states.
-    pub(super) fn near_to(&self, figure: &Figure, eight: &Eight, allowed: Allowed) -> Option<Vec<Near>> {
+    pub(super) fn near_to(&self, figure: &Figure, eight: &Eight, allowed: Allowed) -> Option<Vec<Met>> {
         self.near(figure, eight, allowed, None, Gap::LEAST)
     }
 
@@ -164,12 +152,10 @@ impl Around<'_, '_> {
         figure: &Figure,
         eight: &Eight,
         allowed: Allowed,
-        pairs: Option<&[Near]>,
+        pairs: Option<&[(Pair, u8)]>,
         gap: Gap,
-    ) -> Option<Vec<Near>> {
+    ) -> Option<Vec<Met>> {
         let slabs = self.slabs()?;
-        let pairs: Option<Vec<(Pair, u8)>> =
-            pairs.map(|pairs| pairs.iter().map(|near| (near.pair, near.lanes)).collect());
         let mut posed = self.quick.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
@@ -184,11 +170,11 @@ impl Around<'_, '_> {
             gaps: gap.metres,
             is_own: gap.is_own,
             is_first: true,
-            pairs: pairs.as_deref(),
+            pairs,
             posed: &mut posed,
             counts,
         };
-        Some(look.met().into_iter().map(Near::new).collect())
+        Some(look.met())
     }
 
     /// The first touch in the first of some states that touches anything, with [`GAP`] between everything.
@@ -206,7 +192,7 @@ impl Around<'_, '_> {
     }
 
     /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
-    pub(super) fn touch_among(&self, near: &[Near], lane: usize, state: &State) -> Option<Touch> {
+    pub(super) fn touch_among(&self, near: &[Met], lane: usize, state: &State) -> Option<Touch> {
         let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.told(near));
         sure.or_else(|| {
             let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
@@ -215,19 +201,19 @@ impl Around<'_, '_> {
     }
 
     /// The touch of a pair that touches.
-    pub(super) fn told(&self, near: &Near) -> Touch {
-        let other = match near.other {
+    pub(super) fn told(&self, near: &Met) -> Touch {
+        let other = match other(&near.pair) {
             Other::Thing(at) => Other::Thing(self.things.get(at).map_or(at, |thing| thing.index)),
-            Other::Part(_) | Other::Floor => near.other,
+            other @ (Other::Part(_) | Other::Floor) => other,
         };
-        self.room.told(near.part, other)
+        self.room.told(near.pair.part, other)
     }
 
     /// Whether a pair touches in a state.
-    pub(super) fn touch_of(&self, near: &Near, state: &State) -> Option<Touch> {
+    pub(super) fn touch_of(&self, near: &Met, state: &State) -> Option<Touch> {
         let solid = |part: usize| Some((self.part_at(part, state)?, self.limbs.get(part)?));
-        let (one, limb) = solid(near.part)?;
-        let is_touched = match near.other {
+        let (one, limb) = solid(near.pair.part)?;
+        let is_touched = match other(&near.pair) {
             Other::Thing(at) => {
                 let thing = self.things.get(at)?;
                 touches(&one, limb.reach, &thing.solid, thing.reach)
@@ -242,23 +228,11 @@ impl Around<'_, '_> {
     }
 }
 
-impl Near {
-    fn new(Met { pair, lanes, still, sure }: Met) -> Self {
-        let other = match pair.against {
-            Against::Slab(at) => Other::Thing(at),
-            Against::Part(at, _) => Other::Part(at),
-            Against::Floor => Other::Floor,
-        };
-        Self { part: pair.part, other, pair, lanes, still, sure }
-    }
-
-    /// The same pair, to be looked at on these legs.
-    pub(super) fn on(&self, lanes: u8) -> Self {
-        Self { lanes, ..*self }
-    }
-
-    /// Whether it is the same pair.
-    pub(super) fn is_of(&self, other: &Self) -> bool {
-        self.pair == other.pair
+/// What a part is near to.
+pub(super) fn other(pair: &Pair) -> Other {
+    match pair.against {
+        Against::Slab(at) => Other::Thing(at),
+        Against::Part(at, _) => Other::Part(at),
+        Against::Floor => Other::Floor,
     }
 }

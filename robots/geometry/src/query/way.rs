@@ -8,12 +8,13 @@ use nalgebra::Vector3;
 
 use super::around::{Around, above_floor};
 use super::excursion::Excursion;
-use super::quick::{Legs, Near};
+use super::quick::{Legs, other};
 use super::room::GAP;
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
 use crate::collision::Solid;
 use crate::kinematics::Lever;
+use crate::lanes::{self, Met};
 
 /// How often a way is halved before it counts as not free.
 const DEPTH: u32 = 10;
@@ -80,32 +81,41 @@ impl Around<'_, '_> {
         pairs: &mut Vec<Pair>,
     ) -> Result<bool, Touch> {
         let Some(near) = self.near_on(way, &Legs::WHOLE, allowed, None) else { return Ok(false) };
-        let mut left = OpenLegs::default();
-        left.add(way, self, &Legs::WHOLE, &near)?;
-        for _ in EIGHTH..QUICK {
-            let mut next = OpenLegs::default();
-            for four in left.legs.chunks(4) {
-                let (legs, pairs) = left.halves(four);
-                let Some(near) = self.near_on(way, &legs, allowed, Some(&pairs)) else { return Ok(false) };
-                next.add(way, self, &legs, &near)?;
+        let mut rows = VecDeque::new();
+        self.add(way, Row { legs: Legs::WHOLE, depth: EIGHTH, near }, &mut rows)?;
+        while let Some(row) = rows.pop_front() {
+            if row.depth >= QUICK {
+                for lane in row.open() {
+                    let first = pairs.len();
+                    let near = row.near.iter().filter(|met| met.lanes >> lane & 1 == 1);
+                    pairs.extend(near.map(|met| Pair::new(met.pair.part, other(&met.pair))));
+                    let middle = row.legs.middles.get(lane).copied().unwrap_or(0.5);
+                    let near = Some([first, pairs.len()]);
+                    open.push_back(Leg { middle, half: row.legs.half, depth: row.depth, pairs: near });
+                }
+                continue;
             }
-            left = next;
-        }
-        for leg in &left.legs {
-            let first = pairs.len();
-            pairs.extend(left.near(leg).iter().map(|near| Pair::new(near.part, near.other)));
-            let OpenLeg { middle, .. } = *leg;
-            open.push_back(Leg { middle, half: left.half, depth: QUICK, pairs: Some([first, pairs.len()]) });
+            for (legs, depth, near) in row.pieces() {
+                let Some(near) = self.near_on(way, &legs, allowed, Some(&near)) else { return Ok(false) };
+                self.add(way, Row { legs, depth, near }, &mut rows)?;
+            }
         }
         Ok(true)
     }
 
+    /// Adds eight legs where something is near on any; an error where something touches in the middle of one.
+    fn add(&self, way: [&State; 2], row: Row, rows: &mut VecDeque<Row>) -> Result<(), Touch> {
+        self.still(way, &row)?;
+        if !row.near.is_empty() {
+            rows.push_back(row);
+        }
+        Ok(())
+    }
+
     /// Of the pairs that look as if they touch in the middle of a leg, whether one does.
-    fn still(&self, [from, to]: [&State; 2], legs: &Legs, near: &[Near]) -> Result<(), Touch> {
-        for (lane, middle) in legs.middles.iter().enumerate() {
-            if !near.iter().any(|near| near.still >> lane & 1 == 1) {
-                continue;
-            }
+    fn still(&self, [from, to]: [&State; 2], Row { legs, near, .. }: &Row) -> Result<(), Touch> {
+        let still = near.iter().fold(0, |lanes, met| lanes | met.still);
+        for (lane, middle) in legs.middles.iter().enumerate().filter(|(lane, _)| still >> lane & 1 == 1) {
             let state = from.towards(to, *middle);
             if let Some(touch) = self.touch_among(near, lane, &state) {
                 return Err(touch);
@@ -115,67 +125,52 @@ impl Around<'_, '_> {
     }
 }
 
-/// Legs of a length on which something is near.
-#[derive(Default)]
-struct OpenLegs {
-    legs: Vec<OpenLeg>,
-    /// Half of the length of each, as a share of the way.
-    half: f64,
-    /// What is near on one leg after the other.
-    near: Vec<Near>,
+/// Eight legs with the pairs that are near on any of them.
+struct Row {
+    legs: Legs,
+    /// How often the way was halved for them.
+    depth: u32,
+    near: Vec<Met>,
 }
 
-/// A leg with what is near on it, by indices.
-struct OpenLeg {
-    middle: f64,
-    near: [usize; 2],
-}
-
-impl OpenLegs {
-    /// Adds those of eight legs on which something is near; an error where something touches in the middle of one.
-    fn add(
-        &mut self,
-        way: [&State; 2],
-        around: &Around<'_, '_>,
-        legs: &Legs,
-        near: &[Near],
-    ) -> Result<(), Touch> {
-        around.still(way, legs, near)?;
-        self.half = legs.half;
-        for (lane, middle) in legs.middles.iter().enumerate() {
-            let first = self.near.len();
-            self.near.extend(near.iter().filter(|near| near.lanes >> lane & 1 == 1));
-            if self.near.len() > first {
-                self.legs.push(OpenLeg { middle: *middle, near: [first, self.near.len()] });
-            }
-        }
-        Ok(())
+impl Row {
+    /// The legs on which something is near.
+    fn open(&self) -> impl Iterator<Item = usize> + use<> {
+        let lanes = self.near.iter().fold(0, |lanes, met| lanes | met.lanes);
+        (0..8).filter(move |lane| lanes >> lane & 1 == 1)
     }
 
-    fn near(&self, leg: &OpenLeg) -> &[Near] {
-        let [first, end] = leg.near;
-        self.near.get(first..end).unwrap_or_default()
-    }
-
-    /// The halves of at most four legs, with the pairs to look at on them.
-    fn halves(&self, legs: &[OpenLeg]) -> (Legs, Vec<Near>) {
-        let half = 0.5 * self.half;
-        let first = legs.first().map_or(0.0, |leg| leg.middle - half);
-        let mut halves = Legs { middles: [first; 8], half };
-        let mut pairs: Vec<Near> = Vec::new();
-        for ((leg, slots), at) in legs.iter().zip(halves.middles.chunks_mut(2)).zip(0..) {
-            for (slot, middle) in slots.iter_mut().zip([leg.middle - half, leg.middle + half]) {
-                *slot = middle;
-            }
-            let lanes = 0b11 << (2 * at);
-            for near in self.near(leg) {
-                match pairs.iter_mut().find(|known| known.is_of(near)) {
-                    Some(known) => known.lanes |= lanes,
-                    None => pairs.push(near.on(lanes)),
+    /// Pieces of those, eight at a time: of four or fewer legs, each cut in as many as there is room for, with how often the way was halved
+    /// for them and the pairs to look at on them.
+    fn pieces(&self) -> impl Iterator<Item = (Legs, u32, Vec<(lanes::Pair, u8)>)> {
+        let mut open = self.open();
+        std::iter::from_fn(move || {
+            let first = open.next()?;
+            let four = [Some(first), open.next(), open.next(), open.next()];
+            let (cuts, pieces) = match four {
+                [_, None, ..] => (3, 8),
+                [_, _, None, _] => (2, 4),
+                _ => (1, 2),
+            };
+            let half = self.legs.half / f64::from(pieces);
+            let begin =
+                |lane: usize| self.legs.middles.get(lane).map_or(0.5, |middle| middle - self.legs.half);
+            let mut legs = Legs { middles: [begin(first) + half; 8], half };
+            let slots = legs.middles.chunks_mut(pieces as usize).zip(four.into_iter().flatten());
+            for (slots, lane) in slots {
+                for (slot, piece) in slots.iter_mut().zip(0..pieces) {
+                    *slot = begin(lane) + half * f64::from(2 * piece + 1);
                 }
             }
-        }
-        (halves, pairs)
+            let all = u8::MAX >> (8 - pieces);
+            let on = |met: &Met| {
+                let ones = four.into_iter().flatten().zip(0..);
+                let ones = ones.filter(|(lane, _)| met.lanes >> lane & 1 == 1);
+                ones.fold(0, |lanes, (_, at): (usize, u32)| lanes | all << (pieces * at))
+            };
+            let near = self.near.iter().map(|met| (met.pair, on(met))).filter(|(_, lanes)| *lanes != 0);
+            Some((legs, self.depth + cuts, near.collect()))
+        })
     }
 }
 
