@@ -126,6 +126,11 @@ fn numbers_are_checked() {
     assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 1500]}"#), @r#"
     M0442 [0, 0, 1500]: a coordinate is 1500 m, at most 1000 m are taken (lengths are in metres: 72 cm is 0.72)
     "#);
+    assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 0], "rpy": [0, 0, 1e17]}"#), @"");
+    let robot = |robot: &str| said(&format!(r#"{{"motet_scene": 1, "robot": {{{robot}}}}}"#));
+    assert_snapshot!(robot(r#""base": [0, 0, -2e3]"#), @"");
+    assert_snapshot!(robot(r#""joints": {"lift": 1001}"#), @"");
+    assert_eq!(robot(r#""base": [0, 0, 1000]"#), "");
     assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 1e999]}"#), @r#"
     M0107 1e999: the number `1e999` is out of range (numbers lie between -1.8e308 and 1.8e308)
     "#);

@@ -81,6 +81,24 @@ fn a_good_urdf_is_read() {
 }
 
 #[test]
+fn a_joint_goes_no_farther_than_what_follows_it() {
+    // The follower is at half of it and 0.1 more.
+    let narrow = GOOD.replace(r#"lower="-1" upper="1""#, r#"lower="0" upper="0.2""#);
+    let limits = read(&narrow).0.unwrap().joints[0].limits.unwrap();
+    assert_eq!((limits.lower, limits.upper), (-0.1, 0.2));
+    let against = narrow.replace(r#"multiplier="0.5""#, r#"multiplier="-0.5""#);
+    let limits = read(&against).0.unwrap().joints[0].limits.unwrap();
+    assert_eq!((limits.lower, limits.upper), (-0.1, 0.2));
+    let nowhere = narrow.replace(r#"offset="0.1""#, r#"offset="0.5""#);
+    told(
+        &nowhere,
+        &[
+            "M0465 [lift] joint `lift` is nowhere within its limits and those of the joints that follow it: it has to be at least at -0.1 and at most at -0.6 / widen the limits of the joints that follow it, or correct their `<mimic>`",
+        ],
+    );
+}
+
+#[test]
 fn numbers_have_to_be_numbers() {
     check(
         "0 0 0.5",

@@ -99,13 +99,20 @@ motet_syntax::mistakes! {
         format!("{} is {}, it has to be above zero", m.quantity.words(), m.quantity.show(m.found))
     }
 
-    /// A coordinate or size beyond what a room has.
+    /// A coordinate or size beyond what a room has, or an angle beyond what is exact.
     TooFar("M0442", Error) { quantity: Quantity, found: f64 }
     message(m) {
         let limit = m.quantity.show(FURTHEST);
         format!("{} is {}, at most {limit} are taken", m.quantity.words(), m.quantity.show(m.found))
     }
-    help(_m) { Some("lengths are in metres: 72 cm is 0.72".into()) }
+    help(m) {
+        let help = match m.quantity {
+            Quantity::Angle => "angles are in radians, and a full turn, 6.28, leaves them as they are",
+            Quantity::Joint => "joints are in radians, or in metres where they slide",
+            _ => "lengths are in metres: 72 cm is 0.72",
+        };
+        Some(help.into())
+    }
 
     /// An axis without a direction.
     ZeroAxis("M0443", Error) {}

@@ -5,7 +5,8 @@ use motet_syntax::{Diagnostic, Span};
 
 use super::errors::{NotPositive, TooFar, ZeroAxis};
 
-/// The furthest coordinate and the greatest size, in m: a scene is a room or a house.
+/// The furthest coordinate and the greatest size, in m: a scene is a room or a house. The greatest angle, in rad: of a greater one
+/// rounding leaves less and less.
 pub(super) const FURTHEST: f64 = 1000.0;
 
 /// What a number measures.
@@ -74,16 +75,15 @@ impl Quantity {
         }
     }
 
-    fn is_length(self) -> bool {
+    /// Whether it is no farther from 0 than [`FURTHEST`].
+    fn has_bound(self) -> bool {
         match self {
-            Self::Coordinate | Self::Size => true,
+            Self::Coordinate | Self::Size | Self::Angle | Self::Joint => true,
             Self::Mass
-            | Self::Angle
             | Self::Opening
             | Self::Scale
             | Self::FocalLength
             | Self::Pixel
-            | Self::Joint
             | Self::Direction
             | Self::Field => false,
         }
@@ -131,7 +131,7 @@ impl Numbers {
     fn value(&mut self, value: f64, span: Span, quantity: Quantity) -> Option<f64> {
         if quantity.has_to_be_positive() && value <= 0.0 {
             self.found.push(NotPositive { span, quantity, found: value }.into());
-        } else if quantity.is_length() && value.abs() > FURTHEST {
+        } else if quantity.has_bound() && value.abs() > FURTHEST {
             self.found.push(TooFar { span, quantity, found: value }.into());
         } else {
             return Some(value);

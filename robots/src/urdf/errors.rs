@@ -98,9 +98,21 @@ motet_syntax::mistakes! {
     help(_m) { Some("write a direction such as `0 0 1`".to_owned()) }
 
     /// Limits that leave no position.
-    EmptyLimits("M0465", Error) { joint: String, lower: f64, upper: f64 }
-    message(m) { format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint, m.lower, m.upper) }
-    help(_m) { Some("swap them".to_owned()) }
+    EmptyLimits("M0465", Error) { joint: String, lower: f64, upper: f64, is_followed: bool }
+    message(m) {
+        if m.is_followed {
+            format!(
+                "joint `{}` is nowhere within its limits and those of the joints that follow it: it has to be at least at {} and at most at {}",
+                m.joint, m.lower, m.upper
+            )
+        } else {
+            format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint, m.lower, m.upper)
+        }
+    }
+    help(m) {
+        let help = if m.is_followed { "widen the limits of the joints that follow it, or correct their `<mimic>`" } else { "swap them" };
+        Some(help.to_owned())
+    }
 
     /// A joint that follows one that is not there, or that has no single position.
     UnknownMimic("M0466", Error) { joint: String, leader: String, near: Option<String>, is_joint: bool }

@@ -115,7 +115,8 @@ impl Numbers {
         let span = lower.or(upper).map_or(self.places.tag(limit), |(_, span)| span);
         let (lower, upper) = (lower.map_or(0.0, |(value, _)| value), upper.map_or(0.0, |(value, _)| value));
         if lower > upper {
-            self.found.push(EmptyLimits { span, joint: joint.to_owned(), lower, upper }.into());
+            self.found
+                .push(EmptyLimits { span, joint: joint.to_owned(), lower, upper, is_followed: false }.into());
             return (None, velocity);
         }
         (Some(Limits { lower, upper }), velocity)

@@ -120,7 +120,8 @@ pub struct Joint {
     pub parent_from_joint: Pose,
     /// Unit vector in the joint's frame: axis of rotation, direction of travel, or normal of the plane.
     pub axis: [f64; 3],
-    /// Range of positions in rad or m; `None` for a joint without (fixed, continuous, planar, floating).
+    /// Range of positions in rad or m; `None` for a joint without (fixed, continuous, planar, floating). For one
+    /// that moves by itself it is where all that follow it are within theirs, too.
     pub limits: Option<Limits>,
     /// Greatest speed in rad/s or m/s; `None` where the file gives none.
     pub velocity: Option<f64>,

@@ -4,9 +4,14 @@
 use motet_syntax::{Diagnostic, suggest};
 use rustc_hash::FxHashMap;
 
-use super::errors::{LinkCycle, MimicCycle, SeveralRoots, TwoParents, UnknownLink, UnknownMimic};
+use super::errors::{
+    EmptyLimits, LinkCycle, MimicCycle, SeveralRoots, TwoParents, UnknownLink, UnknownMimic,
+};
 use super::joint::{Named, RawJoint};
-use super::model::{Joint, Link, Mimic, Urdf};
+use super::model::{Joint, Limits, Link, Mimic, Urdf};
+
+/// What a follower's limits may be rounded by.
+const ROUNDED: f64 = 1e-9;
 
 /// The tree of what was read; `None` where it is none.
 pub(super) fn settle(
@@ -62,8 +67,51 @@ pub(super) fn settle(
             mimic,
         })
     });
-    let joints = joints.collect();
+    let mut joints: Vec<Joint> = joints.collect();
+    follow(&mut joints, &raw, &moved, found);
     Some(Urdf { name: name.into(), links, joints, root, may_touch: vec![] })
+}
+
+/// Narrows the limits of joints to where all that follow them are within theirs.
+fn follow(joints: &mut [Joint], raw: &[RawJoint<'_>], moved: &[usize], found: &mut Vec<Diagnostic>) {
+    let ranges = ranges(joints);
+    for (joint, at) in raw.iter().zip(moved) {
+        let (Some(own), Some(Some(range))) = (joints.get_mut(*at), ranges.get(*at)) else { continue };
+        if range.lower <= range.upper {
+            own.limits = Some(*range);
+        } else if own.limits.is_none_or(|own| own.lower <= own.upper) {
+            let (name, span) = joint.name;
+            let (joint, lower, upper) = (name.to_owned(), range.lower, range.upper);
+            found.push(EmptyLimits { span, joint, lower, upper, is_followed: true }.into());
+        }
+    }
+}
+
+/// For each joint the limits within which it and all that follow it are within theirs; where there is no such place, `lower` is above
+/// `upper`. Joints may follow each other in chains of any length, of which one alone is long.
+fn ranges(joints: &[Joint]) -> Vec<Option<Limits>> {
+    let mut ranges: Vec<Option<Limits>> = joints.iter().map(|joint| joint.limits).collect();
+    for joint in joints {
+        let Some(own) = joint.limits else { continue };
+        let (mut multiplier, mut offset, mut next) = (1.0, 0.0, joint.mimic);
+        while let Some(mimic) = next {
+            offset += multiplier * mimic.offset;
+            multiplier *= mimic.multiplier;
+            next = joints.get(mimic.joint).and_then(|leader| leader.mimic);
+            let Some(slot) = ranges.get_mut(mimic.joint).filter(|_| next.is_none() && multiplier != 0.0)
+            else {
+                continue;
+            };
+            let (one, other) = ((own.lower - offset) / multiplier, (own.upper - offset) / multiplier);
+            let (lower, upper) = (one.min(other), one.max(other));
+            let known = slot.unwrap_or(Limits { lower: f64::NEG_INFINITY, upper: f64::INFINITY });
+            *slot = Some(Limits {
+                lower: if lower > known.lower + ROUNDED { lower } else { known.lower },
+                upper: if upper < known.upper - ROUNDED { upper } else { known.upper },
+            });
+        }
+    }
+    ranges
 }
 
 fn link(
