@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use motet_geometry::inverse::manifold::Manifold;
 use motet_geometry::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
-use motet_geometry::kinematics::{Chain, Tree, planar};
+use motet_geometry::kinematics::{Chain, Tree, Variable, planar};
 use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
@@ -79,7 +79,7 @@ fn closed_forms_are_seen_in_the_axes() {
     assert!(SevenArm::detect(&panda()).is_some() && SevenArm::detect(&z1()).is_none());
 }
 
-/// Each solution is within the limits and at the pose, and one is `values`.
+/// Each solution is within the limits and at the pose, and one is `values`, up to full turns.
 fn contains(arm: &ParallelArm, values: &[f64]) -> Result<(), TestCaseError> {
     let wanted = arm.chain().base_from_tip(values);
     let found = arm.solve(&wanted);
@@ -87,9 +87,9 @@ fn contains(arm: &ParallelArm, values: &[f64]) -> Result<(), TestCaseError> {
         prop_assert!(arm.chain().allows(solution));
         prop_assert!(Tolerance::EXACT.covers(&arm.chain().base_from_tip(solution), &wanted));
     }
-    let nearest = found
-        .iter()
-        .map(|solution| solution.iter().zip(values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max));
+    let off = |angle: f64| (angle - 2.0 * PI * (angle / (2.0 * PI)).round()).abs();
+    let nearest =
+        found.iter().map(|solution| solution.iter().zip(values).map(|(a, b)| off(a - b)).fold(0.0, f64::max));
     let nearest = nearest.fold(f64::INFINITY, f64::min);
     prop_assert!(nearest < 1e-5, "{nearest} from {values:?} in {} solutions", found.len());
     Ok(())
@@ -150,6 +150,42 @@ proptest! {
         prop_assume!(values[4].sin().abs() > 1e-3);
         contains(&arm, &values)?;
     }
+}
+
+/// With room for many turns a joint has one value for each place, the nearest to what it is near to, and within its limits.
+#[test]
+fn of_full_turns_the_nearest_counts() {
+    let mut chain = ur();
+    for variable in &mut chain.variables {
+        variable.limits = Some((-40.0, 60.0));
+    }
+    let arm = ParallelArm::detect(&chain).unwrap();
+    let values = [0.3, -1.1, 1.4, 0.2, -0.9, 2.0];
+    let pose = chain.base_from_tip(&values);
+    let found = arm.solve(&pose);
+    assert!(found.len() <= 8);
+    assert!(found.iter().flatten().all(|value| value.abs() <= PI + 1e-9));
+    let turned = values.map(|value| value + 4.0 * PI);
+    let near = arm.nearest(&pose, &turned).unwrap();
+    assert!(near.iter().zip(turned).all(|(one, other)| (one - other).abs() < 1e-6));
+    // Beyond the limits the last turn within them.
+    let beyond = arm.nearest(&pose, &values.map(|value| value + 40.0 * PI)).unwrap();
+    assert!(beyond.iter().all(|value| (60.0 - 2.0 * PI..=60.0).contains(value)));
+}
+
+#[test]
+fn a_joint_that_turns_is_looked_for_within_one_turn() {
+    let limited = |limits: Option<(f64, f64)>, slides: bool| {
+        let is_turn = limits.is_none() && !slides;
+        Variable { name: "it".into(), limits, is_turn, slides }.span()
+    };
+    assert_eq!(limited(None, false), (-PI, PI));
+    assert_eq!(limited(None, true), (-1.0, 1.0));
+    assert_eq!(limited(Some((-2.0, 1.0)), false), (-2.0, 1.0));
+    assert_eq!(limited(Some((-50.0, 50.0)), false), (-PI, PI));
+    assert_eq!(limited(Some((1.0, 50.0)), false), (1.0, 1.0 + 2.0 * PI));
+    assert_eq!(limited(Some((-50.0, 1.0)), false), (1.0 - 2.0 * PI, 1.0));
+    assert_eq!(limited(Some((0.0, 30.0)), true), (0.0, 30.0));
 }
 
 /// What is found is right, and nearly everything is: the numeric search may miss what is at the edge of the limits.

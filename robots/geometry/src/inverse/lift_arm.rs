@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::Tolerance;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
-use super::subproblem::{angle_between, component, turned, within};
+use super::subproblem::{angle_between, component, turned, whole_span, within};
 use crate::kinematics::{Chain, planar};
 use crate::trigonometry::{turn, wrapped};
 
@@ -87,7 +87,7 @@ impl LiftArm {
     }
 
     /// Every solution with the given yaw of the base and value of the shoulder's variable, within the limits; the
-    /// branches in a fixed order. At most two, but where a joint has room for more than a turn.
+    /// branches in a fixed order: at most two. Of values that differ by full turns it has the nearest to 0.
     #[must_use]
     pub fn solve(&self, map_from_tip: &Isometry3<f64>, yaw: f64, shoulder: f64) -> Vec<Placed> {
         let [lift_joint, shoulder_joint, wrist_joints @ ..] = self.chain.joints.as_slice() else {
@@ -114,24 +114,17 @@ impl LiftArm {
         let left = carried.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
         let mut found = Vec::new();
         for angles in wrist(&self.wrist, &left) {
-            let options = || {
-                wrist_joints.iter().zip(wrist_variables).zip(angles).map(|((joint, variable), q)| {
-                    within(variable, (q - joint.driver.offset) / joint.driver.multiplier)
+            let mut values = [lift, shoulder, 0.0, 0.0, 0.0];
+            let joints = wrist_joints.iter().zip(wrist_variables).zip(angles);
+            let is_within = values.iter_mut().skip(2).zip(joints).all(|(slot, ((joint, variable), q))| {
+                let value = within(variable, (q - joint.driver.offset) / joint.driver.multiplier, 0.0);
+                value.is_some_and(|value| {
+                    *slot = value;
+                    true
                 })
-            };
-            if options().any(|mut found| found.next().is_none()) {
-                continue;
-            }
-            let mut options = options();
-            let (one, two, three) = (options.next(), options.next(), options.next());
-            let (two, three): (Vec<f64>, Vec<f64>) =
-                (two.into_iter().flatten().collect(), three.into_iter().flatten().collect());
-            for a in one.into_iter().flatten() {
-                for b in &two {
-                    for c in &three {
-                        found.push(Placed { base, values: [lift, shoulder, a, *b, *c] });
-                    }
-                }
+            });
+            if is_within {
+                found.push(Placed { base, values });
             }
         }
         found.retain(|placed| Tolerance::EXACT.covers(&self.map_from_tip(placed), map_from_tip));
@@ -166,8 +159,8 @@ impl LiftArm {
         let lifts = [place(0, lower) * self.up, place(0, upper) * self.up];
         let Shoulder { axis, point, to_wrist } = self.shoulder;
         let height = |angle: f64| point.z + turned(&axis, angle, &to_wrist).z;
-        let (first, last) = range(1)
-            .map_or((-std::f64::consts::PI, std::f64::consts::PI), |(l, u)| (place(1, l), place(1, u)));
+        let (lower, upper) = self.shoulder_span();
+        let (first, last) = (place(1, lower), place(1, upper));
         // As the shoulder turns the height is a wave: its ends, and its crests where they are within.
         let across = axis.cross(&to_wrist);
         let crest = crate::trigonometry::atan2(across.z, (to_wrist - axis * axis.dot(&to_wrist)).z);
@@ -179,6 +172,11 @@ impl LiftArm {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
         let [one, other] = lifts;
         [low + one.min(other), high + one.max(other)]
+    }
+
+    /// Values of the shoulder's variable that stand for all others.
+    pub(crate) fn shoulder_span(&self) -> (f64, f64) {
+        whole_span(&self.chain, 1)
     }
 
     /// How far the tip can be from the vertical axis of the base, in m.

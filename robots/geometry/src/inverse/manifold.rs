@@ -12,6 +12,7 @@ use wide::f32x8;
 use super::lanes::{above, atan2};
 use super::lift_arm::LiftArm;
 use super::subproblem::turned;
+use crate::kinematics::Variable;
 use crate::trigonometry::{atan2 as atan2_of_one, sin_cos, wrapped};
 
 /// Poses that are looked at at once.
@@ -193,9 +194,7 @@ impl Limits {
             .joints
             .get(at)
             .map_or((1.0, 0.0), |joint| (1.0 / joint.driver.multiplier, joint.driver.offset));
-        let pi = std::f64::consts::PI;
-        let limits = arm.chain.variables.get(at).and_then(|variable| variable.limits);
-        let (lower, upper) = limits.filter(|(l, u)| l.abs().max(u.abs()) < 1e4).unwrap_or((-pi, pi));
+        let (lower, upper) = arm.chain.variables.get(at).map_or((0.0, 0.0), Variable::span);
         Self { scale: scale as f32, offset: offset as f32, lower: lower as f32, upper: upper as f32 }
     }
 }

@@ -5,8 +5,6 @@
 //! meet so gives the first joint, the orientation the fifth and then the sixth; what is left is a planar arm of two
 //! links (after Hawkins 2013, and Elias and Wen 2022, without Denavit–Hartenberg parameters).
 
-use std::f64::consts::TAU;
-
 use nalgebra::{Isometry3, Unit, UnitQuaternion, Vector3};
 
 use super::numeric::polished;
@@ -71,28 +69,26 @@ impl ParallelArm {
         &self.chain
     }
 
-    /// Every solution within the limits, in a fixed order: values of the chain's variables. Where the last axis is
-    /// parallel to the inner three, a family of solutions is stood for by those with the last joint at 0.
+    /// Every solution within the limits, in a fixed order: values of the chain's variables, of those that differ by full turns the
+    /// nearest to 0. Where the last axis is parallel to the inner three, a family of solutions is stood for by those with the last
+    /// joint at 0.
     #[must_use]
     pub fn solve(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
-        let mut found = Vec::new();
-        for positions in self.positions(base_from_tip) {
-            self.values(&positions, &mut |values| found.extend(self.confirmed(values, base_from_tip)));
-        }
-        found
+        let positions = self.positions(base_from_tip);
+        let found = positions.iter().filter_map(|positions| self.values(positions, &[0.0; 6]));
+        found.filter_map(|values| self.confirmed(values, base_from_tip)).collect()
     }
 
     /// The solution within the limits that is nearest to some values, by the largest difference of one.
     #[must_use]
-    pub fn nearest(&self, base_from_tip: &Isometry3<f64>, to: &[f64]) -> Option<[f64; 6]> {
+    pub fn nearest(&self, base_from_tip: &Isometry3<f64>, to: &[f64; 6]) -> Option<[f64; 6]> {
         let mut best: Option<(f64, [f64; 6])> = None;
         for positions in self.positions(base_from_tip) {
-            self.values(&positions, &mut |values| {
-                let far = values.iter().zip(to).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
-                if best.is_none_or(|(known, _)| far < known) {
-                    best = Some((far, values));
-                }
-            });
+            let Some(values) = self.values(&positions, to) else { continue };
+            let far = values.iter().zip(to).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+            if best.is_none_or(|(known, _)| far < known) {
+                best = Some((far, values));
+            }
         }
         self.confirmed(best?.1, base_from_tip)
     }
@@ -105,8 +101,7 @@ impl ParallelArm {
     fn may_be(&self, joint: usize, position: f64) -> bool {
         let known = self.chain.joints.get(joint).zip(self.chain.variables.get(joint));
         known.is_some_and(|(joint, variable)| {
-            let value = (position - joint.driver.offset) / joint.driver.multiplier % TAU;
-            within(variable, value).next().is_some()
+            within(variable, (position - joint.driver.offset) / joint.driver.multiplier, 0.0).is_some()
         })
     }
 
@@ -160,34 +155,13 @@ impl ParallelArm {
         found
     }
 
-    /// All values within the limits that stand for the same positions.
-    fn values(&self, positions: &[f64; 6], each: &mut impl FnMut([f64; 6])) {
-        let joints = || self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
-        let mut only = [0.0; 6];
-        let mut is_only = true;
-        for (slot, ((joint, variable), q)) in only.iter_mut().zip(joints()) {
-            let mut found = within(variable, (q - joint.driver.offset) / joint.driver.multiplier % TAU);
-            let Some(value) = found.next() else { return };
-            *slot = value;
-            is_only &= found.next().is_none();
+    /// Values within the limits that stand for positions, of those that differ by full turns the nearest to some.
+    fn values(&self, positions: &[f64; 6], to: &[f64; 6]) -> Option<[f64; 6]> {
+        let mut values = *to;
+        let joints = self.chain.joints.iter().zip(&self.chain.variables).zip(positions);
+        for (slot, ((joint, variable), q)) in values.iter_mut().zip(joints) {
+            *slot = within(variable, (q - joint.driver.offset) / joint.driver.multiplier, *slot)?;
         }
-        if is_only {
-            return each(only);
-        }
-        let options: Vec<Vec<f64>> = joints()
-            .map(|((joint, variable), q)| {
-                let value = (q - joint.driver.offset) / joint.driver.multiplier;
-                within(variable, value % TAU).collect()
-            })
-            .collect();
-        let count: usize = options.iter().map(Vec::len).product();
-        for mut index in 0..count {
-            let mut values = [0.0; 6];
-            for (slot, choices) in values.iter_mut().zip(&options) {
-                *slot = choices.get(index % choices.len()).copied().unwrap_or_default();
-                index /= choices.len();
-            }
-            each(values);
-        }
+        Some(values)
     }
 }

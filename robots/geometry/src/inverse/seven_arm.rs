@@ -7,14 +7,12 @@
 //! joint. Both directions then give the orientation of the shoulder (after He and Liu 2021, without Denavit–Hartenberg
 //! parameters).
 
-use std::f64::consts::TAU;
-
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::lift_arm::wrist;
 use super::numeric::polished;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
-use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
+use super::subproblem::{angle_between, component, sum_of_waves, turned, whole_span, within};
 use crate::kinematics::Chain;
 use crate::trigonometry::turn;
 
@@ -72,6 +70,11 @@ impl SevenArm {
     #[must_use]
     pub fn chain(&self) -> &Chain {
         &self.chain
+    }
+
+    /// Values of the last joint's variable that stand for all others.
+    pub(crate) fn last_span(&self) -> (f64, f64) {
+        whole_span(&self.chain, self.chain.joints.len().saturating_sub(1))
     }
 
     /// Every solution within the limits with the given value of the last joint's variable, in a fixed order: values of the chain's
@@ -154,13 +157,13 @@ impl SevenArm {
         found
     }
 
-    /// Values within the limits that stand for the positions; the least of each where there are more.
+    /// Values within the limits that stand for the positions, of those that differ by full turns the nearest to 0.
     fn values(&self, angles: &[f64; 6], last: f64) -> Option<[f64; 7]> {
         let mut values = [last; 7];
         let joints = self.chain.joints.iter().zip(&self.chain.variables);
         for ((slot, angle), (joint, variable)) in values.iter_mut().zip(angles).zip(joints) {
             let value = (angle - joint.driver.offset) / joint.driver.multiplier;
-            *slot = within(variable, value % TAU).next()?;
+            *slot = within(variable, value, 0.0)?;
         }
         Some(values)
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Unit, Vector3};
 
-use crate::kinematics::Variable;
+use crate::kinematics::{Chain, Variable};
 use crate::trigonometry::{acos, atan2, turn};
 
 /// How far a cosine may be outside of [−1, 1] and still be rounding: at the ends of a range two solutions become one.
@@ -44,14 +44,26 @@ pub(super) fn component(
     sum_of_waves(vector.dot(along) - still, along.dot(&axis.cross(vector)), wanted - still)
 }
 
-/// The values of a variable that differ from `angle` by full turns and are within its limits, least first; one in
-/// [−π, π) where it has none. A value that rounding put outside by less than 1e-9 rad is the limit itself.
-pub(super) fn within(variable: &Variable, angle: f64) -> impl Iterator<Item = f64> + use<> {
-    // "Unlimited" is often written as 1e16, where full turns are below the rounding.
-    let limits = variable.limits.filter(|(lower, upper)| lower.abs().max(upper.abs()) < 1000.0 * TAU);
-    let (lower, upper) = limits.unwrap_or((-TAU / 2.0, TAU / 2.0 - 1e-8));
-    let first = angle + TAU * libm::ceil((lower - 1e-9 - angle) / TAU);
-    // No arm needs more than a few turns of one joint.
-    let turns = libm::floor((upper + 1e-9 - first) / TAU).clamp(-1.0, 8.0) as i32;
-    (0..=turns).map(move |turn| (first + TAU * f64::from(turn)).clamp(lower, upper))
+/// Values of a variable that stand for all others, which differ by full turns of its joint: its span, where a turn of it is a turn of the joint at
+/// least.
+pub(super) fn whole_span(chain: &Chain, at: usize) -> (f64, f64) {
+    let Some((joint, variable)) = chain.joints.get(at).zip(chain.variables.get(at)) else {
+        return (0.0, 0.0);
+    };
+    match variable.limits {
+        Some(limits) if joint.driver.multiplier.abs() < 1.0 => limits,
+        _ => variable.span(),
+    }
+}
+
+/// Of the values of a variable that differ from `angle` by full turns the nearest to `to` within its limits; `None` where there is none. A
+/// value that rounding put outside by less than 1e-9 rad is the limit itself. Without limits it is in [−π, π) from `to`.
+pub(super) fn within(variable: &Variable, angle: f64, to: f64) -> Option<f64> {
+    let Some((lower, upper)) = variable.limits else {
+        return Some(angle + TAU * libm::floor((to - angle) / TAU + 0.5));
+    };
+    let least = libm::ceil((lower - 1e-9 - angle) / TAU);
+    let most = libm::floor((upper + 1e-9 - angle) / TAU);
+    let turns = libm::floor((to - angle) / TAU + 0.5);
+    (least <= most).then(|| (angle + TAU * turns.clamp(least, most)).clamp(lower, upper))
 }

@@ -13,6 +13,7 @@ pub use chain::{Chain, ChainJoint};
 pub use lever::Lever;
 pub(crate) use rig::{Rig, RigJoint};
 pub use spread::spread;
+pub(crate) use spread::spread_over;
 pub(crate) use tree::{Driver, isometry};
 pub use tree::{Tree, UnknownName, Variable};
 

@@ -1,5 +1,7 @@
 //! The joints of a robot as a flat list, each after the one that carries it, and the variables that move them.
 
+use std::f64::consts::{PI, TAU};
+
 use motet_robots::urdf::{Joint, JointKind, Limits, Pose, Urdf};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use smol_str::{SmolStr, format_smolstr};
@@ -9,7 +11,7 @@ use smol_str::{SmolStr, format_smolstr};
 /// A *configuration* is one number for each variable, in the order of [`Tree::variables`]. A revolute, continuous or
 /// prismatic joint that follows no other has one variable of its name. A planar joint has three, `NAME/x`, `NAME/y` and
 /// `NAME/theta`. The position of a joint that follows others is a multiple of one variable plus an offset, which is
-/// worked out here once; positions of followers are not cut off at their limits.
+/// worked out here once; the variable's limits are those of the joint and of all that follow it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Tree {
     pub(super) links: Vec<SmolStr>,
@@ -29,13 +31,33 @@ pub struct Variable {
     pub limits: Option<(f64, f64)>,
     /// Whether a full turn brings it back, so that it is an angle without limits.
     pub is_turn: bool,
+    /// Whether it is a length in m, and no angle.
+    pub slides: bool,
 }
+
+/// Limits as far from 0 as that, in rad and in m, are none: "unlimited" is often written as 1e16.
+const UNLIMITED: [f64; 2] = [1000.0 * TAU, 1000.0];
 
 impl Variable {
     /// Whether a value lies within the limits, both ends included.
     #[must_use]
     pub fn allows(&self, value: f64) -> bool {
         self.limits.is_none_or(|(lower, upper)| lower <= value && value <= upper) && value.is_finite()
+    }
+
+    /// Where values are looked for: within the limits, of an angle within one full turn, about 0 as far as they allow it; half a turn or
+    /// 1 m either way where there are none.
+    #[must_use]
+    pub fn span(&self) -> (f64, f64) {
+        match self.limits {
+            None if self.is_turn => (-PI, PI),
+            None => (-1.0, 1.0),
+            Some((lower, upper)) if !self.slides && upper - lower > TAU => {
+                let least = (-PI).clamp(lower, upper - TAU);
+                (least, least + TAU)
+            }
+            Some(limits) => limits,
+        }
     }
 
     /// Room to the nearer limit in rad or m, negative outside; infinite where there is no limit.
@@ -194,17 +216,22 @@ fn own_variable(joint: &Joint, variables: &mut Vec<Variable>) -> Option<Driver> 
         return None;
     }
     let first = variables.len();
+    let slides = joint.kind == JointKind::Prismatic;
+    let [angle, length] = UNLIMITED;
+    let most = if slides { length } else { angle };
     let limits = joint.limits.map(|Limits { lower, upper }| (lower, upper));
+    let limits = limits.filter(|(lower, upper)| lower.abs().max(upper.abs()) < most);
     match joint.kind {
         JointKind::Fixed | JointKind::Floating => return None,
         JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
-            let is_turn = joint.kind == JointKind::Continuous;
-            variables.push(Variable { name: joint.name.clone(), limits, is_turn });
+            let is_turn = !slides && limits.is_none();
+            variables.push(Variable { name: joint.name.clone(), limits, is_turn, slides });
         }
         JointKind::Planar => {
             for part in ["x", "y", "theta"] {
                 let name = format_smolstr!("{}/{part}", joint.name);
-                variables.push(Variable { name, limits: None, is_turn: part == "theta" });
+                let is_turn = part == "theta";
+                variables.push(Variable { name, limits: None, is_turn, slides: !is_turn });
             }
         }
     }

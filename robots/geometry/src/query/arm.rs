@@ -38,8 +38,7 @@ impl Room<'_> {
     pub(super) fn candidates(&self, hand: &Hand, map_from_tip: &Isometry3<f64>, at: usize) -> Vec<State> {
         if let Solver::Lift(arm) = &hand.solver {
             let yaw = self.heading(hand, map_from_tip) + (part(at, 1, PLANE) - 0.5) * TAU;
-            let limits = hand.solver.chain().variables.get(1).and_then(|variable| variable.limits);
-            let (lower, upper) = limits.unwrap_or((-PI, PI));
+            let (lower, upper) = arm.shoulder_span();
             let shoulder = lower + part(at, 2, PLANE) * (upper - lower);
             let placed = arm.solve(map_from_tip, yaw, shoulder).into_iter();
             return placed.map(|placed| self.with(hand, placed.base, &placed.values)).collect();
@@ -51,8 +50,7 @@ impl Room<'_> {
             Solver::Lift(_) => vec![],
             // By steps first, which leave it free where the elbow goes; then along a family for one value of the last joint.
             Solver::Seven(arm) if at >= BY_STEPS => {
-                let range = arm.chain().variables.last().and_then(|variable| variable.limits);
-                let (lower, upper) = range.unwrap_or((-PI, PI));
+                let (lower, upper) = arm.last_span();
                 let last = lower + part(at, 1, LINE) * (upper - lower);
                 let found = arm.nearest(&base_from_tip, &[last], &self.now(arm.chain()), MOST);
                 found.into_iter().map(Into::into).collect()

@@ -1,12 +1,10 @@
 //! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still, or for both: two trees of certified edges towards samples of
 //! a low-discrepancy sequence, so that the same question has the same answer.
 
-use smol_str::SmolStr;
-
 use super::around::Around;
 use super::state::State;
 use super::touch::Allowed;
-use crate::kinematics::{Variable, spread};
+use crate::kinematics::{Variable, spread_over};
 
 /// What the trees move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,29 +70,26 @@ struct Samples<'a> {
     moving: Moving,
     from: &'a State,
     to: &'a State,
-    variables: Vec<Variable>,
+    /// Between which values: of the base where it moves, then of the arm.
+    ranges: Vec<(f64, f64)>,
     /// Which joints the last of them are.
     joints: &'a [usize],
 }
 
 impl<'a> Samples<'a> {
     fn new(moving: Moving, from: &'a State, to: &'a State, arm: &'a [Variable], joints: &'a [usize]) -> Self {
-        let between = |one: f64, other: f64, aside: f64| Variable {
-            name: SmolStr::default(),
-            limits: Some((one.min(other) - aside, one.max(other) + aside)),
-            is_turn: false,
-        };
+        let between = |one: f64, other: f64, aside: f64| (one.min(other) - aside, one.max(other) + aside);
         let base = from.base.iter().zip(to.base).zip([ASIDE, ASIDE, std::f64::consts::PI]);
         let base = base.map(|((one, other), aside)| between(*one, other, aside));
-        let base: Vec<Variable> = if moving == Moving::All { base.collect() } else { vec![] };
-        let variables = base.into_iter().chain(arm.iter().cloned()).collect();
-        Self { moving, from, to, variables, joints }
+        let base: Vec<(f64, f64)> = if moving == Moving::All { base.collect() } else { vec![] };
+        let ranges = base.into_iter().chain(arm.iter().map(Variable::span)).collect();
+        Self { moving, from, to, ranges, joints }
     }
 
     /// A state to grow towards. In the open the arm need not move, and often not while the base does.
     fn aim(&self, sample: usize) -> Option<State> {
         let mut aim = self.to.clone();
-        let values = spread(&self.variables, sample);
+        let values = spread_over(self.ranges.iter().copied(), sample);
         let (base, arm) = values.split_at(values.len().checked_sub(self.joints.len())?);
         aim.base.iter_mut().zip(base).for_each(|(slot, value)| *slot = *value);
         match (self.moving, sample / 2 % 4) {

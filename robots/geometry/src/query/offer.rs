@@ -96,8 +96,7 @@ impl Room<'_> {
             return tip(&state).map(|tip| (state, tip)).into_iter().collect();
         };
         // Solved anywhere with the thing upright, then moved as one so that the base is where it is.
-        let limits = chain.variables.get(1).and_then(|variable| variable.limits);
-        let (lower, upper) = limits.unwrap_or((-std::f64::consts::PI, std::f64::consts::PI));
+        let (lower, upper) = arm.shoulder_span();
         let height = heights[0] + part(at, 3, SPACE) * (heights[1] - heights[0]);
         let object = Isometry3::from_parts(Translation3::new(0.0, 0.0, height), Default::default());
         let wanted = object * held.tip_from_object.inverse();

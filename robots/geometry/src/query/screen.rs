@@ -1,7 +1,7 @@
 //! Candidates of an arm on a lift, eight at a time in `f32`: most touch something for certain, and only the others are worth a
 //! solution in `f64`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use nalgebra::Isometry3;
 
@@ -67,8 +67,7 @@ impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
         arm: &'a LiftArm,
         allowed: Allowed,
     ) -> Option<Self> {
-        let limits = arm.chain().variables.get(1).and_then(|variable| variable.limits);
-        let (lower, upper) = limits.unwrap_or((-PI, PI));
+        let (lower, upper) = arm.shoulder_span();
         Some(Self {
             around,
             figure: around.room.figure()?,

@@ -38,7 +38,9 @@ impl Solver {
         let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
         let closed = match self {
             // All solutions are known, so that there is none nearby where the nearest is not.
-            Self::Parallel(arm) => return arm.nearest(base_from_tip, values).map(Vec::from).filter(is_near),
+            Self::Parallel(arm) => {
+                return arm.nearest(base_from_tip, values.try_into().ok()?).map(Vec::from).filter(is_near);
+            }
             Self::Seven(arm) => {
                 let last = values.last().copied().unwrap_or_default();
                 arm.nearest(base_from_tip, &[last], values, 1).pop().map(Vec::from)

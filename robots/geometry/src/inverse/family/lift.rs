@@ -13,8 +13,7 @@ use crate::trigonometry::turn;
 impl LiftArm {
     /// Cells that hold all solutions.
     pub(crate) fn cells(&self) -> Vec<Cell> {
-        let limits = self.chain.variables.get(1).and_then(|variable| variable.limits);
-        let (lower, upper) = limits.unwrap_or((-PI, PI));
+        let (lower, upper) = self.shoulder_span();
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
         (0..2).map(|way| Cell { way, middle: [0.0, middle, 0.0], half: [PI, half, 0.0] }).collect()
     }

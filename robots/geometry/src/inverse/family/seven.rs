@@ -22,8 +22,7 @@ const ROUNDED: f64 = 1e-7;
 impl SevenArm {
     /// Cells that hold all solutions.
     pub(crate) fn cells(&self) -> Vec<Cell> {
-        let limits = self.chain.variables.last().and_then(|variable| variable.limits);
-        let (lower, upper) = limits.unwrap_or((-PI, PI));
+        let (lower, upper) = self.last_span();
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
         (0..8).map(|way| Cell { way, middle: [middle, 0.0, 0.0], half: [half, 0.0, 0.0] }).collect()
     }
