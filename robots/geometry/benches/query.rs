@@ -3,10 +3,12 @@
 
 #![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
+use std::f64::consts::PI;
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
-use motet_geometry::query::{Answer, Budget, Machine, Query, Room, World};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use motet_geometry::kinematics::spread;
+use motet_geometry::query::{Allowed, Answer, Budget, Machine, Query, Room, State, World};
 use motet_robots::scene::{Entity, Placement, Scene, Shape};
 use motet_robots::{card, scene, urdf};
 use motet_syntax::{FileId, Source};
@@ -34,7 +36,25 @@ fn query(criterion: &mut Criterion) {
             bencher.iter(|| room.answer(black_box(&query), Budget::default()));
         });
     }
+    // Configurations with the hand around the mug, as a search looks at them: time of one.
+    let near: Vec<State> = configurations(&machine, &room, "mug_1").collect();
+    group.throughput(Throughput::Elements(near.len() as u64));
+    group.bench_function("whole-body configurations", |bencher| {
+        bencher.iter(|| room.touches(black_box(&near), Allowed::default()));
+    });
     group.finish();
+}
+
+/// States of the robot whose base is within 1 m of a thing, with the arm anywhere.
+fn configurations(machine: &Machine, room: &Room<'_>, id: &str) -> impl Iterator<Item = State> {
+    let (_, thing) = room.obstacles().find(|(name, _)| name == id).unwrap();
+    let (x, y) = (thing.centre.x, thing.centre.y);
+    let variables = machine.tree().variables().to_vec();
+    (0..512).map(move |at| {
+        let (far, turn) = (0.4 + 0.6 * f64::from(at % 7) / 6.0, f64::from(at) * 2.4);
+        let base = [x + far * turn.cos(), y + far * turn.sin(), turn + PI];
+        State { base, joints: spread(&variables, at as usize) }
+    })
 }
 
 /// Tables in rows, 3 m from one to the next, with nine cups on each; the robot stands between the first four.

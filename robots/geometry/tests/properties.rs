@@ -1,7 +1,9 @@
-//! What has to hold of the answers to `reach` whatever the room: they go with a room that is moved, with an obstacle less and with a
-//! larger budget.
+//! What has to hold of the answers to `reach` whatever the room and the robot: they go with a room that is moved, with an obstacle less and
+//! with a larger budget.
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, missing_docs, reason = "a test fails by panicking")]
+
+use std::sync::LazyLock;
 
 use motet_geometry::query::{Answer, Budget, Machine, Query, Room, World};
 use motet_robots::card;
@@ -12,10 +14,12 @@ use proptest::prelude::*;
 
 const BUDGET: Budget = Budget { candidates: 48, paths: 12, cells: 3_072 };
 
-fn hsr() -> Machine {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();
-    let card = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
+static ROBOTS: LazyLock<[Machine; 3]> = LazyLock::new(|| ["hsr", "anymal_z1", "panda"].map(machine));
+
+fn machine(name: &str) -> Machine {
+    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
+    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
+    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
     Machine::new(&card, &urdf)
 }
 
@@ -27,35 +31,56 @@ fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: Shape) -> Entity
 }
 
 /// A table with a can on it, a board above the can, and boxes around.
-fn rooms() -> impl Strategy<Value = Scene> {
-    let table = (0.6..2.0_f64, -1.5..1.5_f64, -3.0..3.0_f64, 0.3..1.0_f64, 0.3..1.3_f64);
+fn rooms() -> impl Strategy<Value = (Scene, usize)> {
+    (0..3_usize)
+        .prop_flat_map(|which| furnished(ROBOTS[which].drives()).prop_map(move |scene| (scene, which)))
+}
+
+/// Where the robot does not drive, the table is in its reach.
+fn furnished(drives: bool) -> impl Strategy<Value = Scene> {
+    let (least, free) = if drives { (0.7, 0.45) } else { (0.35, 0.2) };
+    let (far, wide) = if drives { (0.6..2.0_f64, 0.3..1.3_f64) } else { (0.5..0.8, 0.3..0.8) };
+    let table = (far, -1.5..1.5_f64, -3.0..3.0_f64, 0.3..1.0_f64, wide);
     let can = (-0.4..0.4_f64, -0.4..0.4_f64, 0.02..0.05_f64, 0.06..0.2_f64, 0.05..0.5_f64);
     let boxes = prop::collection::vec((-2.5..2.5_f64, -2.5..2.5_f64, 0.1..0.5_f64, 0.2..1.5_f64), 0..6);
-    (table, can, boxes).prop_map(|((x, y, yaw, height, wide), (off_x, off_y, radius, tall, above), boxes)| {
-        let mut scene = Scene::default();
-        let mut add = |it: Entity| scene.entities.insert(it.id.clone(), it);
-        let far = 0.7 + wide / 2.0;
-        let (x, y) = if x.hypot(y) < far { (far + x, y) } else { (x, y) };
-        add(entity("table", "Place", [x, y, height / 2.0], yaw, Shape::Box([0.6, wide, height])));
-        let (sin, cos) = yaw.sin_cos();
-        let (a, b) = (off_x * 0.6, off_y * wide);
-        let at = [x + cos * a - sin * b, y + sin * a + cos * b, height + tall / 2.0 + 0.001];
-        add(entity("can", "Object", at, yaw, Shape::Cylinder { radius, height: tall }));
-        let board = [x, y, height + tall + above];
-        add(entity("board", "Place", board, yaw, Shape::Box([0.6, wide, 0.02])));
-        for ((x, y, side, height), at) in boxes.into_iter().zip(0..) {
-            if x.hypot(y) > 0.45 + side {
-                let id = format!("box_{at}");
-                add(entity(&id, "Place", [x, y, height / 2.0], 0.0, Shape::Box([side, side, height])));
+    (table, can, boxes).prop_map(
+        move |((x, y, yaw, height, wide), (off_x, off_y, radius, tall, above), boxes)| {
+            let mut scene = Scene::default();
+            let mut add = |it: Entity| scene.entities.insert(it.id.clone(), it);
+            let y = if drives { y } else { 0.3 * y };
+            let far = least + wide / 2.0;
+            let (x, y) = if x.hypot(y) < far { (far + x, y) } else { (x, y) };
+            add(entity("table", "Place", [x, y, height / 2.0], yaw, Shape::Box([0.6, wide, height])));
+            let (sin, cos) = yaw.sin_cos();
+            let (a, b) = (off_x * 0.6, off_y * wide);
+            let at = [x + cos * a - sin * b, y + sin * a + cos * b, height + tall / 2.0 + 0.001];
+            add(entity("can", "Object", at, yaw, Shape::Cylinder { radius, height: tall }));
+            let board = [x, y, height + tall + above];
+            add(entity("board", "Place", board, yaw, Shape::Box([0.6, wide, 0.02])));
+            for ((x, y, side, height), at) in boxes.into_iter().zip(0..) {
+                if x.hypot(y) > free + side {
+                    let id = format!("box_{at}");
+                    add(entity(&id, "Place", [x, y, height / 2.0], 0.0, Shape::Box([side, side, height])));
+                }
             }
-        }
-        scene
-    })
+            scene
+        },
+    )
 }
 
 fn ask(machine: &Machine, scene: &Scene, budget: Budget) -> Answer {
     let world = World::new(machine, scene);
-    Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget)
+    let a = Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget);
+    eprintln!(
+        "ANS {} {}",
+        machine.drives(),
+        match &a {
+            Answer::Feasible(_) => "f".to_string(),
+            Answer::Infeasible(i) => format!("i{}", i.certified),
+            Answer::Unknown(u) => format!("u {u:?}"),
+        }
+    );
+    a
 }
 
 /// `Some` of whether it is feasible where that is certain.
@@ -72,13 +97,12 @@ fn contradict(one: &Answer, other: &Answer) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(72))]
 
     #[test]
     fn a_room_that_is_moved_with_the_robot_has_the_same_answers(
-        scene in rooms(), x in -5.0..5.0_f64, y in -5.0..5.0_f64, yaw in -3.0..3.0_f64,
+        (scene, which) in rooms(), x in -5.0..5.0_f64, y in -5.0..5.0_f64, yaw in -3.0..3.0_f64,
     ) {
-        let machine = hsr();
         let mut moved = scene.clone();
         let (sin, cos) = yaw.sin_cos();
         let turned = |a: f64, b: f64| [x + cos * a - sin * b, y + sin * a + cos * b];
@@ -90,26 +114,24 @@ proptest! {
         let [a, b, turn] = scene.robot.base;
         let [a, b] = turned(a, b);
         moved.robot.base = [a, b, turn + yaw];
-        prop_assert!(!contradict(&ask(&machine, &scene, BUDGET), &ask(&machine, &moved, BUDGET)));
+        prop_assert!(!contradict(&ask(&ROBOTS[which], &scene, BUDGET), &ask(&ROBOTS[which], &moved, BUDGET)));
     }
 
     #[test]
-    fn what_is_feasible_stays_so_with_an_obstacle_less(scene in rooms(), which in 0..8_usize) {
-        let machine = hsr();
+    fn what_is_feasible_stays_so_with_an_obstacle_less((scene, which) in rooms(), gone in 0..8_usize) {
         let less: Vec<_> = scene.entities.keys().filter(|id| !matches!(id.as_str(), "can" | "table")).collect();
         let mut open = scene.clone();
-        if let Some(id) = less.get(which % less.len().max(1)) {
+        if let Some(id) = less.get(gone % less.len().max(1)) {
             open.entities.shift_remove(*id);
         }
-        if let Answer::Feasible(_) = ask(&machine, &scene, BUDGET) {
-            prop_assert!(!matches!(ask(&machine, &open, BUDGET), Answer::Infeasible(_)));
+        if let Answer::Feasible(_) = ask(&ROBOTS[which], &scene, BUDGET) {
+            prop_assert!(!matches!(ask(&ROBOTS[which], &open, BUDGET), Answer::Infeasible(_)));
         }
     }
 
     #[test]
-    fn a_larger_budget_contradicts_nothing(scene in rooms()) {
-        let machine = hsr();
-        let answers = [1, 4].map(|factor| ask(&machine, &scene, BUDGET.times(factor)));
+    fn a_larger_budget_contradicts_nothing((scene, which) in rooms()) {
+        let answers = [1, 4].map(|factor| ask(&ROBOTS[which], &scene, BUDGET.times(factor)));
         prop_assert!(!contradict(&answers[0], &answers[1]));
         if let Answer::Feasible(_) = answers[0] {
             prop_assert!(matches!(answers[1], Answer::Feasible(_)));

@@ -14,7 +14,7 @@ const NEARBY: [[f32; 8]; 2] =
 
 impl<'w> Room<'w> {
     /// All that may be within `metres` of the robot in some states.
-    fn all_around(&self, states: &[State], metres: f64) -> Around<'_, 'w> {
+    pub(super) fn all_around(&self, states: &[State], metres: f64) -> Around<'_, 'w> {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for state in states {
             for ((low, high), at) in low.iter_mut().zip(&mut high).zip(plane(state)) {

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use smol_str::SmolStr;
 
-use super::room::Room;
+use super::room::{GAP, Room};
 use super::state::State;
 use super::travel::plane;
 use crate::collision::Solid;
@@ -41,6 +41,14 @@ impl Room<'_> {
     #[must_use]
     pub fn touch(&self, state: &State, allowed: Allowed) -> Option<Touch> {
         self.along(state, state).touch(state, allowed)
+    }
+
+    /// The same of each of some states, eight at a time: faster the nearer they are to each other.
+    #[must_use]
+    pub fn touches(&self, states: &[State], allowed: Allowed) -> Vec<Option<Touch>> {
+        let around = self.all_around(states, GAP);
+        let eights = states.chunks(8).map(|states| states.iter().collect::<Vec<&State>>());
+        eights.flat_map(|states| around.touches(&states, allowed)).collect()
     }
 
     /// The least distance between the robot and what stands around, the floor included, in m; nothing above 1 m is looked for.

@@ -18,7 +18,9 @@ mod verify;
 
 use std::collections::BTreeMap;
 
-use motet_geometry::query::{Allowed, Answer, Budget, Machine, Query, Reason, Room, Side, Unknown, World};
+use motet_geometry::query::{
+    Allowed, Answer, Budget, Machine, Query, Reason, Room, Side, State, Unknown, World,
+};
 use motet_robots::card;
 use motet_robots::scene::{self, Placement, Scene};
 use motet_robots::urdf::{self, Urdf};
@@ -139,6 +141,27 @@ fn ask(scene: &Scene, query: &str) -> Answer {
 fn reason(answer: Answer) -> (Reason, bool) {
     let Answer::Infeasible(why) = answer else { panic!("{answer:?}") };
     (why.reason, why.certified)
+}
+
+/// What states touch that are looked at together is what each touches alone, if not the same.
+#[test]
+fn states_are_looked_at_together_as_one_by_one() {
+    let ((machine, _), scene) = (machine("hsr"), embedded("kitchen"));
+    let world = World::new(&machine, &scene);
+    let room = Room::new(&machine, &scene, &world);
+    let variables = machine.tree().variables();
+    let states: Vec<State> = (0..203)
+        .map(|at| {
+            let turn = f64::from(at) * 2.4;
+            let base = [2.0 * turn.cos() * f64::from(at % 7) / 6.0, 2.0 * turn.sin(), turn];
+            State { base, joints: motet_geometry::kinematics::spread(variables, at as usize) }
+        })
+        .collect();
+    let together = room.touches(&states, Allowed::default());
+    let alone: Vec<bool> =
+        states.iter().map(|state| room.touch(state, Allowed::default()).is_some()).collect();
+    assert_eq!(together.iter().map(Option::is_some).collect::<Vec<_>>(), alone);
+    assert!(alone.contains(&true) && alone.contains(&false));
 }
 
 #[test]
