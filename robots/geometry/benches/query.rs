@@ -1,13 +1,17 @@
 //! How long motion queries take for the HSR: in the kitchen the room made ready and each reach, and the same queries among 100
 //! and among 10,000 objects.
 
-#![allow(missing_docs, clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+#![allow(
+    missing_docs,
+    clippy::unwrap_used,
+    clippy::unreachable,
+    clippy::indexing_slicing,
+    reason = "a benchmark fails by panicking"
+)]
 
-use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use motet_geometry::kinematics::spread;
 use motet_geometry::query::{Allowed, Answer, Budget, Machine, Query, Room, State, World};
 use motet_robots::scene::{Entity, Placement, Scene, Shape};
 use motet_robots::{card, scene, urdf};
@@ -36,8 +40,8 @@ fn query(criterion: &mut Criterion) {
             bencher.iter(|| room.answer(black_box(&query), Budget::default()));
         });
     }
-    // Configurations with the hand around the mug, as a search looks at them: time of one.
-    let near: Vec<State> = configurations(&machine, &room, "mug_1").collect();
+    // Configurations along the way to the mug, as a search looks at them.
+    let near = along(&room, "mug_1");
     group.throughput(Throughput::Elements(near.len() as u64));
     group.bench_function("whole-body configurations", |bencher| {
         bencher.iter(|| room.touches(black_box(&near), Allowed::default()));
@@ -45,16 +49,13 @@ fn query(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// States of the robot whose base is within 1 m of a thing, with the arm anywhere.
-fn configurations(machine: &Machine, room: &Room<'_>, id: &str) -> impl Iterator<Item = State> {
-    let (_, thing) = room.obstacles().find(|(name, _)| name == id).unwrap();
-    let (x, y) = (thing.centre.x, thing.centre.y);
-    let variables = machine.tree().variables().to_vec();
-    (0..512).map(move |at| {
-        let (far, turn) = (0.4 + 0.6 * f64::from(at % 7) / 6.0, f64::from(at) * 2.4);
-        let base = [x + far * turn.cos(), y + far * turn.sin(), turn + PI];
-        State { base, joints: spread(&variables, at as usize) }
-    })
+/// States on the last legs of a way to a thing, where it is narrowest.
+fn along(room: &Room<'_>, id: &str) -> Vec<State> {
+    let Answer::Feasible(witness) = room.answer(&Query::Reach(id.into(), None), Budget::default()) else {
+        unreachable!("it is feasible")
+    };
+    let legs = witness.path.windows(2).rev().skip(1).take(2);
+    legs.flat_map(|pair| (0..256).map(|at| pair[0].towards(&pair[1], f64::from(at) / 256.0))).collect()
 }
 
 /// Tables in rows, 3 m from one to the next, with nine cups on each; the robot stands between the first four.

@@ -70,17 +70,7 @@ fn furnished(drives: bool) -> impl Strategy<Value = Scene> {
 
 fn ask(machine: &Machine, scene: &Scene, budget: Budget) -> Answer {
     let world = World::new(machine, scene);
-    let a = Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget);
-    eprintln!(
-        "ANS {} {}",
-        machine.drives(),
-        match &a {
-            Answer::Feasible(_) => "f".to_string(),
-            Answer::Infeasible(i) => format!("i{}", i.certified),
-            Answer::Unknown(u) => format!("u {u:?}"),
-        }
-    );
-    a
+    Room::new(machine, scene, &world).answer(&Query::Reach("can".into(), None), budget)
 }
 
 /// `Some` of whether it is feasible where that is certain.
