@@ -15,6 +15,9 @@ use crate::kinematics::{Chain, planar, spread};
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
 
+/// Steps after which a solution is found from most starts from which one is found at all.
+const CLOSES: usize = 14;
+
 /// So many candidates of an arm with seven joints are found by steps, the others in closed form.
 const BY_STEPS: usize = 4;
 /// Solutions in closed form for one value of the last joint, the nearest to how the arm is.
@@ -61,7 +64,9 @@ impl Room<'_> {
                     0 => self.now(chain),
                     _ => spread(&chain.variables, at - 1),
                 };
-                numeric::refined(chain, &base_from_tip, &start, 30, Tolerance::EXACT).into_iter().collect()
+                numeric::refined(chain, &base_from_tip, &start, CLOSES, Tolerance::EXACT)
+                    .into_iter()
+                    .collect()
             }
         };
         values.into_iter().map(|values| self.with(hand, base, &values)).collect()
