@@ -55,7 +55,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
         let budget = Budget::default().times(usize::from(args.effort));
         let mut answer = room.answer(&query, budget);
         if let Answer::Infeasible(why) = &mut answer {
-            why.change = room.help(&query, why, budget);
+            *why = room.explained(&query, why, budget);
         }
         match args.format {
             FeasibleFormat::Human => report.out.text(&told(&query, &answer)),

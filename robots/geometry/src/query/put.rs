@@ -57,7 +57,7 @@ impl Room<'_> {
         let wanted = PLACES * (budget.candidates / Budget::default().candidates).clamp(1, MOST_TIMES);
         let (places, is_cut) = self.places(&held, (&support, index), wanted, &mut met);
         if places.is_empty() {
-            let reason = Reason::NoFreePose { by: met.most() };
+            let reason = met.none_free();
             let certified = self.is_full(&held, &support, index);
             return Answer::Infeasible(Infeasible { reason, change: None, certified, state: None });
         }
@@ -126,7 +126,7 @@ impl Room<'_> {
             }
         };
         if entity.travel.is_some() && !self.world.is_open(entity) {
-            let reason = Reason::NoFreePose { by: Some(entity.id.clone()) };
+            let reason = Reason::NoFreePose { by: Some(entity.id.clone()), share: None };
             let change = Some(format!("open `{}` before", entity.id));
             return Err(Answer::Infeasible(Infeasible::proven(reason, change)));
         }

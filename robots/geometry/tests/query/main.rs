@@ -18,7 +18,9 @@ mod verify;
 
 use std::collections::BTreeMap;
 
-use motet_geometry::query::{Allowed, Answer, Budget, Machine, Query, Reason, Room, Side, Unknown, World};
+use motet_geometry::query::{
+    Allowed, Answer, Budget, Machine, Query, Reason, Room, Share, Side, Unknown, World,
+};
 use motet_robots::card;
 use motet_robots::scene::{self, Placement, Scene};
 use motet_robots::urdf::{self, Urdf};
@@ -88,7 +90,9 @@ fn the_hsr_in_the_kitchen() {
     );
     // It lies flat: between it and the table there is no room for a finger.
     let Answer::Infeasible(why) = &answers["reach(plate)"] else { panic!("{answers:?}") };
-    assert_eq!(why.reason, Reason::NoFreePose { by: Some("kitchen_table".into()) });
+    let Reason::NoFreePose { by: Some(by), share: Some(share) } = &why.reason else { panic!("{why:?}") };
+    assert_eq!(by, "kitchen_table");
+    assert!(share.touching > share.tried / 2 && share.touching <= share.tried, "{share:?}");
     assert!(why.certified);
 }
 
@@ -214,7 +218,7 @@ fn what_is_taken_is_put_held_out_and_looked_at() {
     let room = Room::new(&machine, &scene, &at_drawer);
     let (why, certified) =
         reason(room.answer(&Query::Put("mug_1".into(), "drawer_1".into()), Budget::default()));
-    assert_eq!((why, certified), (Reason::NoFreePose { by: Some("drawer_1".into()) }, true));
+    assert_eq!((why, certified), (Reason::NoFreePose { by: Some("drawer_1".into()), share: None }, true));
 }
 
 #[test]
@@ -334,6 +338,8 @@ fn a_help_is_no_more_than_is_known() {
     if let (Reason::OutOfReach { needs, reach, .. }, change) = at(-0.6) {
         assert_eq!(change.is_some(), needs - (needs - reach) > 0.0, "{change:?}");
     }
-    let told = Reason::NoFreePose { by: Some("wall".into()) }.to_string();
-    assert_eq!(told, "no pose of the robot is free, and most often `wall` is in the way");
+    let told = |share| Reason::NoFreePose { by: Some("wall".into()), share }.to_string();
+    assert_eq!(told(None), "no pose of the robot is free, and most often `wall` is in the way");
+    let share = Share { touching: 3, tried: 4 };
+    assert!(told(Some(share)).ends_with("most often `wall` is in the way (3 of 4 that were tried)"));
 }
