@@ -181,6 +181,28 @@ fn what_is_not_computed_is_unknown() {
 }
 
 #[test]
+fn an_ordinary_surface_takes_a_thing_from_wherever_the_robot_stands() {
+    let (machine, urdf) = machine("hsr");
+    let bases = [[0.0, 0.0, 0.0], [0.5, -1.2, 0.0], [0.0, -1.0, 0.0]];
+    let places = ["counter", "kitchen_table", "sink", "shelf", "trash"];
+    for (base, on) in bases.into_iter().flat_map(|base| places.map(|on| (base, on))) {
+        let scene = changed(|scene| {
+            scene.robot.base = base;
+            scene.robot.holding = Some(Some("mug_1".into()));
+            scene.entities["mug_1"].on = None;
+        });
+        let world = World::new(&machine, &scene);
+        let room = Room::new(&machine, &scene, &world);
+        let query = Query::Put("mug_1".into(), on.into());
+        let Answer::Feasible(witness) = room.answer(&query, Budget::default()) else {
+            panic!("{base:?}, {query}")
+        };
+        let faults = verify::faults(&machine, &urdf, &scene, &world, &witness, Some(on));
+        assert!(faults.is_empty(), "{base:?}, {query}: {:?}", &faults[..faults.len().min(5)]);
+    }
+}
+
+#[test]
 fn what_is_taken_is_put_held_out_and_looked_at() {
     let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
     let answer = |world: &World, query: Query, support: Option<&str>| {
