@@ -57,6 +57,8 @@ pub struct Compiled {
     pub graph: Option<Graph>,
     /// What there is to say, in the order of the document.
     pub diagnostics: Vec<Diagnostic>,
+    /// Motions that were not looked at because of errors before them; none where there is a graph, which has a verdict of each.
+    pub unseen: usize,
 }
 
 impl Session {
@@ -229,7 +231,7 @@ impl Session {
     pub fn compile(&self, parsed: &Parsed, name: Option<&str>) -> Compiled {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut findings = Vec::new();
-        let mut graph = None;
+        let (mut graph, mut unseen) = (None, 0);
         self.within(parsed, &mut diagnostics, |library, world, diagnostics| {
             let runnable = || parsed.file.runnable();
             let chosen = match name {
@@ -245,16 +247,19 @@ impl Session {
                 return;
             };
             let analysed = self.analyse(policy, parsed, library, world, self.geometry.as_deref());
-            let Analysed { program, proof, placed, findings: said } = analysed;
+            let Analysed { program, proof, placed, findings: said, is_placed } = analysed;
             let is_refused = diagnostics.iter().any(is_error) || has_errors(&said);
             findings = said;
+            if is_refused && !is_placed {
+                unseen = motions(&program, library);
+            }
             if !is_refused {
                 graph = Some(crate::lower::lower(&program, &proof, placed, library, world));
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
         let diagnostics = finish(findings).into_iter().map(|finding| finding.diagnostic).collect();
-        Compiled { graph, diagnostics }
+        Compiled { graph, diagnostics, unseen }
     }
 
     /// Runs with the library and the world of a document: the session's own, unless it declares something itself.
@@ -293,7 +298,8 @@ impl Session {
         let mut findings = crate::fix::findings(diagnostics, &offers, parsed, &program, library, world);
         let mut placed = Placed::new();
         // What goes before an error was not what was meant, so nothing is said of how it ends.
-        if let Some(geometry) = geometry.filter(|_| !has_errors(&findings)) {
+        let geometry = geometry.filter(|_| !has_errors(&findings));
+        if let Some(geometry) = geometry {
             let (found, said) = crate::place::place(&program, &proof, library, world, geometry);
             placed = found;
             findings.extend(said.into_iter().map(Finding::from));
@@ -301,7 +307,7 @@ impl Session {
         for finding in &mut findings {
             locate(&mut finding.diagnostic, policy, &program, library);
         }
-        Analysed { program, proof, placed, findings }
+        Analysed { program, proof, placed, findings, is_placed: geometry.is_some() }
     }
 }
 
@@ -311,6 +317,17 @@ struct Analysed {
     proof: Proof,
     placed: Placed,
     findings: Vec<Finding>,
+    /// Whether motions were looked at.
+    is_placed: bool,
+}
+
+/// How many calls of a program ask for a motion.
+fn motions(program: &Program, library: &Library) -> usize {
+    let calls = program.steps.iter().filter_map(|step| {
+        let StepKind::Call(call) = &step.kind else { return None };
+        library.primitive(call.primitive)
+    });
+    calls.filter(|def| def.motion.is_some()).count()
 }
 
 fn is_error(said: &Diagnostic) -> bool {

@@ -67,6 +67,8 @@ struct Tally {
     replies: usize,
     /// Motions whose geometry nobody looked at.
     motions: usize,
+    /// The same of documents with errors.
+    unseen: usize,
     /// Documents that were checked against no robot.
     without_robot: usize,
 }
@@ -123,12 +125,14 @@ impl Tally {
         // A document that is one policy is checked by compiling it, which also tells of its motions.
         let said = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
             let compiled = setting.session.compile(&parsed, None);
+            self.unseen += compiled.unseen;
             self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
             compiled.diagnostics
         } else {
             for policy in runnable {
-                let graph = setting.session.compile(&parsed, Some(&policy.name.text)).graph;
-                self.motions += graph.as_ref().map_or(0, crate::graph::deferred_motions);
+                let compiled = setting.session.compile(&parsed, Some(&policy.name.text));
+                self.unseen += compiled.unseen;
+                self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
             }
             setting.session.check(&parsed)
         };
@@ -171,13 +175,21 @@ impl Tally {
                 "note: no robot was given, so all that the standard library declares was allowed (--robot NAME)",
             );
         }
-        if self.motions > 0 {
+        // Without a scene nothing was looked at, errors or not.
+        let (motions, unseen) = match bench.has_scene() {
+            true => (self.motions, self.unseen),
+            false => (self.motions + self.unseen, 0),
+        };
+        if unseen > 0 {
+            note(&format!("note: {} not checked geometrically, because of the errors", were(unseen)));
+        }
+        if motions > 0 {
             let (what, why) = match (bench.has_scene(), bench.has_geometry()) {
                 (false, _) => ("not checked geometrically", ", because no scene was given (--scene NAME)"),
                 (true, false) => ("not checked geometrically", ""),
                 (true, true) => ("left to the run", " (`motet compile --emit tree` says why)"),
             };
-            note(&format!("note: {} {what}{why}", were(self.motions)));
+            note(&format!("note: {} {what}{why}", were(motions)));
         }
     }
 }

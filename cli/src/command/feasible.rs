@@ -49,26 +49,25 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     report.usable("motion", &said, &sources)?;
     let world = World::new(&machine, &scene);
     let room = Room::new(&machine, &scene, &world);
-    let mut found = Vec::new();
+    let mut answers = Vec::new();
     let mut exit = Exit::Clean;
     for query in queries {
         let budget = Budget::default().times(usize::from(args.effort));
         let mut answer = room.answer(&query, budget);
         if let Answer::Infeasible(why) = &mut answer {
-            why.change = room.help(&query, why, budget);
+            *why = room.explained(&query, why, budget);
         }
         match args.format {
             FeasibleFormat::Human => report.out.text(&told(&query, &answer)),
             FeasibleFormat::Json => report.out.line(&wire::line(&machine, &query, &answer)),
         }
-        match answer {
-            Answer::Feasible(witness) => found.push((query, *witness)),
-            Answer::Infeasible(_) | Answer::Unknown(_) if !args.all => exit = Exit::Findings,
-            Answer::Infeasible(_) | Answer::Unknown(_) => {}
+        if !args.all && !matches!(answer, Answer::Feasible(_)) {
+            exit = Exit::Findings;
         }
+        answers.push((query, answer));
     }
     if let Some(path) = &args.svg {
-        let drawing = drawing::top_view(&room, &found);
+        let drawing = drawing::top_view(&room, &scene, &world, &answers);
         std::fs::write(path, drawing).map_err(|source| Trouble::Write { path: path.clone(), source })?;
     }
     Ok(exit)
@@ -132,6 +131,7 @@ fn known<'a, I: Iterator<Item = &'a str>>(
     }
     let help = match suggest::closest(name, names()) {
         Some(near) => format!("did you mean `{near}`?"),
+        None if names().next().is_none() => format!("no {what} is known here"),
         None => format!("known here: {}", suggest::one_of(names())),
     };
     Err(Trouble::Unknown { what, name: name.to_owned(), help })

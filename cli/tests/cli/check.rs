@@ -27,6 +27,8 @@ fn place(name: &str) -> Place {
         .file("b.motet", "entity b: Object\n")
         .file("domain.motet", "kind Block: Object\nfluent stacked(a: Block)\n")
         .file("odd_domain.motet", "fluent (")
+        .file("named.motet", "policy p for hsr {\n    go(ledge)\n    pick(cup)\n    say(\"done\")\n}\n")
+        .file("empty.json", "\n")
         .file("robot/readme.md", "no card")
         .file("odd_robot/robot.toml", "name = ")
         .file("lines.jsonl", {
@@ -44,6 +46,21 @@ fn ends_with_the_right_code() {
             format!("check good.motet {scene} --no-geometry"),
             0,
             &["err:checked 1 document: no errors", "err:not checked geometrically"][..],
+        ),
+        (
+            "check named.motet --robot hsr".to_owned(),
+            1,
+            &["err:2 motions were not checked geometrically, because no scene was given"],
+        ),
+        (
+            format!("check named.motet good.motet {scene}"),
+            1,
+            &["err:2 motions were not checked geometrically, because of the errors"],
+        ),
+        (
+            "check good.motet --scene empty.json".to_owned(),
+            2,
+            &["out:a scene is written `{\"motet_scene\": 1"],
         ),
         (format!("check good.motet {scene}"), 0, &["err:checked 1 document: no errors"]),
         (format!("check good.json {scene}"), 0, &["err:checked 1 document"]),

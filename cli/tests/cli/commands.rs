@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::collections::BTreeSet;
+
 use crate::support::Place;
 use serde_json::Value;
 
@@ -83,6 +85,44 @@ fn answers() {
         println!("motet {line}");
         place.run(line).check(code, texts);
     }
+}
+
+#[test]
+fn a_room_without_things_has_nothing_to_suggest() {
+    let place = Place::new("bare").file("bare.json", r#"{"motet_scene": 1, "entities": []}"#);
+    let ran = place.run("feasible --robot hsr --scene bare.json --for reach(cup)");
+    ran.check(2, &["err:there is no entity `cup`", "err:no entity is known here"]);
+}
+
+/// The value of an attribute in a line of a drawing.
+fn attribute<'t>(line: &'t str, name: &str) -> &'t str {
+    let start = format!(" {name}=\"");
+    line.split(start.as_str()).nth(1).unwrap().split('"').next().unwrap()
+}
+
+#[test]
+fn a_drawing_tells_its_answers_apart() {
+    let place = Place::new("drawing");
+    let ran = place.run("feasible --robot hsr --scene kitchen --all --svg room.svg");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let drawn = place.read("room.svg");
+    let feasible: Vec<&str> =
+        ran.stdout.lines().filter_map(|line| line.split_once(": feasible")).map(|it| it.0).collect();
+    let ways: Vec<&str> = drawn.lines().filter(|line| line.starts_with("<polyline")).collect();
+    assert!(feasible.len() > 20 && ways.len() == feasible.len());
+    let looks: BTreeSet<_> =
+        ways.iter().map(|line| (attribute(line, "stroke"), attribute(line, "stroke-dasharray"))).collect();
+    assert_eq!(looks.len(), ways.len());
+    // Every answer is in the legend, also of what is not feasible.
+    for query in &feasible {
+        assert!(drawn.contains(&format!(">{query}: feasible</text>")), "{query}");
+    }
+    assert!(drawn.contains(">reach(plate): no_free_pose</text>"));
+    // What has no shape is marked where it is, and what is opened is drawn so.
+    assert_eq!(drawn.matches("<path class=\"mark\"").count(), 2);
+    assert!(drawn.contains(">charging_dock</text>") && drawn.contains(">door</text>"));
+    let opened = feasible.iter().filter(|query| query.starts_with("pull")).count();
+    assert!(opened > 0 && drawn.matches("<polygon class=\"moved\"").count() >= opened);
 }
 
 #[test]

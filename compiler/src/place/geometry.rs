@@ -32,7 +32,7 @@ pub struct Geometry {
 struct Memo {
     answers: FxHashMap<(Box<[u8]>, Query), Arc<Answer>>,
     after: FxHashMap<(Box<[u8]>, Query, Change), Next>,
-    helps: FxHashMap<(Box<[u8]>, Query), Option<String>>,
+    told: FxHashMap<(Box<[u8]>, Query), Infeasible>,
 }
 
 /// The world after a motion, where it is known.
@@ -126,17 +126,17 @@ impl Geometry {
         answer
     }
 
-    /// What would help a motion that is infeasible in a world.
-    pub(super) fn help(&self, at: &Keyed, query: &Query, why: &Infeasible) -> Option<String> {
+    /// Why a motion is infeasible in a world, as it is told: with what would help.
+    pub(super) fn explained(&self, at: &Keyed, query: &Query, why: &Infeasible) -> Infeasible {
         let key = (at.key.clone(), query.clone());
-        if let Some(known) = self.memo().and_then(|memo| memo.helps.get(&key).cloned()) {
+        if let Some(known) = self.memo().and_then(|memo| memo.told.get(&key).cloned()) {
             return known;
         }
-        let help = self.room(&at.world).help(query, why, self.budget);
+        let told = self.room(&at.world).explained(query, why, self.budget);
         if let Some(mut memo) = self.memo() {
-            memo.helps.insert(key, help.clone());
+            memo.told.insert(key, told.clone());
         }
-        help
+        told
     }
 
     /// Whether a thing can be grasped from where the robot is; none where neither was proven.

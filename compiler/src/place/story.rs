@@ -21,8 +21,9 @@ impl Walk<'_> {
         situation: &Situation,
     ) -> Option<Diagnostic> {
         let span = self.program.steps.get(id.index())?.span;
+        let why = self.geometry.explained(&situation.at, query, why);
         let culprit = match &why.reason {
-            Reason::NoFreePose { by } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => {
+            Reason::NoFreePose { by, .. } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => {
                 by.as_ref()
             }
             Reason::OutOfReach { .. } | Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
@@ -48,7 +49,7 @@ impl Walk<'_> {
             motion: query.to_string(),
             says: why.reason.to_string(),
             story,
-            change: self.geometry.help(&situation.at, query, why),
+            change: why.change.clone(),
             is_certified: why.certified,
             since,
         };

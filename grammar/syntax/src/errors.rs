@@ -133,6 +133,17 @@ impl Mistake for TooManyTokens {
 pub struct Empty {
     /// The place where something should be.
     pub span: Span,
+    /// What should be there.
+    pub wanted: Wanted,
+}
+
+/// What a document is read as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wanted {
+    /// A policy or declarations.
+    Policy,
+    /// Something that is written in JSON alone: a scene, a state, faults.
+    Json,
 }
 
 impl Mistake for Empty {
@@ -144,7 +155,15 @@ impl Mistake for Empty {
         "the document is empty".into()
     }
     fn help(&self) -> Option<String> {
-        Some("a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`; declarations such as `fluent clean(what: Object)` may stand beside it or alone".into())
+        let help = match self.wanted {
+            Wanted::Policy => {
+                "a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`; declarations such as `fluent clean(what: Object)` may stand beside it or alone"
+            }
+            Wanted::Json => {
+                "a JSON object belongs here: a scene is written `{\"motet_scene\": 1, \"entities\": [ … ]}`, a state `{\"free(hand)\": true}`"
+            }
+        };
+        Some(help.into())
     }
 }
 

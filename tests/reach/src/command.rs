@@ -6,6 +6,21 @@ use motet_geometry::query::Budget;
 
 use crate::judge::{Settings, run};
 
+/// What `--help` says.
+const HELP: &str = "usage: reach [SCENE|--rooms N --seed S] [OPTIONS]
+
+Asks `reach` in rooms at random, or for every object of a scene file, and judges the answers.
+
+  --robot NAME      a robot, several times for more: hsr, anymal_z1, panda (all)
+  --rooms N         rooms at random (10)
+  --seed S          what they are drawn from (1)
+  --cells N         cells that a proof may look at
+  --quick           a shorter search for the truth
+  --unjudged        no search for the truth: answers are counted and witnesses checked
+  --witnesses FILE  writes the witnesses there
+  --targets FILE    writes the targets there
+  --json            only the tables, as JSON";
+
 /// Runs the evaluation: what to print, and whether every witness holds and nothing reachable is certified not to be.
 ///
 /// # Errors
@@ -24,6 +39,9 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
         witnesses: None,
         targets: None,
     };
+    if args.iter().any(|arg| arg == "--help" || arg == "-h") {
+        return Ok((HELP.to_owned(), true));
+    }
     let mut is_json = false;
     let mut args = args.iter();
     while let Some(arg) = args.next() {
@@ -43,7 +61,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
                 settings.scene =
                     Some(std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?);
             }
-            other => return Err(format!("`{other}` is not known")),
+            other => return Err(format!("`{other}` is not known: see --help")),
         }
     }
     if settings.robots.is_empty() {

@@ -99,3 +99,23 @@ fn a_seed_gives_one_room() {
         assert!(targets(&scene).len() > 3);
     }
 }
+
+#[test]
+fn every_argument_is_told() {
+    let (told, is_good) = motet_reach::command(&["--help".into()]).unwrap();
+    assert!(is_good);
+    for argument in [
+        "--robot",
+        "--rooms",
+        "--seed",
+        "--cells",
+        "--quick",
+        "--unjudged",
+        "--witnesses",
+        "--targets",
+        "--json",
+    ] {
+        assert!(told.contains(argument), "{argument}");
+    }
+    assert!(motet_reach::command(&["--nothing".into()]).unwrap_err().contains("--help"));
+}

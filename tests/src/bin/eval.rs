@@ -55,7 +55,10 @@ fn run() -> Result<bool, String> {
     let words: Vec<&str> = args.iter().map(String::as_str).filter(|arg| !arg.starts_with("--")).collect();
     let usage = || {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
-        format!("usage: eval {} FILE [--json], or eval dynamic TRIALS", names.join("|"))
+        format!(
+            "usage: eval {} FILE [--json], eval dynamic TRIALS, or eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
+            names.join("|")
+        )
     };
     if let ["dynamic", count] = words.as_slice() {
         let count = count.parse().map_err(|_| usage())?;

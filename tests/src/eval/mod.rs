@@ -30,8 +30,8 @@ pub struct Judged {
     pub step: Option<(String, String)>,
     /// How long reading, checking and proving took.
     pub took: Duration,
-    /// Under which name the row is added up apart from the others.
-    pub apart: Option<String>,
+    /// Under which name the row is added up once more, with others of its kind.
+    pub group: Option<String>,
     /// What the compiler says, in a few words.
     pub note: Option<String>,
 }
@@ -57,9 +57,9 @@ pub struct Summary {
     pub step_total: usize,
     /// Median time of a row in microseconds.
     pub median_us: f64,
-    /// The sums of the rows that are added up apart, which the others do not contain.
+    /// Of all these the sums of rows of one kind.
     #[serde(skip_serializing_if = "IndexMap::is_empty")]
-    pub apart: IndexMap<String, Summary>,
+    pub groups: IndexMap<String, Summary>,
 }
 
 impl Judged {
@@ -83,15 +83,14 @@ impl Judged {
 /// Adds up judged rows.
 #[must_use]
 pub fn summary(rows: &[Judged]) -> Summary {
-    let mut apart: IndexMap<String, Vec<&Judged>> = IndexMap::new();
+    let mut groups: IndexMap<String, Vec<&Judged>> = IndexMap::new();
     for row in rows {
-        if let Some(name) = &row.apart {
-            apart.entry(name.clone()).or_default().push(row);
+        if let Some(name) = &row.group {
+            groups.entry(name.clone()).or_default().push(row);
         }
     }
-    let counted: Vec<_> = rows.iter().filter(|row| row.apart.is_none()).collect();
-    let apart = apart.iter().map(|(name, rows)| (name.clone(), sums(rows))).collect();
-    Summary { apart, ..sums(&counted) }
+    let groups = groups.iter().map(|(name, rows)| (name.clone(), sums(rows))).collect();
+    Summary { groups, ..sums(&rows.iter().collect::<Vec<_>>()) }
 }
 
 fn sums(rows: &[&Judged]) -> Summary {
@@ -111,7 +110,7 @@ fn sums(rows: &[&Judged]) -> Summary {
         step_agree: steps.iter().filter(|(expected, found)| expected == found).count(),
         step_total: steps.len(),
         median_us: median.as_secs_f64() * 1e6,
-        apart: IndexMap::new(),
+        groups: IndexMap::new(),
     }
 }
 

@@ -53,7 +53,7 @@ pub fn judge(line: &str) -> Result<Judged, String> {
         class: None,
         step,
         took,
-        apart: None,
+        group: None,
         note: None,
     })
 }

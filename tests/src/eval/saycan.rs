@@ -24,7 +24,7 @@ pub fn judge(line: &str) -> Result<Judged, String> {
         class: None,
         step: None,
         took,
-        apart: None,
+        group: None,
         note: end.err(),
         id: row.id,
     })

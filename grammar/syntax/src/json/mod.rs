@@ -47,7 +47,7 @@ pub(crate) use tree::push_escaped;
 
 use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Empty, TooLarge};
+use crate::errors::{Empty, TooLarge, Wanted};
 use crate::source::{FileId, Source, Span};
 
 /// How deep brackets may nest in a JSON document. One block of a policy takes up to four: the handlers of a `try` are an
@@ -80,7 +80,7 @@ fn read_tree<'s, T: Deserialize<'s>>(
         return (None, None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
     }
     if text.trim_ascii().is_empty() {
-        return (None, None, vec![Empty { span: start }.into()]);
+        return (None, None, vec![Empty { span: start, wanted: Wanted::Json }.into()]);
     }
     let (tree, mut found) = parse::parse(text, file);
     let Some(tree) = tree else { return (None, None, found) };

@@ -8,7 +8,7 @@ use super::errors::{TextSyntax, UnknownUnit};
 use super::label::{CLAUSE, DECLARATION, NAME, OPERATOR, STEP, VALUE, keyword, label, words};
 use super::token::{Token, TokenKind, tokens};
 use crate::diagnostic::Diagnostic;
-use crate::errors::Empty;
+use crate::errors::{Empty, Wanted};
 use crate::source::{FileId, Span};
 use crate::suggest;
 
@@ -26,7 +26,7 @@ pub(super) fn explain(text: &str, error: &Error<Rule>, file: FileId) -> Diagnost
         return UnknownUnit { span: unit.span(file), unit: unit.text.into() }.into();
     }
     if place.found.is_none() && place.before.is_none() {
-        return Empty { span: Span::new(file, 0, 0) }.into();
+        return Empty { span: Span::new(file, 0, 0), wanted: Wanted::Policy }.into();
     }
     if let Some(word) = place.lone_word() {
         let message = format!("`{}` is no step", short(word.text));

@@ -5,7 +5,7 @@ use super::errors::TextSyntax;
 use super::token::{Token, TokenKind, tokens};
 use crate::ast::{MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Empty, TooDeep, TooManyTokens};
+use crate::errors::{Empty, TooDeep, TooManyTokens, Wanted};
 use crate::source::{FileId, Span};
 
 /// The first thing that makes parsing hopeless or dangerous.
@@ -37,7 +37,8 @@ pub(crate) fn scan(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
         previous = token.text;
     }
     if count == 0 {
-        return Err(Box::new(Empty { span: Span::new(file, 0, 0) }.into()));
+        let span = Span::new(file, 0, 0);
+        return Err(Box::new(Empty { span, wanted: Wanted::Policy }.into()));
     }
     open.retain(|opening| opening.text != "<");
     match open.last() {

@@ -213,6 +213,8 @@ pub enum Reason {
     NoFreePose {
         /// What is touched most often.
         by: Option<SmolStr>,
+        /// How often, where that was counted.
+        share: Option<Share>,
     },
     /// There are free configurations, and no way to one was found.
     BlockedPath {
@@ -276,10 +278,14 @@ impl std::fmt::Display for Reason {
             Self::OutOfReach { what, needs, reach } => {
                 write!(f, "needs a {what} of {needs:.2} m, the hand reaches {reach:.2} m")
             }
-            Self::NoFreePose { by: Some(by) } => {
-                write!(f, "no pose of the robot is free, and most often {} is in the way", named(by))
+            Self::NoFreePose { by: Some(by), share } => {
+                write!(f, "no pose of the robot is free, and most often {} is in the way", named(by))?;
+                match share {
+                    Some(Share { touching, tried }) => write!(f, " ({touching} of {tried} that were tried)"),
+                    None => Ok(()),
+                }
             }
-            Self::NoFreePose { by: None } => f.write_str("no pose of the robot serves it"),
+            Self::NoFreePose { by: None, .. } => f.write_str("no pose of the robot serves it"),
             Self::BlockedPath { by: Some(by) } => write!(f, "{} blocks the way", named(by)),
             Self::BlockedPath { by: None } => f.write_str("no way leads there"),
             Self::TooHeavy { needs, limit } => {
@@ -290,6 +296,15 @@ impl std::fmt::Display for Reason {
             }
         }
     }
+}
+
+/// How many poses touch something, of those of the robot or, where none is free of the hand alone, of the hand that were tried.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Share {
+    /// Those that touch it before anything else that is looked at.
+    pub touching: usize,
+    /// All.
+    pub tried: usize,
 }
 
 /// How far aside of the direction of the base something is, and how far the camera sees: both in rad, the first positive to the

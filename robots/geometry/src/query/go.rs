@@ -30,14 +30,8 @@ impl Room<'_> {
             return unknown("the robot's base does not drive".into());
         }
         let reach = self.served_within(entity);
-        // A thing is served by its centre; what things stand on, in or with, by its outline.
-        let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
-        let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
         let centre = pose.translation.vector;
-        let far = |x: f64, y: f64| {
-            let solids = outline.iter().map(|solid| beside(solid, x, y));
-            solids.reduce(f64::min).unwrap_or_else(|| libm::hypot(x - centre.x, y - centre.y))
-        };
+        let far = self.far_from(index, entity, [centre.x, centre.y]);
         let start = &self.world.robot;
         let [start_x, start_y, _] = start.base;
         if far(start_x, start_y) <= reach && self.touch(start, Allowed::default()).is_none() {
@@ -84,11 +78,25 @@ impl Room<'_> {
                 }
             }
         }
-        let by = met.most();
-        let reason =
-            if is_free_somewhere { Reason::BlockedPath { by: None } } else { Reason::NoFreePose { by } };
+        let reason = if is_free_somewhere { Reason::BlockedPath { by: None } } else { met.none_free() };
         let certified = self.is_shut_off([centre.x, centre.y], reach, far);
         Answer::Infeasible(Infeasible { reason, change: None, certified, state: None })
+    }
+
+    /// How far a place is from an entity with its middle at another. A thing is served by its centre; what things stand on, in or with, by
+    /// its outline.
+    pub(super) fn far_from(
+        &self,
+        index: usize,
+        entity: &Entity,
+        [x, y]: [f64; 2],
+    ) -> impl Fn(f64, f64) -> f64 + use<> {
+        let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
+        let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
+        move |at_x, at_y| {
+            let solids = outline.iter().map(|solid| beside(solid, at_x, at_y));
+            solids.reduce(f64::min).unwrap_or_else(|| libm::hypot(at_x - x, at_y - y))
+        }
     }
 
     /// How near the base has to be to an entity to serve it, in m.
@@ -109,7 +117,7 @@ impl Room<'_> {
         let mut met = Tally::default();
         if let Some(touch) = self.touch(&goal, Allowed::default()) {
             met.add(&touch);
-            return certain(Reason::NoFreePose { by: met.most() }, None);
+            return certain(Reason::NoFreePose { by: met.most(), share: None }, None);
         }
         match self.unfold(start, &goal, &mut met) {
             Some(path) => self.gone(path),

@@ -3,6 +3,7 @@
 //! This is looked for where an answer is told, not where it is given: it takes as long as a few queries.
 
 use motet_robots::scene::{Entity, Scene};
+use nalgebra::Translation3;
 use smol_str::SmolStr;
 
 use super::answer::{Answer, Aside, Budget, Infeasible, Query, Reason};
@@ -15,34 +16,34 @@ const TAKEN: usize = 3;
 const NEAR: f64 = 0.8;
 /// The most that is looked at for one change.
 const EFFORT: [usize; 2] = [64, 16];
+/// That a change would not help needs no proof: so many cells.
+const CELLS: usize = 1024;
+/// By how much higher a thing is tried, in m.
+const LIFTS: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.3];
 
 impl Room<'_> {
-    /// The nearest change that would help a motion that is infeasible, in words; `None` where none is known. What is said of a thing
-    /// that is in the way, or of another place to stand, was tried: with it the motion is feasible.
+    /// An answer as it is told: with the nearest change that would help, in words, where one is known. What is said of a thing that is in
+    /// the way, of a thing that lies too low, or of another place to stand, was tried: with it the motion is feasible. Where every way of the base is cut off, the
+    /// reason names what does that.
     #[must_use]
-    pub fn help(&self, query: &Query, why: &Infeasible, budget: Budget) -> Option<String> {
-        if why.change.is_some() {
-            return why.change.clone();
+    pub fn explained(&self, query: &Query, why: &Infeasible, budget: Budget) -> Infeasible {
+        let mut told = why.clone();
+        if told.change.is_some() {
+            return told;
         }
         let mut least = budget;
         least.candidates = least.candidates.min(EFFORT[0]);
         least.paths = least.paths.min(EFFORT[1]);
-        match &why.reason {
+        least.cells = least.cells.min(CELLS);
+        told.change = match &why.reason {
             Reason::TooHeavy { .. } | Reason::TooWide { .. } => None,
-            Reason::OutOfReach { what: "sight", needs, reach } => {
-                let id = targets(query).next_back()?;
-                Some(format!(
-                    "the robot has to be at least {:.2} m nearer to `{id}`",
-                    whole_centimetres(needs - reach)
-                ))
-            }
-            Reason::OutOfReach { what: "distance", needs, reach } => {
-                let id = targets(query).next_back()?;
-                Some(format!(
-                    "`{id}` would have to be at least {:.2} m nearer",
-                    whole_centimetres(needs - reach)
-                ))
-            }
+            Reason::OutOfReach { what: "sight", needs, reach } => targets(query).next_back().map(|id| {
+                let nearer = whole_centimetres(needs - reach);
+                format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
+            }),
+            Reason::OutOfReach { what: "distance", needs, reach } => targets(query).next_back().map(|id| {
+                format!("`{id}` would have to be at least {:.2} m nearer", whole_centimetres(needs - reach))
+            }),
             Reason::OutOfReach { .. } => None,
             Reason::NotInView { by: None, aside: Some(Aside { needs, limit }) } if self.machine.drives() => {
                 let to = if *needs > 0.0 { "left" } else { "right" };
@@ -50,11 +51,54 @@ impl Room<'_> {
                 let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
                 Some(format!("turn to the {to} by at least {least:.0}° before"))
             }
-            Reason::NoFreePose { by } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => (self
-                .shut_in(query))
-            .or_else(|| self.cleared(query, by.as_ref(), least))
-            .or_else(|| self.elsewhere(query, least)),
-        }
+            Reason::NoFreePose { by, .. } | Reason::BlockedPath { by } | Reason::NotInView { by, .. } => {
+                let shut = self.shut_in(query);
+                if shut.is_some() {
+                    shut
+                } else if let Some((by, change)) = self.cut_off(query, why, least) {
+                    if let Reason::BlockedPath { by: named } = &mut told.reason {
+                        *named = Some(by);
+                    }
+                    change
+                } else {
+                    (self.cleared(query, by.as_ref(), least))
+                        .or_else(|| self.lifted(query, &why.reason, least))
+                        .or_else(|| self.elsewhere(query, least))
+                }
+            }
+        };
+        told
+    }
+
+    /// What cuts the base off from where it would have to stand, and that it would have to be taken away, where that helps. Nothing of
+    /// an answer that found no free pose, where it would not help.
+    fn cut_off(&self, query: &Query, why: &Infeasible, budget: Budget) -> Option<(SmolStr, Option<String>)> {
+        let between = self.barrier(query, why, |id| self.may_go(query, id));
+        let names: Vec<SmolStr> = between.into_iter().map(|at| self.name(at)).collect();
+        let fixed = names.iter().find(|id| !self.may_go(query, id));
+        let helps = || {
+            let scene = without(self.scene, &names);
+            let room = Room::new(self.machine, &scene, self.world);
+            matches!(room.answer(query, budget), Answer::Feasible(_))
+        };
+        let may_help = fixed.is_none() && !names.is_empty() && names.len() <= TAKEN;
+        let change = (may_help && helps()).then(|| {
+            let what = match query {
+                Query::GoTo(to) => {
+                    let reach = self.scene.entities.get(to).map_or(0.0, |it| self.served_within(it));
+                    format!("a place within {reach:.2} m of `{to}`")
+                }
+                _ => match targets(query).next_back() {
+                    Some(id) => format!("a place from which `{id}` is in reach"),
+                    None => "such a place".to_owned(),
+                },
+            };
+            let them = if names.len() == 1 { "it" } else { "them" };
+            format!("every way to {what} is blocked by {}: take {them} out of the way", listed(&names))
+        });
+        let is_way = matches!(why.reason, Reason::BlockedPath { .. });
+        let by = fixed.or(names.first()).filter(|_| is_way || change.is_some())?;
+        Some((by.clone(), change))
     }
 
     /// What the motion is about lies in something that is closed.
@@ -81,7 +125,7 @@ impl Room<'_> {
         near.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let tried = by.into_iter().chain(near.into_iter().map(|(_, id)| id)).take(TAKEN);
         let helps = |id: &&SmolStr| {
-            let scene = without(self.scene, id);
+            let scene = without(self.scene, std::slice::from_ref(*id));
             let room = Room::new(self.machine, &scene, self.world);
             matches!(room.answer(query, budget), Answer::Feasible(_))
         };
@@ -93,6 +137,19 @@ impl Room<'_> {
             }
             _ => format!("without `{id}` it can be done: take it out of the way"),
         })
+    }
+
+    /// By how much higher a thing would have to be that lies where no pose of the hand is free.
+    fn lifted(&self, query: &Query, reason: &Reason, budget: Budget) -> Option<String> {
+        let (Query::Reach(id, _), Reason::NoFreePose { .. }) = (query, reason) else { return None };
+        let pose = self.scene.entities.get(id).and_then(|entity| self.world.pose(entity))?;
+        let helps = |up: &f64| {
+            let mut world = self.world.clone();
+            world.moved.insert(id.clone(), Translation3::new(0.0, 0.0, *up) * pose);
+            matches!(self.in_world(&world).answer(query, budget), Answer::Feasible(_))
+        };
+        let up = LIFTS.into_iter().find(helps)?;
+        Some(format!("with `{id}` {up:.2} m higher it can be done"))
     }
 
     /// Whether something else can be taken away, and what the motion is about stays.
@@ -121,7 +178,7 @@ impl Room<'_> {
 }
 
 /// What a motion is about, what it is about most at last.
-fn targets(query: &Query) -> impl DoubleEndedIterator<Item = &SmolStr> {
+pub(super) fn targets(query: &Query) -> impl DoubleEndedIterator<Item = &SmolStr> {
     let (first, second) = match query {
         Query::Put(object, other) | Query::Offer(object, other) => (Some(object), Some(other)),
         Query::GoTo(id) | Query::Reach(id, _) | Query::Look(id) | Query::Pull(id) | Query::Push(id) => {
@@ -132,10 +189,20 @@ fn targets(query: &Query) -> impl DoubleEndedIterator<Item = &SmolStr> {
     first.into_iter().chain(second)
 }
 
-/// The scene without a thing and what stands on it or is in it.
-fn without(scene: &Scene, id: &str) -> Scene {
+/// Names in backticks, as they are said.
+fn listed(names: &[SmolStr]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        Some((last, before)) if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        Some(_) | None => quoted.concat(),
+    }
+}
+
+/// The scene without some things and what stands on them or is in them.
+fn without(scene: &Scene, ids: &[SmolStr]) -> Scene {
     let mut scene = scene.clone();
-    let gone: Vec<SmolStr> = scene.entities.keys().filter(|it| goes_with(&scene, it, id)).cloned().collect();
+    let is_gone = |it: &SmolStr| ids.iter().any(|id| goes_with(&scene, it, id));
+    let gone: Vec<SmolStr> = scene.entities.keys().filter(|it| is_gone(it)).cloned().collect();
     scene.entities.retain(|it, _| !gone.contains(it));
     scene
 }

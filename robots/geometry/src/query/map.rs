@@ -9,8 +9,10 @@ use std::sync::Mutex;
 use super::outlines::{Outline, Outlines};
 use super::room::Room;
 use super::state::State;
+use super::things::Thing;
 use super::touch::about_vertical;
 
+mod through;
 mod way;
 
 use way::Visits;
@@ -30,6 +32,8 @@ const LEAF: usize = 4;
 #[derive(Debug)]
 pub(super) struct Map {
     outlines: Outlines,
+    /// Of each outline the entity, by its index.
+    owners: Vec<usize>,
     origin: [f64; 2],
     cell: f64,
     size: [usize; 2],
@@ -51,8 +55,8 @@ impl Map {
         let placed = room.body.placed(&room.machine.map_from_links(&state));
         let discs: Vec<(f64, [f64; 2])> =
             placed.iter().map(|solid| about_vertical(solid, 0.0, 0.0)).collect();
-        let outlines: Vec<Outline> =
-            room.things.iter().filter_map(|thing| Outline::new(&thing.solid, &discs)).collect();
+        let owned = |thing: &Thing| Some((Outline::new(&thing.solid, &discs)?, thing.entity));
+        let (outlines, owners): (Vec<Outline>, Vec<usize>) = room.things.iter().filter_map(owned).unzip();
         let [x, y, _] = room.world.robot.base;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for outline in &outlines {
@@ -74,6 +78,7 @@ impl Map {
         let size = span.map(|span| (libm::ceil(span / cell) as usize + 1).min(CELLS + 2));
         let mut map = Self {
             outlines: Outlines::new(outlines, origin, span),
+            owners,
             origin,
             cell,
             size,

@@ -8,6 +8,7 @@ mod after;
 mod answer;
 mod arm;
 mod around;
+mod barrier;
 mod cells;
 mod connect;
 mod excursion;
@@ -46,7 +47,9 @@ mod travel;
 mod way;
 mod world;
 
-pub use answer::{Answer, Aside, Budget, Grasp, Infeasible, Margins, Query, Reason, Side, Unknown, Witness};
+pub use answer::{
+    Answer, Aside, Budget, Grasp, Infeasible, Margins, Query, Reason, Share, Side, Unknown, Witness,
+};
 pub use machine::{Hand, Machine};
 pub use opening::Opening;
 pub use room::{GAP, Maps, Room};

@@ -124,6 +124,11 @@ impl Outline {
         libm::hypot(self.half[0], self.half[1]) + self.round
     }
 
+    /// How far the base's axis stays from the obstacle, in m.
+    pub(super) fn keep_off(&self) -> f64 {
+        self.keep_off
+    }
+
     /// How far the base's axis at a place is from where the robot may touch the obstacle, in m.
     pub(super) fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let (x, y) = (x - self.centre[0], y - self.centre[1]);

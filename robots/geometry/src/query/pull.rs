@@ -160,7 +160,7 @@ impl Room<'_> {
             let covered =
                 around.covered(pull.hand, &grips, none, budget.cells, |_, _| ControlFlow::Break(()));
             if covered == Covered::Nowhere {
-                return certain(Reason::NoFreePose { by: poses.most() }, None);
+                return certain(poses.none_free(), None);
             }
         }
         exhausted(is_free || is_cut_off, &poses, &ways)

@@ -1,7 +1,7 @@
 //! `put`: a place for what is in the hand on a surface or in a container, and a way of the whole robot to it.
 
 use motet_robots::scene::{Entity, Travel};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::answer::{Answer, Budget, Grasp, Infeasible, Margins, Reason, Side, Unknown, Witness};
 use super::arm::{PLANE, part};
@@ -20,7 +20,8 @@ use crate::kinematics::planar;
 pub(super) const ABOVE: f64 = 0.004;
 /// How far it is lowered straight down before, in m; the shorter where the longer does not do.
 const LOWER: [f64; 2] = [0.1, 0.05];
-/// Places that are tried with the usual budget: half of them the nearest to the robot, half spread over the face.
+/// Places that are tried with the usual budget: half of them the nearest to the robot, half spread over the face; and half as many
+/// along its rim, where a hand beside the thing has room that it has not over the face.
 const PLACES: usize = 16;
 /// A larger budget tries at most so many times as many.
 const MOST_TIMES: usize = 16;
@@ -35,6 +36,28 @@ pub(super) struct Support {
     /// How high the walls around it are, in m: what is put there comes from above them.
     walls: f64,
     is_disc: bool,
+}
+
+impl Support {
+    /// A place on the rim, so far around it of 1, in parts of half its sides.
+    fn rim(&self, around: f64) -> [f64; 2] {
+        if self.is_disc {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * around);
+            return [cos, sin];
+        }
+        // As far from one place to the next on a long side as on a short one.
+        let [wide, deep] = self.half;
+        let gone = around * 2.0 * (wide + deep);
+        if gone < wide {
+            [2.0 * gone / wide - 1.0, -1.0]
+        } else if gone < wide + deep {
+            [1.0, 2.0 * (gone - wide) / deep - 1.0]
+        } else if gone < 2.0 * wide + deep {
+            [1.0 - 2.0 * (gone - wide - deep) / wide, 1.0]
+        } else {
+            [-1.0, 1.0 - 2.0 * (gone - 2.0 * wide - deep) / deep]
+        }
+    }
 }
 
 impl Room<'_> {
@@ -57,7 +80,7 @@ impl Room<'_> {
         let wanted = PLACES * (budget.candidates / Budget::default().candidates).clamp(1, MOST_TIMES);
         let (places, is_cut) = self.places(&held, (&support, index), wanted, &mut met);
         if places.is_empty() {
-            let reason = Reason::NoFreePose { by: met.most() };
+            let reason = met.none_free();
             let certified = self.is_full(&held, &support, index);
             return Answer::Infeasible(Infeasible { reason, change: None, certified, state: None });
         }
@@ -126,7 +149,7 @@ impl Room<'_> {
             }
         };
         if entity.travel.is_some() && !self.world.is_open(entity) {
-            let reason = Reason::NoFreePose { by: Some(entity.id.clone()) };
+            let reason = Reason::NoFreePose { by: Some(entity.id.clone()), share: None };
             let change = Some(format!("open `{}` before", entity.id));
             return Err(Answer::Infeasible(Infeasible::proven(reason, change)));
         }
@@ -148,8 +171,8 @@ impl Room<'_> {
         Ok(Support { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
     }
 
-    /// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face. Tells
-    /// whether there were more.
+    /// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face, and half as
+    /// many along its rim. Tells whether there were more.
     fn places(
         &self,
         held: &Held<'_>,
@@ -164,16 +187,19 @@ impl Room<'_> {
         // What is too large for it may stand out on all sides, with its middle on the middle.
         let room = on.half.map(|half| (half - around).max(0.0));
         let [base_x, base_y, _] = self.world.robot.base;
-        let mut spots: Vec<(f64, Vector3<f64>)> = Vec::new();
-        for at in 0..4 * wanted {
-            let [x, y] = [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0);
-            if on.is_disc && x * x + y * y > 1.0 {
-                continue;
-            }
-            let spot = on.map_from_face * nalgebra::Point3::new(x * room[0], y * room[1], bottom + ABOVE);
-            spots.push((libm::hypot(spot.x - base_x, spot.y - base_y), spot.coords));
-        }
-        spots.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let sorted = |spots: Vec<[f64; 2]>| {
+            let spots = spots.into_iter().map(|[x, y]| {
+                let spot = on.map_from_face * Point3::new(x * room[0], y * room[1], bottom + ABOVE);
+                (libm::hypot(spot.x - base_x, spot.y - base_y), spot.coords)
+            });
+            let mut spots: Vec<(f64, Vector3<f64>)> = spots.collect();
+            spots.sort_by(|one, other| one.0.total_cmp(&other.0));
+            spots
+        };
+        let over =
+            (0..4 * wanted).map(|at| [part(at, 1, PLANE), part(at, 2, PLANE)].map(|part| 2.0 * part - 1.0));
+        let over = over.filter(|[x, y]| !on.is_disc || x * x + y * y <= 1.0).collect();
+        let along = (0..2 * wanted).map(|at| on.rim(at as f64 / (2 * wanted) as f64)).collect();
         let turned = |turn: u32| std::f64::consts::TAU * f64::from(turn) / f64::from(TURNS);
         let upright = |spot: Vector3<f64>, turn: u32| {
             let rotation: UnitQuaternion<f64> = planar(0.0, 0.0, turned(turn)).rotation;
@@ -186,14 +212,18 @@ impl Room<'_> {
             let other = others.find(|thing| !stands.is_farther(&thing.solid, GAP));
             other.inspect(|other| met.add_entity(self.name(other.entity))).is_none()
         };
-        let free: Vec<Vector3<f64>> =
-            spots.into_iter().map(|(_, spot)| spot).filter(|spot| is_free(spot)).collect();
-        let (near, far) = free.split_at(free.len().min(wanted / 2));
-        // In their order by distance, every so many-th.
-        let step = far.len().div_ceil(wanted / 2).max(1);
-        let chosen = near.iter().chain(far.iter().step_by(step));
-        let turned = chosen.flat_map(|spot| (0..TURNS).map(|turn| upright(*spot, turn)));
-        (turned.collect(), step > 1)
+        let (mut chosen, mut is_cut) = (Vec::new(), false);
+        for (spots, wanted) in [(sorted(over), wanted), (sorted(along), wanted / 2)] {
+            let free: Vec<Vector3<f64>> =
+                spots.into_iter().map(|(_, spot)| spot).filter(|spot| is_free(spot)).collect();
+            let (near, far) = free.split_at(free.len().min(wanted / 2));
+            // In their order by distance, every so many-th.
+            let step = far.len().div_ceil(wanted / 2).max(1);
+            chosen.extend(near.iter().chain(far.iter().step_by(step)).copied());
+            is_cut |= step > 1;
+        }
+        let turned = chosen.into_iter().flat_map(|spot| (0..TURNS).map(move |turn| upright(spot, turn)));
+        (turned.collect(), is_cut)
     }
 
     /// The witness of a motion with what is held.

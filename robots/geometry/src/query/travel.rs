@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use motet_robots::card::Drive;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::answer::{Answer, ITSELF, Infeasible, Reason};
+use super::answer::{Answer, ITSELF, Infeasible, Reason, Share};
 use super::around::Around;
 use super::map::Map;
 use super::room::Room;
@@ -49,12 +49,27 @@ impl Tally {
     /// What is met most often; of equals the first by name. The robot itself counts as one, and is told with the links that meet
     /// most often.
     pub(super) fn most(&self) -> Option<SmolStr> {
+        self.counted().map(|(name, _)| name)
+    }
+
+    /// That no pose is free of those whose touches these are: what most of them touch, and how many of how many.
+    pub(super) fn none_free(&self) -> Reason {
+        let (by, touching) = self.counted().unzip();
+        let tried = self.others.values().chain(self.own.values()).sum();
+        Reason::NoFreePose { by, share: touching.map(|touching| Share { touching, tried }) }
+    }
+
+    fn counted(&self) -> Option<(SmolStr, usize)> {
         let own: usize = self.own.values().sum();
         match first_most(&self.others) {
-            Some((name, count)) if count >= own => Some(name.clone()),
+            Some((name, count)) if count >= own => Some((name.clone(), count)),
             _ => first_most(&self.own)
-                .map(|([one, other], _)| format_smolstr!("{ITSELF} (`{one}` and `{other}`)")),
+                .map(|([one, other], _)| (format_smolstr!("{ITSELF} (`{one}` and `{other}`)"), own)),
         }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.others.is_empty() && self.own.is_empty()
     }
 }
 
@@ -68,8 +83,7 @@ fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
 
 /// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.
 pub(super) fn exhausted(found: bool, poses: &Tally, ways: &Tally) -> Answer {
-    let reason =
-        if found { Reason::BlockedPath { by: ways.most() } } else { Reason::NoFreePose { by: poses.most() } };
+    let reason = if found { Reason::BlockedPath { by: ways.most() } } else { poses.none_free() };
     Answer::Infeasible(Infeasible::exhausted(reason))
 }
 
@@ -199,7 +213,7 @@ impl Room<'_> {
     }
 
     /// Straight ways out of where the robot is, where it has no room to turn: some, nearest first.
-    fn escapes(&self, map: &Map) -> &[(State, [f64; 2])] {
+    pub(super) fn escapes(&self, map: &Map) -> &[(State, [f64; 2])] {
         self.escapes.get_or_init(|| self.ways_out(map))
     }
 

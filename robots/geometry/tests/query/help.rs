@@ -18,17 +18,20 @@ fn hsr(from: &str, to: &str) -> Machine {
     Machine::new(&card, &urdf)
 }
 
-/// The answer, and what would help.
+/// The answer as it is told, and what would help.
 fn asked(machine: &Machine, scene: &Scene, query: &str) -> (Answer, Option<String>) {
     let world = World::new(machine, scene);
     let room = Room::new(machine, scene, &world);
     let query = Query::parse(query).unwrap();
-    let answer = room.answer(&query, Budget::default());
-    let help = match &answer {
-        Answer::Infeasible(why) => room.help(&query, why, Budget::default()),
-        Answer::Feasible(_) | Answer::Unknown(_) => None,
-    };
-    (answer, help)
+    match room.answer(&query, Budget::default()) {
+        Answer::Infeasible(why) => {
+            let told = room.explained(&query, &why, Budget::default());
+            assert_eq!((told.reason.name(), told.certified), (why.reason.name(), why.certified));
+            let change = told.change.clone();
+            (Answer::Infeasible(told), change)
+        }
+        answer => (answer, None),
+    }
 }
 
 fn refused(machine: &Machine, scene: &Scene, query: &str) -> (Infeasible, Option<String>) {
@@ -119,11 +122,13 @@ fn alcove(is_fixed: bool) -> Scene {
 fn what_can_be_taken_away_is_named_where_that_helps() {
     let (machine, _) = machine("hsr");
     let (_, help) = refused(&machine, &alcove(false), "reach(mug_1)");
-    assert_eq!(help.as_deref(), Some("without `chair` it can be done: take it out of the way"));
+    let told =
+        "every way to a place from which `mug_1` is in reach is blocked by `chair`: take it out of the way";
+    assert_eq!(help.as_deref(), Some(told));
     let (_, help) = refused(&machine, &alcove(false), "go_to(mug_1)");
     assert_eq!(
         help.as_deref(),
-        Some("a place within 0.60 m of `mug_1` is blocked by `chair`: take it out of the way")
+        Some("every way to a place within 0.60 m of `mug_1` is blocked by `chair`: take it out of the way")
     );
     // What never moves is not asked away, nor what would not help.
     assert_eq!(refused(&machine, &alcove(true), "reach(mug_1)").1, None);
@@ -132,6 +137,86 @@ fn what_can_be_taken_away_is_named_where_that_helps() {
     wall(&mut both, "behind", [1.5, 1.5, 1.0], [4.0, 0.1, 2.0]);
     wall(&mut both, "beside", [1.5, -1.5, 1.0], [4.0, 0.1, 2.0]);
     assert_eq!(refused(&machine, &both, "reach(mug_1)").1, None);
+}
+
+/// The mug on a table in a closed room, in the only gap of which, so many metres to either side, stands something.
+fn doorway(gap: f64, chairs: &[(&str, [f64; 2], f64)]) -> Scene {
+    changed(|scene| {
+        scene.entities.retain(|id, _| id == "mug_1");
+        let (middle, wide) = ((2.7 + gap) / 2.0, 2.7 - gap);
+        wall(scene, "left", [1.5, middle, 1.0], [0.1, wide, 2.0]);
+        wall(scene, "right", [1.5, -middle, 1.0], [0.1, wide, 2.0]);
+        wall(scene, "north", [3.5, 2.7, 1.0], [4.1, 0.1, 2.0]);
+        wall(scene, "south", [3.5, -2.7, 1.0], [4.1, 0.1, 2.0]);
+        wall(scene, "back", [5.5, 0.0, 1.0], [0.1, 5.5, 2.0]);
+        wall(scene, "table", [4.0, 0.0, 0.36], [0.6, 1.0, 0.72]);
+        for (id, [x, y], deep) in chairs {
+            wall(scene, id, [*x, *y, 0.45], [*deep, 0.5, 0.9]);
+            scene.entities[*id].fixed = false;
+        }
+        let mug = &mut scene.entities["mug_1"];
+        mug.on = Some("table".into());
+        mug.pose.as_mut().unwrap().xyz = [3.8, 0.0, 0.775];
+    })
+}
+
+#[test]
+fn what_stands_in_the_only_doorway_is_the_culprit() {
+    for (robot, gap) in [("hsr", 0.5), ("anymal_z1", 1.0)] {
+        let (machine, _) = machine(robot);
+        for (query, to) in [
+            ("go_to(table)", "a place within"),
+            ("go_to(mug_1)", "a place within"),
+            ("reach(mug_1)", "a place from which `mug_1` is in reach"),
+        ] {
+            // One far from the doorway, as near to the table, is of no matter.
+            let scene = doorway(gap, &[("stool", [4.8, 1.5], 0.3), ("chair", [1.5, 0.0], 0.4)]);
+            let (why, help) = refused(&machine, &scene, query);
+            assert_eq!(why.reason, Reason::BlockedPath { by: Some("chair".into()) }, "{robot}, {query}");
+            let help = help.unwrap();
+            assert!(help.starts_with(&format!("every way to {to}")), "{robot}, {query}: {help}");
+            assert!(
+                help.ends_with("is blocked by `chair`: take it out of the way"),
+                "{robot}, {query}: {help}"
+            );
+            // What never moves is told, and not asked away; the thing itself and the robot are never in the way.
+            let mut walled = doorway(gap, &[]);
+            wall(&mut walled, "board", [1.5, 0.0, 1.0], [0.1, 2.0 * gap, 2.0]);
+            let (why, help) = refused(&machine, &walled, query);
+            assert_eq!(help, None, "{robot}, {query}");
+            let Reason::BlockedPath { by: Some(by) } = why.reason else {
+                panic!("{robot}, {query}: {why:?}")
+            };
+            assert!(walled.entities[&by].fixed && by != "table", "{robot}, {query}: {by}");
+        }
+    }
+}
+
+#[test]
+fn two_things_in_a_row_have_to_go_both() {
+    let (machine, _) = machine("hsr");
+    let mut scene = doorway(0.5, &[("chair", [1.5, 0.0], 0.4), ("stool", [2.3, 0.0], 0.4)]);
+    for (id, y) in [("inner_left", 0.6), ("inner_right", -0.6)] {
+        wall(&mut scene, id, [1.9, y, 1.0], [0.9, 0.2, 2.0]);
+    }
+    let (why, help) = refused(&machine, &scene, "go_to(table)");
+    assert_eq!(why.reason, Reason::BlockedPath { by: Some("chair".into()) });
+    assert!(help.unwrap().ends_with("is blocked by `chair` and `stool`: take them out of the way"));
+}
+
+#[test]
+fn what_lies_too_flat_is_told_how_much_higher_it_would_do() {
+    let (machine, _) = machine("hsr");
+    let scene = embedded("kitchen");
+    let (why, help) = refused(&machine, &scene, "reach(plate)");
+    assert!(matches!(why.reason, Reason::NoFreePose { share: Some(_), .. }));
+    let help = help.unwrap();
+    let up =
+        help.strip_prefix("with `plate` ").and_then(|rest| rest.strip_suffix(" m higher it can be done"));
+    let up: f64 = up.unwrap().parse().unwrap();
+    let mut higher = scene.clone();
+    higher.entities["plate"].pose.as_mut().unwrap().xyz[2] += up;
+    assert!(matches!(asked(&machine, &higher, "reach(plate)").0, Answer::Feasible(_)));
 }
 
 #[test]

@@ -19,7 +19,7 @@ mod verify;
 use std::collections::BTreeMap;
 
 use motet_geometry::query::{
-    Allowed, Answer, Budget, Machine, Query, Reason, Room, Side, State, Unknown, World,
+    Allowed, Answer, Budget, Machine, Query, Reason, Room, Share, Side, State, Unknown, World,
 };
 use motet_robots::card;
 use motet_robots::scene::{self, Placement, Scene};
@@ -90,7 +90,9 @@ fn the_hsr_in_the_kitchen() {
     );
     // It lies flat: between it and the table there is no room for a finger.
     let Answer::Infeasible(why) = &answers["reach(plate)"] else { panic!("{answers:?}") };
-    assert_eq!(why.reason, Reason::NoFreePose { by: Some("kitchen_table".into()) });
+    let Reason::NoFreePose { by: Some(by), share: Some(share) } = &why.reason else { panic!("{why:?}") };
+    assert_eq!(by, "kitchen_table");
+    assert!(share.touching > share.tried / 2 && share.touching <= share.tried, "{share:?}");
     assert!(why.certified);
 }
 
@@ -200,6 +202,28 @@ fn what_is_not_computed_is_unknown() {
 }
 
 #[test]
+fn an_ordinary_surface_takes_a_thing_from_wherever_the_robot_stands() {
+    let (machine, urdf) = machine("hsr");
+    let bases = [[0.0, 0.0, 0.0], [0.5, -1.2, 0.0], [0.0, -1.0, 0.0]];
+    let places = ["counter", "kitchen_table", "sink", "shelf", "trash"];
+    for (base, on) in bases.into_iter().flat_map(|base| places.map(|on| (base, on))) {
+        let scene = changed(|scene| {
+            scene.robot.base = base;
+            scene.robot.holding = Some(Some("mug_1".into()));
+            scene.entities["mug_1"].on = None;
+        });
+        let world = World::new(&machine, &scene);
+        let room = Room::new(&machine, &scene, &world);
+        let query = Query::Put("mug_1".into(), on.into());
+        let Answer::Feasible(witness) = room.answer(&query, Budget::default()) else {
+            panic!("{base:?}, {query}")
+        };
+        let faults = verify::faults(&machine, &urdf, &scene, &world, &witness, Some(on));
+        assert!(faults.is_empty(), "{base:?}, {query}: {:?}", &faults[..faults.len().min(5)]);
+    }
+}
+
+#[test]
 fn what_is_taken_is_put_held_out_and_looked_at() {
     let ((machine, urdf), scene) = (machine("hsr"), embedded("kitchen"));
     let answer = |world: &World, query: Query, support: Option<&str>| {
@@ -237,7 +261,7 @@ fn what_is_taken_is_put_held_out_and_looked_at() {
     let room = Room::new(&machine, &scene, &at_drawer);
     let (why, certified) =
         reason(room.answer(&Query::Put("mug_1".into(), "drawer_1".into()), Budget::default()));
-    assert_eq!((why, certified), (Reason::NoFreePose { by: Some("drawer_1".into()) }, true));
+    assert_eq!((why, certified), (Reason::NoFreePose { by: Some("drawer_1".into()), share: None }, true));
 }
 
 #[test]
@@ -357,6 +381,8 @@ fn a_help_is_no_more_than_is_known() {
     if let (Reason::OutOfReach { needs, reach, .. }, change) = at(-0.6) {
         assert_eq!(change.is_some(), needs - (needs - reach) > 0.0, "{change:?}");
     }
-    let told = Reason::NoFreePose { by: Some("wall".into()) }.to_string();
-    assert_eq!(told, "no pose of the robot is free, and most often `wall` is in the way");
+    let told = |share| Reason::NoFreePose { by: Some("wall".into()), share }.to_string();
+    assert_eq!(told(None), "no pose of the robot is free, and most often `wall` is in the way");
+    let share = Share { touching: 3, tried: 4 };
+    assert!(told(Some(share)).ends_with("most often `wall` is in the way (3 of 4 that were tried)"));
 }

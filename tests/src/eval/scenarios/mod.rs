@@ -70,12 +70,12 @@ pub fn judge(line: &str) -> Result<Judged, String> {
     };
     let class = both(row.class.clone(), found.as_ref().map(|found| found.class));
     let step = both(row.error_step(), found.as_ref().map(|found| found.step.as_str()));
-    let apart = row.needs.filter(|needs| needs != "static");
+    let group = row.needs.filter(|needs| needs != "static");
     let note = found.as_ref().map(|found| {
         let (code, message) = (found.said.code, &found.said.message);
         format!("{} at {}: {code} {message}", found.class, found.step)
     });
-    Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, apart, note })
+    Ok(Judged { id: row.id, expected_error, found_error: found.is_some(), class, step, took, group, note })
 }
 
 /// Mends the plan of a line by at most [`ROUNDS`] fixes and judges what comes of it; none where the row calls the plan

@@ -146,9 +146,10 @@ impl Search<'_, '_, '_> {
 
     /// The answer where no way was found.
     fn none(&mut self, is_proven: bool) -> Answer {
-        let by = |search: &Self| search.poses.most().or(search.hands.most());
+        let none_free =
+            |search: &Self| if search.poses.is_empty() { &search.hands } else { &search.poses }.none_free();
         if is_proven {
-            return Answer::Infeasible(Infeasible::proven(Reason::NoFreePose { by: by(self) }, None));
+            return Answer::Infeasible(Infeasible::proven(none_free(self), None));
         }
         if self.is_spent {
             return Answer::Unknown(Unknown::Budget);
@@ -156,7 +157,7 @@ impl Search<'_, '_, '_> {
         let state = self.met.take();
         let reason = match state.is_some() || self.is_cut_off {
             true => Reason::BlockedPath { by: self.ways.most() },
-            false => Reason::NoFreePose { by: by(self) },
+            false => none_free(self),
         };
         let state = state.map(Box::new);
         Answer::Infeasible(Infeasible { state, ..Infeasible::exhausted(reason) })
