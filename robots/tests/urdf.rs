@@ -310,7 +310,7 @@ fn meshes_are_looked_for_without_a_shell() {
 }
 
 fn draft(urdf: &Urdf, file: &str) -> String {
-    card::draft(urdf, file)
+    card::draft(urdf, file, &card::Beside::default())
 }
 
 /// Published URDFs, where they lie beside the repository, and our own.
