@@ -7,8 +7,7 @@ use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{FileId, Source};
 
 fn read(text: &str) -> Urdf {
-    let (robot, found) = urdf::read(&Source::new("robot.urdf", text), FileId(0));
-    robot.unwrap_or_else(|| panic!("{found:?}"))
+    urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.unwrap()
 }
 
 /// A robot of links and of joints `TYPE PARENT CHILD AXIS`, each a decimetre above the one before; joints are called after their
@@ -21,7 +20,7 @@ fn made(links: &[&str], joints: &[&str]) -> Urdf {
     });
     let joints = joints.iter().map(|joint| {
         let words: Vec<&str> = joint.split(' ').collect();
-        let [kind, parent, child, axis @ ..] = words.as_slice() else { panic!("{joint}") };
+        let (kind, parent, child, axis) = (words[0], words[1], words[2], &words[3..]);
         format!(
             "<joint name='{child}_joint' type='{kind}'><origin xyz='0 0 0.1'/><parent link='{parent}'/>
             <child link='{child}'/><axis xyz='{}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>",

@@ -476,7 +476,7 @@ fn a_srdf_is_read_against_its_urdf() {
     assert_eq!(told, ["M0478 [a] a group contains itself: `a` contains `a`"]);
     // Two ways to one group are no ring.
     let two = "<robot><group name='c'/><group name='b'><group name='c'/></group><group name='a'><group name='b'/><group name='c'/></group></robot>";
-    assert_eq!(srdf(two).1, [String::new(); 0]);
+    assert!(srdf(two).1.is_empty());
     let (found, told) = srdf("<robot><disable_colisions link1='tip' link2='upper'/><virtual_joint/></robot>");
     assert_eq!(
         told,
