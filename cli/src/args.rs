@@ -250,6 +250,9 @@ pub(crate) enum RobotsCommand {
         /// Where to write robot.toml; the URDF's folder where not given
         #[arg(long, value_name = "FOLDER")]
         to: Option<PathBuf>,
+        /// The SRDF; one that lies beside the URDF where not given
+        #[arg(long, value_name = "SRDF")]
+        srdf: Option<PathBuf>,
     },
 }
 

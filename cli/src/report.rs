@@ -39,6 +39,17 @@ impl Report {
         }
     }
 
+    /// A report that says nothing: for what is said elsewhere.
+    #[must_use]
+    pub(crate) fn silent() -> Self {
+        Self { is_held: true, ..Self::new(Format::Human, Colors { stdout: false, stderr: false }) }
+    }
+
+    /// Counts warnings that are no diagnostics.
+    pub(crate) fn warned(&mut self, count: usize) {
+        self.warnings += count;
+    }
+
     /// Keeps what is said until the end: then it goes to standard output, or to standard error where something else was
     /// written to standard output.
     pub(crate) fn hold(&mut self) {

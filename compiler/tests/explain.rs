@@ -248,6 +248,10 @@ impl Case {
         if let Some((source, file)) = self.card.as_ref().filter(|_| !self.has_srdf) {
             self.said.extend(card::missing(source, *file, card::ModelFile::Srdf));
         }
+        // Where there is a mesh, there is the folder in which it is.
+        if let Some((source, file)) = self.card.as_ref().filter(|_| self.meshes.is_empty()) {
+            self.said.extend(card::missing(source, *file, card::ModelFile::Package(0)));
+        }
         let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
         let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);
         self.said.extend(said);

@@ -330,6 +330,29 @@ fn a_card_and_its_urdf_agree() {
         &model.replace("20 cm", "30 deg"),
         &["M0418 ['30 deg'] `lift` is not measured in `deg` / write it in `m`, `cm`, `mm` or `km`"],
     );
+    let help = "name the link of the hand at the end of the arm as `tip`, and the arm's foot, or what is before it, as `base`";
+    check_fit(
+        "tip = 'eye_frame'",
+        "frame = 'eye_frame'",
+        model,
+        &[&format!(
+            "M0479 ['eye_frame'] no joint moves `eye_frame`, the tip of the hand `hand`, against the base's link `base` / {help}"
+        )],
+    );
+    check_fit(
+        "tip = 'palm'",
+        "frame = 'eye_frame'",
+        &model.replace("'base'", "'eye_frame'"),
+        &[&format!(
+            "M0479 ['palm'] the base's link `eye_frame` does not carry `palm`, the tip of the hand `hand` / {help}"
+        )],
+    );
+    let posture = "[postures.home]\nlift = inf\n[resources]";
+    let (_, found, source) = read(&GOOD.replacen("[resources]", posture, 1));
+    assert_eq!(
+        told(&found[0], &source),
+        "M0416 [inf] `postures.home.lift` is inf, and must be a finite number"
+    );
     let (_, found, _) = read(&GOOD.replacen("[cameras.eye]", "points = 'y'\n[cameras.eye]", 1));
     assert_eq!(found[0].code.0, "M0429");
 }

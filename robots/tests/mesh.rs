@@ -32,6 +32,11 @@ fn stl_and_obj_are_read() {
     let text =
         "# made by hand\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 1\nvt 0 0\nv 0 2 0\nusemtl red\nf 1/1 2/1/1 -1\n";
     assert_eq!(read("a.obj", text.as_bytes()), Ok(vec![CORNER]));
+    // Words after a face, letters that are no UTF-8, and capitals.
+    let text = b"# f\xfcr\nmtllib f\xfcr.mtl\nv 0 0 0 # first\nv 1 0 0\nv 0 2 0\nf 1 2 3 # comment\nf 1 2 3#comment\n";
+    assert_eq!(read("a.obj", text), Ok(vec![CORNER, CORNER]));
+    let text = b"SOLID F\xdcR\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 2 0\nENDLOOP\nENDFACET\nENDSOLID\n";
+    assert_eq!(read("a.stl", text), Ok(vec![CORNER]));
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
     assert_eq!(read("a.obj", square.as_bytes()).unwrap().len(), 2);
 }

@@ -215,6 +215,13 @@ fn links_have_to_form_a_tree() {
 }
 
 #[test]
+fn names_are_shown_so_that_a_line_stays_one() {
+    let (_, found, _) = read("<robot><link name='a&#10;b'/><link name='c&#10;d'/></robot>");
+    assert_eq!(found[0].message, "nothing joins link `c\\nd` to link `a\\nb`");
+    assert!(found.iter().all(|found| !found.help.as_ref().unwrap().contains('\n')));
+}
+
+#[test]
 fn mimics_have_to_end_somewhere() {
     check(
         r#"<mimic joint="lift""#,
@@ -320,6 +327,10 @@ fn meshes_are_looked_for_without_a_shell() {
     assert_eq!(locate("package://$(id)/a.stl")[0], "/ros/share/$(id)/a.stl");
 }
 
+fn draft(urdf: &Urdf, file: &str) -> String {
+    card::draft(urdf, file, &card::Beside::default())
+}
+
 /// Published URDFs, where they lie beside the repository, and our own.
 fn files() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -396,7 +407,7 @@ fn a_first_card_can_be_read_and_fits() {
     for path in files() {
         let text = std::fs::read_to_string(&path).unwrap();
         let urdf = read(&text).0.unwrap();
-        let toml = Source::new("robot.toml", card::draft(&urdf, "robot.urdf"));
+        let toml = Source::new("robot.toml", draft(&urdf, "robot.urdf"));
         let (robot, found) = card::read(&toml, FileId(0), None);
         assert_eq!(found, [], "{}\n{}", path.display(), toml.text);
         assert_eq!(card::fit(&toml, FileId(0), &urdf), [], "{}", path.display());
@@ -413,16 +424,15 @@ fn a_first_card_finds_the_parts() {
         ("panda", Drive::Fixed, "panda_hand_tcp", Some("wrist_camera")),
     ] {
         let urdf = read(card::embedded_urdf(name).unwrap()).0.unwrap();
-        let robot =
-            card::read(&Source::new(name, card::draft(&urdf, "robot.urdf")), FileId(0), None).0.unwrap();
+        let robot = card::read(&Source::new(name, draft(&urdf, "robot.urdf")), FileId(0), None).0.unwrap();
         let found = robot.hands.first().and_then(|(_, hand)| hand.tip.as_deref());
         assert_eq!((robot.base.drive, found), (drive, Some(tip)), "{name}");
         assert_eq!(robot.cameras.first().and_then(|(_, camera)| camera.frame.as_deref()), frame, "{name}");
     }
-    let panda = card::draft(&read(card::embedded_urdf("panda").unwrap()).0.unwrap(), "robot.urdf");
+    let panda = draft(&read(card::embedded_urdf("panda").unwrap()).0.unwrap(), "robot.urdf");
     assert!(panda.contains("\nopen = { \"panda_finger_joint1\" = 0.04"), "{panda}");
     let block = read("<robot name='7 up!'><link name='base'/></robot>").0.unwrap();
-    let card = card::draft(&block, "robot.urdf");
+    let card = draft(&block, "robot.urdf");
     let robot = card::read(&Source::new("card", card), FileId(0), None).0.unwrap();
     assert_eq!((robot.name.as_str(), robot.hands.len()), ("robot_7_up", 0));
 }
@@ -436,7 +446,7 @@ fn a_first_card_of_a_long_chain_takes_no_longer_than_its_links() {
         })
         .collect();
     let urdf = read(&format!("<robot name='chain'>{links}{joints}</robot>")).0.unwrap();
-    assert!(card::draft(&urdf, "robot.urdf").contains("name = \"chain\""));
+    assert!(draft(&urdf, "robot.urdf").contains("name = \"chain\""));
 }
 
 #[test]
@@ -468,5 +478,30 @@ fn a_srdf_is_read_against_its_urdf() {
     assert_eq!(told, ["M0472 [uper] there is no link `uper`"]);
     let (_, told) = srdf(&text.replace("group='hand'", "group='hands'"));
     assert_eq!(told, ["M0472 [hands] there is no group `hands`"]);
+    let (_, told) = srdf(&text.replace("name='hand'>", "name='arm'>"));
+    assert_eq!(told, ["M0477 [arm] there are two groups `arm`", "M0472 [hand] there is no group `hand`"]);
+    let end = "<end_effector name='gripper' group='arm' parent_link='tip'/></robot>";
+    let (_, told) = srdf(&text.replace("</robot>", end));
+    assert_eq!(told, ["M0477 [gripper] there are two end effectors `gripper`"]);
+    let (found, told) = srdf(
+        "<robot><group name='a'><group name='b'/></group><group name='b'><group name='a'/></group></robot>",
+    );
+    assert_eq!(
+        (found, told),
+        (None, vec!["M0478 [a] a group contains itself: `a` contains `b` contains `a`".to_owned()])
+    );
+    let (_, told) = srdf("<robot><group name='a'><group name='a'/></group></robot>");
+    assert_eq!(told, ["M0478 [a] a group contains itself: `a` contains `a`"]);
+    // Two ways to one group are no ring.
+    let two = "<robot><group name='c'/><group name='b'><group name='c'/></group><group name='a'><group name='b'/><group name='c'/></group></robot>";
+    assert!(srdf(two).1.is_empty());
+    let (found, told) = srdf("<robot><disable_colisions link1='tip' link2='upper'/><virtual_joint/></robot>");
+    assert_eq!(
+        told,
+        ["M0474 [<disable_colisions] `<disable_colisions>` is not known here, and is passed over"]
+    );
+    assert_eq!(found.unwrap().disabled, [[0; 2]; 0]);
+    let empty = srdf::read(&Source::new("robot.srdf", ""), FileId(0), &urdf).1;
+    assert_eq!(empty[0].help.as_deref(), Some("a SRDF is an XML document whose root element is `<robot>`"));
     assert_eq!(srdf("<sdf/>").1, ["M0471 [<sdf] the root element is `<sdf>`, a SRDF starts with `<robot>`"]);
 }

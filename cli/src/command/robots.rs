@@ -2,6 +2,7 @@
 
 mod add;
 mod check;
+mod stance;
 
 use motet_robots::card::{Drive, Range, Robot};
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
@@ -25,7 +26,9 @@ pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, Trouble> {
         None | Some(RobotsCommand::List) => list(&mut report),
         Some(RobotsCommand::Show { name }) => show(name, &mut report),
         Some(RobotsCommand::Check { name }) => check::run(name, &mut report),
-        Some(RobotsCommand::Add { urdf, to }) => add::run(urdf, to.as_deref(), &mut report),
+        Some(RobotsCommand::Add { urdf, to, srdf }) => {
+            add::run(urdf, to.as_deref(), srdf.as_deref(), &mut report)
+        }
     };
     report.close(result)
 }

@@ -44,6 +44,7 @@ impl Card {
         let Some(urdf) = urdf else { return Err(Trouble::Diagnosed("URDF")) };
         // All that is wrong with the rest is told at once.
         let fits = report.usable("robot card", &card::fit(&toml, toml_id, &urdf), sources);
+        self.packages(model, |at| report.say(missing(ModelFile::Package(at)).as_slice(), sources));
         let folders = self.folders(model);
         let (mut urdf, said) = mesh::attach(&source, file, urdf, |name| folders.find(name));
         let meshes = report.usable("URDF", &said, sources);
@@ -75,6 +76,16 @@ impl Card {
     fn srdf(&self, model: &Model) -> Result<Srdf, Trouble> {
         let (Home::Folder(folder), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
         Ok(present(&folder.join(file))?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
+    }
+
+    /// Says which folders with packages are not there.
+    fn packages(&self, model: &Model, mut say: impl FnMut(usize)) {
+        let Home::Folder(folder) = &self.home else { return };
+        for (package, at) in model.packages.iter().zip(0..) {
+            if !folder.join(package).is_dir() {
+                say(at);
+            }
+        }
     }
 
     fn folders(&self, model: &Model) -> Folders {
@@ -118,9 +129,10 @@ struct Folders {
 impl Folders {
     fn find(&self, name: &str) -> Found {
         let looked = mesh::locate(name, &self.own, &self.packages);
-        let Some(path) =
-            looked.iter().find_map(|path| fs::canonicalize(path).ok().filter(|path| path.is_file()))
-        else {
+        let mut there: Vec<PathBuf> = looked.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+        // Files first.
+        there.sort_by_key(|path| !path.is_file());
+        let Some(path) = there.first() else {
             // A way out of a package is no path at all.
             let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
             return if leaves { Found::Outside } else { Found::Missing(looked) };
@@ -128,9 +140,12 @@ impl Folders {
         if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
             return Found::Outside;
         }
+        if !path.is_file() {
+            return Found::NoFile;
+        }
         let mut bytes = Vec::new();
         // One byte more than is allowed tells that there are too many.
-        let read = File::open(&path).and_then(|file| file.take(mesh::MAX_BYTES + 1).read_to_end(&mut bytes));
+        let read = File::open(path).and_then(|file| file.take(mesh::MAX_BYTES + 1).read_to_end(&mut bytes));
         match read {
             Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => Found::TooLarge,
             Ok(_) => Found::Bytes(bytes),

@@ -78,6 +78,18 @@ impl Card {
         (String::from_utf8_lossy(&self.toml).into_owned(), self.declarations.clone())
     }
 
+    /// A card that is not written yet, in the folder where it will be.
+    #[must_use]
+    pub(crate) fn drafted(folder: &Path, toml: &str) -> Self {
+        let name = folder.join("robot.toml").display().to_string();
+        Self {
+            name,
+            home: Home::Folder(folder.to_owned()),
+            toml: toml.as_bytes().to_vec(),
+            declarations: None,
+        }
+    }
+
     fn in_folder(folder: &Path) -> Result<Self, Trouble> {
         let path = folder.join("robot.toml");
         if !path.is_file() {

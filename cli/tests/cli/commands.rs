@@ -69,7 +69,7 @@ fn answers() {
             0,
             &["out:{\"query\":\"go_to(sink)\",\"answer\":\"feasible\"", "out:\"margins\""],
         ),
-        ("robots check panda", 0, &["out:solved in steps"]),
+        ("robots check panda", 0, &["out:7 joints: closed form, seven joints with a shoulder"]),
         ("robots show hs", 2, &["err:did you mean `hsr`?"]),
         ("explain", 0, &["out:M0501"]),
         ("explain M0501", 0, &["out:M0501"]),
@@ -183,6 +183,9 @@ fn writes_a_first_card_and_checks_it() {
     place.run("robots check other").check(0, &["out:2 links"]);
     place.run("robots add broken/robot.urdf").check(1, &["out:M0461"]);
     place.run("robots add nothing.urdf").check(2, &["err:cannot read"]);
+    let place = place.file("latin/robot.urdf", [URDF.as_bytes(), b"<!-- f\xfcr -->"].concat());
+    place.run("robots add latin/robot.urdf").check(1, &["out:M0114"]);
+    assert!(!place.path("latin/robot.toml").exists());
     place.run("robots add sloppy/robot.urdf").check(0, &[]);
     let card = place.read("sloppy/robot.toml").replace("base = \"base\"", "base = \"bass\"");
     let place = place.file("sloppy/robot.toml", card);
@@ -217,7 +220,16 @@ fn reads_what_a_card_says_of_the_body() {
     let place = place.file("elbow/robot.urdf", ELBOW).file("elbow/packages/elbow/tip.obj", "f 1 2 3\n");
     place.run("robots check elbow").check(1, &["out:M0449", "out:names"]);
     let place = place.file("elbow/packages/elbow/tip.obj", TIP);
-    place.run("robots check elbow").check(0, &["out:no errors\n", "out:warning: `"]);
+    let said =
+        ["out:no errors, 2 warnings\n", "out:warning: `", "out:help: ", "out:<disable_collisions link1="];
+    place.run("robots check elbow").check(0, &said);
+    // A folder is no mesh, nor is there a folder where none is.
+    let place = place.file("elbow/robot.urdf", ELBOW.replace("tip.obj", "folder.obj"));
+    let place = place.file("elbow/packages/elbow/folder.obj/inside", "");
+    place.run("robots check elbow").check(1, &["out:M0449", "out:it is a folder or a device"]);
+    let place = place.file("elbow/robot.urdf", ELBOW);
+    let place = place.file("elbow/robot.toml", with("packages = [\"packages\", \"no\\nmore\"]"));
+    place.run("robots check elbow").check(0, &["out:M0480", "out:`packages` names `no\\nmore`"]);
     // The SRDF says that they may.
     let place = place.file("elbow/robot.toml", with("packages = [\"packages\"]\nsrdf = \"robot.srdf\""));
     place.run("robots check elbow").check(1, &["out:M0450", "out:`srdf` is `robot.srdf`"]);
@@ -230,6 +242,96 @@ fn reads_what_a_card_says_of_the_body() {
     place
         .run("robots check elbow")
         .check(0, &["out:no errors\n", "out:touches neither itself nor the floor"]);
+}
+
+/// An arm of three joints, the last link of which is in the base where every joint is at 0, and something else that moves.
+const FOLDED: &str = "<robot name='folded'>
+  <link name='base'><collision><origin xyz='0 0 0.5'/><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
+  <link name='one'/><link name='two'/>
+  <link name='tool0'><collision><origin xyz='-0.3 0 0'/><geometry><box size='0.6 0.05 0.05'/></geometry></collision></link>
+  <link name='neck'/>
+  <link name='lid'><collision><geometry><box size='0.2 0.2 0.02'/></geometry></collision></link>
+  <joint name='turn' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/><child link='one'/><axis xyz='0 0 1'/>
+  <limit lower='-3' upper='3' velocity='1' effort='1'/></joint>
+  <joint name='lift' type='revolute'><parent link='one'/><child link='two'/><axis xyz='0 1 0'/>
+  <limit lower='-1' upper='0' velocity='1' effort='1'/></joint>
+  <joint name='bend' type='revolute'><origin xyz='0.5 0 0'/><parent link='two'/><child link='tool0'/><axis xyz='0 1 0'/>
+  <limit lower='0' upper='3' velocity='1' effort='1'/></joint>
+  <joint name='nod' type='continuous'><origin xyz='0 0 0.7'/><parent link='base'/><child link='neck'/></joint>
+  <joint name='open' type='prismatic'><parent link='neck'/><child link='lid'/><axis xyz='0 0 -1'/>
+  <limit lower='-0.5' upper='0.5' velocity='1' effort='1'/></joint></robot>";
+
+#[test]
+fn a_first_card_has_a_posture_that_touches_nothing() {
+    let place = Place::new("robots_posture").file("folded/robot.urdf", FOLDED);
+    let ran = place.run("robots add folded/robot.urdf");
+    ran.check(0, &["out:folded/robot.toml: written"]);
+    assert!(!ran.stdout.contains("warning"), "{ran:#?}");
+    assert!(
+        !place.read("folded/robot.toml").contains("\"bend\" = 0\n"),
+        "{}",
+        place.read("folded/robot.toml")
+    );
+    place
+        .run("robots check folded")
+        .check(0, &["out:no errors\n", "out:home      touches neither itself nor the floor"]);
+    // What the arm does not move is in the way in every posture.
+    let place = place.file("shut/robot.urdf", FOLDED.replace("xyz='0 0 0.7'", "xyz='0 0 0.5'"));
+    place.run("robots add shut/robot.urdf").check(0, &["out:warning: `", "out:no posture was found"]);
+    assert!(place.read("shut/robot.toml").contains("# In it `"));
+    place.run("robots check shut").check(0, &["out:no errors, 2 warnings\n", "out:touches `"]);
+    // A shape of the arm that is below the floor wherever its joints are raises the base.
+    let low = "<link name='one'><collision><origin xyz='0 0 -0.59'/><geometry><sphere radius='0.02'/></geometry></collision></link>";
+    let place = place.file("low/robot.urdf", FOLDED.replace("<link name='one'/>", low));
+    place.run("robots add low/robot.urdf").check(0, &["out:low/robot.toml: written"]);
+    assert!(place.read("low/robot.toml").contains("height = \"0.11"), "{}", place.read("low/robot.toml"));
+    place.run("robots check low").check(0, &["out:no errors\n", "out:home      touches neither"]);
+}
+
+#[test]
+fn a_first_card_stands_on_its_wheels() {
+    let urdf = "<robot name='cart'><link name='base'/><link name='wheel'><collision><geometry><sphere radius='0.1'/></geometry>
+      </collision></link><joint name='wheel_joint' type='continuous'><origin xyz='0 0 -0.05'/><parent link='base'/>
+      <child link='wheel'/><axis xyz='0 1 0'/></joint></robot>";
+    let place = Place::new("robots_height").file("cart/robot.urdf", urdf);
+    place.run("robots add cart/robot.urdf").check(0, &[]);
+    let card = place.read("cart/robot.toml");
+    assert!(card.contains("height = \"0.15 m\"  # guessed"), "{card}");
+    place.run("robots check cart").check(0, &["out:no errors\n", "out:touches neither itself nor the floor"]);
+    // So far it may be out by rounding, and no farther.
+    let place = place.file("cart/robot.toml", card.replace("0.15 m", "0.145 m"));
+    place.run("robots check cart").check(0, &["out:no errors\n", "out:touches neither itself nor the floor"]);
+    let place = place.file("cart/robot.toml", card.replace("0.15 m", "0.03 m"));
+    let said = [
+        "out:no errors, 2 warnings\n",
+        "out:`wheel` is 0.12 m below the floor",
+        "out:with 0.150 m this part",
+    ];
+    place.run("robots check cart").check(0, &said);
+}
+
+#[test]
+fn a_first_card_is_made_with_the_srdf_beside_the_urdf() {
+    let srdf = "<robot name='folded'><group name='arm'><chain base_link='base' tip_link='two'/></group>
+      <group name='hand'><link name='tool0'/></group><end_effector name='hand' group='hand' parent_link='tool0'/>
+      <disable_collisions link1='base' link2='tool0'/></robot>";
+    let place = Place::new("robots_srdf").file("a/robot.urdf", FOLDED).file("a/moveit.srdf", srdf);
+    place.run("robots add a/robot.urdf").check(0, &["out:read with its SRDF, moveit.srdf"]);
+    let card = place.read("a/robot.toml");
+    assert!(card.contains("\nsrdf = \"moveit.srdf\"\n"), "{card}");
+    assert!(card.contains("\ntip = \"tool0\"  # from the SRDF: the end effector `hand`\n"), "{card}");
+    // What may touch does so in the posture with every joint at 0.
+    assert!(card.contains("\"bend\" = 0\n"), "{card}");
+    place.run("robots check a").check(0, &["out:no errors\n"]);
+    // Of several, that of the URDF's name; none where no other is told from the rest.
+    let place = place.file("b/robot.urdf", FOLDED).file("b/x.srdf", srdf).file("b/y.srdf", srdf);
+    place.run("robots add b/robot.urdf --to b1").check(0, &[]);
+    assert!(!place.read("b1/robot.toml").contains("srdf ="));
+    place.run("robots add b/robot.urdf --to b2 --srdf b/y.srdf").check(0, &["out:read with its SRDF"]);
+    place.run("robots check b2").check(0, &["out:no errors\n"]);
+    let place = place.file("b/robot.srdf", srdf.replace("'two'", "'too'"));
+    place.run("robots add b/robot.urdf --to b3").check(1, &["out:M0472", "out:did you mean `two`?"]);
+    assert!(!place.path("b3").exists());
 }
 
 /// The HSR's card under another roof, with one line replaced, and whether its own declarations lie beside it.

@@ -5,7 +5,7 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
-use super::errors::{BeyondLimit, NoFile, NoPlace, NotInUrdf, SameAxis, WrongDimension};
+use super::errors::{BeyondLimit, NoArm, NoFile, NoFolder, NoPlace, NotInUrdf, SameAxis, WrongDimension};
 use super::model::Model;
 use super::quantity::{Numbers, Sign, units_of};
 use super::read::Reader;
@@ -79,6 +79,7 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     }
     for (name, hand) in &card.hands {
         fit.place("hand", name, hand, hand.get().tip.as_ref(), "tip");
+        fit.arm(name, hand.get().tip.as_ref(), card.model.as_ref().and_then(|model| model.base.as_ref()));
         fit.positions(&hand.get().open);
     }
     for (name, camera) in &card.cameras {
@@ -92,26 +93,33 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     found
 }
 
-/// That a file which the card names is not there. None where the card does not name one.
+/// That a file or a folder which the card names is not there. None where the card does not name one.
 #[must_use]
 pub fn missing(toml: &Source, file: FileId, which: ModelFile) -> Option<Diagnostic> {
     let card = toml::from_str::<wire::Card>(&toml.text).ok()?;
     let model = card.model.as_ref()?;
+    let span = |name: &At<String>| Numbers { file, found: Vec::new() }.span(name);
     let (key, name) = match which {
         ModelFile::Urdf => ("urdf", &model.urdf),
         ModelFile::Srdf => ("srdf", model.srdf.as_ref()?),
+        ModelFile::Package(at) => {
+            let folder = model.packages.get(at)?;
+            return Some(NoFolder { span: span(folder), folder: folder.get().clone() }.into());
+        }
     };
-    let span = Numbers { file, found: Vec::new() }.span(name);
+    let span = span(name);
     Some(NoFile { span, key, file: name.get().clone() }.into())
 }
 
-/// A file under `[model]`.
+/// A file or a folder under `[model]`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ModelFile {
     /// `urdf`
     Urdf,
     /// `srdf`
     Srdf,
+    /// One of `packages`, from 0.
+    Package(usize),
 }
 
 struct Fit<'u> {
@@ -141,6 +149,29 @@ impl Fit<'_> {
             self.numbers.found.push(NoPlace { span, what, name: name.to_owned(), key }.into());
         }
         self.link(link);
+    }
+
+    /// Whether a joint moves the tip of a hand against the base's link.
+    fn arm(&mut self, name: &str, tip: Option<&At<String>>, base: Option<&At<String>>) {
+        let Some(tip) = tip else { return };
+        let base = base.map_or(Some(self.urdf.root), |base| self.urdf.link(base.get()));
+        // Links that are not there have been told.
+        let (Some(link), Some(base)) = (self.urdf.link(tip.get()), base) else { return };
+        let (mut at, mut moves) = (link, false);
+        // From the tips on, each joint stands after the one that carries its parent.
+        for joint in self.urdf.joints.iter().rev() {
+            if joint.child == at && at != base {
+                moves |= !matches!(joint.kind, JointKind::Fixed | JointKind::Floating);
+                at = joint.parent;
+            }
+        }
+        let is_carried = at == base;
+        if !is_carried || !moves {
+            let span = self.numbers.span(tip);
+            let base = self.urdf.links.get(base).map_or("", |link| link.name.as_str()).to_owned();
+            let (hand, tip) = (name.to_owned(), tip.get().clone());
+            self.numbers.found.push(NoArm { span, hand, tip, base, is_carried }.into());
+        }
     }
 
     fn positions(&mut self, positions: &IndexMap<String, At<Quantity>>) {

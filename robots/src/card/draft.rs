@@ -1,35 +1,67 @@
 //! A first card for a robot of which there is only a URDF. What can be told from the URDF is told, what cannot is
 //! guessed, and every guess says so in a comment.
 
+mod base;
+mod described;
 mod parts;
 
 use std::fmt::Write;
 
+use indexmap::IndexMap;
+use smol_str::SmolStr;
+
+use crate::srdf::Srdf;
 use crate::urdf::{Shape, Urdf};
 use parts::{Hand, Parts};
+
+/// What is known beside the URDF.
+#[derive(Clone, Default, Debug)]
+pub struct Beside<'a> {
+    /// The SRDF, and its path as seen from the card's folder.
+    pub srdf: Option<(&'a Srdf, &'a str)>,
+    /// How it stands, as far as that was worked out.
+    pub stance: Option<Stance>,
+}
+
+/// How a robot stands.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Stance {
+    /// How high the base's link is above the floor, in m.
+    pub height_m: f64,
+    /// Positions of joints of the arm by name, in rad or m.
+    pub joints: IndexMap<SmolStr, f64>,
+    /// Two things that touch in it, where they do so in every posture that was tried.
+    pub touch: Option<[SmolStr; 2]>,
+}
 
 /// The text of a card for the robot of a URDF. `file` is the URDF's path as seen from the card's folder.
 ///
 /// The card can be read by [`super::read`], and fits the URDF. O(links × joints).
 #[must_use]
-pub fn draft(urdf: &Urdf, file: &str) -> String {
-    let parts = Parts::find(urdf);
-    let name = identifier(&urdf.name);
+pub fn draft(urdf: &Urdf, file: &str, beside: &Beside<'_>) -> String {
+    let parts = Parts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
     let mut card = String::new();
     // Writing to a string does not fail.
-    let _ = write_card(&mut card, urdf, file, &name, &parts);
+    let _ = write_card(&mut card, urdf, file, beside, &parts);
     card
 }
 
-fn write_card(card: &mut String, urdf: &Urdf, file: &str, name: &str, parts: &Parts) -> std::fmt::Result {
+fn write_card(
+    card: &mut String,
+    urdf: &Urdf,
+    file: &str,
+    beside: &Beside<'_>,
+    parts: &Parts,
+) -> std::fmt::Result {
+    let name = identifier(&urdf.name);
     let (drive, why) = parts.drive;
     let speed = if drive == "fixed" { ("0", "0") } else { ("\"0.3 m/s\"", "0.5") };
     writeln!(
         card,
         "# Written from the URDF. A line with `guessed` is to be looked at: nothing in the URDF says so."
     )?;
-    writeln!(card, "name = {name:?}")?;
-    writeln!(card, "title = {:?}", if urdf.name.is_empty() { name } else { &urdf.name })?;
+    writeln!(card, "name = {}", quoted(&name))?;
+    writeln!(card, "title = {}", quoted(if urdf.name.is_empty() { &name } else { &urdf.name }))?;
     writeln!(card, "observe_within = \"500 ms\"  # guessed")?;
     writeln!(card, "# What the robot can tell by itself: guessed.")?;
     writeln!(
@@ -43,30 +75,17 @@ fn write_card(card: &mut String, urdf: &Urdf, file: &str, name: &str, parts: &Pa
         card,
         "radius = {:.2}  # guessed: around the shapes of `{}`",
         radius(urdf, parts.base),
-        link(urdf, parts.base)
+        link(urdf, parts.base).escape_debug()
     )?;
     if let Some(hand) = &parts.hand {
         write_hand(card, urdf, hand)?;
     }
     if let Some((camera, why)) = parts.camera {
         writeln!(card, "\n[cameras.camera]\nrange = \"3 m\"  # guessed\nview = \"60 deg\"  # guessed")?;
-        writeln!(card, "frame = {:?}  # guessed: {why}", link(urdf, camera))?;
+        writeln!(card, "frame = {}  # guessed: {why}", quoted(link(urdf, camera)))?;
     }
-    writeln!(
-        card,
-        "\n[model]\nurdf = {file:?}\nbase = {:?}  # guessed: {}",
-        link(urdf, parts.base),
-        parts.base_why
-    )?;
-    writeln!(card, "height = \"0 m\"  # guessed: how high above the floor the base's link is")?;
-    writeln!(card, "\n# Where every joint is in the posture in which the robot drives, and looks: guessed.")?;
-    for posture in ["home", "start"] {
-        writeln!(card, "[postures.{posture}]")?;
-        for (joint, position) in parts.hand.iter().flat_map(|hand| hand.arm.iter()) {
-            writeln!(card, "{joint:?} = {position}")?;
-        }
-        writeln!(card)?;
-    }
+    write_model(card, urdf, file, beside, parts)?;
+    write_postures(card, beside, parts)?;
     writeln!(card, "[resources]\nbase = []")?;
     let carried = parts.camera.filter(|_| parts.camera_is_on_arm);
     writeln!(card, "arm = [{}]", if carried.is_some() { "\"camera\"" } else { "" })?;
@@ -85,6 +104,49 @@ fn write_card(card: &mut String, urdf: &Urdf, file: &str, name: &str, parts: &Pa
     Ok(())
 }
 
+fn write_model(
+    card: &mut String,
+    urdf: &Urdf,
+    file: &str,
+    beside: &Beside<'_>,
+    parts: &Parts,
+) -> std::fmt::Result {
+    writeln!(card, "\n[model]\nurdf = {}", quoted(file))?;
+    if let Some((_, srdf)) = beside.srdf {
+        writeln!(card, "srdf = {}", quoted(srdf))?;
+    }
+    writeln!(card, "base = {}  # guessed: {}", quoted(link(urdf, parts.base)), parts.base_why)?;
+    let height = beside.stance.as_ref().map_or(0.0, |stance| stance.height_m);
+    let why = if height > 0.0 {
+        "how high the base's link is where the lowest shape is on the floor"
+    } else {
+        "how high above the floor the base's link is"
+    };
+    writeln!(card, "height = \"{height} m\"  # guessed: {why}")
+}
+
+fn write_postures(card: &mut String, beside: &Beside<'_>, parts: &Parts) -> std::fmt::Result {
+    writeln!(card, "\n# Where every joint is in the posture in which the robot drives, and looks: guessed.")?;
+    let stance = beside.stance.as_ref();
+    if let Some([one, other]) = stance.and_then(|stance| stance.touch.as_ref()) {
+        let (one, other) = (one.escape_debug(), other.escape_debug());
+        writeln!(
+            card,
+            "# In it `{one}` touches `{other}`, and no posture was found in which nothing touches: no motion"
+        )?;
+        writeln!(card, "# starts from it. See `motet robots check`.")?;
+    }
+    for posture in ["home", "start"] {
+        writeln!(card, "[postures.{posture}]")?;
+        for (joint, position) in parts.hand.iter().flat_map(|hand| hand.arm.iter()) {
+            let found = stance.and_then(|stance| stance.joints.get(joint.as_str())).copied();
+            writeln!(card, "{} = {}", quoted(joint), found.unwrap_or(*position))?;
+        }
+        writeln!(card)?;
+    }
+    Ok(())
+}
+
 fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
     writeln!(card, "\n[hands.hand]\npayload = \"0.5 kg\"  # guessed")?;
     match hand.opening {
@@ -97,11 +159,12 @@ fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
         card,
         "heights = {{ least = {least:.2}, greatest = {greatest:.2} }}  # guessed: as far above and below the shoulder"
     )?;
-    writeln!(card, "tip = {:?}  # guessed: {}", link(urdf, hand.tip), hand.why)?;
+    writeln!(card, "tip = {}  # {}", quoted(link(urdf, hand.tip)), hand.why)?;
     writeln!(card, "points = {:?}  # guessed: away from the arm", hand.points)?;
     writeln!(card, "closes = {:?}  # guessed", hand.closes)?;
     if !hand.open.is_empty() {
-        let open: Vec<String> = hand.open.iter().map(|(joint, at)| format!("{joint:?} = {at}")).collect();
+        let open: Vec<String> =
+            hand.open.iter().map(|(joint, at)| format!("{} = {at}", quoted(joint))).collect();
         writeln!(card, "open = {{ {} }}  # guessed: the fingers at their farther limit", open.join(", "))?;
     }
     Ok(())
@@ -109,6 +172,25 @@ fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
 
 fn link(urdf: &Urdf, at: usize) -> &str {
     urdf.links.get(at).map_or("", |link| link.name.as_str())
+}
+
+/// A text as a basic string of TOML, which may stand as a key too; what cannot be seen is written by its number.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            '\'' => quoted.push(letter),
+            // Rust's own escapes are others, but of what there is nothing to see it knows best.
+            _ if letter.escape_debug().len() > 1 => {
+                // Writing to a string does not fail.
+                let _ = write!(quoted, "\\U{:08X}", u32::from(letter));
+            }
+            _ => quoted.push(letter),
+        }
+    }
+    quoted.push('"');
+    quoted
 }
 
 /// A name that a policy can write.

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot card (M0411 to M0430, M0450).
+//! What can be wrong with a robot card (M0411 to M0430, M0450, M0479, M0480).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
@@ -113,7 +113,7 @@ motet_syntax::mistakes! {
 
     /// A link or a joint that the robot's URDF does not have.
     NotInUrdf("M0427", Error) { what: &'static str, name: String, near: Option<String> }
-    message(m) { format!("the URDF has no {} `{}`", m.what, m.name) }
+    message(m) { format!("the URDF has no {} `{}`", m.what, m.name.escape_debug()) }
     help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
 
     /// A position that a joint cannot take.
@@ -136,6 +136,23 @@ motet_syntax::mistakes! {
     NoFile("M0450", Error) { key: &'static str, file: String }
     message(m) { format!("`{}` is `{}`, and there is no such file", m.key, m.file.escape_debug()) }
     help(_m) { Some("a path is seen from the folder of the card".to_owned()) }
+
+    /// A tip that no arm moves.
+    NoArm("M0479", Warning) { hand: String, tip: String, base: String, is_carried: bool }
+    message(m) {
+        let (tip, base) = (m.tip.escape_debug(), m.base.escape_debug());
+        if m.is_carried {
+            format!("no joint moves `{tip}`, the tip of the hand `{}`, against the base's link `{base}`", m.hand)
+        } else {
+            format!("the base's link `{base}` does not carry `{tip}`, the tip of the hand `{}`", m.hand)
+        }
+    }
+    help(_m) { Some("name the link of the hand at the end of the arm as `tip`, and the arm's foot, or what is before it, as `base`".to_owned()) }
+
+    /// A folder with packages that is not there.
+    NoFolder("M0480", Warning) { folder: String }
+    message(m) { format!("`packages` names `{}`, and there is no such folder", m.folder.escape_debug()) }
+    help(_m) { Some("a path is seen from the folder of the card; it is that of the folder which holds the package's own".to_owned()) }
 }
 
 fn known_or_near(near: Option<&str>, known: &[String]) -> String {

@@ -17,7 +17,7 @@ pub mod wire;
 
 pub(crate) use body::Position;
 pub use body::{ModelFile, fit, missing};
-pub use draft::draft;
+pub use draft::{Beside, Stance, draft};
 pub use embedded::{embedded, embedded_urdf};
 pub use errors::CODES;
 pub use model::*;

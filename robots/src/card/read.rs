@@ -74,7 +74,9 @@ impl Reader {
             postures: card
                 .postures
                 .iter()
-                .map(|(name, joints)| (name.into(), self.positions("postures", joints.get())))
+                .map(|(name, joints)| {
+                    (name.into(), self.positions(&format!("postures.{name}"), joints.get()))
+                })
                 .collect(),
             resources,
             observes: self.observes(&card.observes),

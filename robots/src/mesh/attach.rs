@@ -8,7 +8,7 @@ use super::cover::cover;
 use super::errors::{BadMesh, UnreadMesh};
 use super::read::{self, Triangle};
 use crate::turn::composed;
-use crate::urdf::{Document, Shape, Solid, Urdf};
+use crate::urdf::{Dialect, Document, Shape, Solid, Urdf};
 
 /// What was found for the name of a mesh.
 #[derive(Clone, PartialEq, Debug)]
@@ -19,6 +19,8 @@ pub enum Found {
     Missing(Vec<String>),
     /// A file, but not below the folder of the card, of the URDF or of a package.
     Outside,
+    /// A folder, or what has no end, such as a device.
+    NoFile,
     /// A file of more than [`super::MAX_BYTES`].
     TooLarge,
 }
@@ -99,6 +101,7 @@ fn load(span: Span, name: &str, found: Found) -> Result<Vec<Triangle>, Box<Diagn
             "it lies neither below the folder of the card or of the URDF nor below one of `packages`"
                 .to_owned(),
         )),
+        Found::NoFile => Err(bad("it is a folder or a device, and no file".to_owned())),
         Found::TooLarge => Err(bad(read::too_large())),
     }
 }
@@ -117,7 +120,7 @@ fn help(looked: &[String]) -> String {
 /// Where each mesh is first named.
 fn spans(source: &Source, file: FileId) -> IndexMap<String, Span> {
     let mut spans = IndexMap::new();
-    let Ok(document) = Document::parse(source, file) else { return spans };
+    let Ok(document) = Document::parse(source, file, Dialect::Urdf) else { return spans };
     let meshes = document.root().descendants().filter(|node: &Node<'_, '_>| node.tag_name().name() == "mesh");
     let is_hit = |node: &Node<'_, '_>| node.ancestors().any(|above| above.tag_name().name() == "collision");
     for mesh in meshes.filter(is_hit) {

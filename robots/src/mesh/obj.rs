@@ -5,10 +5,12 @@ use super::stl::three;
 
 /// The triangles; a face of more corners is a fan, which its corners hold as they would the face.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is no UTF-8 text".to_owned())?;
+    // What is no UTF-8 is in names and comments, which are passed over.
+    let text = String::from_utf8_lossy(bytes);
     let (mut corners, mut triangles): (Vec<[f64; 3]>, Vec<Triangle>) = (Vec::new(), Vec::new());
     for (line, number) in text.lines().zip(1..) {
-        let mut words = line.split_ascii_whitespace();
+        let said = line.split_once('#').map_or(line, |(said, _)| said);
+        let mut words = said.split_ascii_whitespace();
         match words.next() {
             Some("v") => {
                 corners.push(three(words).ok_or_else(|| format!("line {number} has no three numbers"))?)

@@ -14,9 +14,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     if let Some(count) = announced.filter(|count| count.checked_mul(RECORD) == Some(records.len())) {
         return if count > MAX_TRIANGLES { Err(too_many()) } else { Ok(binary(records)) };
     }
-    if let Some(text) = std::str::from_utf8(bytes).ok().filter(|text| text.trim_start().starts_with("solid"))
-    {
-        return words(text);
+    let begins = bytes.trim_ascii_start().get(..5).unwrap_or_default();
+    if begins.eq_ignore_ascii_case(b"solid") && !bytes.contains(&0) {
+        // What is no UTF-8 is in the name of the solid, which is passed over.
+        return words(&String::from_utf8_lossy(bytes));
     }
     Err(match announced {
         Some(count) => {
@@ -42,10 +43,10 @@ fn words(text: &str) -> Result<Vec<Triangle>, String> {
     for (line, number) in text.lines().zip(1..) {
         let mut words = line.split_ascii_whitespace();
         match words.next() {
-            Some("vertex") => {
+            Some(word) if word.eq_ignore_ascii_case("vertex") => {
                 corners.push(three(words).ok_or_else(|| format!("line {number} has no three numbers"))?)
             }
-            Some("endfacet") => {
+            Some(word) if word.eq_ignore_ascii_case("endfacet") => {
                 let triangle = <Triangle>::try_from(std::mem::take(&mut corners));
                 triangles.push(
                     triangle

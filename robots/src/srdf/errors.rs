@@ -1,4 +1,6 @@
-//! What can be wrong with a SRDF (M0471 and M0472), beside what can be wrong with any XML.
+//! What can be wrong with a SRDF (M0471, M0472, M0477 and M0478), beside what can be wrong with any XML.
+
+use motet_syntax::{Related, Span};
 
 motet_syntax::mistakes! {
     pub const CODES;
@@ -11,4 +13,18 @@ motet_syntax::mistakes! {
     UnknownPart("M0472", Error) { what: &'static str, name: String, near: Option<String> }
     message(m) { format!("there is no {} `{}`", m.what, m.name.escape_debug()) }
     help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
+
+    /// Two groups, or two end effectors, of one name.
+    TakenPart("M0477", Error) { what: &'static str, name: String, first: Span }
+    message(m) { format!("there are two {}s `{}`", m.what, m.name.escape_debug()) }
+    help(m) { Some(format!("give each {} a name of its own", m.what)) }
+    related(m) { vec![Related::new("the first is here", m.first)] }
+
+    /// Groups that contain each other.
+    GroupCycle("M0478", Error) { chain: Vec<String> }
+    message(m) {
+        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
+        format!("a group contains itself: {}", chain.join(" contains "))
+    }
+    help(_m) { Some("let the larger group contain the smaller, and not the other way round".to_owned()) }
 }

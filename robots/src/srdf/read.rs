@@ -1,18 +1,19 @@
 //! From the text of a SRDF to a [`Srdf`], or to what is wrong with it.
 
-use motet_syntax::{Diagnostic, FileId, Source, suggest};
+use indexmap::IndexMap;
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
-use super::errors::{NotSrdf, UnknownPart};
+use super::errors::{GroupCycle, NotSrdf, TakenPart, UnknownPart};
 use super::{EndEffector, Group, Srdf};
-use crate::urdf::{Document, Places, Urdf, children};
+use crate::urdf::{Dialect, Document, Places, Urdf, children, is_own, unknown};
 
 /// Reads a SRDF of a robot. There is none where there is an error. O(bytes + links + joints).
 #[must_use]
 pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Diagnostic>) {
-    let document = match Document::parse(source, file) {
+    let document = match Document::parse(source, file, Dialect::Srdf) {
         Ok(document) => document,
         Err(problem) => return (None, vec![*problem]),
     };
@@ -33,8 +34,25 @@ pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Di
     let srdf = reader.srdf(root);
     let mut found = reader.found;
     found.sort_by_key(|diagnostic| diagnostic.span);
-    (found.is_empty().then_some(srdf), found)
+    let wrong = found.iter().any(|said| said.severity == Severity::Error);
+    ((!wrong).then_some(srdf), found)
 }
+
+/// What is read.
+const PARTS: [&str; 3] = ["group", "end_effector", "disable_collisions"];
+
+/// What other tools read.
+const PASSED_OVER: [&str; 9] = [
+    "virtual_joint",
+    "passive_joint",
+    "group_state",
+    "link_sphere_approximation",
+    "disable_default_collisions",
+    "enable_collisions",
+    "joint_property",
+    "collision_margins",
+    "contact_managers_plugin_config",
+];
 
 struct Reader {
     places: Places,
@@ -46,9 +64,15 @@ struct Reader {
 impl Reader {
     fn srdf(&mut self, root: Node<'_, '_>) -> Srdf {
         let mut srdf = Srdf::default();
+        self.elements(root, &PARTS, &PASSED_OVER);
+        let mut taken = FxHashMap::default();
         for node in children(root, "group") {
-            if let Some((name, _)) = self.places.required(node, "name", &mut self.found) {
-                srdf.groups.insert(name.into(), self.group(node));
+            self.elements(node, &["link", "joint", "chain", "group"], &["passive_joint"]);
+            if let Some(name) = self.places.required(node, "name", &mut self.found) {
+                let group = self.group(node);
+                if self.is_new("group", name, &mut taken) {
+                    srdf.groups.insert(name.0.into(), group);
+                }
             }
         }
         let is_group = |name: &str| srdf.groups.contains_key(name);
@@ -62,11 +86,20 @@ impl Reader {
                 self.found.push(UnknownPart { span, what: "group", name: name.to_owned(), near }.into());
             }
         }
+        self.found.extend(ring(&srdf.groups).map(|chain| {
+            let first = chain.first().and_then(|name| taken.get(name.as_str())).copied();
+            let chain = chain.iter().map(ToString::to_string).collect();
+            GroupCycle { span: first.unwrap_or_default(), chain }.into()
+        }));
+        let mut taken = FxHashMap::default();
         for node in children(root, "end_effector") {
             let name = self.places.required(node, "name", &mut self.found);
             let group = self.places.attribute(node, "group");
             let parent = self.link(node, "parent_link");
-            if let (Some((name, _)), Some((group, _)), Some(parent)) = (name, group, parent) {
+            if let (Some(name), Some((group, _)), Some(parent)) = (name, group, parent)
+                && self.is_new("end effector", name, &mut taken)
+            {
+                let (name, _) = name;
                 srdf.end_effectors.insert(name.into(), EndEffector { group: group.into(), parent });
             }
         }
@@ -77,6 +110,30 @@ impl Reader {
         srdf.disabled.sort_unstable();
         srdf.disabled.dedup();
         srdf
+    }
+
+    /// Says what stands in an element and is neither known nor read by others.
+    fn elements(&mut self, node: Node<'_, '_>, known: &[&'static str], passed_over: &[&'static str]) {
+        for child in node.children().filter(|child| is_own(node, child)) {
+            let name = child.tag_name().name();
+            if !known.contains(&name) && !passed_over.contains(&name) {
+                let names = known.iter().chain(passed_over).copied();
+                self.found.push(unknown(child, names, self.places));
+            }
+        }
+    }
+
+    fn is_new<'a>(
+        &mut self,
+        what: &'static str,
+        (name, span): (&'a str, Span),
+        taken: &mut FxHashMap<&'a str, Span>,
+    ) -> bool {
+        let first = *taken.entry(name).or_insert(span);
+        if first != span {
+            self.found.push(TakenPart { span, what, name: name.to_owned(), first }.into());
+        }
+        first == span
     }
 
     fn group(&mut self, node: Node<'_, '_>) -> Group {
@@ -115,4 +172,36 @@ impl Reader {
         }
         known
     }
+}
+
+/// A group that contains itself, by way of those between, the first at both ends. O(groups and what they name).
+fn ring(groups: &IndexMap<SmolStr, Group>) -> Option<Vec<SmolStr>> {
+    let mut seen = vec![false; groups.len()];
+    let mut is_open = vec![false; groups.len()];
+    for start in 0..groups.len() {
+        // Groups that contain each other, with how many of each one's own were looked at.
+        let mut path = vec![(start, 0)];
+        while let Some((at, next)) = path.last_mut() {
+            let at = *at;
+            if *next == 0 && std::mem::replace(seen.get_mut(at)?, true) {
+                path.pop();
+                continue;
+            }
+            let inner = groups.get_index(at).and_then(|(_, group)| group.groups.get(*next));
+            *next += 1;
+            *is_open.get_mut(at)? = inner.is_some();
+            let Some(inner) = inner else {
+                path.pop();
+                continue;
+            };
+            let Some(inner) = groups.get_index_of(inner) else { continue };
+            if is_open.get(inner) == Some(&true) {
+                let from = path.iter().position(|(known, _)| *known == inner)?;
+                let names = path.iter().skip(from).map(|(at, _)| *at).chain([inner]);
+                return names.map(|at| groups.get_index(at).map(|(name, _)| name.clone())).collect();
+            }
+            path.push((inner, 0));
+        }
+    }
+    None
 }

@@ -12,6 +12,15 @@ const MAX_NODES: u32 = 200_000;
 /// The deepest nesting; a URDF needs five levels, extensions some more.
 const MAX_DEPTH: usize = 64;
 
+/// What a document is meant to be.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Dialect {
+    /// A robot's links and joints.
+    Urdf,
+    /// What is said beside it.
+    Srdf,
+}
+
 /// A parsed description.
 pub(crate) struct Document<'t> {
     xml: roxmltree::Document<'t>,
@@ -28,13 +37,13 @@ pub(crate) struct Places {
 
 impl<'t> Document<'t> {
     /// Parses the text. O(bytes).
-    pub(crate) fn parse(source: &'t Source, file: FileId) -> Result<Self, Box<Diagnostic>> {
+    pub(crate) fn parse(source: &'t Source, file: FileId, dialect: Dialect) -> Result<Self, Box<Diagnostic>> {
         let text = source.text.trim_start();
         let places = Places { file, skipped: source.text.len() - text.len() };
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
         let xml = match roxmltree::Document::parse_with_options(text, options) {
             Ok(xml) => xml,
-            Err(problem) => return Err(Box::new(places.not_xml(&problem, source))),
+            Err(problem) => return Err(Box::new(places.not_xml(&problem, source, dialect))),
         };
         let document = Self { xml, places };
         match document.too_deep() {
@@ -104,7 +113,7 @@ impl Places {
         MissingPart { span: self.tag(node), element, name, part, kind }.into()
     }
 
-    fn not_xml(self, problem: &Error, source: &Source) -> Diagnostic {
+    fn not_xml(self, problem: &Error, source: &Source, dialect: Dialect) -> Diagnostic {
         let at = match problem {
             Error::NoRootNode | Error::UnclosedRootNode => source.text.len(),
             other => self.offset(source, other.pos()),
@@ -120,7 +129,7 @@ impl Places {
             Error::DtdDetected => "a document type declaration is not taken".to_owned(),
             other => other.to_string(),
         };
-        NotXml { span, problem }.into()
+        NotXml { span, problem, dialect }.into()
     }
 
     /// The byte at a line and column from 1, where the column counts characters.
@@ -143,9 +152,14 @@ pub(crate) enum Part {
     Element,
 }
 
+/// Whether an element belongs to the same language as the one around it: a prefix says that it is somebody else's.
+pub(crate) fn is_own(node: Node<'_, '_>, child: &Node<'_, '_>) -> bool {
+    child.is_element() && child.tag_name().namespace() == node.tag_name().namespace()
+}
+
 /// The child elements with this name.
 pub(crate) fn children<'a, 't>(node: Node<'a, 't>, name: &'static str) -> impl Iterator<Item = Node<'a, 't>> {
-    node.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
+    node.children().filter(move |child| is_own(node, child) && child.tag_name().name() == name)
 }
 
 /// The first child element with this name.

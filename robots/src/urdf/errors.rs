@@ -1,17 +1,23 @@
-//! What can be wrong with a URDF (M0451 to M0470).
+//! What can be wrong with a URDF (M0451 to M0470, M0473 to M0476).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
 
-use super::document::Part;
+use super::document::{Dialect, Part};
 
 motet_syntax::mistakes! {
     pub const CODES;
 
     /// The text is not XML.
-    NotXml("M0451", Error) { problem: String }
+    NotXml("M0451", Error) { problem: String, dialect: Dialect }
     message(m) { format!("this is not XML: {}", m.problem) }
-    help(_m) { Some("a URDF is an XML document whose root element is `<robot>`".to_owned()) }
+    help(m) {
+        let what = match m.dialect {
+            Dialect::Urdf => "URDF",
+            Dialect::Srdf => "SRDF",
+        };
+        Some(format!("a {what} is an XML document whose root element is `<robot>`"))
+    }
 
     /// More elements, or more levels of them, than a description may have.
     TooMuch("M0452", Error) { what: &'static str, limit: usize }
@@ -33,7 +39,7 @@ motet_syntax::mistakes! {
         let element = if m.name.is_empty() {
             format!("`<{}>`", m.element)
         } else {
-            format!("{} `{}`", m.element, m.name)
+            format!("{} `{}`", m.element, m.name.escape_debug())
         };
         match m.kind {
             Part::Attribute => format!("{element} has no `{}`", m.part),
@@ -65,27 +71,27 @@ motet_syntax::mistakes! {
     /// A joint between links that are not there.
     UnknownLink("M0459", Error) { link: String, near: Option<String> }
     message(m) { format!("there is no link `{}`", m.link.escape_debug()) }
-    help(m) { Some(near_or(m.near.as_deref(), || format!("add `<link name=\"{}\"/>`", m.link))) }
+    help(m) { Some(near_or(m.near.as_deref(), || format!("add `<link name=\"{}\"/>`", m.link.escape_debug()))) }
 
     /// A link that two joints move.
     TwoParents("M0460", Error) { link: String, joint: String, other: String, first: Span }
-    message(m) { format!("link `{}` is the child of joint `{}` and of joint `{}`", m.link, m.other, m.joint) }
+    message(m) { format!("link `{}` is the child of joint `{}` and of joint `{}`", m.link.escape_debug(), m.other.escape_debug(), m.joint.escape_debug()) }
     help(_m) { Some("a URDF is a tree: leave out one of the joints, or let it end in a link of its own".to_owned()) }
-    related(m) { vec![Related::new(format!("joint `{}` is here", m.other), m.first)] }
+    related(m) { vec![Related::new(format!("joint `{}` is here", m.other.escape_debug()), m.first)] }
 
     /// Links that hang on each other in a ring.
     LinkCycle("M0461", Error) { chain: Vec<String> }
     message(m) {
-        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{name}`")).collect();
+        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
         format!("links hang on each other in a ring: {}", chain.join(", "))
     }
     help(_m) { Some("a URDF is a tree: leave out one of the joints".to_owned()) }
 
     /// Links that nothing joins.
     SeveralRoots("M0462", Error) { link: String, first: String, place: Span }
-    message(m) { format!("nothing joins link `{}` to link `{}`", m.link, m.first) }
-    help(m) { Some(format!("add a joint that ends in `{}`, or leave the link out", m.link)) }
-    related(m) { vec![Related::new(format!("`{}` is here", m.first), m.place)] }
+    message(m) { format!("nothing joins link `{}` to link `{}`", m.link.escape_debug(), m.first.escape_debug()) }
+    help(m) { Some(format!("add a joint that ends in `{}`, or leave the link out", m.link.escape_debug())) }
+    related(m) { vec![Related::new(format!("`{}` is here", m.first.escape_debug()), m.place)] }
 
     /// A kind of joint that URDF does not have.
     UnknownJointType("M0463", Error) { word: String, near: Option<String>, known: Vec<&'static str> }
@@ -94,7 +100,7 @@ motet_syntax::mistakes! {
 
     /// An axis without a direction.
     ZeroAxis("M0464", Error) { joint: String }
-    message(m) { format!("the axis of joint `{}` has length 0, so it has no direction", m.joint) }
+    message(m) { format!("the axis of joint `{}` has length 0, so it has no direction", m.joint.escape_debug()) }
     help(_m) { Some("write a direction such as `0 0 1`".to_owned()) }
 
     /// Limits that leave no position.
@@ -103,10 +109,10 @@ motet_syntax::mistakes! {
         if m.is_followed {
             format!(
                 "joint `{}` is nowhere within its limits and those of the joints that follow it: it has to be at least at {} and at most at {}",
-                m.joint, m.lower, m.upper
+                m.joint.escape_debug(), m.lower, m.upper
             )
         } else {
-            format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint, m.lower, m.upper)
+            format!("the lower limit of joint `{}` is {}, above the upper, {}", m.joint.escape_debug(), m.lower, m.upper)
         }
     }
     help(m) {
@@ -118,9 +124,9 @@ motet_syntax::mistakes! {
     UnknownMimic("M0466", Error) { joint: String, leader: String, near: Option<String>, is_joint: bool }
     message(m) {
         if m.is_joint {
-            format!("joint `{}` follows `{}`, whose position is not one number", m.joint, m.leader)
+            format!("joint `{}` follows `{}`, whose position is not one number", m.joint.escape_debug(), m.leader.escape_debug())
         } else {
-            format!("joint `{}` follows `{}`, which is no joint", m.joint, m.leader.escape_debug())
+            format!("joint `{}` follows `{}`, which is no joint", m.joint.escape_debug(), m.leader.escape_debug())
         }
     }
     help(m) {
@@ -131,9 +137,9 @@ motet_syntax::mistakes! {
     MimicCycle("M0467", Error) { chain: Vec<String> }
     message(m) {
         match m.chain.as_slice() {
-            [alone] => format!("joint `{alone}` follows itself"),
+            [alone] => format!("joint `{}` follows itself", alone.escape_debug()),
             chain => {
-                let chain: Vec<String> = chain.iter().map(|name| format!("`{name}`")).collect();
+                let chain: Vec<String> = chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
                 format!("joints follow each other in a ring: {}", chain.join(", "))
             }
         }
@@ -142,7 +148,7 @@ motet_syntax::mistakes! {
 
     /// A joint that is not moved.
     HeldJoint("M0468", Warning) { joint: String }
-    message(m) { format!("joint `{}` is floating, and is held at its origin", m.joint) }
+    message(m) { format!("joint `{}` is floating, and is held at its origin", m.joint.escape_debug()) }
     help(_m) { Some("the robot's card says how its base drives".to_owned()) }
 
     /// A shape that URDF does not have, or none, or several at once.
@@ -160,8 +166,44 @@ motet_syntax::mistakes! {
     NoLink("M0470", Error) {}
     message(_m) { "the robot has no link".to_owned() }
     help(_m) { Some("add `<link name=\"base_link\"/>`".to_owned()) }
+
+    /// Two of what there may be one of.
+    Repeated("M0473", Error) { element: String, name: String, part: String, first: Span }
+    message(m) {
+        let name = if m.name.is_empty() { String::new() } else { format!(" `{}`", m.name.escape_debug()) };
+        format!("{}{name} has two {}", m.element, m.part)
+    }
+    help(m) {
+        Some(if m.element == "geometry" {
+            "leave one out, or give each a `<collision>` of its own".to_owned()
+        } else {
+            "leave one out".to_owned()
+        })
+    }
+    related(m) { vec![Related::new("the first is here", m.first)] }
+
+    /// An element that nothing reads.
+    UnknownElement("M0474", Warning) { name: String, near: Option<String> }
+    message(m) { format!("`<{}>` is not known here, and is passed over", m.name.escape_debug()) }
+    help(m) { m.near.as_ref().map(|near| format!("did you mean `<{near}>`?")) }
+
+    /// An attribute that nothing reads.
+    UnknownAttribute("M0475", Warning) { element: &'static str, name: String, near: Option<String>, known: &'static [&'static str] }
+    message(m) { format!("`<{}>` has no attribute `{}`: it is passed over", m.element, m.name.escape_debug()) }
+    help(m) {
+        Some(match &m.near {
+            Some(near) => format!("did you mean `{}`?", near.escape_debug()),
+            None if m.known.is_empty() => "leave it out".to_owned(),
+            None => format!("possible here: {}", one_of(m.known.iter().copied())),
+        })
+    }
+
+    /// A joint that follows another, and cannot.
+    IdleMimic("M0476", Warning) { joint: String, kind: &'static str }
+    message(m) { format!("joint `{}` is {}, and cannot follow another: its `<mimic>` is passed over", m.joint.escape_debug(), m.kind) }
+    help(_m) { Some("leave the `<mimic>` out, or make the joint revolute, continuous or prismatic".to_owned()) }
 }
 
 fn near_or(near: Option<&str>, otherwise: impl FnOnce() -> String) -> String {
-    near.map_or_else(otherwise, |near| format!("did you mean `{near}`?"))
+    near.map_or_else(otherwise, |near| format!("did you mean `{}`?", near.escape_debug()))
 }

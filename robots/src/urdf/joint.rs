@@ -4,7 +4,7 @@ use motet_syntax::{Span, suggest};
 use roxmltree::Node;
 
 use super::document::{Part, child};
-use super::errors::{EmptyLimits, HeldJoint, UnknownJointType, ZeroAxis};
+use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, ZeroAxis};
 use super::model::{JointKind, Limits, Pose};
 use super::number::Numbers;
 
@@ -41,8 +41,14 @@ impl Numbers {
         let (kind, parent, child_link) = (kind?, parent?, child_link?);
         let axis = self.axis(node, name.0, kind);
         let (limits, velocity) = self.limits(node, name.0, kind);
-        let mimic = child(node, "mimic").filter(|_| kind.has_one_position());
-        let mimic = mimic.and_then(|mimic| self.mimic(mimic));
+        let mimic = child(node, "mimic");
+        if let Some(mimic) = mimic.filter(|_| !kind.has_one_position()) {
+            let word =
+                JointKind::WORDS.iter().find(|(_, known)| *known == kind).map_or("", |(word, _)| *word);
+            let span = self.places.tag(mimic);
+            self.found.push(IdleMimic { span, joint: name.0.to_owned(), kind: word }.into());
+        }
+        let mimic = mimic.filter(|_| kind.has_one_position()).and_then(|mimic| self.mimic(mimic));
         if kind == JointKind::Floating {
             self.found.push(HeldJoint { span: name.1, joint: name.0.to_owned() }.into());
         }

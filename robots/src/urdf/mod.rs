@@ -12,10 +12,12 @@ pub mod model;
 mod number;
 mod read;
 mod shape;
+mod surplus;
 mod tree;
 
 pub use errors::CODES;
 pub use model::*;
 pub use read::read;
 
-pub(crate) use document::{Document, Places, children};
+pub(crate) use document::{Dialect, Document, Places, children, is_own};
+pub(crate) use surplus::unknown;

@@ -4,11 +4,12 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 
-use super::document::{Document, Places, children};
+use super::document::{Dialect, Document, Places, children};
 use super::errors::{LeftoverXacro, NoLink, NotUrdf, TakenName};
 use super::joint::{Named, RawJoint};
 use super::model::{Link, Urdf};
 use super::number::Numbers;
+use super::surplus::surplus;
 use super::tree;
 
 /// Reads a URDF with everything that is wrong with it. There is none where there is an error; a warning leaves it.
@@ -18,7 +19,7 @@ use super::tree;
 /// held at its origin, with a warning. Position limits come from `<limit>`.
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> (Option<Urdf>, Vec<Diagnostic>) {
-    let document = match Document::parse(source, file) {
+    let document = match Document::parse(source, file, Dialect::Urdf) {
         Ok(document) => document,
         Err(problem) => return (None, vec![*problem]),
     };
@@ -36,6 +37,7 @@ pub fn read(source: &Source, file: FileId) -> (Option<Urdf>, Vec<Diagnostic>) {
     let (links, link_names) = links(root, &mut numbers);
     let joints = joints(root, &mut numbers);
     let mut found = numbers.found;
+    surplus(root, places, &mut found);
     if links.is_empty() {
         found.push(NoLink { span: places.tag(root) }.into());
     }

@@ -1,10 +1,9 @@
 //! `motet robots check`: whether a card, its declarations and its URDF are sound and fit each other, and what they come to.
 
 use motet_compiler::{Options, Session};
-use motet_geometry::inverse::{LiftArm, ParallelArm};
 use motet_geometry::kinematics::Chain;
-use motet_geometry::query::{Allowed, Machine, Room, World};
-use motet_robots::card::{Drive, Robot};
+use motet_geometry::query::{Allowed, Machine, Room, Solver, Touch, World};
+use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_syntax::Sources;
@@ -31,9 +30,14 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
     });
     match found {
         Ok((robot, urdf)) => {
-            let lines = urdf.map_or_else(|| vec![NO_BODY.to_owned()], |urdf| told(&robot, &urdf));
-            report.out.line(&format!("{} ({}): {}", robot.title, robot.name, report.tally()));
-            for line in lines {
+            let told = urdf.map_or_else(
+                || Told { lines: vec![NO_BODY.to_owned()], warnings: 0 },
+                |urdf| told(&robot, &urdf),
+            );
+            report.warned(told.warnings);
+            let title = robot.title.escape_debug();
+            report.out.line(&format!("{title} ({}): {}", robot.name, report.tally()));
+            for line in told.lines {
                 report.out.line(&format!("  {line}"));
             }
             Ok(Exit::Clean)
@@ -46,7 +50,22 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
 
 const NO_BODY: &str = "the card names no URDF under [model], so no motion can be computed";
 
-fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
+/// What a body comes to.
+struct Told {
+    lines: Vec<String>,
+    /// How many of the lines warn.
+    warnings: usize,
+}
+
+impl Told {
+    fn warn(&mut self, posture: &str, what: &str, help: &str) {
+        self.warnings += 1;
+        self.lines.push(format!("{posture:8}  warning: {what}"));
+        self.lines.push(format!("{:8}  help: {help}", ""));
+    }
+}
+
+fn told(robot: &Robot, urdf: &Urdf) -> Told {
     let machine = Machine::new(robot, urdf);
     let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
@@ -68,40 +87,68 @@ fn told(robot: &Robot, urdf: &Urdf) -> Vec<String> {
             lines.push(format!("{name:8}  not carried by the base's link"));
             continue;
         };
-        lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(robot, &chain)));
+        // How high the base's link is does not tell which solver it is.
+        let found = Solver::of(&chain, robot.base.drive, 0.0);
+        lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(&found)));
     }
     lines.extend(machine.body().unseen().iter().filter_map(|link| {
-        Some(format!("`{}` has a mesh that is not read, so no motion is computed", tree.links().get(*link)?))
+        Some(format!(
+            "`{}` has a mesh that is not read, so no motion is computed",
+            tree.links().get(*link)?.escape_debug()
+        ))
     }));
-    lines.extend(touching(&machine));
-    lines
+    let mut told = Told { lines, warnings: 0 };
+    postures(&machine, &mut told);
+    told
 }
 
-/// Postures in which the robot touches itself or the floor.
-fn touching(machine: &Machine) -> Vec<String> {
+/// How far a part may be below the floor: less is how a foot was measured, in m.
+const SUNK: f64 = 0.01;
+
+/// What the robot touches in its postures, and what of it is below the floor.
+fn postures(machine: &Machine, told: &mut Told) {
     let scene = Scene::default();
     let mut world = World::new(machine, &scene);
-    let mut lines = Vec::new();
     for posture in machine.card().postures.keys() {
         let Some(joints) = machine.posture(posture, machine.rest()) else { continue };
         world.robot.joints = joints;
         let room = Room::new(machine, &scene, &world);
-        lines.push(match room.touch(&world.robot, Allowed::default()) {
-            Some(touch) => format!("{posture:8}  warning: `{}` touches `{}`", touch.link, touch.other),
-            None => format!("{posture:8}  touches neither itself nor the floor"),
-        });
+        let name = posture.escape_debug().to_string();
+        let touch = room.touch(&world.robot, Allowed::default());
+        let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -SUNK);
+        if touch.is_none() && sunk.is_none() {
+            told.lines.push(format!("{name:8}  touches neither itself nor the floor"));
+        }
+        if let Some(Touch { link, other, is_own }) = touch {
+            let (link, other) = (link.escape_debug(), other.escape_debug());
+            let instead = format!("give joints other positions under `[postures.{name}]`");
+            let help = if is_own {
+                format!(
+                    "{instead}, or an SRDF as `srdf` in `[model]` that lets the two touch: `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
+                )
+            } else {
+                format!("{instead}, or a greater `height` in `[model]`")
+            };
+            told.warn(&name, &format!("`{link}` touches `{other}`"), &help);
+        }
+        if let Some((link, height)) = sunk {
+            let base = machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
+            let what = format!("`{}` is {:.2} m below the floor", link.escape_debug(), -height);
+            let help = format!(
+                "`height` in `[model]` is how high the base's link is above the floor; with {:.3} m this part is on it",
+                base - height
+            );
+            told.warn(&name, &what, &help);
+        }
     }
-    lines
 }
 
 /// How joint positions for a pose of a hand are found.
-fn solver(robot: &Robot, chain: &Chain) -> &'static str {
-    let drives_anywhere = matches!(robot.base.drive, Drive::Omnidirectional | Drive::Legged);
-    if LiftArm::detect(chain).is_some() && drives_anywhere {
-        "closed form, a lift and a wrist whose axes meet"
-    } else if ParallelArm::detect(chain).is_some() {
-        "closed form, six joints of which three are parallel"
-    } else {
-        "solved in steps"
+fn solver(solver: &Solver) -> &'static str {
+    match solver {
+        Solver::Lift(_) => "closed form, a lift and a wrist whose axes meet",
+        Solver::Parallel(_) => "closed form, six joints of which three are parallel",
+        Solver::Seven(_) => "closed form, seven joints with a shoulder, an elbow and a wrist",
+        Solver::Steps(_) => "solved in steps",
     }
 }

@@ -5,10 +5,10 @@ use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
+use super::around::above_floor;
 use super::solver::Solver;
 use super::state::State;
 use crate::collision::{Body, Shape, Solid};
-use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::kinematics::{Chain, Lever, Tree, planar};
 
 /// How far in front of the palm a thing is held, in m.
@@ -108,12 +108,7 @@ impl Machine {
     fn hand_of(&self, name: &SmolStr, card: &HandCard, base: usize, height: f64) -> Option<Hand> {
         let tip = self.tree.link(card.tip.as_deref()?).ok()?;
         let chain = Chain::new(&self.tree, base, tip)?;
-        let drives_anywhere = matches!(self.card.base.drive, Drive::Omnidirectional | Drive::Legged);
-        let lift =
-            LiftArm::detect(&chain).filter(|_| drives_anywhere).map(|arm| Solver::Lift(arm.raised(height)));
-        let parallel = || ParallelArm::detect(&chain).map(Solver::Parallel);
-        let seven = || SevenArm::detect(&chain).map(Solver::Seven);
-        let solver = lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Solver::Steps(chain.clone()));
+        let solver = Solver::of(&chain, self.card.base.drive, height);
         let in_arm = |lever: &Lever| chain.in_tree.contains(&lever.driver.variable);
         let carried = self.levers.iter().map(|levers| levers.iter().any(in_arm)).collect();
         let links = 0..self.levers.len();
@@ -200,6 +195,18 @@ impl Machine {
             set(&self.tree, &mut joints, joint, *position);
         }
         Some(joints)
+    }
+
+    /// The lowest point of those links that count: a link, and its height above the floor in m. None where no shape of them is
+    /// known.
+    #[must_use]
+    pub fn lowest(&self, state: &State, counts: impl Fn(usize) -> bool) -> Option<(SmolStr, f64)> {
+        let poses = self.map_from_links(state);
+        let parts = self.body.parts().iter().filter(|part| counts(part.link));
+        let heights =
+            parts.filter_map(|part| Some((part.link, above_floor(&part.solid.moved(poses.get(part.link)?)))));
+        let (link, height) = heights.min_by(|one, other| one.1.total_cmp(&other.1))?;
+        Some((self.tree.links().get(link)?.clone(), height))
     }
 
     /// Whether the base drives.

@@ -1,5 +1,6 @@
 //! How the joint positions of an arm are found: in closed form where it has one.
 
+use motet_robots::card::Drive;
 use nalgebra::Isometry3;
 
 use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
@@ -22,6 +23,17 @@ pub enum Solver {
 }
 
 impl Solver {
+    /// How the arm of a chain is solved on a base that drives so, whose link is so high above the floor, in m.
+    #[must_use]
+    pub fn of(chain: &Chain, drive: Drive, height: f64) -> Self {
+        let drives_anywhere = matches!(drive, Drive::Omnidirectional | Drive::Legged);
+        let lift =
+            LiftArm::detect(chain).filter(|_| drives_anywhere).map(|arm| Self::Lift(arm.raised(height)));
+        let parallel = || ParallelArm::detect(chain).map(Self::Parallel);
+        let seven = || SevenArm::detect(chain).map(Self::Seven);
+        lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Self::Steps(chain.clone()))
+    }
+
     /// The arm's chain, from the base's link to the tip.
     #[must_use]
     pub fn chain(&self) -> &Chain {

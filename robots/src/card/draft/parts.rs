@@ -1,6 +1,9 @@
 //! Which link of a URDF is the base, the tip of the hand, the frame of the camera: told by what moves what, then by
 //! the words that names are made of.
 
+use super::base::Base;
+use super::described::Described;
+use crate::srdf::Srdf;
 use crate::urdf::{Joint, JointKind, Urdf};
 
 /// What was found.
@@ -18,7 +21,8 @@ pub(super) struct Parts {
 /// The hand at the end of the arm.
 pub(super) struct Hand {
     pub(super) tip: usize,
-    pub(super) why: &'static str,
+    /// Why it is the tip, and who says so.
+    pub(super) why: String,
     /// Length of the stretched arm, in m.
     pub(super) reach: f64,
     /// Height of the shoulder above the base at rest, in m; turns on the way are left out.
@@ -37,9 +41,9 @@ pub(super) struct Hand {
 const ARM: usize = 3;
 
 impl Parts {
-    pub(super) fn find(urdf: &Urdf) -> Self {
-        let (base, base_why, is_planar) = base(urdf);
-        let hand = hand(urdf, base);
+    pub(super) fn find(urdf: &Urdf, srdf: Option<&Srdf>) -> Self {
+        let Base { link: base, why: base_why, is_planar } = Base::find(urdf);
+        let hand = hand(urdf, srdf, base);
         let camera = camera(urdf);
         let camera_is_on_arm = camera.is_some_and(|(camera, _)| {
             let first = hand.as_ref().and_then(|hand| hand.arm.first());
@@ -49,7 +53,7 @@ impl Parts {
     }
 }
 
-/// The joints from the root to a link. O(joints).
+/// The joints from the root to a link; see [`beyond`]. O(joints).
 fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
     let mut way = Vec::new();
     let mut at = link;
@@ -64,6 +68,21 @@ fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
     way
 }
 
+/// Those of them after the base. All of them where it is not on the way.
+fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
+    let mut way = way(urdf, link);
+    let before = way.iter().position(|joint| joint.child == base).map_or(0, |at| at + 1);
+    way.drain(..before);
+    way
+}
+
+/// Whether a link is called after something that feels, and is no part of a hand.
+fn senses(name: &str) -> bool {
+    let is_imu = |word: &str| word.eq_ignore_ascii_case("imu");
+    has_word(name, &["camera", "sensor", "optical"])
+        || name.split(|c: char| !c.is_ascii_alphabetic()).any(is_imu)
+}
+
 fn moves(joint: &Joint) -> bool {
     joint.kind.has_one_position() && joint.mimic.is_none()
 }
@@ -73,23 +92,10 @@ fn works(joint: &Joint) -> bool {
     moves(joint) && joint.limits.is_none_or(|limits| limits.upper > limits.lower)
 }
 
-fn has_word(name: &str, words: &[&str]) -> bool {
+/// Whether a name has one of these in it, in whatever case.
+pub(super) fn has_word(name: &str, words: &[&str]) -> bool {
     let name = name.to_ascii_lowercase();
     words.iter().any(|word| name.contains(word))
-}
-
-/// The base's link: the root, or what hangs on a root that stands for the room.
-fn base(urdf: &Urdf) -> (usize, &'static str, bool) {
-    let root = urdf.links.get(urdf.root).map_or("", |link| link.name.as_str());
-    let mut hanging = urdf.joints.iter().filter(|joint| joint.parent == urdf.root);
-    let only = hanging.next().filter(|_| hanging.next().is_none());
-    match only {
-        Some(joint) if joint.kind == JointKind::Planar => (joint.child, "what a planar joint moves", true),
-        Some(joint) if has_word(root, &["world", "map", "odom"]) => {
-            (joint.child, "what the root carries", false)
-        }
-        Some(_) | None => (urdf.root, "the root", false),
-    }
 }
 
 fn drive(urdf: &Urdf, is_planar: bool) -> (&'static str, &'static str) {
@@ -111,15 +117,49 @@ fn drive(urdf: &Urdf, is_planar: bool) -> (&'static str, &'static str) {
     }
 }
 
+/// Words for the tip of a hand, the best first.
+const TIPS: [&[&str]; 3] =
+    [&["tcp", "tool0", "grasp", "ee_link", "end_effector"], &["palm"], &["hand", "gripper"]];
+
+/// The hand that the SRDF describes, else that at the end of the longest arm.
+fn hand(urdf: &Urdf, srdf: Option<&Srdf>, base: usize) -> Option<Hand> {
+    let stems = stems(urdf, base);
+    let length = |link: usize| stems.get(link).filter(|stem| !stem.is_leg).map_or(0, |stem| stem.joints);
+    let described = srdf.and_then(|srdf| Described::find(urdf, srdf, length));
+    match described.filter(|hand| length(hand.mount) >= ARM) {
+        Some(hand) => {
+            let tip = described_tip(urdf, &hand, length);
+            Some(measured(urdf, base, tip, &hand.joints, format!("from the SRDF: {}", hand.why)))
+        }
+        None => {
+            let (tip, why) = guessed_tip(urdf, base, &stems)?;
+            Some(measured(urdf, base, tip, &[], format!("guessed: {why}")))
+        }
+    }
+}
+
+/// Of what is rigid with the link that a hand is mounted on, what is named for a tip, else the hand's first link, else that link.
+fn described_tip(urdf: &Urdf, hand: &Described, length: impl Fn(usize) -> usize) -> usize {
+    let mut rigid = vec![hand.mount];
+    // Each joint stands after the one that carries its parent.
+    for joint in urdf.joints.iter().filter(|joint| joint.kind == JointKind::Fixed) {
+        if rigid.contains(&joint.parent) {
+            rigid.push(joint.child);
+        }
+    }
+    // Where there is no end effector, the group's end is the tip.
+    let named = TIPS.iter().filter(|_| !hand.is_end).find_map(|words| {
+        rigid.iter().rev().copied().find(|link| {
+            let name = urdf.links.get(*link).map_or("", |link| link.name.as_str());
+            has_word(name, words) && !has_word(name, &["finger"]) && !senses(name)
+        })
+    });
+    let is_own = |link: &usize| rigid.contains(link) && length(*link) == length(hand.mount);
+    named.or_else(|| hand.links.iter().copied().find(is_own)).unwrap_or(hand.mount)
+}
+
 /// The tip of the longest arm: a link named for it, else the link that carries fingers, else the last link.
-fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
-    const TIPS: [(&[&str], &str); 4] = [
-        (&["tcp", "tool0", "grasp", "ee_link", "end_effector"], "its name"),
-        (&["palm"], "its name"),
-        (&["hand", "gripper"], "its name"),
-        (&[""], "the end of the longest arm"),
-    ];
-    let stems = stems(urdf);
+fn guessed_tip(urdf: &Urdf, base: usize, stems: &[Stem]) -> Option<(usize, &'static str)> {
     let is_leg = |link: usize| stems.get(link).is_some_and(|stem| stem.is_leg);
     let arms = |link: usize| stems.get(link).map_or(0, |stem| stem.joints);
     let palm = |link: usize| stems.get(link).and_then(|stem| stem.palm).unwrap_or(link);
@@ -131,29 +171,35 @@ fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
     if joints < ARM {
         return None;
     }
-    let (tip, why) = TIPS.iter().find_map(|(words, why)| {
+    let words = TIPS.iter().map(|words| (*words, "its name"));
+    words.chain([(&[""][..], "the end of the longest arm")]).find_map(|(words, why)| {
         let found = (0..urdf.links.len()).rev().find(|link| {
             let name = urdf.links.get(*link).map_or("", |link| link.name.as_str());
             *link != base
                 && !is_leg(*link)
                 && has_word(name, words)
-                && !has_word(name, &["camera", "finger", "sensor", "optical"])
+                && !has_word(name, &["finger"])
+                && !senses(name)
                 && palm(*link) == *link
                 && arms(*link) == joints
         });
-        found.map(|tip| (tip, *why))
-    })?;
-    let steps = way(urdf, tip);
+        found.map(|tip| (tip, why))
+    })
+}
+
+/// The hand with this tip, whose own joints the SRDF may name.
+fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) -> Hand {
+    let steps = beyond(urdf, base, tip);
     let arm: Vec<&Joint> = steps.iter().copied().filter(|joint| works(joint)).collect();
     let first =
         steps.iter().position(|joint| works(joint) && joint.kind != JointKind::Prismatic).unwrap_or(0);
     let length = |joint: &&Joint| joint.parent_from_joint.xyz.iter().map(|v| v * v).sum::<f64>().sqrt();
     let slides =
         |joint: &&Joint| joint.limits.filter(|_| joint.kind == JointKind::Prismatic).map_or(0.0, |l| l.upper);
-    let (points, closes, sliding) = fingers(urdf, tip);
+    let (points, closes, sliding) = fingers(urdf, tip, own);
     let travel: f64 =
         sliding.iter().filter_map(|joint| joint.limits).map(|limits| limits.upper - limits.lower).sum();
-    Some(Hand {
+    Hand {
         tip,
         why,
         reach: steps.iter().skip(first + 1).map(|joint| length(joint) + slides(joint)).sum::<f64>().max(0.05),
@@ -163,10 +209,10 @@ fn hand(urdf: &Urdf, base: usize) -> Option<Hand> {
         closes,
         open: sliding.iter().filter(|joint| works(joint)).filter_map(opened).collect(),
         arm: arm.iter().map(|joint| (joint.name.to_string(), at_rest(joint))).collect(),
-    })
+    }
 }
 
-/// What lies between the root and a link.
+/// What lies between the base and a link.
 #[derive(Clone, Copy, Default)]
 struct Stem {
     /// How many joints work.
@@ -177,8 +223,8 @@ struct Stem {
     palm: Option<usize>,
 }
 
-/// That of each link. O(links + joints).
-fn stems(urdf: &Urdf) -> Vec<Stem> {
+/// That of each link; nothing for what the base does not carry. O(links + joints).
+fn stems(urdf: &Urdf, base: usize) -> Vec<Stem> {
     // Whether a link carries two joints, and whether one of them follows another or slides.
     let mut carried = vec![(0_usize, false); urdf.links.len()];
     for joint in urdf.joints.iter().filter(|joint| joint.kind.has_one_position()) {
@@ -188,8 +234,15 @@ fn stems(urdf: &Urdf) -> Vec<Stem> {
         }
     }
     let mut stems = vec![Stem::default(); urdf.links.len()];
+    let mut is_carried = vec![false; urdf.links.len()];
+    if let Some(base) = is_carried.get_mut(base) {
+        *base = true;
+    }
     // Each joint stands after the one that carries its parent.
     for joint in &urdf.joints {
+        let on_base = is_carried.get(joint.parent) == Some(&true);
+        let Some(slot) = is_carried.get_mut(joint.child).filter(|_| on_base) else { continue };
+        *slot = true;
         let before = stems.get(joint.parent).copied().unwrap_or_default();
         let carries = carried.get(joint.parent).is_some_and(|(count, is_finger)| *count >= 2 && *is_finger);
         let is_finger = before.joints >= ARM
@@ -206,19 +259,22 @@ fn stems(urdf: &Urdf) -> Vec<Stem> {
     stems
 }
 
-/// Where fingers on a link, or beside it, point, along what they close, and those that slide.
-fn fingers(urdf: &Urdf, tip: usize) -> (&'static str, &'static str, Vec<&Joint>) {
+/// Where fingers on a link, or beside it, point, along what they close, and those that slide. Joints that the hand is said to
+/// have are fingers whatever they are called.
+fn fingers<'u>(urdf: &'u Urdf, tip: usize, own: &[usize]) -> (&'static str, &'static str, Vec<&'u Joint>) {
     let hosts: Vec<usize> =
         way(urdf, tip).iter().rev().take(2).map(|joint| joint.parent).chain([tip]).collect();
+    let is_finger = |joint: &Joint| {
+        let words = ["finger", "grip", "jaw"];
+        let moved = urdf.links.get(joint.child).map_or("", |link| link.name.as_str());
+        hosts.contains(&joint.parent) && (has_word(&joint.name, &words) || has_word(moved, &words))
+    };
     let sliding: Vec<&Joint> = urdf
         .joints
         .iter()
-        .filter(|joint| joint.kind == JointKind::Prismatic && hosts.contains(&joint.parent))
-        .filter(|joint| {
-            let words = ["finger", "grip", "jaw"];
-            let moved = urdf.links.get(joint.child).map_or("", |link| link.name.as_str());
-            has_word(&joint.name, &words) || has_word(moved, &words)
-        })
+        .zip(0..)
+        .filter(|(joint, at)| joint.kind == JointKind::Prismatic && (own.contains(at) || is_finger(joint)))
+        .map(|(joint, _)| joint)
         .collect();
     let offset = sliding.first().map_or([0.0, 0.0, 1.0], |joint| joint.parent_from_joint.xyz);
     let names = ["x", "y", "z"];

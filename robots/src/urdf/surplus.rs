@@ -1,0 +1,169 @@
+//! What stands in a description and is not read: elements that are there twice of which one counts, and names that nothing
+//! has, which are misspelt. What other tools read is passed over in silence.
+
+use motet_syntax::{Diagnostic, suggest};
+use roxmltree::Node;
+
+use super::document::{Places, children, is_own};
+use super::errors::{Repeated, UnknownAttribute, UnknownElement};
+
+/// What may stand in an element.
+struct Known {
+    name: &'static str,
+    attributes: &'static [&'static str],
+    /// Whether other tools write attributes of their own, so that one which is like none of these says nothing.
+    is_open: bool,
+    /// Elements of which there may be one.
+    once: &'static [&'static str],
+    /// Elements of which there may be any number.
+    many: &'static [&'static str],
+}
+
+const KNOWN: [Known; 17] = [
+    open("robot", &["name", "version"], &[], &["link", "joint"]),
+    open("link", &["name", "type"], &[], &["collision", "visual", "inertial"]),
+    open("collision", &["name", "group"], &["origin", "geometry"], &[]),
+    open("visual", &["name", "group"], &["origin", "geometry"], &[]),
+    closed("geometry", &[], SHAPES),
+    open("joint", &["name", "type"], &["parent", "child", "origin", "axis", "limit", "mimic"], &["dynamics"]),
+    open("limit", &["lower", "upper", "effort", "velocity", "acceleration", "jerk"], &[], &[]),
+    closed("parent", &["link"], &[]),
+    closed("child", &["link"], &[]),
+    closed("origin", &["xyz", "rpy", "quat_xyzw"], &[]),
+    closed("axis", &["xyz"], &[]),
+    closed("mimic", &["joint", "multiplier", "offset"], &[]),
+    closed("box", &["size"], &[]),
+    closed("cylinder", &["radius", "length"], &[]),
+    closed("capsule", &["radius", "length"], &[]),
+    closed("sphere", &["radius"], &[]),
+    closed("mesh", &["filename", "scale"], &[]),
+];
+
+/// Those of a geometry; a name that is none of them is told where shapes are read.
+const SHAPES: &[&str] = &super::shape::WORDS;
+
+/// Elements that other tools read.
+const FOREIGN: [&str; 19] = [
+    "transmission",
+    "gazebo",
+    "ros2_control",
+    "sensor",
+    "material",
+    "safety_controller",
+    "calibration",
+    "dynamics",
+    "inertial",
+    "visual",
+    "verbose",
+    "contact",
+    "contact_coefficients",
+    "self_collision_checking",
+    "plugin",
+    "property",
+    "mujoco",
+    "loop_joint",
+    "hardwareInterface",
+];
+
+const fn open(
+    name: &'static str,
+    attributes: &'static [&'static str],
+    once: &'static [&'static str],
+    many: &'static [&'static str],
+) -> Known {
+    Known { name, attributes, is_open: true, once, many }
+}
+
+const fn closed(
+    name: &'static str,
+    attributes: &'static [&'static str],
+    many: &'static [&'static str],
+) -> Known {
+    Known { name, attributes, is_open: false, once: &[], many }
+}
+
+/// Everything of a description's links and joints that is not read and belongs to no other tool. O(bytes).
+pub(super) fn surplus(root: Node<'_, '_>, places: Places, found: &mut Vec<Diagnostic>) {
+    // The levels of a description are few, and nothing below an element that is not known is looked at.
+    let mut open = vec![root];
+    while let Some(node) = open.pop() {
+        let name = node.tag_name().name();
+        let Some(known) = KNOWN.iter().find(|known| known.name == name) else { continue };
+        attributes(node, known, places, found);
+        elements(node, known, places, found);
+        if known.name == "geometry" {
+            shapes(node, places, found);
+        }
+        // A joint within a transmission is no joint of the robot's: only what belongs here is gone into.
+        let belongs = |child: &Node<'_, '_>| {
+            let name = child.tag_name().name();
+            is_own(node, child) && (known.once.contains(&name) || known.many.contains(&name))
+        };
+        open.extend(node.children().filter(belongs));
+    }
+}
+
+fn attributes(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec<Diagnostic>) {
+    for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+        let name = attribute.name();
+        if known.attributes.contains(&name) {
+            continue;
+        }
+        // Names of several words are other tools' own: `soft_lower`, `command_effort`.
+        let near = suggest::closest(name, known.attributes.iter().copied()).filter(|_| !name.contains('_'));
+        if known.is_open && near.is_none() {
+            continue;
+        }
+        let (element, known) = (known.name, known.attributes);
+        let span = places.attribute(node, name).map_or(places.tag(node), |(_, span)| span);
+        let near = near.map(str::to_owned);
+        found.push(UnknownAttribute { span, element, name: name.to_owned(), near, known }.into());
+    }
+}
+
+fn elements(node: Node<'_, '_>, known: &Known, places: Places, found: &mut Vec<Diagnostic>) {
+    for child in node.children().filter(|child| is_own(node, child)) {
+        let name = child.tag_name().name();
+        let is_known = known.once.contains(&name) || known.many.contains(&name) || FOREIGN.contains(&name);
+        if !is_known && known.name != "geometry" {
+            found.push(unknown(child, known.once.iter().chain(known.many).copied(), places));
+        }
+    }
+    for part in known.once {
+        let mut all = children(node, part);
+        let first = all.next();
+        if let (Some(first), Some(second)) = (first, all.next()) {
+            found.push(repeated(node, format!("`<{part}>`"), [first, second], places));
+        }
+    }
+}
+
+/// An element that nothing reads.
+pub(crate) fn unknown<'k>(
+    node: Node<'_, '_>,
+    known: impl Iterator<Item = &'k str>,
+    places: Places,
+) -> Diagnostic {
+    let name = node.tag_name().name().to_owned();
+    let near = suggest::closest(&name, known).map(str::to_owned);
+    UnknownElement { span: places.tag(node), name, near }.into()
+}
+
+fn shapes(node: Node<'_, '_>, places: Places, found: &mut Vec<Diagnostic>) {
+    let mut all = node.children().filter(|child| is_own(node, child));
+    if let (Some(first), Some(second)) = (all.next(), all.next()) {
+        found.push(repeated(node, "shapes".to_owned(), [first, second], places));
+    }
+}
+
+fn repeated(
+    node: Node<'_, '_>,
+    part: String,
+    [first, second]: [Node<'_, '_>; 2],
+    places: Places,
+) -> Diagnostic {
+    let element = node.tag_name().name().to_owned();
+    let name = node.attribute("name").unwrap_or_default().to_owned();
+    let (span, first) = (places.tag(second), places.tag(first));
+    Repeated { span, element, name, part, first }.into()
+}
