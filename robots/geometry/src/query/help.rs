@@ -154,7 +154,9 @@ impl Room<'_> {
 
     /// Whether something else can be taken away, and what the motion is about stays.
     fn may_go(&self, query: &Query, id: &str) -> bool {
-        let is_free = self.scene.entities.get(id).is_some_and(|it| !it.fixed && it.shape.is_some());
+        // Nobody is taken away.
+        let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != "Person";
+        let is_free = self.scene.entities.get(id).is_some_and(is_thing);
         let is_asked = targets(query).any(|about| goes_with(self.scene, about, id));
         is_free && !is_asked && !self.world.holds(id)
     }
