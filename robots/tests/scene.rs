@@ -126,10 +126,16 @@ fn numbers_are_checked() {
     assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 1500]}"#), @r#"
     M0442 [0, 0, 1500]: a coordinate is 1500 m, at most 1000 m are taken (lengths are in metres: 72 cm is 0.72)
     "#);
-    assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 0], "rpy": [0, 0, 1e17]}"#), @"");
+    assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 0], "rpy": [0, 0, 1e17]}"#), @r#"
+    M0442 [0, 0, 1e17]: an angle is 100000000000000000 rad, at most 1000 rad are taken (angles are in radians, and a full turn, 6.28, leaves them as they are)
+    "#);
     let robot = |robot: &str| said(&format!(r#"{{"motet_scene": 1, "robot": {{{robot}}}}}"#));
-    assert_snapshot!(robot(r#""base": [0, 0, -2e3]"#), @"");
-    assert_snapshot!(robot(r#""joints": {"lift": 1001}"#), @"");
+    assert_snapshot!(robot(r#""base": [0, 0, -2e3]"#), @r#"
+    M0442 [0, 0, -2e3]: an angle is -2000 rad, at most 1000 rad are taken (angles are in radians, and a full turn, 6.28, leaves them as they are)
+    "#);
+    assert_snapshot!(robot(r#""joints": {"lift": 1001}"#), @r#"
+    M0442 1001: a joint value is 1001, at most 1000 are taken (joints are in radians, or in metres where they slide)
+    "#);
     assert_eq!(robot(r#""base": [0, 0, 1000]"#), "");
     assert_snapshot!(more(r#""pose": {"xyz": [0, 0, 1e999]}"#), @r#"
     M0107 1e999: the number `1e999` is out of range (numbers lie between -1.8e308 and 1.8e308)
