@@ -173,6 +173,34 @@ fn of_full_turns_the_nearest_counts() {
     assert!(beyond.iter().all(|value| (60.0 - 2.0 * PI..=60.0).contains(value)));
 }
 
+/// Limits count unless both ends are as good as none.
+#[test]
+fn limits_on_one_side_stay() {
+    let limits = |limit: &str| {
+        let joint = format!(
+            "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
+             <limit {limit} velocity='1' effort='1'/></joint>"
+        );
+        read(&format!("<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")).variables()[0]
+            .clone()
+    };
+    assert_eq!(limits("lower='0' upper='1e16'").limits, Some((0.0, 1e16)));
+    assert_eq!(limits("lower='0' upper='1e16'").span(), (0.0, 2.0 * PI));
+    let none = limits("lower='-1e16' upper='1e16'");
+    assert_eq!((none.limits, none.is_turn), (None, true));
+}
+
+/// The heights of a wrist are the same some turns further.
+#[test]
+fn heights_do_not_depend_on_full_turns() {
+    let chain = hsr();
+    let mut turned = chain.clone();
+    let far = 8.0 * PI;
+    turned.variables[1].limits = chain.variables[1].limits.map(|(lower, upper)| (lower + far, upper + far));
+    let [one, other] = [chain, turned].map(|chain| LiftArm::detect(&chain).unwrap().heights());
+    assert!(one.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-9), "{one:?} and {other:?}");
+}
+
 #[test]
 fn a_joint_that_turns_is_looked_for_within_one_turn() {
     let limited = |limits: Option<(f64, f64)>, slides: bool| {

@@ -164,7 +164,7 @@ fn write_hand(card: &mut String, urdf: &Urdf, hand: &Hand) -> std::fmt::Result {
     writeln!(card, "closes = {:?}  # guessed", hand.closes)?;
     if !hand.open.is_empty() {
         let open: Vec<String> =
-            hand.open.iter().map(|(joint, at)| format!("{} = {at}", quoted(joint))).collect();
+            hand.open.iter().map(|(joint, at)| format!("{} = {at:?}", quoted(joint))).collect();
         writeln!(card, "open = {{ {} }}  # guessed: the fingers at their farther limit", open.join(", "))?;
     }
     Ok(())

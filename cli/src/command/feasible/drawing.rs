@@ -218,6 +218,9 @@ impl Frame {
                 (*low, *high) = (low.min(*at), high.max(*at));
             }
         }
+        // Without anything to draw, where the robot could be.
+        let [low, high] =
+            if low.iter().chain(&high).all(|at| at.is_finite()) { [low, high] } else { [[0.0; 2]; 2] };
         Self { low: low.map(|low| low - MARGIN), high: high.map(|high| high + MARGIN) }
     }
 

@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 
 use super::part::{Part, parts};
 use super::solid::Solid;
-use crate::kinematics::{Tree, spread};
+use crate::kinematics::{Tree, spread_over};
 
 /// Configurations that are looked at to find links which always touch.
 const SAMPLES: usize = 64;
@@ -58,8 +58,10 @@ impl Body {
         let has = |pairs: &[[usize; 2]], one, other| {
             pairs.binary_search(&[one, other]).is_ok() || pairs.binary_search(&[other, one]).is_ok()
         };
-        let poses: Vec<_> =
-            (0..SAMPLES).map(|sample| tree.root_from_links(&spread(tree.variables(), sample))).collect();
+        // All of the limits: what follows a joint may go on where that has turned once.
+        let ranges = tree.variables().iter().map(|known| known.limits.unwrap_or(known.span()));
+        let samples = (0..SAMPLES).map(|sample| spread_over(ranges.clone(), sample));
+        let poses: Vec<_> = samples.map(|sample| tree.root_from_links(&sample)).collect();
         let placed: Vec<Vec<Solid>> = poses.iter().map(|poses| body.placed(poses)).collect();
         // Parts are in the order of their links.
         let of_links: Vec<&[Part]> = body.parts.chunk_by(|one, other| one.link == other.link).collect();

@@ -164,8 +164,11 @@ impl LiftArm {
         // As the shoulder turns the height is a wave: its ends, and its crests where they are within.
         let across = axis.cross(&to_wrist);
         let crest = crate::trigonometry::atan2(across.z, (to_wrist - axis * axis.dot(&to_wrist)).z);
-        let crests = (-4..=4).map(|half| crest + std::f64::consts::PI * f64::from(half));
         let (from, to) = (first.min(last), first.max(last));
+        // Of all crests the first two within show both heights.
+        let pi = std::f64::consts::PI;
+        let nearest = libm::ceil((from - crest) / pi);
+        let crests = [-1.0, 0.0, 1.0, 2.0].into_iter().map(|half| crest + pi * (nearest + half));
         let angles = crests.filter(|angle| (from..=to).contains(angle)).chain([from, to]);
         let (low, high) = angles
             .map(height)

@@ -194,7 +194,9 @@ impl Limits {
             .joints
             .get(at)
             .map_or((1.0, 0.0), |joint| (1.0 / joint.driver.multiplier, joint.driver.offset));
-        let (lower, upper) = arm.chain.variables.get(at).map_or((0.0, 0.0), Variable::span);
+        // Of a wrist joint one turn, of the lift all.
+        let range = |variable: &Variable| variable.limits.filter(|_| at == 0).unwrap_or(variable.span());
+        let (lower, upper) = arm.chain.variables.get(at).map_or((0.0, 0.0), range);
         Self { scale: scale as f32, offset: offset as f32, lower: lower as f32, upper: upper as f32 }
     }
 }

@@ -53,12 +53,11 @@ pub(super) fn screws(chain: &Chain) -> (Vec<Screw>, Isometry3<f64>) {
     (screws, base_from_joint * chain.last_from_tip)
 }
 
-/// The values of the chain's variables for positions of its joints; `None` where two joints share a variable.
+/// Whether each joint has a variable of its own, of which a turn is a turn of the joint.
 pub(super) fn drives_each(chain: &Chain) -> bool {
     chain.variables.len() == chain.joints.len()
-        && chain
-            .joints
-            .iter()
-            .zip(0..)
-            .all(|(joint, at)| joint.driver.variable == at && joint.driver.multiplier.abs() > ROUNDED)
+        && chain.joints.iter().zip(0..).all(|(joint, at)| {
+            let size = joint.driver.multiplier.abs();
+            joint.driver.variable == at && size > ROUNDED && (joint.slides || (size - 1.0).abs() < ROUNDED)
+        })
 }

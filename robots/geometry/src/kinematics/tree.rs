@@ -35,7 +35,7 @@ pub struct Variable {
     pub slides: bool,
 }
 
-/// Limits as far from 0 as that, in rad and in m, are none: "unlimited" is often written as 1e16.
+/// Limits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written as 1e16.
 const UNLIMITED: [f64; 2] = [1000.0 * TAU, 1000.0];
 
 impl Variable {
@@ -56,7 +56,14 @@ impl Variable {
                 let least = (-PI).clamp(lower, upper - TAU);
                 (least, least + TAU)
             }
-            Some(limits) => limits,
+            Some((lower, upper)) => {
+                let [_, most] = UNLIMITED;
+                if self.slides {
+                    (lower.clamp(-most, most), upper.clamp(-most, most))
+                } else {
+                    (lower, upper)
+                }
+            }
         }
     }
 
@@ -130,8 +137,13 @@ impl Tree {
     #[must_use]
     pub fn new(urdf: &Urdf) -> Self {
         let mut variables = Vec::new();
+        let mut is_followed = vec![false; urdf.joints.len()];
+        for mimic in urdf.joints.iter().filter_map(|joint| joint.mimic) {
+            is_followed.get_mut(mimic.joint).into_iter().for_each(|slot| *slot = true);
+        }
+        let joints = urdf.joints.iter().zip(is_followed);
         let drivers: Vec<Option<Driver>> =
-            urdf.joints.iter().map(|joint| own_variable(joint, &mut variables)).collect();
+            joints.map(|(joint, is_followed)| own_variable(joint, is_followed, &mut variables)).collect();
         let steps = urdf.joints.iter().zip(0..).map(|(joint, at)| {
             let axis = Unit::new_unchecked(Vector3::from(joint.axis));
             let motion = match (joint.kind, resolved(urdf, &drivers, at)) {
@@ -211,7 +223,7 @@ impl Tree {
 }
 
 /// The variable of a joint that follows no other.
-fn own_variable(joint: &Joint, variables: &mut Vec<Variable>) -> Option<Driver> {
+fn own_variable(joint: &Joint, is_followed: bool, variables: &mut Vec<Variable>) -> Option<Driver> {
     if joint.mimic.is_some() {
         return None;
     }
@@ -220,7 +232,8 @@ fn own_variable(joint: &Joint, variables: &mut Vec<Variable>) -> Option<Driver> 
     let [angle, length] = UNLIMITED;
     let most = if slides { length } else { angle };
     let limits = joint.limits.map(|Limits { lower, upper }| (lower, upper));
-    let limits = limits.filter(|(lower, upper)| lower.abs().max(upper.abs()) < most);
+    // One that is followed has limits for the sake of others, in whatever unit.
+    let limits = limits.filter(|(lower, upper)| is_followed || -most < *lower || *upper < most);
     match joint.kind {
         JointKind::Fixed | JointKind::Floating => return None,
         JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {

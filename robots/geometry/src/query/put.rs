@@ -47,6 +47,10 @@ impl Support {
         }
         // As far from one place to the next on a long side as on a short one.
         let [wide, deep] = self.half;
+        // No rim but one place.
+        if wide + deep <= 0.0 {
+            return [0.0; 2];
+        }
         let gone = around * 2.0 * (wide + deep);
         if gone < wide {
             [2.0 * gone / wide - 1.0, -1.0]

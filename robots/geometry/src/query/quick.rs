@@ -169,7 +169,8 @@ impl Around<'_, '_> {
             slabs,
             gaps: gap.metres,
             is_own: gap.is_own,
-            is_first: true,
+            // Where a clearance is looked for, all that is near counts.
+            is_first: gap.is_own,
             pairs,
             posed: &mut posed,
             counts,

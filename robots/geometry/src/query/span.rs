@@ -37,7 +37,7 @@ impl Room<'_> {
         let slides = chain.joints.iter().filter(|joint| joint.slides).map(|joint| {
             let limits = chain.variables.get(joint.driver.variable).and_then(|known| known.limits);
             limits.map_or(f64::INFINITY, |(lower, upper)| {
-                lower.abs().max(upper.abs()) * joint.driver.multiplier.abs()
+                lower.abs().max(upper.abs()) * joint.driver.multiplier.abs() + joint.driver.offset.abs()
             })
         });
         let reach = links.chain(slides).sum::<f64>() + chain.last_from_tip.translation.vector.norm();

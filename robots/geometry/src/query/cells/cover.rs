@@ -1,5 +1,6 @@
 //! What is known of one cell of states: where each part of the robot is, how far it can be from there, and what it touches.
 
+use std::f64::consts::TAU;
 use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
@@ -238,8 +239,13 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
         placing.steps.clear();
         placing.is_joined = stretch.is_joined;
         for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
-            let mut values = chain.in_tree.iter().zip(&stretch.values);
-            let known = values.find(|(at, _)| **at == joint.driver.variable).map(|(_, value)| *value);
+            let mut values = chain.in_tree.iter().zip(&stretch.values).zip(&chain.variables);
+            let known = values.find(|((at, _), _)| **at == joint.driver.variable);
+            // Values that differ by full turns are one for the arm, and not for what follows it.
+            let turns = known.is_some_and(|(_, variable)| {
+                !variable.slides && variable.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
+            });
+            let known = known.map(|((_, value), _)| *value);
             let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
             let [value, off] = known.unwrap_or([still, 0.0]);
             let position = joint.driver.multiplier * value + joint.driver.offset;
@@ -253,6 +259,7 @@ impl<'a, 'r, 'w> Cover<'a, 'r, 'w> {
             let off = off * joint.driver.multiplier;
             let pose = parent * joint.before * joint.motion(position);
             let drift = match (joint.slides, off == 0.0) {
+                _ if turns => Drift::unknown(),
                 (true, _) => drift.slid(pose.rotation * joint.axis.into_inner() * off),
                 (false, true) => drift,
                 (false, false) => Drift::unknown(),

@@ -81,11 +81,24 @@ impl Map {
     fn listed(&self) -> BTreeMap<[i64; 2], Vec<usize>> {
         let mut listed: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
         for (outline, at) in self.outlines.all().iter().zip(0..) {
-            let [x, y] = outline.centre();
             let far = outline.reach() + outline.keep_off();
-            for column in square(x - far)..=square(x + far) {
-                for row in square(y - far)..=square(y + far) {
-                    listed.entry([column, row]).or_default().push(at);
+            let [columns, rows] = outline.centre().map(|middle| [square(middle - far), square(middle + far)]);
+            let mut open = vec![[columns, rows]];
+            while let Some([[left, right], [low, high]]) = open.pop() {
+                let middle =
+                    [0.5 * SQUARE * (left + right + 1) as f64, 0.5 * SQUARE * (low + high + 1) as f64];
+                let [wide, deep] = [right - left + 1, high - low + 1];
+                if outline.distance(middle) > 0.5 * SQUARE * libm::hypot(wide as f64, deep as f64) {
+                    continue;
+                }
+                if wide == 1 && deep == 1 {
+                    listed.entry([left, low]).or_default().push(at);
+                } else if wide >= deep {
+                    let half = left + wide / 2;
+                    open.extend([[[left, half - 1], [low, high]], [[half, right], [low, high]]]);
+                } else {
+                    let half = low + deep / 2;
+                    open.extend([[[left, right], [low, half - 1]], [[left, right], [half, high]]]);
                 }
             }
         }
