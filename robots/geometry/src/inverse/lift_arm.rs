@@ -9,8 +9,8 @@ use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::Tolerance;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
-use super::subproblem::{angle_between, component, turned, whole_span, within};
-use crate::kinematics::{Chain, planar};
+use super::subproblem::{angle_between, component, turned, within};
+use crate::kinematics::{Chain, Variable, planar};
 use crate::trigonometry::{turn, wrapped};
 
 /// The solver of one arm. The base's frame stands on the floor, z up.
@@ -179,7 +179,7 @@ impl LiftArm {
 
     /// Values of the shoulder's variable that stand for all others.
     pub(crate) fn shoulder_span(&self) -> (f64, f64) {
-        whole_span(&self.chain, 1)
+        self.chain.variables.get(1).map_or((0.0, 0.0), Variable::span)
     }
 
     /// How far the tip can be from the vertical axis of the base, in m.

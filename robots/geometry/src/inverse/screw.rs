@@ -58,6 +58,8 @@ pub(super) fn drives_each(chain: &Chain) -> bool {
     chain.variables.len() == chain.joints.len()
         && chain.joints.iter().zip(0..).all(|(joint, at)| {
             let size = joint.driver.multiplier.abs();
-            joint.driver.variable == at && size > ROUNDED && (joint.slides || (size - 1.0).abs() < ROUNDED)
+            joint.driver.variable == at
+                && size > ROUNDED
+                && (joint.slides || (size - 1.0).abs() <= f64::EPSILON)
         })
 }

@@ -12,8 +12,8 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use super::lift_arm::wrist;
 use super::numeric::polished;
 use super::screw::{ROUNDED, Screw, drives_each, screws};
-use super::subproblem::{angle_between, component, sum_of_waves, turned, whole_span, within};
-use crate::kinematics::Chain;
+use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
+use crate::kinematics::{Chain, Variable};
 use crate::trigonometry::turn;
 
 /// The solver of one arm.
@@ -74,7 +74,7 @@ impl SevenArm {
 
     /// Values of the last joint's variable that stand for all others.
     pub(crate) fn last_span(&self) -> (f64, f64) {
-        whole_span(&self.chain, self.chain.joints.len().saturating_sub(1))
+        self.chain.variables.last().map_or((0.0, 0.0), Variable::span)
     }
 
     /// Every solution within the limits with the given value of the last joint's variable, in a fixed order: values of the chain's

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Unit, Vector3};
 
-use crate::kinematics::{Chain, Variable};
+use crate::kinematics::Variable;
 use crate::trigonometry::{acos, atan2, turn};
 
 /// How far a cosine may be outside of [−1, 1] and still be rounding: at the ends of a range two solutions become one.
@@ -42,18 +42,6 @@ pub(super) fn component(
 ) -> Option<[f64; 2]> {
     let still = axis.dot(vector) * axis.dot(along);
     sum_of_waves(vector.dot(along) - still, along.dot(&axis.cross(vector)), wanted - still)
-}
-
-/// Values of a variable that stand for all others, which differ by full turns of its joint: its span, where a turn of it is a turn of the joint at
-/// least.
-pub(super) fn whole_span(chain: &Chain, at: usize) -> (f64, f64) {
-    let Some((joint, variable)) = chain.joints.get(at).zip(chain.variables.get(at)) else {
-        return (0.0, 0.0);
-    };
-    match variable.limits {
-        Some(limits) if joint.driver.multiplier.abs() < 1.0 => limits,
-        _ => variable.span(),
-    }
 }
 
 /// Of the values of a variable that differ from `angle` by full turns the nearest to `to` within its limits; `None` where there is none. A

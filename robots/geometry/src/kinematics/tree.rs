@@ -52,18 +52,15 @@ impl Variable {
         match self.limits {
             None if self.is_turn => (-PI, PI),
             None => (-1.0, 1.0),
-            Some((lower, upper)) if !self.slides && upper - lower > TAU => {
+            Some((lower, upper)) if upper - lower > TAU && !self.slides => {
                 let least = (-PI).clamp(lower, upper - TAU);
                 (least, least + TAU)
             }
-            Some((lower, upper)) => {
+            Some((lower, upper)) if self.slides => {
                 let [_, most] = UNLIMITED;
-                if self.slides {
-                    (lower.clamp(-most, most), upper.clamp(-most, most))
-                } else {
-                    (lower, upper)
-                }
+                (lower.clamp(-most, most), upper.clamp(-most, most))
             }
+            Some(limits) => limits,
         }
     }
 
