@@ -1,6 +1,6 @@
 /* Writes policies with random logits: what a model without any sense writes under the masks.
  *
- *     cc -Igrammar/decode/c/include grammar/decode/c/examples/random.c -Ltarget/release -lmotetdecode -o random
+ *     cc -Iruntime/decode/c/include runtime/decode/c/examples/random.c -Ltarget/release -lmotetdecode -o random
  *     LD_LIBRARY_PATH=target/release ./random 5
  *
  * prints five policies, one a line. */
