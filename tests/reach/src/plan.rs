@@ -14,7 +14,7 @@ pub(crate) const GAP: f64 = 0.002;
 /// The state near another that puts the tip at a pose, within the limits; the base moves where it can and `drives`.
 pub(crate) fn solve(model: &Model, wanted: &Isometry3<f64>, from: &State, drives: bool) -> Option<State> {
     let mut state = from.clone();
-    let variables = model.machine.tree().variables();
+    let dofs = model.machine.tree().dofs();
     let gap = |state: &State| {
         let Tip { pose, bases, columns } = model.tip(state);
         let shift = wanted.translation.vector - pose.translation.vector;
@@ -43,7 +43,7 @@ pub(crate) fn solve(model: &Model, wanted: &Isometry3<f64>, from: &State, drives
         }
         for (at, column) in &columns {
             next.joints[*at] += amount(column);
-            if let Some((lower, upper)) = variables[*at].limits {
+            if let Some((lower, upper)) = dofs[*at].limits {
                 next.joints[*at] = next.joints[*at].clamp(lower, upper);
             }
         }
@@ -65,8 +65,8 @@ pub(crate) fn solve(model: &Model, wanted: &Isometry3<f64>, from: &State, drives
 /// A state with what moves the tip at random; the base in a disc about a point.
 pub(crate) fn scatter(model: &Model, like: &State, about: [f64; 2], far: f64, chance: &mut Chance) -> State {
     let mut state = like.clone();
-    for variable in model.movable() {
-        match variable {
+    for dof in model.movable() {
+        match dof {
             None => {
                 let (sin, cos) = chance.between(-std::f64::consts::PI, std::f64::consts::PI).sin_cos();
                 let out = far * chance.unit().sqrt();
@@ -75,7 +75,7 @@ pub(crate) fn scatter(model: &Model, like: &State, about: [f64; 2], far: f64, ch
             }
             Some(at) => {
                 let pi = std::f64::consts::PI;
-                let (lower, upper) = model.machine.tree().variables()[at].limits.unwrap_or((-pi, pi));
+                let (lower, upper) = model.machine.tree().dofs()[at].limits.unwrap_or((-pi, pi));
                 state.joints[at] = chance.between(lower.max(-2.0 * pi), upper.min(2.0 * pi));
             }
         }

@@ -5,7 +5,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use motet_host::mcap::{Body, Exporter, Picture, Solid};
-use motet_robots::scene::{Scene, Shape};
+use motet_robots::scene::{EntityShape, Scene};
 use motet_runtime::journal::{Entry, Retrace};
 use motet_sim::Sim;
 
@@ -86,13 +86,15 @@ impl World {
         let bodies = self.scene.entities.values().filter_map(|entity| {
             let pose = entity.pose?;
             let solid = match entity.shape.as_ref()? {
-                Shape::Box(size) => Solid::Box(*size),
-                Shape::Cylinder { radius, height } => Solid::Cylinder { radius: *radius, height: *height },
-                Shape::Capsule { radius, height } => {
+                EntityShape::Box(size) => Solid::Box(*size),
+                EntityShape::Cylinder { radius, height } => {
+                    Solid::Cylinder { radius: *radius, height: *height }
+                }
+                EntityShape::Capsule { radius, height } => {
                     Solid::Cylinder { radius: *radius, height: height + 2.0 * radius }
                 }
-                Shape::Sphere { radius } => Solid::Sphere { radius: *radius },
-                Shape::Mesh { .. } => return None,
+                EntityShape::Sphere { radius } => Solid::Sphere { radius: *radius },
+                EntityShape::Mesh { .. } => return None,
             };
             let mut xyz = self.sim.position(&entity.id)?;
             if let (true, Solid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {

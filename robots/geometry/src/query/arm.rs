@@ -10,7 +10,7 @@ use super::room::Room;
 use super::solver::Solver;
 use super::state::State;
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{Chain, planar, spread};
+use crate::kinematics::{KinematicChain, planar, quasi_random};
 
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
@@ -62,7 +62,7 @@ impl Room<'_> {
                 let chain = hand.solver.chain();
                 let start = match at {
                     0 => self.now(chain),
-                    _ => spread(&chain.variables, at - 1),
+                    _ => quasi_random(&chain.dofs, at - 1),
                 };
                 numeric::refined(chain, &base_from_tip, &start, CLOSES, Tolerance::EXACT)
                     .into_iter()
@@ -73,7 +73,7 @@ impl Room<'_> {
     }
 
     /// Where the arm is.
-    fn now(&self, chain: &Chain) -> Vec<f64> {
+    fn now(&self, chain: &KinematicChain) -> Vec<f64> {
         let joints = &self.world.robot.joints;
         chain.in_tree.iter().map(|at| joints.get(*at).copied().unwrap_or_default()).collect()
     }
@@ -130,11 +130,11 @@ impl Room<'_> {
         if let Solver::Lift(arm) = &hand.solver {
             // With all else still, the base and the lift alone move the hand along any line.
             let chain = hand.solver.chain();
-            let (joint, variable) = (chain.joints.first()?, chain.variables.first()?);
+            let (joint, dof) = (chain.joints.first()?, chain.dofs.first()?);
             let mut first = state.clone();
             let lift = first.joints.get_mut(*chain.in_tree.first()?)?;
-            *lift += shift.z * arm.up / joint.driver.multiplier;
-            if !variable.allows(*lift) {
+            *lift += shift.z * arm.up / joint.coupling.multiplier;
+            if !dof.allows(*lift) {
                 return None;
             }
             let [x, y, yaw] = first.base;

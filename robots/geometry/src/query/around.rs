@@ -9,7 +9,7 @@ use super::state::State;
 use super::touch::{Allowed, Other, Touch};
 use super::travel::Tally;
 use crate::collision::Solid;
-use crate::lanes::Met;
+use crate::simd::NearPair;
 
 /// A neighbourhood, and the robot in it.
 pub(super) struct Around<'r, 'w> {
@@ -202,11 +202,11 @@ impl Around<'_, '_> {
     pub(super) fn clearance_among<'n>(
         &self,
         state: &State,
-        near: impl Iterator<Item = &'n Met>,
+        near: impl Iterator<Item = &'n NearPair>,
         mut least: f64,
     ) -> f64 {
         let mut placed: Option<(usize, Solid)> = None;
-        for Met { pair, .. } in near {
+        for NearPair { pair, .. } in near {
             let solid = match placed {
                 Some((part, solid)) if part == pair.part => solid,
                 Some(_) | None => {

@@ -4,7 +4,7 @@
 use super::around::Around;
 use super::state::State;
 use super::touch::Allowed;
-use crate::kinematics::{Variable, spread_over};
+use crate::kinematics::{Dof, quasi_random_in};
 
 /// What the trees move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -77,19 +77,19 @@ struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    fn new(moving: Moving, from: &'a State, to: &'a State, arm: &'a [Variable], joints: &'a [usize]) -> Self {
+    fn new(moving: Moving, from: &'a State, to: &'a State, arm: &'a [Dof], joints: &'a [usize]) -> Self {
         let between = |one: f64, other: f64, aside: f64| (one.min(other) - aside, one.max(other) + aside);
         let base = from.base.iter().zip(to.base).zip([ASIDE, ASIDE, std::f64::consts::PI]);
         let base = base.map(|((one, other), aside)| between(*one, other, aside));
         let base: Vec<(f64, f64)> = if moving == Moving::All { base.collect() } else { vec![] };
-        let ranges = base.into_iter().chain(arm.iter().map(Variable::span)).collect();
+        let ranges = base.into_iter().chain(arm.iter().map(Dof::sampling_range)).collect();
         Self { moving, from, to, ranges, joints }
     }
 
     /// A state to grow towards. In the open the arm need not move, and often not while the base does.
     fn aim(&self, sample: usize) -> Option<State> {
         let mut aim = self.to.clone();
-        let values = spread_over(self.ranges.iter().copied(), sample);
+        let values = quasi_random_in(self.ranges.iter().copied(), sample);
         let (base, arm) = values.split_at(values.len().checked_sub(self.joints.len())?);
         aim.base.iter_mut().zip(base).for_each(|(slot, value)| *slot = *value);
         match (self.moving, sample / 2 % 4) {
@@ -115,7 +115,7 @@ impl Around<'_, '_> {
         effort: Effort,
     ) -> Option<Vec<State>> {
         let chain = self.room.machine.hand()?.solver.chain();
-        let samples = Samples::new(moving, from, to, &chain.variables, &chain.in_tree);
+        let samples = Samples::new(moving, from, to, &chain.dofs, &chain.in_tree);
         let mut trees = [Grown(vec![(from.clone(), 0)]), Grown(vec![(to.clone(), 0)])];
         for sample in 0..effort.samples() {
             let aim = samples.aim(sample)?;

@@ -163,8 +163,8 @@ impl Room<'_> {
                 if !drives && pull.hand.carried.get(own.link) != Some(&true) {
                     continue;
                 }
-                let levers = self.machine.levers(own.link);
-                let goes = excursion.in_map(state.base, levers, &poses, solid, solid.reach());
+                let ancestors = self.machine.ancestor_joints(own.link);
+                let goes = excursion.in_map(state.base, ancestors, &poses, solid, solid.reach());
                 for other in &moving {
                     let room = goes + pull.opening.goes(other, span);
                     if solid.is_farther(other, GAP + room) {

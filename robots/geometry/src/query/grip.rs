@@ -9,7 +9,7 @@ use super::answer::Side;
 use super::grasp::{GRIP, Hold, SHORT, TOP, is_ahead};
 use super::machine::Hand;
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
 
 /// What rounding may take of an angle or a length.
@@ -220,7 +220,7 @@ impl<'a> Grips<'a> {
     }
 
     /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
-    pub(super) fn over(&self, patch: &Patch) -> Option<(Isometry3<f64>, Drift)> {
+    pub(super) fn over(&self, patch: &Patch) -> Option<(Isometry3<f64>, DisplacementBound)> {
         let slot = self.slots.get(patch.slot)?;
         let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
         let (approach, across) = slot.kind.directions(about, bend);
@@ -245,7 +245,7 @@ impl<'a> Grips<'a> {
         let middle = self.thing.centre + slot.along * place;
         let at = middle - approach * depth - across * self.hand.middle(slot.width);
         let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
-        let drift = Drift::none()
+        let drift = DisplacementBound::none()
             .shifted(SLACK)
             .slid(slot.along * places)
             .slid(approach * ((last - first).abs() / 2.0));
@@ -285,7 +285,7 @@ impl<'a> Grips<'a> {
 
     /// Whether something is so for all poses, each near to one by no more than what is told of it: `false` where as many patches as
     /// may be looked at do not tell.
-    pub(super) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &Drift) -> bool) -> bool {
+    pub(super) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &DisplacementBound) -> bool) -> bool {
         const MOST: usize = 4096;
         let mut open = self.patches();
         for _ in 0..MOST {

@@ -14,7 +14,7 @@ use super::state::State;
 use super::touch::Allowed;
 use super::travel::Tally;
 use crate::collision::{Shape, Solid};
-use crate::kinematics::{Variable, spread};
+use crate::kinematics::{Dof, quasi_random};
 
 /// The greatest angle between the axis of a camera and what it looks at, in rad; up and down of a camera that nothing turns.
 const AIM: f64 = 0.37;
@@ -40,7 +40,7 @@ impl Room<'_> {
             return unknown(format!("the hand holds `{id}`"));
         }
         let start = &self.world.robot;
-        let (moving, variables) = self.head(frame);
+        let (moving, dofs) = self.head(frame);
         let view =
             View { frame, range: camera.range_m, half: camera.view_rad / 2.0, is_still: moving.is_empty() };
         let (mut hides, mut ways) = (Tally::default(), Tally::default());
@@ -50,7 +50,7 @@ impl Room<'_> {
         for at in 0..rounds {
             let mut state = start.clone();
             if at > 0 {
-                for (slot, value) in moving.iter().zip(spread(&variables, at)) {
+                for (slot, value) in moving.iter().zip(quasi_random(&dofs, at)) {
                     if let Some(joint) = state.joints.get_mut(*slot) {
                         *joint = value;
                     }
@@ -88,17 +88,17 @@ impl Room<'_> {
     }
 
     /// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.
-    fn head(&self, frame: usize) -> (Vec<usize>, Vec<Variable>) {
+    fn head(&self, frame: usize) -> (Vec<usize>, Vec<Dof>) {
         let arm = self.machine.hand().map(|hand| &hand.solver.chain().in_tree);
         let mut all: Vec<usize> =
-            self.machine.levers(frame).iter().map(|lever| lever.driver.variable).collect();
+            self.machine.ancestor_joints(frame).iter().map(|ancestor| ancestor.coupling.dof).collect();
         all.sort_unstable();
         all.dedup();
         let own: Vec<usize> =
             all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
         let moving = if own.is_empty() { all } else { own };
-        let variables = self.machine.tree().variables();
-        let known = moving.iter().filter_map(|at| variables.get(*at).cloned()).collect();
+        let dofs = self.machine.tree().dofs();
+        let known = moving.iter().filter_map(|at| dofs.get(*at).cloned()).collect();
         (moving, known)
     }
 

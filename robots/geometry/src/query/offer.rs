@@ -10,7 +10,7 @@ use super::state::State;
 use super::touch::Allowed;
 use super::travel::{Tally, exhausted};
 use super::world::Held;
-use crate::kinematics::{planar, spread};
+use crate::kinematics::{planar, quasi_random};
 
 /// How far from a person's middle a thing may be held out, in m: beyond the body, within an arm's length.
 const REACH: [f64; 2] = [0.3, 0.75];
@@ -92,7 +92,7 @@ impl Room<'_> {
         };
         let tip = |state: &State| self.machine.map_from_links(state).get(held.hand.tip).copied();
         let Solver::Lift(arm) = &held.hand.solver else {
-            let state = with(&spread(&chain.variables, at));
+            let state = with(&quasi_random(&chain.dofs, at));
             return tip(&state).map(|tip| (state, tip)).into_iter().collect();
         };
         // Solved anywhere with the thing upright, then moved as one so that the base is where it is.

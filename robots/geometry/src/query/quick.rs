@@ -7,14 +7,14 @@ use super::around::{Around, touches};
 use super::room::{GAP, Room};
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
-use crate::lanes::{Against, Eight, Figure, Look, Met, Pair, Posed, Slab, Slabs};
+use crate::simd::{Batch8, BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch, SolidPair};
 
 /// What the quick look needs of a neighbourhood, made when it is first asked for.
 #[derive(Default)]
 pub(super) struct Quick {
-    slabs: OnceCell<Option<Slabs>>,
+    obbs: OnceCell<Option<ObbSet>>,
     /// Where the robot was placed last: nothing but room for the next time.
-    posed: RefCell<Posed>,
+    posed: RefCell<PosedBatch>,
 }
 
 /// What counts as near.
@@ -46,7 +46,7 @@ impl Legs {
 
 impl Room<'_> {
     /// The robot with the joints that a hand, its arm and the postures move; `None` where it is not simple enough.
-    pub(super) fn figure(&self) -> Option<&Figure> {
+    pub(super) fn batch_model(&self) -> Option<&BatchModel> {
         let make = || {
             // Pairs that never move against each other are as apart as at the start.
             if self.at_start().is_some() {
@@ -54,46 +54,44 @@ impl Room<'_> {
             }
             let machine = self.machine;
             let hand = machine.hand()?;
-            let variables = machine.tree().variables().iter().zip(0..);
-            let named: Vec<usize> = variables
-                .filter(|(variable, _)| {
-                    machine.card().postures.values().any(|it| it.contains_key(&variable.name))
-                })
+            let dofs = machine.tree().dofs().iter().zip(0..);
+            let named: Vec<usize> = dofs
+                .filter(|(dof, _)| machine.card().postures.values().any(|it| it.contains_key(&dof.name)))
                 .map(|(_, at)| at)
                 .collect();
             let chain = &hand.solver.chain().in_tree;
             let is_free = |at: usize| {
                 chain.contains(&at) || named.contains(&at) || hand.open.iter().any(|(open, _)| *open == at)
             };
-            let rig = machine.tree().rig(&self.world.robot.joints, is_free)?;
-            let free = (0..machine.tree().variables().len()).map(is_free).collect();
-            Some((Figure::new(&rig, &machine.map_from_root([0.0; 3]), &self.body)?, free))
+            let reduced = machine.tree().reduced(&self.world.robot.joints, is_free)?;
+            let free = (0..machine.tree().dofs().len()).map(is_free).collect();
+            Some((BatchModel::new(&reduced, &machine.map_from_root([0.0; 3]), &self.body)?, free))
         };
-        let (figure, _) = self.figure.get_or_init(make).as_ref()?;
-        Some(figure)
+        let (batch_model, _) = self.batch_model.get_or_init(make).as_ref()?;
+        Some(batch_model)
     }
 
     /// Whether all but the joints of the figure are as at the start, and the robot itself is free there.
     fn is_drawn(&self, state: &State) -> bool {
-        let Some(Some((_, free))) = self.figure.get() else { return false };
+        let Some(Some((_, free))) = self.batch_model.get() else { return false };
         let values = state.joints.iter().zip(&self.world.robot.joints).zip(free);
         values.into_iter().all(|((one, start), is_free)| *is_free || one == start)
     }
 }
 
 impl Around<'_, '_> {
-    fn slabs(&self) -> Option<&Slabs> {
+    fn obbs(&self) -> Option<&ObbSet> {
         let make = || {
-            let slabs = self.things.iter().map(|near| Slab::new(near.entity, &near.solid, self.place()));
-            slabs.collect()
+            let obbs = self.things.iter().map(|near| Obb::new(near.entity, &near.solid, self.place()));
+            obbs.collect()
         };
-        self.quick.slabs.get_or_init(make).as_ref()
+        self.quick.obbs.get_or_init(make).as_ref()
     }
 
     /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
-    pub(super) fn near_in(&self, states: &[&State], allowed: Allowed) -> Option<Vec<Met>> {
-        let figure = self.room.figure()?;
-        self.near(figure, &self.eight(figure, states)?, allowed, None, Gap::LEAST)
+    pub(super) fn near_in(&self, states: &[&State], allowed: Allowed) -> Option<Vec<NearPair>> {
+        let batch_model = self.room.batch_model()?;
+        self.near(batch_model, &self.batch(batch_model, states)?, allowed, None, Gap::LEAST)
     }
 
     /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
@@ -103,37 +101,49 @@ impl Around<'_, '_> {
         way: [&State; 2],
         legs: &Legs,
         allowed: Allowed,
-        pairs: Option<&[(Pair, u8)]>,
-    ) -> Option<Vec<Met>> {
-        let figure = self.room.figure()?;
+        pairs: Option<&[(SolidPair, u8)]>,
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.room.batch_model()?;
         if !way.iter().all(|state| self.room.is_drawn(state)) {
             return None;
         }
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let ends = way.map(|state| (self.seen(state.base), state.joints.as_slice()));
-        let is_within = figure.set_on(&mut eight, ends, &legs.middles, legs.half);
-        if is_within { self.near(figure, &eight, allowed, pairs, Gap::LEAST) } else { None }
+        let is_within = batch_model.set_on(&mut batch, ends, &legs.middles, legs.half);
+        if is_within { self.near(batch_model, &batch, allowed, pairs, Gap::LEAST) } else { None }
     }
 
     /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
     /// where it cannot be told this way.
-    pub(super) fn within(&self, states: &[&State], allowed: Allowed, metres: [f32; 8]) -> Option<Vec<Met>> {
-        let figure = self.room.figure()?;
+    pub(super) fn within(
+        &self,
+        states: &[&State],
+        allowed: Allowed,
+        metres: [f32; 8],
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.room.batch_model()?;
         if !states.iter().all(|state| self.holds(state)) {
             return None;
         }
-        self.near(figure, &self.eight(figure, states)?, allowed, None, Gap { metres, is_own: false })
+        self.near(
+            batch_model,
+            &self.batch(batch_model, states)?,
+            allowed,
+            None,
+            Gap { metres, is_own: false },
+        )
     }
 
     /// Some states, at most eight, the first again for what is left.
-    fn eight(&self, figure: &Figure, states: &[&State]) -> Option<Eight> {
+    fn batch(&self, batch_model: &BatchModel, states: &[&State]) -> Option<Batch8> {
         let first = states.first()?;
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let set = |lane: usize| {
             let state = states.get(lane).unwrap_or(first);
-            self.room.is_drawn(state) && figure.set(&mut eight, lane, self.seen(state.base), &state.joints)
+            self.room.is_drawn(state)
+                && batch_model.set(&mut batch, lane, self.seen(state.base), &state.joints)
         };
-        (0..8).all(set).then_some(eight)
+        (0..8).all(set).then_some(batch)
     }
 
     /// A pose of the base from the origin of the neighbourhood.
@@ -143,19 +153,24 @@ impl Around<'_, '_> {
     }
 
     /// The pairs that are near each other in eight states.
-    pub(super) fn near_to(&self, figure: &Figure, eight: &Eight, allowed: Allowed) -> Option<Vec<Met>> {
-        self.near(figure, eight, allowed, None, Gap::LEAST)
+    pub(super) fn near_to(
+        &self,
+        batch_model: &BatchModel,
+        batch: &Batch8,
+        allowed: Allowed,
+    ) -> Option<Vec<NearPair>> {
+        self.near(batch_model, batch, allowed, None, Gap::LEAST)
     }
 
     fn near(
         &self,
-        figure: &Figure,
-        eight: &Eight,
+        batch_model: &BatchModel,
+        batch: &Batch8,
         allowed: Allowed,
-        pairs: Option<&[(Pair, u8)]>,
+        pairs: Option<&[(SolidPair, u8)]>,
         gap: Gap,
-    ) -> Option<Vec<Met>> {
-        let slabs = self.slabs()?;
+    ) -> Option<Vec<NearPair>> {
+        let obbs = self.obbs()?;
         let mut posed = self.quick.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
@@ -163,10 +178,10 @@ impl Around<'_, '_> {
                 None => limb.counts && limb.is_carried,
             })
         };
-        let look = Look {
-            figure,
-            eight,
-            slabs,
+        let look = BatchCheck {
+            batch_model,
+            batch,
+            obbs,
             gaps: gap.metres,
             is_own: gap.is_own,
             // Where a clearance is looked for, all that is near counts.
@@ -175,7 +190,7 @@ impl Around<'_, '_> {
             posed: &mut posed,
             counts,
         };
-        Some(look.met())
+        Some(look.near_pairs())
     }
 
     /// The first touch in the first of some states that touches anything, with [`GAP`] between everything.
@@ -193,7 +208,7 @@ impl Around<'_, '_> {
     }
 
     /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
-    pub(super) fn touch_among(&self, near: &[Met], lane: usize, state: &State) -> Option<Touch> {
+    pub(super) fn touch_among(&self, near: &[NearPair], lane: usize, state: &State) -> Option<Touch> {
         let sure = near.iter().find(|near| near.sure >> lane & 1 == 1).map(|near| self.told(near));
         sure.or_else(|| {
             let mut near = near.iter().filter(|near| near.still >> lane & 1 == 1);
@@ -202,7 +217,7 @@ impl Around<'_, '_> {
     }
 
     /// The touch of a pair that touches.
-    pub(super) fn told(&self, near: &Met) -> Touch {
+    pub(super) fn told(&self, near: &NearPair) -> Touch {
         let other = match other(&near.pair) {
             Other::Thing(at) => Other::Thing(self.things.get(at).map_or(at, |thing| thing.index)),
             other @ (Other::Part(_) | Other::Floor) => other,
@@ -211,7 +226,7 @@ impl Around<'_, '_> {
     }
 
     /// Whether a pair touches in a state.
-    pub(super) fn touch_of(&self, near: &Met, state: &State) -> Option<Touch> {
+    pub(super) fn touch_of(&self, near: &NearPair, state: &State) -> Option<Touch> {
         let solid = |part: usize| Some((self.part_at(part, state)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;
         let is_touched = match other(&near.pair) {
@@ -230,10 +245,10 @@ impl Around<'_, '_> {
 }
 
 /// What a part is near to.
-pub(super) fn other(pair: &Pair) -> Other {
-    match pair.against {
-        Against::Slab(at) => Other::Thing(at),
-        Against::Part(at, _) => Other::Part(at),
-        Against::Floor => Other::Floor,
+pub(super) fn other(pair: &SolidPair) -> Other {
+    match pair.target {
+        PairTarget::Obb(at) => Other::Thing(at),
+        PairTarget::Part(at, _) => Other::Part(at),
+        PairTarget::Floor => Other::Floor,
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use motet_robots::scene::{Entity, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Scene};
 use smol_str::SmolStr;
 
 use super::machine::Machine;
@@ -13,8 +13,8 @@ use super::state::State;
 use super::things::{Thing, Things};
 use super::touch::{Allowed, Touch};
 use super::world::World;
-use crate::collision::{Body, Part, Solid};
-use crate::lanes::Figure;
+use crate::collision::{CollisionModel, LinkSolid, Solid};
+use crate::simd::BatchModel;
 
 /// How far everything stays from everything else, in m.
 pub const GAP: f64 = 0.002;
@@ -27,7 +27,7 @@ pub struct Room<'w> {
     pub(super) scene: &'w Scene,
     pub(super) world: &'w World,
     /// With what is in the hand.
-    pub(super) body: Body,
+    pub(super) body: CollisionModel,
     /// Index of the part that is in the hand.
     pub(super) held: Option<usize>,
     pub(super) things: Things,
@@ -41,11 +41,11 @@ pub struct Room<'w> {
     /// What the robot touches where it is.
     at_start: OnceLock<Option<Touch>>,
     /// The robot for a quick look, and for each variable whether it moves it; made when it is first asked for.
-    pub(super) figure: OnceLock<Option<(Figure, Vec<bool>)>>,
+    pub(super) batch_model: OnceLock<Option<(BatchModel, Vec<bool>)>>,
     /// Index of the container that is about to open or close, whose moving parts are not among the things.
     pub(super) opening: Option<usize>,
     /// Entities with a mesh for a shape.
-    unseen: Vec<SmolStr>,
+    uncovered_links: Vec<SmolStr>,
 }
 
 /// Maps of where a robot's base can drive in a scene, by what else the world is like: made once, whatever the base does.
@@ -87,11 +87,12 @@ impl<'w> Room<'w> {
             && let Some(shape) = scene.entities.get(id).and_then(solid_shape)
         {
             held = Some(body.parts().len());
-            let part = Part { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
-            body = body.carrying(part, |link| hand.members.get(link) == Some(&true));
+            let part = LinkSolid { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
+            body = body.with_attached(part, |link| hand.members.get(link) == Some(&true));
         }
-        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(Shape::Mesh { .. }));
-        let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
+        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(EntityShape::Mesh { .. }));
+        let uncovered_links =
+            scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
         Self {
             machine,
             scene,
@@ -104,9 +105,9 @@ impl<'w> Room<'w> {
             escapes: OnceLock::new(),
             homes: OnceLock::new(),
             at_start: OnceLock::new(),
-            figure: OnceLock::new(),
+            batch_model: OnceLock::new(),
             opening: None,
-            unseen,
+            uncovered_links,
         }
     }
 
@@ -177,10 +178,11 @@ impl<'w> Room<'w> {
 
     /// Why nothing can be said in this room, if so: something in it has a shape that is not known.
     pub(super) fn blind_spot(&self) -> Option<String> {
-        if let Some(entity) = self.unseen.first() {
+        if let Some(entity) = self.uncovered_links.first() {
             return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
         }
-        let link = self.body.unseen().first().and_then(|link| self.machine.tree().links().get(*link))?;
+        let link =
+            self.body.uncovered_links().first().and_then(|link| self.machine.tree().links().get(*link))?;
         Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
     }
 

@@ -11,8 +11,8 @@ use super::machine::Hand;
 use super::state::State;
 use super::touch::{Allowed, Touch};
 use crate::inverse::LiftArm;
-use crate::inverse::manifold::{Block, LANES, Manifold, Poses};
-use crate::lanes::Figure;
+use crate::inverse::batch::{BatchSolver, CandidateBatch, LANES, PoseBatch};
+use crate::simd::BatchModel;
 
 /// How far a value of a solution in `f64` may be from the draft's, in rad or m.
 const SAME: f64 = 1e-3;
@@ -20,10 +20,10 @@ const SAME: f64 = 1e-3;
 /// What looks at candidates.
 pub(super) struct Screen<'a, 'r, 'w> {
     around: &'a Around<'r, 'w>,
-    figure: &'a Figure,
+    batch_model: &'a BatchModel,
     hand: &'a Hand,
     arm: &'a LiftArm,
-    manifold: Manifold<'a>,
+    manifold: BatchSolver<'a>,
     allowed: Allowed,
     /// The robot with the hand as it reaches.
     still: State,
@@ -34,7 +34,7 @@ pub(super) struct Screen<'a, 'r, 'w> {
 /// Eight poses of the tip or fewer, each with its index.
 pub(super) struct Group {
     tips: Vec<(usize, Isometry3<f64>)>,
-    poses: Poses,
+    poses: PoseBatch,
 }
 
 /// A candidate for a pose, in `f32`.
@@ -70,10 +70,10 @@ impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
         let (lower, upper) = arm.shoulder_span();
         Some(Self {
             around,
-            figure: around.room.figure()?,
+            batch_model: around.room.batch_model()?,
             hand,
             arm,
-            manifold: Manifold::new(arm),
+            manifold: BatchSolver::new(arm),
             allowed,
             still: around.room.with(hand, [0.0; 3], &[]),
             shoulders: [lower, upper],
@@ -92,7 +92,7 @@ impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
         let [lower, upper] = self.shoulders;
         let shoulder = lower + part(round, 2, PLANE) * (upper - lower);
         let block = self.manifold.block(&group.poses, (part(round, 1, PLANE) - 0.5) * TAU, shoulder);
-        let Block { lift, base: [x, y], .. } = block;
+        let CandidateBatch { lift, base: [x, y], .. } = block;
         let (lift, x, y) = (lift.to_array(), x.to_array(), y.to_array());
         for branch in &block.branches {
             if branch.allowed == 0 {
@@ -120,7 +120,7 @@ impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
     /// What is known of drafts, at most eight.
     pub(super) fn seen(&self, drafts: &[Draft]) -> Vec<Seen> {
         let look = || {
-            let mut eight = self.figure.eight();
+            let mut batch = self.batch_model.batch();
             let mut joints = self.still.joints.clone();
             let first = drafts.first()?;
             for lane in 0..LANES {
@@ -129,12 +129,12 @@ impl<'a, 'r, 'w> Screen<'a, 'r, 'w> {
                     *joints.get_mut(*at)? = value;
                 }
                 let [x, y] = draft.base;
-                let is_within = self.figure.set(&mut eight, lane, [x, y, draft.yaw], &joints);
+                let is_within = self.batch_model.set(&mut batch, lane, [x, y, draft.yaw], &joints);
                 if !is_within || !self.around.holds_off(draft.base) {
                     return None;
                 }
             }
-            self.around.near_to(self.figure, &eight, self.allowed)
+            self.around.near_to(self.batch_model, &batch, self.allowed)
         };
         let Some(near) = look() else { return drafts.iter().map(|_| Seen::Open).collect() };
         let seen = |lane: usize| match near.iter().find(|near| near.sure >> lane & 1 == 1) {

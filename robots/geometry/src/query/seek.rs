@@ -18,7 +18,7 @@ use super::solver::Solver;
 use super::state::State;
 use super::touch::Allowed;
 use super::travel::Tally;
-use crate::inverse::manifold::LANES;
+use crate::inverse::batch::LANES;
 
 mod trial;
 

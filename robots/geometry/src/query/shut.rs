@@ -85,7 +85,7 @@ impl Room<'_> {
             .parts()
             .iter()
             .zip(&placed)
-            .filter(|(part, _)| self.machine.levers(part.link).is_empty());
+            .filter(|(part, _)| self.machine.ancestor_joints(part.link).is_empty());
         let discs = fixed.map(|(_, solid)| {
             let [_, _, z] = &solid.axes;
             let is_upright = z.x.abs() < 1e-9 && z.y.abs() < 1e-9;

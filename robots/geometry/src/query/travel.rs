@@ -206,7 +206,7 @@ impl Room<'_> {
     /// Makes what is otherwise made when it is first asked for.
     pub(super) fn prepare(&self) {
         self.at_start();
-        self.figure();
+        self.batch_model();
         if let Some(map) = self.map() {
             self.homes(map);
         }
@@ -253,7 +253,7 @@ impl Room<'_> {
     fn lift(&self) -> Option<(usize, f64)> {
         let super::solver::Solver::Lift(arm) = &self.machine.hand()?.solver else { return None };
         let chain = arm.chain();
-        let (lower, upper) = chain.variables.first()?.limits?;
+        let (lower, upper) = chain.dofs.first()?.limits?;
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
     }
 }

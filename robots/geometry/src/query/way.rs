@@ -13,8 +13,8 @@ use super::room::GAP;
 use super::state::State;
 use super::touch::{Allowed, Other, Touch};
 use crate::collision::Solid;
-use crate::kinematics::Lever;
-use crate::lanes::{self, Met};
+use crate::kinematics::AncestorJoint;
+use crate::simd::{self, NearPair};
 
 /// How often a way is halved before it counts as not free.
 const DEPTH: u32 = 10;
@@ -130,7 +130,7 @@ struct Row {
     legs: Legs,
     /// How often the way was halved for them.
     depth: u32,
-    near: Vec<Met>,
+    near: Vec<NearPair>,
 }
 
 impl Row {
@@ -142,7 +142,7 @@ impl Row {
 
     /// Pieces of those, eight at a time: of four or fewer legs, each cut in as many as there is room for, with how often the way was halved
     /// for them and the pairs to look at on them.
-    fn pieces(&self) -> impl Iterator<Item = (Legs, u32, Vec<(lanes::Pair, u8)>)> {
+    fn pieces(&self) -> impl Iterator<Item = (Legs, u32, Vec<(simd::SolidPair, u8)>)> {
         let mut open = self.open();
         std::iter::from_fn(move || {
             let first = open.next()?;
@@ -163,7 +163,7 @@ impl Row {
                 }
             }
             let all = u8::MAX >> (8 - pieces);
-            let on = |met: &Met| {
+            let on = |met: &NearPair| {
                 let ones = four.into_iter().flatten().zip(0..);
                 let ones = ones.filter(|(lane, _)| met.lanes >> lane & 1 == 1);
                 ones.fold(0, |lanes, (_, at): (usize, u32)| lanes | all << (pieces * at))
@@ -214,7 +214,7 @@ struct Way<'a, 'r, 'w> {
     excursion: Excursion<'a>,
     /// The state in the middle.
     state: State,
-    along: crate::kinematics::Along,
+    along: crate::kinematics::EdgePoses,
     moved: Vec<Moved>,
     leg: usize,
 }
@@ -226,7 +226,7 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
             around,
             excursion: Excursion { from, to, half: 0.0 },
             state: from.clone(),
-            along: around.room.machine.tree().along(&from.joints, &to.joints),
+            along: around.room.machine.tree().edge_poses(&from.joints, &to.joints),
             moved: vec![nowhere; around.limbs.len()],
             leg: 0,
         }
@@ -237,7 +237,7 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         self.state.set_towards(self.excursion.from, self.excursion.to, middle);
         (self.excursion.half, self.leg) = (half, self.leg + 1);
         let root = machine.map_from_root(self.state.base);
-        machine.tree().place(&mut self.along, &root, &self.state.joints);
+        machine.tree().place_on_edge(&mut self.along, &root, &self.state.joints);
     }
 
     /// Hands over every pair that may not touch.
@@ -301,13 +301,14 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
     fn approach(&self, part: usize, solid: &Solid, other: usize, beyond: &Solid) -> f64 {
         let (room, limbs) = (self.around.room, &self.around.limbs);
         let Some((one, two)) = limbs.get(part).zip(limbs.get(other)) else { return 0.0 };
-        let (levers, others) = (room.machine.levers(one.link), room.machine.levers(two.link));
-        let common = levers.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
-        let goes = |levers: &[Lever], solid: &Solid, reach: f64| {
-            let own = levers.get(common..).unwrap_or_default();
+        let (ancestors, others) =
+            (room.machine.ancestor_joints(one.link), room.machine.ancestor_joints(two.link));
+        let common = ancestors.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
+        let goes = |ancestors: &[AncestorJoint], solid: &Solid, reach: f64| {
+            let own = ancestors.get(common..).unwrap_or_default();
             self.excursion.by(own, self.along.poses(), solid, reach)
         };
-        goes(levers, solid, one.reach) + goes(others, beyond, two.reach)
+        goes(ancestors, solid, one.reach) + goes(others, beyond, two.reach)
     }
 
     /// A part where it is, and how far it goes.
@@ -319,8 +320,8 @@ impl<'a, 'r, 'w> Way<'a, 'r, 'w> {
         let room = self.around.room;
         let (limb, own) = (self.around.limbs.get(part)?, room.body.parts().get(part)?);
         let solid = own.solid.moved(self.along.poses().get(limb.link)?);
-        let (levers, poses) = (room.machine.levers(limb.link), self.along.poses());
-        let whole = self.excursion.in_map(self.state.base, levers, poses, &solid, limb.reach);
+        let (ancestors, poses) = (room.machine.ancestor_joints(limb.link), self.along.poses());
+        let whole = self.excursion.in_map(self.state.base, ancestors, poses, &solid, limb.reach);
         let moved = Moved { leg: self.leg, solid, whole };
         *self.moved.get_mut(part)? = moved;
         Some(moved)

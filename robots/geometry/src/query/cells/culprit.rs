@@ -6,7 +6,7 @@
 
 use super::cover::{Cover, Group, Pair, Placing};
 use super::tie::Tied;
-use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 
 /// The shares by which all may go for a culprit to be one, the farthest from closing a cell first.
 const SHARES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
@@ -59,21 +59,21 @@ impl Cover<'_, '_, '_> {
     pub(super) fn closes(
         &self,
         placing: &mut Placing,
-        stretch: &Stretch,
+        enclosure: &CellEnclosure,
         culprit: Culprit,
         share: f64,
     ) -> bool {
         let is_beyond = |beyond: f64, off: f64| beyond > BEYOND && beyond >= share * off;
         match culprit {
             Culprit::Joint(at) => {
-                let variable = self.hand.solver.chain().variables.get(at);
-                let limits = variable.and_then(|variable| variable.limits).zip(stretch.values.get(at));
+                let dof = self.hand.solver.chain().dofs.get(at);
+                let limits = dof.and_then(|dof| dof.limits).zip(enclosure.values.get(at));
                 limits.is_some_and(|((lower, upper), [value, off])| {
                     is_beyond((lower - value).max(value - upper), *off)
                 })
             }
             Culprit::Short => {
-                let [short, off] = stretch.short;
+                let [short, off] = enclosure.short;
                 is_beyond(short, off)
             }
             Culprit::Pair(pair) => self.touches(placing, pair, share),
@@ -84,11 +84,11 @@ impl Cover<'_, '_, '_> {
     pub(super) fn culprit(
         &self,
         placing: &mut Placing,
-        stretch: &Stretch,
+        enclosure: &CellEnclosure,
         groups: &[Group],
         ties: &[Tied],
     ) -> Option<(Culprit, f64)> {
-        let limits = (0..stretch.values.len()).map(Culprit::Joint).chain([Culprit::Short]);
+        let limits = (0..enclosure.values.len()).map(Culprit::Joint).chain([Culprit::Short]);
         let pairs = groups.iter().flat_map(Group::pairs).chain(ties.iter().flat_map(Tied::pairs));
         let mut best: Option<(Culprit, f64)> = None;
         for culprit in limits.chain(pairs.map(Culprit::Pair)) {
@@ -96,7 +96,7 @@ impl Cover<'_, '_, '_> {
                 if best.is_some_and(|(_, most)| share <= most) {
                     continue;
                 }
-                if !self.closes(placing, stretch, culprit, share) {
+                if !self.closes(placing, enclosure, culprit, share) {
                     break;
                 }
                 best = Some((culprit, share));
@@ -109,32 +109,32 @@ impl Cover<'_, '_, '_> {
     pub(super) fn blame(
         &self,
         placing: &mut Placing,
-        tips: &Tips,
-        cell: &Cell,
+        tips: &PoseSet,
+        cell: &IkCell,
         culprit: Culprit,
         share: f64,
     ) -> Blame {
-        let none = Cell { half: [0.0; 3], ..*cell };
-        let still = Tips::new(tips.map_from_tip, Drift::none());
+        let none = IkCell { half: [0.0; 3], ..*cell };
+        let still = PoseSet::new(tips.map_from_tip, DisplacementBound::none());
         let mut blame =
             Blame { culprit, share, cell: [0.0; 3], patch: self.off(placing, tips, &none, culprit) };
         for ((slot, half), at) in blame.cell.iter_mut().zip(cell.half).zip(0..) {
             if half > 0.0 {
                 let only = std::array::from_fn(|other: usize| if other == at { half } else { 0.0 });
-                *slot = self.off(placing, &still, &Cell { half: only, ..*cell }, culprit);
+                *slot = self.off(placing, &still, &IkCell { half: only, ..*cell }, culprit);
             }
         }
         blame
     }
 
     /// How far a culprit can be off in a cell, whatever the limits of joints; 0 where that is not known, so that nothing is cut for it.
-    fn off(&self, placing: &mut Placing, tips: &Tips, cell: &Cell, culprit: Culprit) -> f64 {
-        let Over::Near(stretch) = self.family.over(&tips.any(), cell) else { return 0.0 };
+    fn off(&self, placing: &mut Placing, tips: &PoseSet, cell: &IkCell, culprit: Culprit) -> f64 {
+        let IntervalSolution::Enclosed(enclosure) = self.family.over(&tips.any(), cell) else { return 0.0 };
         match culprit {
-            Culprit::Joint(at) => stretch.values.get(at).map_or(0.0, |[_, off]| *off),
-            Culprit::Short => stretch.short[1],
+            Culprit::Joint(at) => enclosure.values.get(at).map_or(0.0, |[_, off]| *off),
+            Culprit::Short => enclosure.short[1],
             Culprit::Pair(pair) => {
-                self.place(&stretch, placing);
+                self.place(&enclosure, placing);
                 self.off_by(placing, pair)
             }
         }

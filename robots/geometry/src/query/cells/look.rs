@@ -8,7 +8,7 @@ use super::cover::{Cover, Group, Pair, Placing};
 use super::culprit::{Blame, Culprit, TRUSTED};
 use super::tie::Tied;
 use super::{Family, Node, Open};
-use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::query::grasp::Hold;
 use crate::query::grip::{Grips, Patch, widest};
 use crate::query::state::State;
@@ -64,7 +64,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
         let mut open: Vec<(Patch, Rc<[Group]>)> = patches.map(|patch| (patch, Rc::clone(groups))).collect();
         while let Some((patch, groups)) = open.pop() {
             let Some((map_from_tip, drift)) = self.grips.over(&patch) else { continue };
-            self.cover.place_hand(&Tips::new(map_from_tip, drift), &mut self.placing);
+            self.cover.place_hand(&PoseSet::new(map_from_tip, drift), &mut self.placing);
             let Some(groups) = self.left_of(&groups) else { continue };
             let (size, across) = self.grips.widest(&patch);
             if size < FINE || self.is_spent() {
@@ -81,7 +81,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
             return Looked::Unclear;
         }
         let Some((map_from_tip, drift)) = self.grips.over(&patch) else { return Looked::Done };
-        let tips = Tips::new(map_from_tip, drift);
+        let tips = PoseSet::new(map_from_tip, drift);
         let (size, across) = self.grips.widest(&patch);
         self.cover.place_hand(&tips, &mut self.placing);
         let Some(hand) = self.left_of(&hand) else { return Looked::Done };
@@ -139,14 +139,14 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
 
     /// Whether the hand alone is free, of what it may touch.
     fn is_hand_free(&mut self, hold: &Hold, groups: &[Group]) -> bool {
-        let tips = Tips::new(hold.map_from_tip, Drift::none());
+        let tips = PoseSet::new(hold.map_from_tip, DisplacementBound::none());
         self.cover.place_hand(&tips, &mut self.placing);
         !self.cover.is_stuck_in_middle(&mut self.placing, groups)
     }
 
     /// What is left of some cells: the parts, no larger than the tips are far from each other, of which it is not known that no state is
     /// free.
-    fn left(&mut self, tips: &Tips, hold: Option<&Hold>, enough: f64, all: &[Node]) -> Left {
+    fn left(&mut self, tips: &PoseSet, hold: Option<&Hold>, enough: f64, all: &[Node]) -> Left {
         let mut open: Vec<(Node, Option<Blame>)> = all.iter().map(|node| (node.clone(), None)).collect();
         let mut left = Vec::new();
         while let Some((node, blame)) = open.pop() {
@@ -172,21 +172,21 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
     /// What is known of a cell, with what was to blame for it before.
     fn seen(
         &mut self,
-        tips: &Tips,
+        tips: &PoseSet,
         hold: Option<&Hold>,
         enough: f64,
         Node { cell, groups, ties }: Node,
         blame: Option<Blame>,
     ) -> Seen {
-        let stretch = match self.cover.family.over(tips, &cell) {
-            Over::Nothing => return Seen::Closed,
-            Over::Unclear => return Seen::Unclear,
-            Over::Near(stretch) => stretch,
+        let enclosure = match self.cover.family.over(tips, &cell) {
+            IntervalSolution::Empty => return Seen::Closed,
+            IntervalSolution::Unknown => return Seen::Unclear,
+            IntervalSolution::Enclosed(enclosure) => enclosure,
         };
-        self.cover.place(&stretch, &mut self.placing);
+        self.cover.place(&enclosure, &mut self.placing);
         // What will close its parts soon needs no look at anything else.
         if let Some(blame) = blame
-            && self.cover.closes(&mut self.placing, &stretch, blame.culprit, TRUSTED)
+            && self.cover.closes(&mut self.placing, &enclosure, blame.culprit, TRUSTED)
         {
             return match blame.culprit {
                 Culprit::Pair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => Seen::Closed,
@@ -203,21 +203,21 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
             && let Some(hold) = hold
             && !self.cover.is_stuck_in_middle(&mut self.placing, &groups)
             && !self.cover.is_folded_in_middle(&mut self.placing, &ties)
-            && let Some(state) = self.free_in(&hold.map_from_tip, &stretch, &cell)
+            && let Some(state) = self.free_in(&hold.map_from_tip, &enclosure, &cell)
         {
             return Seen::Free(state);
         }
         let Self { cover, placing, aside, .. } = self;
-        let known = blame.filter(|blame| cover.closes(placing, &stretch, blame.culprit, blame.share));
+        let known = blame.filter(|blame| cover.closes(placing, &enclosure, blame.culprit, blame.share));
         let blame = known.or_else(|| {
-            let (culprit, share) = cover.culprit(placing, &stretch, &groups, &ties)?;
+            let (culprit, share) = cover.culprit(placing, &enclosure, &groups, &ties)?;
             Some(cover.blame(aside, tips, &cell, culprit, share))
         });
         Seen::Open(Node { cell, groups, ties }, blame)
     }
 
     /// Across which parameter a cell is to be cut; nothing where the patch is.
-    fn across(&self, cell: &Cell, blame: Option<&Blame>, enough: f64) -> Option<usize> {
+    fn across(&self, cell: &IkCell, blame: Option<&Blame>, enough: f64) -> Option<usize> {
         let sizes = self.sizes(cell);
         let (size, wide) = widest(&sizes);
         let Some(blame) = blame.filter(|blame| blame.tells()) else {
@@ -235,7 +235,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
     }
 
     /// How far something goes for the half of each side of a cell, about, in m.
-    fn sizes(&self, cell: &Cell) -> [f64; 3] {
+    fn sizes(&self, cell: &IkCell) -> [f64; 3] {
         let weights = self.cover.family.weights();
         std::array::from_fn(|at: usize| {
             weights.get(at).zip(cell.half.get(at)).map_or(0.0, |(weight, half)| weight * half)
@@ -243,7 +243,7 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
     }
 
     /// A free state in the middle of a cell, or with the base there.
-    fn free_in(&self, tip: &Isometry3<f64>, stretch: &Stretch, cell: &Cell) -> Option<State> {
+    fn free_in(&self, tip: &Isometry3<f64>, enclosure: &CellEnclosure, cell: &IkCell) -> Option<State> {
         let Cover { around, hand, family, allowed, .. } = &self.cover;
         let room = around.room;
         let states: Vec<_> = match family {
@@ -253,8 +253,8 @@ impl<'c, 'a, 'r, 'w> Look<'c, 'a, 'r, 'w> {
                 placed.map(|placed| room.with(hand, placed.base, &placed.values)).collect()
             }
             Family::Parallel(arm, _) => {
-                let found = arm.solve(&(room.map_from_base(stretch.base).inverse() * tip)).into_iter();
-                found.map(|values| room.with(hand, stretch.base, &values)).collect()
+                let found = arm.solve(&(room.map_from_base(enclosure.base).inverse() * tip)).into_iter();
+                found.map(|values| room.with(hand, enclosure.base, &values)).collect()
             }
             Family::Seven(arm, map_from_base, base) => {
                 let [last, ..] = cell.middle;
