@@ -17,7 +17,7 @@ use motet_planner::conversation::{
 };
 use motet_planner::request;
 use motet_runtime::Time;
-use motet_sim::{Faults, Options, Sim};
+use motet_sim::{Faults, Sim, SimOptions};
 
 pub use cases::{Case, cases};
 pub use tables::{sums, table};
@@ -96,7 +96,7 @@ pub fn run(case: Case) -> Trial {
     let told = case.told(setup::scene(&case.scene));
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).unwrap_or_default();
-    let mut sim = Sim::new(&robot, &real, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&robot, &real, SimOptions { faults, ..SimOptions::default() });
     let setting =
         Setting { robot, scene: told, domains: Vec::new(), geometry: None, options: CheckOptions::default() };
     let mut talk = Conversation::new(&setting);
