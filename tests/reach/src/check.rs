@@ -1,6 +1,6 @@
 //! Whether a witness holds: limits, the grasp, and that nothing touches at samples no farther than 5 mm and 0.6° apart.
 
-use motet_geometry::query::{State, Witness, World};
+use motet_geometry::planning::{Configuration, MotionWitness, SceneState};
 use motet_robots::scene::Scene;
 
 use crate::model::Model;
@@ -12,7 +12,7 @@ const GAP: f64 = 0.001;
 /// What is wrong with the witness of a `reach`, at most eight faults; nothing where it holds. Things that hang on hinges
 /// have to be closed.
 #[must_use]
-pub fn faults(model: &Model, scene: &Scene, world: &World, witness: &Witness) -> Vec<String> {
+pub fn faults(model: &Model, scene: &Scene, world: &SceneState, witness: &MotionWitness) -> Vec<String> {
     let mut faults = Vec::new();
     let Some((hand, scenery)) = model.machine.hand().zip(Scenery::new(scene, world)) else {
         return vec!["there is no hand, a mesh, or an open door".into()];
@@ -67,7 +67,13 @@ pub fn faults(model: &Model, scene: &Scene, world: &World, witness: &Witness) ->
 
 /// Whether a state is within the limits and touches nothing, the hand at a thing, which it may touch.
 #[must_use]
-pub(crate) fn is_free_at(model: &Model, scene: &Scene, world: &World, state: &State, target: &str) -> bool {
+pub(crate) fn is_free_at(
+    model: &Model,
+    scene: &Scene,
+    world: &SceneState,
+    state: &Configuration,
+    target: &str,
+) -> bool {
     let known = model.machine.hand().zip(Scenery::new(scene, world)).zip(scene.entities.get_full(target));
     let Some(((hand, scenery), (index, _, entity))) = known else { return false };
     let Some(at) = world.pose(entity) else { return false };

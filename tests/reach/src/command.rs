@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 
 use crate::judge::{Settings, run};
 
@@ -33,7 +33,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
         seed: 1,
         scene: None,
         is_quick: false,
-        budget: Budget::default(),
+        budget: SearchBudget::default(),
         is_unjudged: false,
         cache: Some(PathBuf::from("target/reach")),
         witnesses: None,

@@ -1,7 +1,7 @@
 //! Rooms, witnesses and targets for other programs, a JSON object each: lengths in m, angles in rad, poses in the map as `x y z` and
 //! the quaternion `x y z w`.
 
-use motet_geometry::query::{Machine, State, Witness, World, components};
+use motet_geometry::planning::{Configuration, MotionWitness, RobotModel, SceneState, components};
 use motet_robots::scene::Scene;
 use nalgebra::Isometry3;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ const GRASPS: usize = 40;
 pub(crate) struct Subject<'a> {
     pub(crate) model: &'a Model,
     pub(crate) scene: &'a Scene,
-    pub(crate) world: &'a World,
+    pub(crate) world: &'a SceneState,
 }
 
 fn pose(pose: &Isometry3<f64>) -> Value {
@@ -28,13 +28,13 @@ fn pose(pose: &Isometry3<f64>) -> Value {
     json!([xyz[0], xyz[1], xyz[2], xyzw[0], xyzw[1], xyzw[2], xyzw[3]])
 }
 
-fn state(state: &State) -> Value {
+fn state(state: &Configuration) -> Value {
     json!({"base": state.base, "joints": state.joints})
 }
 
 impl Subject<'_> {
     /// All that another program needs to check a witness.
-    pub(crate) fn witness(self, name: &str, witness: &Witness) -> Value {
+    pub(crate) fn witness(self, name: &str, witness: &MotionWitness) -> Value {
         let mut line = self.room(name);
         let grasp = witness.grasp.as_ref();
         line["path"] = witness.path.iter().map(state).collect();
@@ -72,7 +72,7 @@ impl Subject<'_> {
 
     fn room(self, name: &str) -> Value {
         let Self { model, scene, world } = self;
-        let machine: &Machine = &model.machine;
+        let machine: &RobotModel = &model.machine;
         let obstacles: Vec<_> = Scenery::new(scene, world).map_or_else(Vec::new, |scenery| {
             let shown = scenery.solids.iter().filter_map(|(entity, solid)| {
                 let (id, _) = scene.entities.get_index(*entity)?;

@@ -2,7 +2,7 @@
 //! sides of a box, from above; against a jaw that does not move, where the hand has one. What makes it a grasp is the contract of the query: the near face as close to the palm as it
 //! can be, the fingers beyond the widest place of a round thing or 1 cm over a flat one.
 
-use motet_geometry::query::Machine;
+use motet_geometry::planning::RobotModel;
 use motet_robots::scene::{Entity, Shape};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -27,7 +27,7 @@ struct Way {
 
 /// A grasp at random; `None` where the draw is none.
 pub(crate) fn draw(
-    machine: &Machine,
+    machine: &RobotModel,
     entity: &Entity,
     pose: &Isometry3<f64>,
     chance: &mut Chance,

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use motet_geometry::query::{Answer, Budget, Query, Room, World};
+use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
 use serde::Serialize;
@@ -30,7 +30,7 @@ pub struct Settings {
     /// The text of a scene instead of rooms.
     pub scene: Option<String>,
     /// How long a query may look.
-    pub budget: Budget,
+    pub budget: SearchBudget,
     /// Search for the truth only shortly.
     pub is_quick: bool,
     /// Ask for no truth: only what is answered, and whether the witnesses hold.
@@ -120,7 +120,7 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
 fn room_of(model: &Model, seed: u64) -> Scene {
     let rooms = (0..50).map(|next| furnished(&model.machine, seed + 1_000_000 * next));
     let is_free = |scene: &Scene| {
-        let world = World::new(&model.machine, scene);
+        let world = SceneState::new(&model.machine, scene);
         Scenery::new(scene, &world)
             .is_some_and(|scenery| scenery.touch(model, &world.robot, None, 0.003).is_none())
     };
@@ -174,17 +174,22 @@ struct Judged<'a> {
 
 impl Judged<'_> {
     /// Answers and witnesses without the truth.
-    fn answers(&mut self, budget: Budget, out: &mut Out, answered: &mut Answered) -> Result<(), String> {
-        let world = World::new(&self.model.machine, self.scene);
-        let room = Room::new(&self.model.machine, self.scene, &world).ready();
+    fn answers(
+        &mut self,
+        budget: SearchBudget,
+        out: &mut Out,
+        answered: &mut Answered,
+    ) -> Result<(), String> {
+        let world = SceneState::new(&self.model.machine, self.scene);
+        let room = QueryContext::new(&self.model.machine, self.scene, &world).ready();
         let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
         for target in targets(self.scene) {
             let begin = clock();
-            let answer = room.answer(&Query::Reach(target.clone(), None), budget);
+            let answer = room.answer(&MotionQuery::Reach(target.clone(), None), budget);
             let took = clock().saturating_sub(begin);
             let name = format!("{} {} {target}", self.name, self.seed);
             *answered.kinds.entry(Said::of(&answer)).or_default() += 1;
-            let Answer::Feasible(witness) = &answer else {
+            let MotionAnswer::Feasible(witness) = &answer else {
                 answered.negative.push(took);
                 continue;
             };
@@ -200,12 +205,12 @@ impl Judged<'_> {
     }
 
     fn cases(&mut self, settings: &Settings, out: &mut Out) -> Result<Vec<Case>, String> {
-        let world = World::new(&self.model.machine, self.scene);
-        let make = || Room::new(&self.model.machine, self.scene, &world).ready();
+        let world = SceneState::new(&self.model.machine, self.scene);
+        let make = || QueryContext::new(&self.model.machine, self.scene, &world).ready();
         let (room, set_up) = timed(make);
         let mut cases = Vec::new();
         for target in targets(self.scene) {
-            let query = Query::Reach(target.clone(), None);
+            let query = MotionQuery::Reach(target.clone(), None);
             let (answer, took) = timed(|| room.answer(&query, settings.budget));
             let effort = if settings.is_quick { Effort::QUICK } else { Effort::FULL };
             let name = format!("{} {} {target}", self.name, self.seed);
@@ -213,17 +218,17 @@ impl Judged<'_> {
                 .cache
                 .truth(&name, self.scene, || searched(self.model, self.scene, &target, self.seed, effort));
             // A search that ends finds none of the states that are few; one that was found is there.
-            if let (Truth::NoState, Answer::Infeasible(why)) = (truth, &answer)
-                && let Some(state) = &why.state
+            if let (Truth::NoState, MotionAnswer::Infeasible(why)) = (truth, &answer)
+                && let Some(state) = &why.configuration
                 && is_free_at(self.model, self.scene, &world, state, &target)
             {
                 truth = Truth::NoWay;
             }
             let (mut found, mut reason) = (Vec::new(), None);
             match &answer {
-                Answer::Feasible(witness) => found = faults(self.model, self.scene, &world, witness),
-                Answer::Infeasible(why) => reason = Some(why.reason.to_string()),
-                Answer::Unknown(why) => reason = Some(format!("{why:?}")),
+                MotionAnswer::Feasible(witness) => found = faults(self.model, self.scene, &world, witness),
+                MotionAnswer::Infeasible(why) => reason = Some(why.reason.to_string()),
+                MotionAnswer::Unknown(why) => reason = Some(format!("{why:?}")),
             }
             let said = Said::of(&answer);
             let case = Case { name, truth, said, took, set_up, faults: found, reason };
@@ -232,7 +237,7 @@ impl Judged<'_> {
                 Some(out) => writeln!(out, "{}", line()).map_err(|error| error.to_string()),
                 None => Ok(()),
             };
-            if let Answer::Feasible(witness) = &answer {
+            if let MotionAnswer::Feasible(witness) = &answer {
                 write(&mut out.witnesses, &|| subject.witness(&case.name, witness))?;
             }
             write(&mut out.targets, &|| subject.target(&case, &target, self.seed))?;
@@ -266,12 +271,12 @@ fn clock() -> Duration {
 }
 
 impl Said {
-    fn of(answer: &Answer) -> Self {
+    fn of(answer: &MotionAnswer) -> Self {
         match answer {
-            Answer::Feasible(_) => Self::Feasible,
-            Answer::Infeasible(why) if why.certified => Self::Certified,
-            Answer::Infeasible(_) => Self::Exhausted,
-            Answer::Unknown(_) => Self::Unknown,
+            MotionAnswer::Feasible(_) => Self::Feasible,
+            MotionAnswer::Infeasible(why) if why.certified => Self::Certified,
+            MotionAnswer::Infeasible(_) => Self::Exhausted,
+            MotionAnswer::Unknown(_) => Self::Unknown,
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glamx::{DPose3, DVec3};
-use motet_geometry::query::{Machine, State};
+use motet_geometry::planning::{Configuration, RobotModel};
 use motet_robots::card;
 use motet_robots::urdf::{self, JointKind, Pose, Shape, Urdf};
 use motet_syntax::{FileId, Source};
@@ -97,7 +97,7 @@ pub(crate) struct Tip {
 /// A robot.
 pub struct Model {
     /// The robot as the query has it, for its card and which links may touch.
-    pub machine: Machine,
+    pub machine: RobotModel,
     /// Its links and joints as read.
     pub urdf: Urdf,
     joints: Vec<Joint>,
@@ -125,13 +125,13 @@ pub fn robot(name: &str) -> Option<Model> {
     let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name)?;
     let card = card::read(&Source::new(name, *toml), FileId(0), *own).0?;
     let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name)?), FileId(0)).0?;
-    Model::new(Machine::new(&card, &urdf), urdf)
+    Model::new(RobotModel::new(&card, &urdf), urdf)
 }
 
 impl Model {
     /// The model of a robot; `None` where it has no hand.
     #[must_use]
-    pub fn new(machine: Machine, urdf: Urdf) -> Option<Self> {
+    pub fn new(machine: RobotModel, urdf: Urdf) -> Option<Self> {
         let driver = |at: usize| {
             let (mut factor, mut offset, mut at) = (1.0, 0.0, at);
             while let Some(mimic) = urdf.joints[at].mimic {
@@ -215,7 +215,7 @@ impl Model {
     }
 
     /// The poses of the links in the map.
-    pub(crate) fn links(&self, state: &State) -> Vec<Isometry3<f64>> {
+    pub(crate) fn links(&self, state: &Configuration) -> Vec<Isometry3<f64>> {
         let mut poses = vec![Isometry3::identity(); self.urdf.links.len()];
         for (at, joint) in self.joints.iter().enumerate() {
             poses[joint.child] = poses[joint.parent] * self.step(at, &state.joints);
@@ -238,7 +238,7 @@ impl Model {
     }
 
     /// The tip where the robot is in a state.
-    pub(crate) fn tip(&self, state: &State) -> Tip {
+    pub(crate) fn tip(&self, state: &Configuration) -> Tip {
         let mut pose = self.map_from_base(state.base);
         let mut axes = Vec::with_capacity(self.chain.len());
         for joint in &self.chain {

@@ -1,7 +1,7 @@
 //! Inverse kinematics of the whole robot from starts at random (Levenberg 1944), and RRT-Connect (Kuffner and LaValle 2000)
 //! over base and arm with sampled edges.
 
-use motet_geometry::query::State;
+use motet_geometry::planning::Configuration;
 use nalgebra::{Isometry3, SMatrix, SVector};
 
 use crate::chance::Chance;
@@ -12,10 +12,15 @@ use crate::scenery::Scenery;
 pub(crate) const GAP: f64 = 0.002;
 
 /// The state near another that puts the tip at a pose, within the limits; the base moves where it can and `drives`.
-pub(crate) fn solve(model: &Model, wanted: &Isometry3<f64>, from: &State, drives: bool) -> Option<State> {
+pub(crate) fn solve(
+    model: &Model,
+    wanted: &Isometry3<f64>,
+    from: &Configuration,
+    drives: bool,
+) -> Option<Configuration> {
     let mut state = from.clone();
     let variables = model.machine.tree().variables();
-    let gap = |state: &State| {
+    let gap = |state: &Configuration| {
         let Tip { pose, bases, columns } = model.tip(state);
         let shift = wanted.translation.vector - pose.translation.vector;
         let turn = (wanted.rotation * pose.rotation.inverse()).scaled_axis();
@@ -63,7 +68,13 @@ pub(crate) fn solve(model: &Model, wanted: &Isometry3<f64>, from: &State, drives
 }
 
 /// A state with what moves the tip at random; the base in a disc about a point.
-pub(crate) fn scatter(model: &Model, like: &State, about: [f64; 2], far: f64, chance: &mut Chance) -> State {
+pub(crate) fn scatter(
+    model: &Model,
+    like: &Configuration,
+    about: [f64; 2],
+    far: f64,
+    chance: &mut Chance,
+) -> Configuration {
     let mut state = like.clone();
     for variable in model.movable() {
         match variable {
@@ -87,8 +98,8 @@ pub(crate) fn scatter(model: &Model, like: &State, about: [f64; 2], far: f64, ch
 pub(crate) fn is_free(
     model: &Model,
     scenery: &Scenery,
-    from: &State,
-    to: &State,
+    from: &Configuration,
+    to: &Configuration,
     apart: f64,
     exempt: Option<usize>,
 ) -> bool {
@@ -112,13 +123,13 @@ pub(crate) fn is_free(
 }
 
 /// The largest change: m of the base, rad of its yaw and of joints.
-fn size(from: &State, to: &State) -> f64 {
+fn size(from: &Configuration, to: &Configuration) -> f64 {
     let drive = (to.base[0] - from.base[0]).hypot(to.base[1] - from.base[1]);
     let joints = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     drive.max((to.base[2] - from.base[2]).abs() * 0.5).max(joints * 0.5)
 }
 
-fn metric(from: &State, to: &State) -> f64 {
+fn metric(from: &Configuration, to: &Configuration) -> f64 {
     let square = |a: f64| a * a;
     let drive = square(to.base[0] - from.base[0]) + square(to.base[1] - from.base[1]);
     let joints: f64 = from.joints.iter().zip(&to.joints).map(|(a, b)| square(a - b)).sum();
@@ -138,8 +149,9 @@ pub(crate) struct Search<'a> {
 impl Search<'_> {
     /// Whether a way leads from one state to another. Both are free. The hand may be open in one and not in the other: in between it
     /// is like in either, and opens or closes on the way.
-    pub(crate) fn connects(&self, start: &State, goal: &State, chance: &mut Chance) -> bool {
-        let free = |a: &State, b: &State| is_free(self.model, self.scenery, a, b, self.apart, None);
+    pub(crate) fn connects(&self, start: &Configuration, goal: &Configuration, chance: &mut Chance) -> bool {
+        let free =
+            |a: &Configuration, b: &Configuration| is_free(self.model, self.scenery, a, b, self.apart, None);
         if free(start, goal) {
             return true;
         }
@@ -165,8 +177,13 @@ impl Search<'_> {
         false
     }
 
-    fn extend(&self, tree: &mut Vec<(State, usize)>, aim: &State, step: f64) -> Option<State> {
-        let distance = |known: &(State, usize)| metric(&known.0, aim);
+    fn extend(
+        &self,
+        tree: &mut Vec<(Configuration, usize)>,
+        aim: &Configuration,
+        step: f64,
+    ) -> Option<Configuration> {
+        let distance = |known: &(Configuration, usize)| metric(&known.0, aim);
         let near = (0..tree.len()).min_by(|a, b| distance(&tree[*a]).total_cmp(&distance(&tree[*b])))?;
         let far = metric(&tree[near].0, aim);
         if far < 1e-9 {

@@ -1,7 +1,7 @@
 //! Rooms at random: tables and counters, shelves, cabinets with an open drawer, narrow passages, clutter on the floor, and
 //! things to grasp on, in and under all of it.
 
-use motet_geometry::query::Machine;
+use motet_geometry::planning::RobotModel;
 use motet_robots::card::Drive;
 use motet_robots::scene::{Entity, Placement, Scene, Shape, Travel};
 use smol_str::{SmolStr, format_smolstr};
@@ -10,7 +10,7 @@ use crate::chance::Chance;
 
 /// The room of a seed for a robot, which stands at its origin in the posture `home`.
 #[must_use]
-pub fn furnished(machine: &Machine, seed: u64) -> Scene {
+pub fn furnished(machine: &RobotModel, seed: u64) -> Scene {
     let mut made = Made { scene: Scene::default(), chance: Chance::new(seed), outlines: vec![], turn: 0.0 };
     match machine.card().base.drive {
         Drive::Fixed => made.bench(),

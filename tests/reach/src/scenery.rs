@@ -1,6 +1,6 @@
 //! What stands around, a second time: entities as parry3d's shapes, open drawers as five walls.
 
-use motet_geometry::query::{State, World};
+use motet_geometry::planning::{Configuration, SceneState};
 use motet_robots::scene::{Entity, Scene, Shape, Travel};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -17,7 +17,7 @@ pub(crate) struct Scenery {
 
 impl Scenery {
     /// Everything but what is held; `None` where there is a mesh or an open door.
-    pub(crate) fn new(scene: &Scene, world: &World) -> Option<Self> {
+    pub(crate) fn new(scene: &Scene, world: &SceneState) -> Option<Self> {
         let mut solids = Vec::new();
         for (at, entity) in scene.entities.values().enumerate() {
             if world.holds(&entity.id) {
@@ -33,7 +33,7 @@ impl Scenery {
     pub(crate) fn touch(
         &self,
         model: &Model,
-        state: &State,
+        state: &Configuration,
         exempt: Option<usize>,
         gap: f64,
     ) -> Option<(usize, Touched)> {
@@ -86,7 +86,7 @@ pub(crate) enum Touched {
     Floor,
 }
 
-fn standing(entity: &Entity, world: &World, shape: &Shape, pose: Isometry3<f64>) -> Option<Vec<Solid>> {
+fn standing(entity: &Entity, world: &SceneState, shape: &Shape, pose: Isometry3<f64>) -> Option<Vec<Solid>> {
     Some(match (shape, &entity.travel) {
         (Shape::Box(extents), Some(Travel::Slide { axis, distance })) if world.is_open(entity) => {
             drawer(pose, *extents, *axis, *distance)

@@ -1,6 +1,6 @@
 //! What is true of a target, by exhaustive search: grasps at random, states of the whole robot that make them, and a way to one.
 
-use motet_geometry::query::{State, World};
+use motet_geometry::planning::{Configuration, SceneState};
 use motet_robots::scene::Scene;
 use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ pub fn truth(model: &Model, scene: &Scene, target: &str, seed: u64) -> Truth {
 }
 
 pub(crate) fn searched(model: &Model, scene: &Scene, target: &str, seed: u64, effort: Effort) -> Truth {
-    let world = World::new(&model.machine, scene);
+    let world = SceneState::new(&model.machine, scene);
     let found = Target::new(model, scene, &world, target);
     found.map_or(Truth::NoState, |target| target.search(seed, effort))
 }
@@ -61,7 +61,7 @@ pub(crate) fn grasps(
     seed: u64,
     most: usize,
 ) -> Vec<grasp::Grasp> {
-    let world = World::new(&model.machine, scene);
+    let world = SceneState::new(&model.machine, scene);
     let target = Target::new(model, scene, &world, target);
     let mut free = target.map_or_else(Vec::new, |it| it.grasps(Effort::QUICK.grasps, &mut Chance::new(seed)));
     free.truncate(most);
@@ -75,21 +75,21 @@ struct Target<'a> {
     index: usize,
     pose: Isometry3<f64>,
     /// Where the robot is, its hand as it is: it opens on the way.
-    start: &'a State,
+    start: &'a Configuration,
     /// The same with the hand open.
-    open: State,
+    open: Configuration,
     members: Vec<(Isometry3<f64>, &'a Solid)>,
     reach: f64,
 }
 
 impl<'a> Target<'a> {
-    fn new(model: &'a Model, scene: &'a Scene, world: &'a World, target: &str) -> Option<Self> {
+    fn new(model: &'a Model, scene: &'a Scene, world: &'a SceneState, target: &str) -> Option<Self> {
         let scenery = Scenery::new(scene, world)?;
         let (index, _, entity) = scene.entities.get_full(target)?;
         let pose = world.pose(entity)?;
         let hand = model.machine.hand()?;
         let start = &world.robot;
-        let open = State { base: start.base, joints: hand.opened(&start.joints) };
+        let open = Configuration { base: start.base, joints: hand.opened(&start.joints) };
         let poses = model.links(&open);
         let members = model.parts.iter().filter(|(link, _)| model.in_hand(*link));
         let members = members.map(|(link, part)| (poses[hand.tip].inverse() * poses[*link], part)).collect();
@@ -139,7 +139,13 @@ impl<'a> Target<'a> {
     }
 
     /// Whether a way leads to a state: to one a little back along the fingers, and from there straight in.
-    fn is_reached(&self, grasp: &grasp::Grasp, state: &State, steps: usize, chance: &mut Chance) -> bool {
+    fn is_reached(
+        &self,
+        grasp: &grasp::Grasp,
+        state: &Configuration,
+        steps: usize,
+        chance: &mut Chance,
+    ) -> bool {
         [0.05, 0.1].into_iter().any(|back| {
             let mut before = grasp.map_from_tip;
             before.translation.vector -= grasp.approach * back;

@@ -10,7 +10,7 @@
 
 use std::path::PathBuf;
 
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_reach::{Settings, Truth, furnished, robot, run, targets, truth};
 use motet_robots::scene;
 use motet_syntax::{FileId, Source};
@@ -25,7 +25,7 @@ fn witnesses_hold() {
         seed: 3,
         scene: None,
         is_quick: true,
-        budget: Budget::default(),
+        budget: SearchBudget::default(),
         is_unjudged: false,
         cache: None,
         witnesses: None,
@@ -69,7 +69,7 @@ fn what_was_found_is_kept() {
         seed: 1,
         scene: Some(can(xyz)),
         is_quick: true,
-        budget: Budget::default(),
+        budget: SearchBudget::default(),
         is_unjudged: false,
         cache: Some(folder.clone()),
         witnesses: None,
