@@ -1,6 +1,7 @@
 //! Plans by search: what is asked for is reached in simulation, on either robot, and what cannot be is said.
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Aim, Planned, Unplanned};
+use motet_planner::builtin::{self, Planned, Unplanned};
+use motet_requests::Aim;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::{Severity, Sources};

@@ -4,7 +4,7 @@ use motet_compiler::plan::{Lasts, fact};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
-use super::Puzzle;
+use super::RequestError;
 use super::command::{BELONGS, Command, KEPT, WANTED};
 use super::errand::{all_of, any_of, hold_on, question};
 use super::meaning::{HOLDERS, OBJECTS, Reader};
@@ -25,7 +25,12 @@ enum Target {
 
 impl Reader<'_> {
     /// Everything that takes a thing into the hand.
-    pub(super) fn carry(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), Puzzle> {
+    pub(super) fn carry(
+        &mut self,
+        command: &Command,
+        act: Act,
+        later: &[Command],
+    ) -> Result<(), RequestError> {
         if command.items.is_empty() {
             return Err(self.ask(question(act), OBJECTS));
         }
@@ -61,7 +66,7 @@ impl Reader<'_> {
 
     /// Whether a place behind a thing says where it shall go or where it is: `throw the can in the bin`, `throw away the
     /// can on the table`. Where both could be meant it is asked.
-    fn target(&mut self, command: &Command, act: Act) -> Result<Target, Puzzle> {
+    fn target(&mut self, command: &Command, act: Act) -> Result<Target, RequestError> {
         if let Some(whom) = self.thrown_to(command, act) {
             return Err(self.bring_instead(command, &whom)?);
         }
@@ -72,7 +77,7 @@ impl Reader<'_> {
             };
         };
         let place = self.holder(to)?;
-        let puzzle = || Puzzle::NotUnderstood { part: to.said() };
+        let puzzle = || RequestError::NotUnderstood { part: to.said() };
         if self.is_person(&to.noun) {
             return match act {
                 Act::Pick | Act::Lift | Act::Stow | Act::Store => Err(puzzle()),
@@ -108,8 +113,8 @@ impl Reader<'_> {
     }
 
     /// What a place is, where something can be so to it.
-    pub(super) fn holder(&mut self, spot: &Spot) -> Result<SmolStr, Puzzle> {
-        let not_understood = || Puzzle::NotUnderstood { part: spot.said() };
+    pub(super) fn holder(&mut self, spot: &Spot) -> Result<SmolStr, RequestError> {
+        let not_understood = || RequestError::NotUnderstood { part: spot.said() };
         if spot.relation == Relation::Beside {
             return Err(not_understood());
         }
@@ -128,28 +133,31 @@ impl Reader<'_> {
     }
 
     /// Nothing is thrown to anybody: whether it shall be brought.
-    fn bring_instead(&mut self, command: &Command, whom: &Noun) -> Result<Puzzle, Puzzle> {
+    fn bring_instead(&mut self, command: &Command, whom: &Noun) -> Result<RequestError, RequestError> {
         let what = self.said(command)?;
         let question = match whom {
             Noun::Speaker | Noun::Here => format!("Shall I bring you {what}?"),
             Noun::Phrase(phrase) => format!("Shall I bring {what} to {}?", phrase.said),
-            Noun::Before(_) | Noun::There => return Err(Puzzle::NotUnderstood { part: "throw".to_owned() }),
+            Noun::Before(_) | Noun::There => {
+                return Err(RequestError::NotUnderstood { part: "throw".to_owned() });
+            }
         };
-        Ok(Puzzle::AmbiguousTask { question, options: Vec::new() })
+        Ok(RequestError::AmbiguousTask { question, options: Vec::new() })
     }
 
     /// `throw the can on the table`, where it lies already.
-    fn throw_away(&mut self, command: &Command) -> Puzzle {
+    fn throw_away(&mut self, command: &Command) -> RequestError {
         match self.said(command) {
-            Ok(what) => {
-                Puzzle::AmbiguousTask { question: format!("Shall I throw {what} away?"), options: Vec::new() }
-            }
+            Ok(what) => RequestError::AmbiguousTask {
+                question: format!("Shall I throw {what} away?"),
+                options: Vec::new(),
+            },
             Err(puzzle) => puzzle,
         }
     }
 
     /// The things of a command in words, without pronouns.
-    fn said(&mut self, command: &Command) -> Result<String, Puzzle> {
+    fn said(&mut self, command: &Command) -> Result<String, RequestError> {
         let mut said = Vec::new();
         for item in &command.items {
             if let Noun::Phrase(phrase) = item {
@@ -175,7 +183,7 @@ impl Reader<'_> {
     /// Several things there may be meant: which one is not clear, that they are there is.
     fn is_one_of_several_there(&mut self, item: &Noun, place: &SmolStr) -> bool {
         let there = self.things(item, OBJECTS, Some(std::slice::from_ref(place)));
-        matches!(there, Err(Puzzle::AmbiguousReference { .. }))
+        matches!(there, Err(RequestError::AmbiguousReference { .. }))
     }
 
     /// `put the toys on the sofa away`, `put away everything on the table`: where they are. `put the sponge away in the
@@ -241,7 +249,7 @@ impl Reader<'_> {
         choice: &[SmolStr],
         target: &Target,
         later: &[Command],
-    ) -> Result<(), Puzzle> {
+    ) -> Result<(), RequestError> {
         let name = choice.first().cloned().unwrap_or_default();
         let any = |goal: &dyn Fn(&str) -> Expr| any_of(choice.iter().map(|id| goal(id)).collect());
         let user = SmolStr::new_static("user");
@@ -316,12 +324,12 @@ impl Reader<'_> {
     }
 
     /// Where rubbish goes.
-    fn bin(&self) -> Result<SmolStr, Puzzle> {
+    fn bin(&self) -> Result<SmolStr, RequestError> {
         let bins = self.bins();
         match bins.as_slice() {
             [only] => Ok(only.clone()),
-            [] => Err(Puzzle::NotFound { what: "bin".to_owned() }),
-            _ => Err(Puzzle::AmbiguousReference { what: "the bin".to_owned(), options: bins }),
+            [] => Err(RequestError::NotFound { what: "bin".to_owned() }),
+            _ => Err(RequestError::AmbiguousReference { what: "the bin".to_owned(), options: bins }),
         }
     }
 }

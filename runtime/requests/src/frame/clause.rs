@@ -6,13 +6,13 @@ use super::placed::{fronted, headed, sent, with_it};
 use super::pleasant::{called_for, pleasant};
 use super::room::room_for;
 use super::state::{State, is_place, opposite, opposite_name, state, thing_before, words};
-use crate::request::inflection::Form;
-use crate::request::lead::skip_leads;
-use crate::request::noun::{Noun, noun};
-use crate::request::spot::{Relation, spot, way};
-use crate::request::token::{Token, longest, stands};
-use crate::request::verb::begins;
-use crate::request::wish::wish as to_have;
+use crate::inflection::Form;
+use crate::lead::skip_leads;
+use crate::noun::{Noun, noun};
+use crate::spot::{Relation, spot, way};
+use crate::token::{Token, longest, stands};
+use crate::verb::begins;
+use crate::wish::wish as to_have;
 
 /// Behind this only `open` and `closed` ask for something: `it stays on the table` tells where it is.
 const STAYS: &str = "stays";

@@ -1,7 +1,7 @@
 //! When it suits who is asked: `when you get a moment`, `if it is not too much trouble`.
 
-use crate::request::inflection::{Form, base};
-use crate::request::token::{Token, longest, stands};
+use crate::inflection::{Form, base};
+use crate::token::{Token, longest, stands};
 
 /// `when you get a moment`, `if it is not too much trouble`, `when you are done with that`: how many words it takes.
 pub(super) fn leisure(tokens: &[Token], at: usize) -> Option<usize> {

@@ -2,7 +2,7 @@
 
 /// A word or a mark.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Token {
+pub enum Token {
     /// A word in lower case.
     Word(String),
     /// `,`
@@ -13,7 +13,7 @@ pub(crate) enum Token {
 
 impl Token {
     /// The word; empty for a mark.
-    pub(crate) fn word(&self) -> &str {
+    pub fn word(&self) -> &str {
         match self {
             Self::Word(word) => word,
             Self::Comma | Self::Stop => "",
@@ -163,7 +163,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
 }
 
 /// The same, each with the offset in bytes behind it; what is written together ends together.
-pub(crate) fn pieces(text: &str) -> Vec<(Token, usize)> {
+pub fn pieces(text: &str) -> Vec<(Token, usize)> {
     let mut pieces = Vec::new();
     let mut word = String::new();
     let mut was_blank = true;

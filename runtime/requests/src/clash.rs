@@ -4,10 +4,10 @@ use motet_compiler::plan::Lasts;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
-use super::Puzzle;
+use super::RequestError;
 use super::meaning::Reader;
 use super::vocabulary::Role;
-use crate::builtin::Aim;
+use crate::Aim;
 
 /// A goal that says one thing of one thing.
 #[derive(PartialEq, Eq)]
@@ -22,7 +22,7 @@ enum Simple {
 
 impl Reader<'_> {
     /// `close the drawer and open it` closes it once. What is with a person, or in the bin, stays there.
-    pub(super) fn settle(&mut self) -> Result<(), Puzzle> {
+    pub(super) fn settle(&mut self) -> Result<(), RequestError> {
         for later in 1..self.said.aims.len() {
             for earlier in 0..later {
                 let goal = |at: usize| self.said.aims.get(at).filter(|aim| aim.goal.lasts == Lasts::ToTheEnd);
@@ -63,8 +63,8 @@ impl Reader<'_> {
     }
 
     /// Whether the first cannot hold any more when the second does, and can be undone for it.
-    fn clash(&self, first: &Simple, second: &Simple) -> Result<bool, Puzzle> {
-        let unfit = |why: String| Err(Puzzle::Unfit { why });
+    fn clash(&self, first: &Simple, second: &Simple) -> Result<bool, RequestError> {
+        let unfit = |why: String| Err(RequestError::Unfit { why });
         match (first, second) {
             (Simple::Open(one), Simple::Closed(other)) | (Simple::Closed(one), Simple::Open(other)) => {
                 Ok(one == other)

@@ -4,10 +4,10 @@ use super::clause::cause;
 use super::favour::{stressed, told_when_done};
 use super::setting_out::{GOES_FOR, MIND, SET_OUT};
 use super::state;
-use crate::request::inflection::{Form, base, of_past};
-use crate::request::noun::{Noun, noun};
-use crate::request::token::{Token, longest, run, stands};
-use crate::request::verb::{Act, begins, verb};
+use crate::inflection::{Form, base, of_past};
+use crate::noun::{Noun, noun};
+use crate::token::{Token, longest, run, stands};
+use crate::verb::{Act, begins, verb};
 
 /// A frame around an imperative: what stands for the tokens up to where.
 pub(super) fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {

@@ -2,8 +2,8 @@
 
 use super::fill::{FILLERS, LASTING, LIES, NOT_MANNER, OTHERS, STRESSED};
 use super::leisure::leisure;
-use crate::request::inflection::{Form, base};
-use crate::request::token::{Token, longest, stands};
+use crate::inflection::{Form, base};
+use crate::token::{Token, longest, stands};
 
 /// A request without them.
 pub(super) fn without_fillers(tokens: &[Token]) -> Vec<Token> {
@@ -253,7 +253,7 @@ fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let end = rest.iter().position(|token| matches!(token, Token::Comma | Token::Stop)).unwrap_or(rest.len());
     // `before we go out I want it shut`: what is asked for begins without a comma.
     let asks = (at + 3..at + end).find(|begin| {
-        crate::request::wish::wish(tokens, *begin).is_some()
+        crate::wish::wish(tokens, *begin).is_some()
             || longest(
                 tokens,
                 *begin,

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 /// Why a request gives no goal.
 #[derive(Error, Clone, PartialEq, Eq, Debug)]
-pub enum Puzzle {
+pub enum RequestError {
     /// The grammar has no place for this part.
     #[error("I do not understand `{part}`")]
     NotUnderstood {

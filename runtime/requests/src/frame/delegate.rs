@@ -2,12 +2,12 @@
 //! do that for me?`
 
 use super::task::{ASIDE, BEHIND, DO_IT, NOT_TO, TO_DO, WISHED};
-use crate::request::inflection::{Form, base};
-use crate::request::lead::skip_leads;
-use crate::request::noun::noun;
-use crate::request::spot::spot;
-use crate::request::token::{Token, longest, stands};
-use crate::request::verb::verb;
+use crate::inflection::{Form, base};
+use crate::lead::skip_leads;
+use crate::noun::noun;
+use crate::spot::spot;
+use crate::token::{Token, longest, stands};
+use crate::verb::verb;
 
 /// A request with what is delegated in the place of what asks for it.
 pub(super) fn delegated(tokens: &[Token]) -> Vec<Token> {
@@ -74,7 +74,7 @@ pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
 }
 
 /// Whether a clause asks for what was spoken of; where it ends.
-pub(in crate::request) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
+pub(crate) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
     let end = clause_end(tokens, at);
     let here = tokens.get(..end)?;
     let mut last = end;

@@ -1,9 +1,9 @@
 //! What is wanted of a thing: that it is open, closed, somewhere, or that something is done with it.
 
-use crate::request::inflection::{Form, base};
-use crate::request::noun::{Noun, noun};
-use crate::request::spot::{Relation, located, way};
-use crate::request::token::{Token, longest, run, stands};
+use crate::inflection::{Form, base};
+use crate::noun::{Noun, noun};
+use crate::spot::{Relation, located, way};
+use crate::token::{Token, longest, run, stands};
 
 /// What is wanted of something.
 pub(super) enum State {

@@ -1,9 +1,9 @@
 //! What would be nice, asked for in a clause with `if`: `I would be ever so grateful if you brought me the coke`, `it would
 //! help if the drawer were shut`.
 
-use crate::request::inflection::{Form, base, of_past};
-use crate::request::token::{Token, run, stands};
-use crate::request::verb::begins;
+use crate::inflection::{Form, base, of_past};
+use crate::token::{Token, run, stands};
+use crate::verb::begins;
 
 /// How it begins.
 const BEGINS: &[&str] = &[

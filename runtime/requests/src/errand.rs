@@ -5,7 +5,7 @@ use motet_syntax::Span;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
-use super::Puzzle;
+use super::RequestError;
 use super::command::{Command, ONLY_IF};
 use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
 use super::noun::{Noun, Which};
@@ -13,7 +13,7 @@ use super::verb::Act;
 use super::vocabulary::Role;
 
 impl Reader<'_> {
-    pub(super) fn command(&mut self, command: &Command, later: &[Command]) -> Result<(), Puzzle> {
+    pub(super) fn command(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
         let act = command.act();
         match act {
             Act::Go | Act::Come | Act::Move => self.go(command, later.is_empty()),
@@ -32,7 +32,7 @@ impl Reader<'_> {
         }
     }
 
-    fn go(&mut self, command: &Command, is_last: bool) -> Result<(), Puzzle> {
+    fn go(&mut self, command: &Command, is_last: bool) -> Result<(), RequestError> {
         let mut targets = Vec::new();
         if command.act == Act::Come && command.to.is_none() {
             targets.push(SmolStr::new_static("user"));
@@ -58,7 +58,7 @@ impl Reader<'_> {
     }
 
     /// Where to go: places, then things.
-    fn destination(&mut self, noun: &Noun) -> Result<Vec<SmolStr>, Puzzle> {
+    fn destination(&mut self, noun: &Noun) -> Result<Vec<SmolStr>, RequestError> {
         if let Noun::Phrase(phrase) = noun
             && phrase.which == Which::All
             && matches!(
@@ -76,7 +76,7 @@ impl Reader<'_> {
             .or_else(|puzzle| self.things(noun, OBJECTS, None).map_err(|_| puzzle))
     }
 
-    fn doors(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), Puzzle> {
+    fn doors(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), RequestError> {
         if command.items.is_empty() {
             let question = if act == Act::Open { "What shall I open?" } else { "What shall I close?" };
             return Err(self.ask(question, &[Role::Container]));
@@ -127,7 +127,7 @@ impl Reader<'_> {
     }
 
     /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
-    fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), Puzzle> {
+    fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
         let Some(item) = command.items.first() else { return Err(self.ask(question(Act::Find), OBJECTS)) };
         let from = match (&command.to, &command.from) {
             (Some(to), _) => Some(vec![self.holder(to)?]),
@@ -165,7 +165,7 @@ impl Reader<'_> {
         }
     }
 
-    fn release(&mut self, command: &Command) -> Result<(), Puzzle> {
+    fn release(&mut self, command: &Command) -> Result<(), RequestError> {
         // `open it and drop the coke in`
         if command.to.is_some() || command.to_whom.is_some() || (command.has("in") && !self.places.is_empty())
         {

@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use super::Located;
+use super::ReportedLocation;
 use super::meaning::{ANYWHERE, OBJECTS, Reader};
 use super::noun::{Noun, Phrase, Which, noun};
 use super::spoken::{Spoken, Statement};
@@ -32,7 +32,8 @@ impl Reader<'_> {
             located = clauses.flat_map(|clause| self.whereabouts(clause, Clause::Statement)).collect();
         }
         // Two places for one thing leave it open where it is.
-        let is_clear = |one: &Located| located.iter().filter(|other| other.thing == one.thing).count() == 1;
+        let is_clear =
+            |one: &ReportedLocation| located.iter().filter(|other| other.thing == one.thing).count() == 1;
         if !located.is_empty() && located.iter().all(is_clear) {
             self.said.located.extend(located);
             return;

@@ -3,7 +3,7 @@
 use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
-use super::Situation;
+use super::RequestContext;
 use super::noun::{Noun, noun};
 use super::side::{farthest, side};
 use super::spot::{Spot, spot};
@@ -15,7 +15,7 @@ const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place
 /// The one of some options, or of everything where there are none, that an answer means: by name, by what tells it apart
 /// ("the red one", "the one on the table"), or by its number ("the second"). None where none or several fit.
 #[must_use]
-pub fn pick(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> Option<SmolStr> {
+pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Option<SmolStr> {
     if let Some(id) = options.iter().find(|id| id.as_str() == answer.trim()) {
         return Some(id.clone());
     }
@@ -103,7 +103,7 @@ const BOTH: &[&str] =
 /// Which of the options the answer to "Which one?" means, or what else it names: `both`, `any`, `not the red one`, `2`,
 /// `the last one`. Empty where that is not clear.
 #[must_use]
-pub fn choose(answer: &str, options: &[SmolStr], situation: &Situation<'_>) -> Vec<SmolStr> {
+pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let mut words: Vec<String> = tokens(answer).iter().map(|token| token.word().to_owned()).collect();
     words.retain(|word| !matches!(word.as_str(), "" | "please" | "just" | "really" | "then"));
     let said = words.join(" ");
@@ -188,7 +188,7 @@ fn numbered(words: &[String], options: &[SmolStr]) -> Option<SmolStr> {
 }
 
 /// `the other one`, of two of which one was spoken of; or another thing of the same kind by its name.
-fn other(said: &str, options: &[SmolStr], situation: &Situation<'_>) -> Option<SmolStr> {
+fn other(said: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Option<SmolStr> {
     if matches!(said, "the other one" | "the other") {
         let mut not_spoken_of = options.iter().filter(|id| !situation.spoken_of.contains(id));
         return match (options.len(), not_spoken_of.next(), not_spoken_of.next()) {
@@ -212,7 +212,7 @@ fn without_lead(words: &[Token]) -> &[Token] {
 
 /// The things of the scene that a request names, in the order of the scene: what an extractor of objects gives.
 #[must_use]
-pub fn named(request: &str, situation: &Situation<'_>) -> Vec<SmolStr> {
+pub fn named(request: &str, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let vocabulary = Vocabulary::new(situation.scene, &situation.supports);
     let words: Vec<String> = tokens(request).iter().map(|token| singular(token.word())).collect();
     let mut found: Vec<SmolStr> = Vec::new();

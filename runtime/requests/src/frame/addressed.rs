@@ -3,12 +3,12 @@
 
 use super::clause::cause;
 use super::state::words;
-use crate::request::inflection::{Form, base};
-use crate::request::lead::skip_leads;
-use crate::request::noun::noun;
-use crate::request::spot::{is_way, spot};
-use crate::request::token::{Token, stands};
-use crate::request::verb::verb;
+use crate::inflection::{Form, base};
+use crate::lead::skip_leads;
+use crate::noun::noun;
+use crate::spot::{is_way, spot};
+use crate::token::{Token, stands};
+use crate::verb::verb;
 
 /// With these it is told how things are or were.
 const TELLS: &[&str] = &[

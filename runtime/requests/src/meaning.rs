@@ -10,8 +10,8 @@ use super::spoken::Spoken;
 use super::token::Token;
 use super::verb::Act;
 use super::vocabulary::{Role, Vocabulary};
-use super::{Located, Puzzle, Situation};
-use crate::builtin::Aim;
+use super::{ReportedLocation, RequestContext, RequestError};
+use crate::Aim;
 
 /// What can be carried.
 pub(super) const OBJECTS: &[Role] = &[Role::Object];
@@ -23,11 +23,11 @@ pub(super) const HOLDERS: &[Role] =
 
 /// What a request means.
 #[derive(Clone, Debug, Default)]
-pub struct Understood {
+pub struct Intent {
     /// What shall come about, in order.
     pub aims: Vec<Aim>,
     /// Where things were said to be.
-    pub located: Vec<Located>,
+    pub located: Vec<ReportedLocation>,
     /// What was read differently from how it was written.
     pub notes: Vec<String>,
     /// What was spoken of, the latest last.
@@ -38,16 +38,16 @@ pub struct Understood {
 pub(super) fn understood(
     spoken: &Spoken,
     request: &str,
-    situation: &Situation<'_>,
-) -> Result<Understood, Puzzle> {
+    situation: &RequestContext<'_>,
+) -> Result<Intent, RequestError> {
     let mut reader = Reader::new(situation);
     for statement in &spoken.statements {
         reader.state(statement);
     }
     if spoken.commands.is_empty() && reader.said.located.is_empty() {
         return Err(match reader.wished(spoken) {
-            Some(question) => Puzzle::AmbiguousTask { question, options: Vec::new() },
-            None => Puzzle::NotUnderstood { part: request.trim().to_owned() },
+            Some(question) => RequestError::AmbiguousTask { question, options: Vec::new() },
+            None => RequestError::NotUnderstood { part: request.trim().to_owned() },
         });
     }
     let mut commands = spoken.commands.clone();
@@ -91,7 +91,7 @@ pub(super) fn understood(
 }
 
 /// Where somebody says that things are, in words that would otherwise ask for something.
-pub(super) fn told(tokens: &[Token], situation: &Situation<'_>) -> Vec<Located> {
+pub(super) fn told(tokens: &[Token], situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     Reader::new(situation).told(tokens)
 }
 
@@ -134,8 +134,8 @@ impl Command {
 /// What becomes of a request while it is read.
 pub(super) struct Reader<'a> {
     pub(super) vocabulary: Vocabulary,
-    pub(super) situation: &'a Situation<'a>,
-    pub(super) said: Understood,
+    pub(super) situation: &'a RequestContext<'a>,
+    pub(super) said: Intent,
     /// `I left something on the table`
     pub(super) left: Option<Phrase>,
     /// `I like fruits`
@@ -147,11 +147,11 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(situation: &'a Situation<'a>) -> Self {
+    fn new(situation: &'a RequestContext<'a>) -> Self {
         Self {
             vocabulary: Vocabulary::new(situation.scene, &situation.supports),
             situation,
-            said: Understood { spoken_of: situation.spoken_of.clone(), ..Understood::default() },
+            said: Intent { spoken_of: situation.spoken_of.clone(), ..Intent::default() },
             left: None,
             liked: Vec::new(),
             places: Vec::new(),
@@ -182,10 +182,10 @@ impl Reader<'_> {
         self.said.aims.push(Aim { goal: Goal { condition, lasts }, name, only_if: None });
     }
 
-    pub(super) fn ask(&self, question: &str, roles: &[Role]) -> Puzzle {
+    pub(super) fn ask(&self, question: &str, roles: &[Role]) -> RequestError {
         let options = self.vocabulary.things.iter().filter(|thing| roles.contains(&thing.role));
         let options = options.map(|thing| thing.id.clone()).collect();
-        Puzzle::AmbiguousTask { question: question.to_owned(), options }
+        RequestError::AmbiguousTask { question: question.to_owned(), options }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use smol_str::SmolStr;
 
-use super::Puzzle;
+use super::RequestError;
 use super::meaning::{OBJECTS, Reader};
 use super::noun::{Noun, Phrase, Which};
 use super::vocabulary::Role;
@@ -16,7 +16,7 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn one(&mut self, noun: &Noun, roles: &[Role]) -> Result<SmolStr, Puzzle> {
+    pub(super) fn one(&mut self, noun: &Noun, roles: &[Role]) -> Result<SmolStr, RequestError> {
         // Furniture before what stands on it: `the table` is no toy table.
         let fixed: Vec<Role> = roles.iter().copied().filter(|role| *role != Role::Object).collect();
         let found = self
@@ -25,8 +25,8 @@ impl Reader<'_> {
         let said = if let Noun::Phrase(phrase) = noun { phrase.said.clone() } else { "there".to_owned() };
         match found.as_slice() {
             [only] => Ok(only.clone()),
-            [] => Err(Puzzle::NotFound { what: said }),
-            _ => Err(Puzzle::AmbiguousReference { what: said, options: found }),
+            [] => Err(RequestError::NotFound { what: said }),
+            _ => Err(RequestError::AmbiguousReference { what: said, options: found }),
         }
     }
 
@@ -40,7 +40,7 @@ impl Reader<'_> {
         &mut self,
         noun: &Noun,
         from: Option<&[SmolStr]>,
-    ) -> Result<Vec<Vec<SmolStr>>, Puzzle> {
+    ) -> Result<Vec<Vec<SmolStr>>, RequestError> {
         let Noun::Phrase(phrase) = noun else {
             return Ok(self.things(noun, OBJECTS, from)?.into_iter().map(|id| vec![id]).collect());
         };
@@ -53,7 +53,7 @@ impl Reader<'_> {
             Which::Count(count) if found.len() < count => {
                 let known =
                     if let [_] = found.as_slice() { "one".to_owned() } else { found.len().to_string() };
-                return Err(Puzzle::Unfit {
+                return Err(RequestError::Unfit {
                     why: format!("I know of only {known} of what you call `{}`", phrase.said),
                 });
             }
@@ -68,12 +68,12 @@ impl Reader<'_> {
         noun: &Noun,
         roles: &[Role],
         from: Option<&[SmolStr]>,
-    ) -> Result<Vec<SmolStr>, Puzzle> {
+    ) -> Result<Vec<SmolStr>, RequestError> {
         match noun {
             Noun::Speaker | Noun::Here => Ok(vec![SmolStr::new_static("user")]),
             Noun::There => match self.places.last() {
                 Some(place) => Ok(vec![place.clone()]),
-                None => Err(Puzzle::NotUnderstood { part: "there".to_owned() }),
+                None => Err(RequestError::NotUnderstood { part: "there".to_owned() }),
             },
             Noun::Before(pronoun) => self.before(pronoun, roles),
             Noun::Phrase(phrase) => {
@@ -91,7 +91,7 @@ impl Reader<'_> {
     }
 
     /// What `it` is.
-    fn before(&mut self, pronoun: &str, roles: &[Role]) -> Result<Vec<SmolStr>, Puzzle> {
+    fn before(&mut self, pronoun: &str, roles: &[Role]) -> Result<Vec<SmolStr>, RequestError> {
         if let Some(left) = self.left.clone()
             && roles.contains(&Role::Object)
         {
@@ -106,7 +106,7 @@ impl Reader<'_> {
         let held = self.situation.holding.as_ref().filter(|held| fits(held));
         match last.or(held) {
             Some(id) => Ok(vec![id.clone()]),
-            None => Err(Puzzle::NotUnderstood { part: pronoun.to_owned() }),
+            None => Err(RequestError::NotUnderstood { part: pronoun.to_owned() }),
         }
     }
 
@@ -116,7 +116,7 @@ impl Reader<'_> {
         phrase: &Phrase,
         roles: &[Role],
         from: Option<&[SmolStr]>,
-    ) -> Result<Vec<SmolStr>, Puzzle> {
+    ) -> Result<Vec<SmolStr>, RequestError> {
         let place = match &phrase.place {
             Some(place) => Some(vec![self.holder(&place.clone())?]),
             None => from.map(<[SmolStr]>::to_vec),
@@ -135,7 +135,7 @@ impl Reader<'_> {
         if found.is_empty()
             && let Some(other) = self.vocabulary.meant(&words, ALL).first()
         {
-            return Err(Puzzle::Unfit { why: unfit(&other.called(), other.role, roles) });
+            return Err(RequestError::Unfit { why: unfit(&other.called(), other.role, roles) });
         }
         let found = if found.is_empty() && !words.is_empty() {
             match self.vocabulary.respelt(&words) {
@@ -201,7 +201,7 @@ impl Reader<'_> {
             return Err(self.elsewhere(elsewhere));
         }
         if found.is_empty() {
-            return Err(Puzzle::NotFound { what: phrase.said.clone() });
+            return Err(RequestError::NotFound { what: phrase.said.clone() });
         }
         if is_open
             && place.is_none()
@@ -215,7 +215,7 @@ impl Reader<'_> {
     }
 
     /// Where a thing is, which is not where it was said to be.
-    fn elsewhere(&self, id: &SmolStr) -> Puzzle {
+    fn elsewhere(&self, id: &SmolStr) -> RequestError {
         let thing = self.vocabulary.thing(id);
         let support = thing.and_then(|thing| self.vocabulary.thing(thing.support.as_ref()?));
         let at = match support {
@@ -223,7 +223,7 @@ impl Reader<'_> {
             Some(support) => format!("on the {}", support.called()),
             None => "somewhere else".to_owned(),
         };
-        Puzzle::Elsewhere {
+        RequestError::Elsewhere {
             why: format!("as far as I know the {} is {at}", self.called(id)),
             thing: id.clone(),
         }
@@ -239,8 +239,8 @@ impl Reader<'_> {
     }
 }
 
-pub(super) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> Puzzle {
-    Puzzle::AmbiguousReference { what: phrase.said.clone(), options }
+pub(super) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> RequestError {
+    RequestError::AmbiguousReference { what: phrase.said.clone(), options }
 }
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];

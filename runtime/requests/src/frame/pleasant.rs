@@ -2,11 +2,11 @@
 //! `opening it would be a big help`; and what is only called for: `the coke, over here!`
 
 use super::state::{State, state, words};
-use crate::request::inflection::{Form, base};
-use crate::request::noun::{Noun, noun};
-use crate::request::spot::spot;
-use crate::request::token::{Token, longest, run, stands};
-use crate::request::verb::{begins, verb};
+use crate::inflection::{Form, base};
+use crate::noun::{Noun, noun};
+use crate::spot::spot;
+use crate::token::{Token, longest, run, stands};
+use crate::verb::{begins, verb};
 
 /// What is nice, behind `would be`.
 const NICE: &[&str] = &[

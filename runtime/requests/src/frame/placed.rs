@@ -2,10 +2,10 @@
 
 use super::link::WANT;
 use super::state::{is_place, words};
-use crate::request::lead::skip_leads;
-use crate::request::noun::{Noun, noun};
-use crate::request::spot::{Relation, located, spot, way};
-use crate::request::token::{Token, longest, stands};
+use crate::lead::skip_leads;
+use crate::noun::{Noun, noun};
+use crate::spot::{Relation, located, spot, way};
+use crate::token::{Token, longest, stands};
 
 /// `into the bin with it`, `in the drawer it goes`: what shall be put there.
 pub(super) fn with_it(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
@@ -198,7 +198,7 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
         && tokens.get(next) == Some(&Token::Comma)
         && let Some((Noun::Phrase(_), end)) = noun(tokens, next + 1)
         && is_over(tokens, end)
-        && crate::request::verb::verb(tokens, skip_leads(tokens, next + 1)).is_none()
+        && crate::verb::verb(tokens, skip_leads(tokens, next + 1)).is_none()
     {
         let mut said = words("put");
         said.extend_from_slice(tokens.get(next + 1..end)?);
@@ -221,7 +221,7 @@ pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Ve
     let over = longest(here, begin, &["over", "on over", "straight", "back", "off"]).unwrap_or(0);
     let (place, after) = way(here, begin).or_else(|| way(here, begin + over))?;
     let is_place = place.relation == Relation::To && matches!(place.noun, Noun::Phrase(_));
-    let is_first = (0..begin).all(|at| crate::request::verb::verb(tokens, at).is_none());
+    let is_first = (0..begin).all(|at| crate::verb::verb(tokens, at).is_none());
     let now = longest(tokens, after, &["now", "next", "then", "this time"]).map(|count| after + count);
     let alone = (is_first && after == limit).then_some(after);
     let please = please(after).or(now).or(alone)?;

@@ -3,14 +3,14 @@
 use super::aside::{ASIDES, NAMES};
 use super::haste::{APART, HASTE};
 use super::tags::TAGS;
-use crate::request::inflection::{Form, base};
-use crate::request::lead::skip_leads;
-use crate::request::noun::{Noun, noun};
-use crate::request::token::{Token, longest, run, stands};
-use crate::request::verb::begins;
+use crate::inflection::{Form, base};
+use crate::lead::skip_leads;
+use crate::noun::{Noun, noun};
+use crate::token::{Token, longest, run, stands};
+use crate::verb::begins;
 
 /// Sounds that are made while thinking, wherever they stand.
-pub(in crate::request) const SOUNDS: &[&str] = &[
+pub(crate) const SOUNDS: &[&str] = &[
     "um", "umm", "uh", "uhm", "er", "erm", "hm", "hmm", "mm", "ugh", "ah", "aah", "oh", "ooh", "aw", "gosh",
     "phew", "whoa", "ahem", "huh", "oops", "blimey", "argh", "eh", "yuck", "ew", "eww", "yikes", "ouch",
     "yay", "wow", "oof", "jeez", "sheesh", "brr",
@@ -22,7 +22,7 @@ const CALLS: &[&str] = &[
 ];
 
 /// A request without them.
-pub(in crate::request) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
+pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     let mut kept: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
     while let Some(token) = tokens.get(at) {

@@ -3,6 +3,7 @@
 //! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
 
 mod again;
+mod aim;
 mod asking;
 mod assent;
 mod beside;
@@ -37,7 +38,7 @@ mod spot;
 mod statement;
 mod staying;
 mod telling;
-pub(crate) mod token;
+pub mod token;
 mod verb;
 mod vocabulary;
 mod wanting;
@@ -47,14 +48,15 @@ mod wish;
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
+pub use aim::Aim;
 pub use encouragement::encourages;
-pub use meaning::Understood;
+pub use meaning::Intent;
 pub use pick::{called, choose, named, pick};
-pub use puzzle::Puzzle;
+pub use puzzle::RequestError;
 
 /// What is known where a request is made.
 #[derive(Clone, Debug)]
-pub struct Situation<'a> {
+pub struct RequestContext<'a> {
     /// What there is and what it is called.
     pub scene: &'a Scene,
     /// What the hand holds.
@@ -71,7 +73,7 @@ pub struct Situation<'a> {
 
 /// Where somebody said that a thing is.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Located {
+pub struct ReportedLocation {
     /// The thing.
     pub thing: SmolStr,
     /// `on` or `in`.
@@ -80,7 +82,7 @@ pub struct Located {
     pub place: SmolStr,
 }
 
-impl<'a> Situation<'a> {
+impl<'a> RequestContext<'a> {
     /// The situation at the start of a scene.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
@@ -99,7 +101,7 @@ impl<'a> Situation<'a> {
 /// Where an answer says that things are: "it should be in the cupboard" tells a place to whom asked for one, where in a
 /// request it says what shall be done. Empty where it says nothing of the kind.
 #[must_use]
-pub fn told(answer: &str, situation: &Situation<'_>) -> Vec<Located> {
+pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
@@ -123,12 +125,12 @@ pub const MAX_REQUEST: usize = 4096;
 /// # Errors
 ///
 /// What is not understood, not there, or not clear.
-pub fn understand(request: &str, situation: &Situation<'_>) -> Result<Understood, Puzzle> {
+pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Intent, RequestError> {
     if request.len() > MAX_REQUEST {
         let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
-        return Err(Puzzle::Unfit { why });
+        return Err(RequestError::Unfit { why });
     }
     let tokens = frame::plain(&token::tokens(request));
-    let spoken = spoken::spoken(&tokens).map_err(|part| Puzzle::NotUnderstood { part })?;
+    let spoken = spoken::spoken(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)
 }

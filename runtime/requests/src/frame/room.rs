@@ -1,9 +1,9 @@
 //! Room for a thing: `find a spot on the table for it`, `make room in the drawer and put it there`.
 
 use super::state::words;
-use crate::request::noun::{Noun, noun};
-use crate::request::spot::spot;
-use crate::request::token::{Token, longest, stands};
+use crate::noun::{Noun, noun};
+use crate::spot::spot;
+use crate::token::{Token, longest, stands};
 
 /// `find a spot on the table for the coke`: put there.
 pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {

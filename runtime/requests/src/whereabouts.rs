@@ -4,7 +4,7 @@
 
 use smol_str::SmolStr;
 
-use super::Located;
+use super::ReportedLocation;
 use super::hedge;
 use super::looking::{HOW, IS, LOOK};
 use super::meaning::{OBJECTS, Reader};
@@ -23,7 +23,7 @@ pub(super) enum Clause {
 
 impl Reader<'_> {
     /// What an answer says of where things are. Of the same thing more than one place is where to look first, then next.
-    pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<Located> {
+    pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<ReportedLocation> {
         let mut told = Vec::new();
         for sentence in tokens.split(|token| *token == Token::Stop) {
             let mut here = Vec::new();
@@ -44,7 +44,7 @@ impl Reader<'_> {
     }
 
     /// What one clause says of where something is; nothing where it says something else.
-    pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<Located> {
+    pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<ReportedLocation> {
         let begin = reported(tokens, leading(tokens, 0, clause), clause);
         // `is it not in the fridge?` proposes it.
         let proposes = clause == Clause::Answer
@@ -60,7 +60,8 @@ impl Reader<'_> {
         let Some((thing, spots)) = said(tokens, begin, clause) else { return Vec::new() };
         let Ok(things) = self.things(&thing, OBJECTS, None) else { return Vec::new() };
         let [thing] = things.as_slice() else { return Vec::new() };
-        let located: Option<Vec<Located>> = spots.iter().map(|spot| self.located(thing, spot)).collect();
+        let located: Option<Vec<ReportedLocation>> =
+            spots.iter().map(|spot| self.located(thing, spot)).collect();
         let located = located.unwrap_or_default();
         if let Some(first) = located.first() {
             self.vocabulary.moved(thing, &first.place);
@@ -70,7 +71,7 @@ impl Reader<'_> {
     }
 
     /// Where something is kept, as a clause says that tells a rule.
-    pub(super) fn whereabouts_of_habit(&mut self, tokens: &[Token]) -> Option<Located> {
+    pub(super) fn whereabouts_of_habit(&mut self, tokens: &[Token]) -> Option<ReportedLocation> {
         if denies(tokens) {
             return None;
         }
@@ -82,14 +83,14 @@ impl Reader<'_> {
         self.located(thing, spot)
     }
 
-    fn located(&mut self, thing: &SmolStr, spot: &Spot) -> Option<Located> {
+    fn located(&mut self, thing: &SmolStr, spot: &Spot) -> Option<ReportedLocation> {
         let places = self.things(&spot.noun, &[Role::Surface, Role::Container], None).ok()?;
         let [place] = places.as_slice() else { return None };
         let role = self.vocabulary.thing(place)?.role;
         // What is at a drawer may be in it or beside it.
         let is_clear = spot.relation != Relation::At || role != Role::Container;
         let relation = if role == Role::Container { "in" } else { "on" };
-        (spot.relation.fits(role) && is_clear).then(|| Located {
+        (spot.relation.fits(role) && is_clear).then(|| ReportedLocation {
             thing: thing.clone(),
             relation,
             place: place.clone(),
