@@ -11,7 +11,7 @@
 pub mod collision;
 pub mod inverse;
 pub mod kinematics;
-pub mod query;
+pub mod planning;
 mod simd;
 mod trigonometry;
 

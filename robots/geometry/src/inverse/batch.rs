@@ -33,7 +33,7 @@ pub struct BatchSolver<'a> {
 
 /// Eight poses of the tip, each with a yaw of the base from which others are counted.
 #[derive(Clone, Debug)]
-pub struct PoseBatch {
+pub struct TipBatch {
     /// The wrist's centre, in m.
     centre: [f32x8; 3],
     /// Where what shows the angles points.
@@ -94,7 +94,7 @@ impl<'a> BatchSolver<'a> {
     /// Poses, seen from an origin on the floor, each with the yaw from which others are counted, in rad: at most eight, and of
     /// fewer the first stands in the lanes that are left.
     #[must_use]
-    pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> PoseBatch {
+    pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> TipBatch {
         let lane = |lane: usize| poses.get(lane).or(poses.first()).copied().unwrap_or_default();
         let all: [(Isometry3<f64>, f64); LANES] = std::array::from_fn(lane);
         let lanes = |each: &dyn Fn(&Isometry3<f64>) -> Vector3<f64>| {
@@ -108,7 +108,7 @@ impl<'a> BatchSolver<'a> {
         let back = self.arm.base_from_tip.inverse();
         let yaws = all.map(|(_, yaw)| yaw);
         let waves = yaws.map(sin_cos);
-        PoseBatch {
+        TipBatch {
             centre: lanes(&|pose| self.arm.centre(pose).coords - Vector3::new(x, y, 0.0)),
             shown: self.shown.map(|vector| lanes(&|pose| pose.rotation * (back * vector))),
             yaws,
@@ -119,7 +119,7 @@ impl<'a> BatchSolver<'a> {
 
     /// The candidates with the base turned on by `further` rad from the yaw of each pose, at a value of the shoulder's variable.
     #[must_use]
-    pub fn block(&self, poses: &PoseBatch, further: f64, shoulder: f64) -> CandidateBatch {
+    pub fn block(&self, poses: &TipBatch, further: f64, shoulder: f64) -> CandidateBatch {
         let splat = f32x8::splat;
         let (sin, cos) = sin_cos(further);
         let (sin, cos) = (splat(sin as f32), splat(cos as f32));

@@ -24,7 +24,7 @@ pub(crate) enum PairTarget {
 
 /// A pair of solids.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct SolidPair {
+pub(crate) struct BatchPair {
     pub(crate) part: usize,
     pub(crate) target: PairTarget,
 }
@@ -32,7 +32,7 @@ pub(crate) struct SolidPair {
 /// A pair that may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct NearPair {
-    pub(crate) pair: SolidPair,
+    pub(crate) pair: BatchPair,
     /// A bit for each state: whether they are not known to stay apart while the robot goes as far as it does.
     pub(crate) lanes: u8,
     /// The same while it stays where it is.
@@ -53,7 +53,7 @@ pub(crate) struct BatchCheck<'a, F> {
     /// Whether no more has to be known as soon as something is touched for certain: in all states, or in one on a way.
     pub(crate) is_first: bool,
     /// Pairs to look at, each with a bit for the states that count; all where there are none.
-    pub(crate) pairs: Option<&'a [(SolidPair, u8)]>,
+    pub(crate) pairs: Option<&'a [(BatchPair, u8)]>,
     /// Where the robot is placed.
     pub(crate) posed: &'a mut PosedBatch,
     /// Whether a part counts against an entity, and against the floor, where all pairs are looked at.
@@ -81,7 +81,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
             None => self.posed.set(simd, self.batch_model, self.batch, |_| true, true),
             Some(pairs) => {
                 let mut needed = 0;
-                for (SolidPair { part, target }, _) in pairs {
+                for (BatchPair { part, target }, _) in pairs {
                     needed |= bit(*part);
                     if let PairTarget::Part(at, _) = target {
                         needed |= bit(*at);
@@ -159,7 +159,7 @@ impl BatchChecker<'_> {
                     if self.obbs.all.get(at).is_some_and(|obb| counts(part, Some(obb.entity))) {
                         touched |= self.look(
                             simd,
-                            SolidPair { part, target: PairTarget::Obb(at) },
+                            BatchPair { part, target: PairTarget::Obb(at) },
                             u8::MAX,
                             near_pairs,
                         );
@@ -172,7 +172,7 @@ impl BatchChecker<'_> {
             let [_, _, lowest] = place.bound.low;
             if lowest <= wide && counts(part, None) {
                 touched |=
-                    self.look(simd, SolidPair { part, target: PairTarget::Floor }, u8::MAX, near_pairs);
+                    self.look(simd, BatchPair { part, target: PairTarget::Floor }, u8::MAX, near_pairs);
                 if self.is_told(touched) {
                     return;
                 }
@@ -195,7 +195,7 @@ impl BatchChecker<'_> {
                     let common = others.common.get(lane).copied().unwrap_or_default();
                     touched |= self.look(
                         simd,
-                        SolidPair { part, target: PairTarget::Part(at, common) },
+                        BatchPair { part, target: PairTarget::Part(at, common) },
                         u8::MAX,
                         near_pairs,
                     );
@@ -215,7 +215,7 @@ impl BatchChecker<'_> {
 
     /// Looks at one pair in some states, closer and closer: those of them in which it is known to be near.
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, pair: SolidPair, wanted: u8, near_pairs: &mut Vec<NearPair>) -> u8 {
+    fn look<S: Simd>(&self, simd: S, pair: BatchPair, wanted: u8, near_pairs: &mut Vec<NearPair>) -> u8 {
         let (mut lanes, mut still, mut sure) = (0, 0, 0);
         for chunk in 0..8 / S::F32_LANES {
             let [going, standing, touching] = self.chunk(simd, pair, chunk);

@@ -21,7 +21,7 @@ mod pair_check;
 mod posed_batch;
 mod separation;
 
-pub(crate) use batch_check::{BatchCheck, NearPair, PairTarget, SolidPair};
+pub(crate) use batch_check::{BatchCheck, BatchPair, NearPair, PairTarget};
 pub(crate) use batch_model::{Batch8, BatchModel};
 pub(crate) use obb::{Obb, ObbSet};
 pub(crate) use posed_batch::PosedBatch;

@@ -3,7 +3,7 @@
 
 use pulp::Simd;
 
-use super::batch_check::{BatchChecker, PairTarget, SolidPair};
+use super::batch_check::{BatchChecker, BatchPair, PairTarget};
 use super::batch_model::BatchPart;
 use super::lanes::{Lanes, Lanes3};
 use super::motion::{CapsuleMotion, stays_clear_of_box};
@@ -18,7 +18,7 @@ impl BatchChecker<'_> {
     pub(super) fn chunk<S: Simd>(
         &self,
         simd: S,
-        SolidPair { part, target }: SolidPair,
+        BatchPair { part, target }: BatchPair,
         chunk: usize,
     ) -> [u8; 3] {
         let Some((own, place)) = self.batch_model.parts.get(part).zip(self.posed.parts.get(part)) else {
