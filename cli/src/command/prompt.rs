@@ -1,9 +1,9 @@
 //! `motet prompt`: what a model would see of a request.
 
 use motet_planner::prompt::{self, Lasting, Prompt};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::Time;
-use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::ast::File;
 
 use crate::args::{Format, PromptArgs};
@@ -31,8 +31,8 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
         return Err(Trouble::Other("a robot is needed for a prompt: give --robot NAME".to_owned()));
     };
     let scene = setting.scene.clone().unwrap_or_default();
-    let situation = Situation::new(&scene);
-    let mut memory = Memory::new(Limits::default());
+    let situation = RequestContext::new(&scene);
+    let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {
         session: &setting.session,

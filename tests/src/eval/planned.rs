@@ -2,9 +2,9 @@
 //! policy is run in simulation. The row's own plan and goal are only looked at to judge the end.
 
 use motet_planner::builtin;
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::Sources;
 use serde::Serialize;
 
@@ -75,7 +75,7 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
     if let Some(wrong) = said.first() {
         return Err(format!("{} {}", wrong.code, wrong.message));
     }
-    let situation = Situation::new(&scene);
+    let situation = RequestContext::new(&scene);
     let answered = builtin::answer(&session, Some(&robot), &row.instruction, &situation);
     let answered = answered.map_err(|why| why.to_string())?;
     result.is_planned = true;
@@ -83,7 +83,7 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
     let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
     let start = StartState { entities: entities.collect(), ..StartState::default() };
     let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
-    let mut sim = Sim::new(&robot, &scene, Options::default());
+    let mut sim = Sim::new(&robot, &scene, SimOptions::default());
     let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
     if !matches!(end, RunEnd::Done { .. }) {
         return Err(format!("ended in {end:?}"));

@@ -15,9 +15,8 @@ use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{
     Ask, Builtin, Conversation, Kind, Outcome, Person, Planner, Problem, Setting,
 };
-use motet_planner::request;
 use motet_runtime::Time;
-use motet_sim::{Faults, Options, Sim};
+use motet_sim::{Faults, Sim, SimOptions};
 
 pub use cases::{Case, cases};
 pub use tables::{sums, table};
@@ -72,7 +71,7 @@ struct Timed {
 impl Planner for Timed {
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
         let begin = Instant::now();
-        let _ = request::understand(ask.request, ask.situation);
+        let _ = motet_requests::understand(ask.request, ask.situation);
         self.words += begin.elapsed();
         let begin = Instant::now();
         let answered = Builtin.plan(ask);
@@ -96,7 +95,7 @@ pub fn run(case: Case) -> Trial {
     let told = case.told(setup::scene(&case.scene));
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).unwrap_or_default();
-    let mut sim = Sim::new(&robot, &real, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&robot, &real, SimOptions { faults, ..SimOptions::default() });
     let setting =
         Setting { robot, scene: told, domains: Vec::new(), geometry: None, options: CheckOptions::default() };
     let mut talk = Conversation::new(&setting);
