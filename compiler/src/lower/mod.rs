@@ -107,7 +107,7 @@ impl Lowering<'_> {
         let (least_secs, greatest_secs) = source.bounds;
         // The place in the arena is taken first, so that a parent comes before its children.
         self.nodes.push(graph::Node {
-            path: pointer::pointer_to(program, step),
+            path: path::pointer(program, step),
             region,
             next: None,
             duration: graph::DurationBounds { least_secs, greatest_secs },
