@@ -48,5 +48,5 @@ pub(crate) fn is_reply(parsed: &Parsed) -> bool {
 
 /// What is read of a document that is no text.
 fn nothing(diagnostics: Vec<Diagnostic>) -> Parsed {
-    Parsed { file: File::default(), form: Syntax::Text, text: Default::default(), diagnostics }
+    Parsed { file: File::default(), syntax: Syntax::Text, text: Default::default(), diagnostics }
 }
