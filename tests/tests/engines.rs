@@ -6,7 +6,7 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::ApproximateTokEnv;
 use llguidance::{Matcher, ParserFactory};
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Form, Source, Sources};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
@@ -36,7 +36,7 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
         let parsed = motet_syntax::read(&Source::new("example", read(&path)), FileId(0));
         let policy = parsed.file.runnable().next().unwrap();
         for form in [Form::Json, Form::Text] {
-            let surface = Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+            let surface = Subset { form, modifiers: Modifiers::Written, ..Subset::default() };
             let line = canonical(policy, &signatures, surface).unwrap();
             let lark = export(&signatures, surface, Format::Lark, Header::Llguidance).unwrap();
             let mut engines = vec![engine(&factory, TopLevelGrammar::from_lark(lark))];

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::export::{Format, Grammar, Header, Offer, RESERVED, export, grammar};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{Form, Parsed, Severity, Source, Sources};
 use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
 use motet_tests::setup;
@@ -44,8 +44,8 @@ fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
         .collect()
 }
 
-fn surfaces() -> Vec<Surface> {
-    let of = |form, modifiers| Surface { form, modifiers, ..Surface::default() };
+fn surfaces() -> Vec<Subset> {
+    let of = |form, modifiers| Subset { form, modifiers, ..Subset::default() };
     vec![
         of(Form::Json, Modifiers::Default),
         of(Form::Json, Modifiers::Written),
@@ -92,7 +92,7 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
 fn walk(
     session: &Session,
     signatures: &Signatures,
-    surface: Surface,
+    surface: Subset,
     grammar: &Grammar,
     seed: u64,
 ) -> BTreeMap<String, usize> {

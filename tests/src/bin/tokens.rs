@@ -2,7 +2,7 @@
 //! `cargo run --release -p motet-tests --bin tokens`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Form, Source, Sources};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
@@ -19,7 +19,7 @@ fn main() {
         let mut row = Vec::new();
         for form in [Form::Json, Form::Text] {
             let of =
-                |modifiers| canonical(policy, &signatures, Surface { form, modifiers, ..Surface::default() });
+                |modifiers| canonical(policy, &signatures, Subset { form, modifiers, ..Subset::default() });
             // Deadlines and retries have a place only where the policy has some.
             let Ok(line) = of(Modifiers::Default).or_else(|_| of(Modifiers::Written)) else { continue };
             let count = |encoding: Encoding| encoding.tokenizer().encode_ordinary(&line).len();
