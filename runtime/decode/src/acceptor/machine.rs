@@ -30,11 +30,11 @@ pub(crate) struct Context {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum StateRef {
     /// As the last of the machine.
-    Last,
+    Current,
     /// Beside it, where something was left out.
-    Ahead(Id),
+    Lookahead(Id),
     /// Nowhere.
-    Nowhere,
+    Detached,
 }
 
 /// A machine through the automaton.

@@ -223,7 +223,7 @@ impl Builder<'_> {
                 let entry = words.table.get(index)?;
                 match entry.meaning {
                     Meaning::Any => ExprKind::Any,
-                    meaning => ExprKind::Constant(
+                    meaning => ExprKind::Plain(
                         meaning.name(&self.automaton.signatures).unwrap_or_else(|| entry.name.clone()),
                     ),
                 }
@@ -232,8 +232,8 @@ impl Builder<'_> {
                 let name = self.arenas.name(id)?;
                 ExprKind::Binding(self.text(name.start, name.len))
             }
-            Event::Text(start, len) => ExprKind::Constant(self.text(start, len)),
-            Event::AnyText => ExprKind::Constant(SmolStr::new_static("~")),
+            Event::Text(start, len) => ExprKind::Plain(self.text(start, len)),
+            Event::AnyText => ExprKind::Plain(SmolStr::new_static("~")),
             Event::Number(units, decimals) => ExprKind::Number(Decimal { units, decimals }.value()),
             Event::Constant(Constant::True) => ExprKind::Bool(true),
             Event::Constant(Constant::False) => ExprKind::Bool(false),
@@ -389,7 +389,7 @@ impl Builder<'_> {
             self.next();
             while let Some(value) = self.value() {
                 match (value.kind, &mut on) {
-                    (ExprKind::Constant(name), CatchOn::Kinds(kinds)) => kinds.push(named(name)),
+                    (ExprKind::Plain(name), CatchOn::Kinds(kinds)) => kinds.push(named(name)),
                     _ => on = CatchOn::Any(Span::default()),
                 }
             }

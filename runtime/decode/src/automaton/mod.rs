@@ -41,7 +41,7 @@ pub(crate) enum Op {
     /// If the next byte is this one and the word at `then` has an alternative, that; otherwise `other`.
     Fork { byte: u8, then: OpId, other: OpId },
     /// These bytes and on at `then`, or nothing and on at `other`, whose first bytes may be the same.
-    OptionalPart(OptionalPart),
+    Optional(OptionalPart),
     /// The characters of a text and the quote behind it. `arg`: of which argument of a call.
     Text { arg: Option<u8> },
     /// A new name and what ends it: a quote, in text a space.
@@ -217,7 +217,7 @@ pub(crate) enum Action {
     Open(NodeKind),
     Close,
     /// A value that needs no word.
-    Say(Constant),
+    Constant(Constant),
     /// One more member of the rule.
     Count,
     /// The rule is a block of this sort.

@@ -16,14 +16,14 @@ impl Completer<'_> {
         match (&expr.kind, ty) {
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
-            (ExprKind::Constant(text) | ExprKind::Text(text), Type::Text) => self.text(text, expr),
-            (ExprKind::Constant(name), Type::Entity(_) | Type::Enum(_)) => {
+            (ExprKind::Plain(text) | ExprKind::Text(text), Type::Text) => self.text(text, expr),
+            (ExprKind::Plain(name), Type::Entity(_) | Type::Enum(_)) => {
                 let known = self.is_known(name, ty);
                 known.then(|| Value::Name(name.clone())).ok_or_else(|| {
                     outside(expr, format!("`{name}` is no `{}`", self.signatures.type_name(ty)))
                 })
             }
-            (ExprKind::Constant(text), Type::Quantity(dimension)) => {
+            (ExprKind::Plain(text), Type::Quantity(dimension)) => {
                 let quantity = motet_syntax::json::quantity(text);
                 let quantity = quantity.filter(|(_, unit)| unit.dimension() == *dimension);
                 let (value, unit) =
