@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use common::peer::Peer;
 use motet_compiler::{Options, Session};
 use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 
 /// The tokens with bytes; those above are special.
 const TOKENS: u32 = 199_998;
@@ -36,9 +36,9 @@ fn main() {
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = common::peer::environment(&tokens, END);
-    for form in [Form::Json, Form::Text] {
+    for form in [Syntax::Json, Syntax::Text] {
         println!("{form:?}");
-        let surface = Subset { modifiers: Modifiers::Written, form, ..Subset::default() };
+        let surface = Subset { modifiers: Modifiers::Written, syntax: form, ..Subset::default() };
         let (mut examples, mut written) = (Times::default(), Times::default());
         let (mut forced, mut all) = (0, 0);
         for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use motet_decode::{AcceptorFactory, Environment, Modifiers, Subset};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_syntax::{FileId, Source, Sources, Syntax, render};
 
 use crate::border::{free, guarded, handle, shared, slice, string, string_out};
 
@@ -55,8 +55,9 @@ pub unsafe extern "C" fn motet_world_new(texts: *const MotetWorldTexts) -> *mut 
         };
         let session = world.session().map_err(|error| error.to_string())?;
         let modifiers = if texts.modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if texts.text { Form::Text } else { Form::Json };
-        let prepared = AcceptorFactory::new(&session, Subset { form, modifiers, ..Subset::default() });
+        let form = if texts.text { Syntax::Text } else { Syntax::Json };
+        let prepared =
+            AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(handle(MotetWorld { prepared, session }))
     })
 }

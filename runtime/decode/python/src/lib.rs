@@ -3,7 +3,7 @@
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{EndToken, Modifiers, AcceptorFactory, Session, Subset, Environment as Texts};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_syntax::{FileId, Syntax, Source, Sources, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -99,8 +99,8 @@ impl World {
     ) -> PyResult<Self> {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if text { Form::Text } else { Form::Json };
-        let prepared = AcceptorFactory::new(&session, Subset { form, modifiers, ..Subset::default() });
+        let form = if text { Syntax::Text } else { Syntax::Json };
+        let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(Self { session, prepared })
     }
 

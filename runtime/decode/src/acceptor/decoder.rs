@@ -1,6 +1,6 @@
 //! From bytes to tokens: which of a vocabulary may follow.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
 use super::byte_set::ByteSet;
@@ -60,9 +60,9 @@ impl Decoder {
                 if let Some(names) = names.get(most) {
                     set.or(names);
                 }
-                let ends = match machine.context.automaton.subset.form {
-                    Form::Json => &tokens.name_ends,
-                    Form::Text => &tokens.bare_name_ends,
+                let ends = match machine.context.automaton.subset.syntax {
+                    Syntax::Json => &tokens.name_ends,
+                    Syntax::Text => &tokens.bare_name_ends,
                 };
                 ends.add_bias(&mut Stepper(machine), set, &[]);
             }
@@ -198,7 +198,7 @@ impl Machine {
     /// The tokens that begin with a space, where a name follows it that has room for any of them; false where none does.
     fn mask_spaced_name(&mut self, tokens: &Tokens, set: &mut SimpleVob) -> bool {
         let before = self.bytes.len();
-        if self.context.automaton.subset.form == Form::Json || !self.push(b' ') {
+        if self.context.automaton.subset.syntax == Syntax::Json || !self.push(b' ') {
             return false;
         }
         let names = match self.free_text(tokens.longest) {

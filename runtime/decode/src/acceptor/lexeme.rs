@@ -1,6 +1,6 @@
 //! Texts and names, letter by letter.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use super::event_log::{Event, Id, Name, State};
 use super::machine::Machine;
@@ -34,7 +34,7 @@ impl Machine {
             NameUse::Result(_) | NameUse::Item | NameUse::Let => state.scope,
             NameUse::Policy | NameUse::Group => 0,
         };
-        let end = if self.context.automaton.subset.form == Form::Json { b'"' } else { b' ' };
+        let end = if self.context.automaton.subset.syntax == Syntax::Json { b'"' } else { b' ' };
         if byte == end {
             let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
             if self.is_taken(scope, start, len, None) {

@@ -22,7 +22,7 @@ mod word;
 use std::sync::Arc;
 
 use motet_compiler::Session;
-use motet_syntax::{Diagnostic, FileId, Form, Severity, Source};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Syntax};
 
 pub use self::decoder::Decoder;
 pub(crate) use self::digits::Digits;
@@ -121,7 +121,7 @@ impl Acceptor {
         }
         let mut text = self.machine.bytes.clone();
         text.extend_from_slice(bytes);
-        let form = self.machine.context.automaton.subset.form;
+        let form = self.machine.context.automaton.subset.syntax;
         let text = closed(&String::from_utf8_lossy(&text), form);
         let parsed = motet_syntax::read(&Source::new("policy", text), FileId(0));
         let diagnostics = self.machine.context.session.check(&parsed).into_iter();
@@ -157,7 +157,7 @@ impl Acceptor {
 }
 
 /// A policy that breaks off, with its strings, brackets and braces closed.
-fn closed(text: &str, form: Form) -> String {
+fn closed(text: &str, form: Syntax) -> String {
     let (mut open, mut in_string, mut escaped) = (Vec::new(), false, false);
     for character in text.chars() {
         match character {
@@ -167,8 +167,8 @@ fn closed(text: &str, form: Form) -> String {
             _ if in_string => {}
             '{' => open.push('}'),
             '[' => open.push(']'),
-            '(' if form == Form::Text => open.push(')'),
-            ')' if form == Form::Json => {}
+            '(' if form == Syntax::Text => open.push(')'),
+            ')' if form == Syntax::Json => {}
             '}' | ']' | ')' => {
                 open.pop();
             }

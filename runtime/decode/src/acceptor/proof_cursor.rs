@@ -2,7 +2,7 @@
 
 use motet_compiler::draft::Draft;
 use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Form, Span};
+use motet_syntax::{Span, Syntax};
 
 use super::event_log::{Arenas, Event, Id};
 use super::machine::Context;
@@ -86,7 +86,7 @@ impl ProofCursor {
         ends.reverse();
         let (head, steps) = ends.split_first()?;
         if self.draft.is_none() || self.head != transcript.arenas.hash(*head) {
-            let (draft, _) = Draft::new(session, &transcript.head(*head), Form::Json);
+            let (draft, _) = Draft::new(session, &transcript.head(*head), Syntax::Json);
             self.draft = Some(draft);
             self.head = transcript.arenas.hash(*head);
             self.steps.clear();

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use motet_compiler::signature::{Signatures, Type};
 use motet_compiler::{Session, draft::Draft};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::print::identifier;
+use motet_syntax::words::RESERVED;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
@@ -13,7 +14,6 @@ use super::{
     Assembler, Automaton, BoundNames, Callable, Entry, Guard, Meaning, Op, OpId, WordEnd, WordList, WordRole,
     WordTable,
 };
-use crate::export::RESERVED;
 use crate::subset::{NumberRange, Relation, Subset};
 
 /// A automaton in the making.
@@ -129,7 +129,7 @@ impl<'a> Compiler<'a> {
 
     /// The words of a type, without and with `any`.
     pub(super) fn table(&mut self, ty: &Type) -> (Arc<WordTable>, Arc<WordTable>) {
-        let (signatures, form) = (self.signatures, self.subset.form);
+        let (signatures, form) = (self.signatures, self.subset.syntax);
         let made = self.tables.entry(ty.clone()).or_insert_with(|| {
             let table = match ty {
                 Type::Entity(kind) => WordTable::of_kind(signatures, *kind),
@@ -137,8 +137,8 @@ impl<'a> Compiler<'a> {
                 _ => WordTable::default(),
             };
             let table = match form {
-                Form::Json => table,
-                Form::Text => WordTable::new(
+                Syntax::Json => table,
+                Syntax::Text => WordTable::new(
                     table
                         .entries
                         .into_iter()
@@ -155,7 +155,7 @@ impl<'a> Compiler<'a> {
 /// What a name that a policy gives may not be: an entity, and in the text form what would mean something else there.
 fn taken(signatures: &Signatures, subset: Subset) -> FxHashSet<SmolStr> {
     let entities = signatures.entities.iter().map(|row| row.0.clone());
-    if subset.form == Form::Json {
+    if subset.syntax == Syntax::Json {
         return entities.collect();
     }
     let words = RESERVED.iter().map(|word| SmolStr::new_static(word));

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use motet_compiler::Session;
 use motet_compiler::signature::{Signatures, Type};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::unit::Unit;
 use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
@@ -338,9 +338,9 @@ pub(crate) struct Automaton {
 impl Automaton {
     /// Compiles the automaton of a session. O(declarations × entities).
     pub(crate) fn new(session: &Session, subset: Subset) -> Self {
-        match subset.form {
-            Form::Json => json::compile(session, subset),
-            Form::Text => text::compile(session, subset),
+        match subset.syntax {
+            Syntax::Json => json::compile(session, subset),
+            Syntax::Text => text::compile(session, subset),
         }
     }
 
@@ -354,7 +354,7 @@ impl Automaton {
 
     /// How many decimals a number has that is spelled in a range: percents have two less than what they say.
     pub(crate) fn decimals(&self, range: &NumberRange) -> u8 {
-        let is_percent = range.unit == Some(Unit::Percent) && self.subset.form == Form::Text;
+        let is_percent = range.unit == Some(Unit::Percent) && self.subset.syntax == Syntax::Text;
         range.decimals + if is_percent { 2 } else { 0 }
     }
 

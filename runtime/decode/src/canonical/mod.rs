@@ -13,7 +13,7 @@ pub use complete::complete;
 
 use motet_compiler::Signatures;
 use motet_syntax::ast::Policy;
-use motet_syntax::{Form, Span};
+use motet_syntax::{Span, Syntax};
 
 use crate::subset::Subset;
 
@@ -42,8 +42,8 @@ impl std::error::Error for Outside {}
 /// The first thing in the policy that the subset cannot say.
 pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, Outside> {
     let document = complete(policy, signatures, subset)?;
-    Ok(match subset.form {
-        Form::Json => json::print(&document, subset),
-        Form::Text => text::print(&document),
+    Ok(match subset.syntax {
+        Syntax::Json => json::print(&document, subset),
+        Syntax::Text => text::print(&document),
     })
 }

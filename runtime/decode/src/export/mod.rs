@@ -19,7 +19,6 @@ mod notation;
 mod number;
 mod offer;
 mod request;
-mod reserved;
 mod schema;
 mod shape;
 mod text;
@@ -32,11 +31,10 @@ pub use offer::Offer;
 pub use request::{
     Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
 };
-pub use reserved::RESERVED;
 pub use shape::{Shape, Shapes};
 
 use motet_compiler::Signatures;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use crate::subset::Subset;
 
@@ -73,8 +71,8 @@ pub fn export(signatures: &Signatures, subset: Subset, format: Format, header: H
 /// The grammar of an offer, character by character.
 #[must_use]
 pub fn grammar(offer: &Offer) -> Grammar {
-    match offer.subset.form {
-        Form::Json => compact::grammar(&Shapes::new(offer)),
-        Form::Text => text::grammar(offer),
+    match offer.subset.syntax {
+        Syntax::Json => compact::grammar(&Shapes::new(offer)),
+        Syntax::Text => text::grammar(offer),
     }
 }

@@ -2,10 +2,10 @@
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
+use motet_syntax::words::RESERVED;
 use smol_str::SmolStr;
 
-use super::reserved::RESERVED;
 use super::value_set::{ValueContext, ValueSet};
 use crate::subset::{NumberRange, Subset};
 
@@ -102,7 +102,7 @@ impl Offer {
                 .collect(),
             binds_lists,
             failures: signatures.failures.clone(),
-            excluded: if subset.form == Form::Text { excluded(signatures) } else { Vec::new() },
+            excluded: if subset.syntax == Syntax::Text { excluded(signatures) } else { Vec::new() },
         }
     }
 
