@@ -63,7 +63,7 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
         let is_binding =
             name.trim_start_matches('$').bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
                 && (name.starts_with('$')
-                    || parsed.form == Syntax::Text
+                    || parsed.syntax == Syntax::Text
                     || ["M0206", "M0211"].contains(&code.as_str()));
         // It replaces what bears its name, and calls that.
         let policy = parsed.file.runnable().next().map(|policy| policy.name.text.as_str());
