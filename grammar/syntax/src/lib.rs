@@ -10,6 +10,7 @@ pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
+pub mod located;
 pub mod pointer;
 pub mod print;
 mod read;

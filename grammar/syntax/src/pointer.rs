@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 use crate::ast::{
     Arg, ArithOp, Block, Call, CompareOp, Expr, ExprKind, Policy, Reaction, Step, StepKind, When,
 };
-use crate::json::push_escaped;
+use crate::located::push_token;
 use crate::source::Span;
 
 /// The pointer of the innermost step, argument or condition that contains the span, such as `/steps/2/try/0/object`;
@@ -31,13 +31,11 @@ struct Walk<'a> {
 /// Each method appends its key and goes on inside, where its node contains the span, and tells whether it did.
 impl Walk<'_> {
     fn key(&mut self, key: &str) {
-        self.pointer.push('/');
-        push_escaped(&mut self.pointer, key);
+        push_token(&mut self.pointer, key);
     }
 
     fn index(&mut self, index: usize) {
-        self.pointer.push('/');
-        self.pointer.push_str(&index.to_string());
+        push_token(&mut self.pointer, &index.to_string());
     }
 
     fn block(&mut self, key: &str, block: &Block) -> bool {

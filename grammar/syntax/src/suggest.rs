@@ -47,7 +47,13 @@ fn fold(name: &str) -> String {
 #[must_use]
 pub fn one_of<'c>(names: impl IntoIterator<Item = &'c str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
-    match quoted.split_last() {
+    listed(&quoted)
+}
+
+/// Parts of a sentence with commas and a final "or".
+#[must_use]
+pub fn listed(parts: &[String]) -> String {
+    match parts.split_last() {
         None => String::new(),
         Some((last, [])) => last.clone(),
         Some((last, rest)) => format!("{} or {last}", rest.join(", ")),

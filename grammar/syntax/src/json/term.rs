@@ -12,9 +12,7 @@ use smol_str::SmolStr;
 
 use super::Spanned;
 use super::wire::Do;
-
-/// The name by which [`super::de`] knows a type that is an enum as an object and a literal otherwise.
-pub(crate) const MIXED: &str = "$mixed";
+use crate::located::{MIXED, Number};
 
 /// A literal, a binding, or a form.
 #[derive(Clone, PartialEq, Debug)]
@@ -203,10 +201,10 @@ impl Serialize for Term {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Bool(value) => serializer.serialize_bool(*value),
-            Self::Number(value) => match super::tree::Number::of(*value) {
-                super::tree::Number::Unsigned(whole) => serializer.serialize_u64(whole),
-                super::tree::Number::Signed(whole) => serializer.serialize_i64(whole),
-                super::tree::Number::Float(value) => serializer.serialize_f64(value),
+            Self::Number(value) => match Number::new(*value) {
+                Number::Unsigned(whole) => serializer.serialize_u64(whole),
+                Number::Signed(whole) => serializer.serialize_i64(whole),
+                Number::Float(value) => serializer.serialize_f64(value),
             },
             Self::Text(text) => serializer.serialize_str(text),
             Self::List(members) => members.serialize(serializer),
@@ -251,7 +249,7 @@ impl Serialize for Args {
 
 /// What an object with arguments among its keys is made into.
 trait Applied: Sized {
-    /// The keys that are no arguments, the one that names what is called first, and [`super::de::OPEN`].
+    /// The keys that are no arguments, the one that names what is called first, and [`crate::located::OPEN`].
     const KEYS: &'static [&'static str];
     /// One key that is no argument.
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error>;
@@ -308,7 +306,7 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
 }
 
 impl Applied for Do {
-    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {
@@ -327,7 +325,7 @@ impl Applied for Do {
 }
 
 impl Applied for Is {
-    const KEYS: &'static [&'static str] = &["is", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["is", crate::located::OPEN];
     fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
         Ok(false)
     }
@@ -337,7 +335,7 @@ impl Applied for Is {
 }
 
 impl Applied for Get {
-    const KEYS: &'static [&'static str] = &["get", "is", "than", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["get", "is", "than", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {

@@ -41,7 +41,7 @@ pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 // What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved often.
 /// One step; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a step", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Step", untagged)]
 pub(crate) enum Step {
     /// A call.
@@ -145,7 +145,7 @@ pub(crate) struct When {
 
 /// What a monitor does; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a reaction", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Reaction", untagged)]
 pub(crate) enum Reaction {
     /// The policy goes on.
