@@ -9,7 +9,9 @@ use std::cell::RefCell;
 use std::fmt::{self, Display};
 
 use serde::de::value::{MapDeserializer, SeqDeserializer, U128Deserializer};
-use serde::de::{self, Deserialize, DeserializeSeed, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor};
+use serde::de::{
+    self, Deserialize, DeserializeSeed, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor,
+};
 
 use super::{Located, LocatedValue, Number, spanned};
 use crate::source::Span;
@@ -153,11 +155,19 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
         }
     }
 
-    fn deserialize_newtype_struct<V: Visitor<'de>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fault> {
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
         let inner = self.at(self.content());
         match name {
-            spanned::SPANNED => visitor.visit_seq(Wrapped { reader: inner, is_lenient: false, is_read: false }),
-            spanned::LENIENT => visitor.visit_seq(Wrapped { reader: inner, is_lenient: true, is_read: false }),
+            spanned::SPANNED => {
+                visitor.visit_seq(Wrapped { reader: inner, is_lenient: false, is_read: false })
+            }
+            spanned::LENIENT => {
+                visitor.visit_seq(Wrapped { reader: inner, is_lenient: true, is_read: false })
+            }
             MIXED if !matches!(inner.node.value, LocatedValue::Object(_)) => inner.deserialize_any(visitor),
             _ => visitor.visit_newtype_struct(inner),
         }

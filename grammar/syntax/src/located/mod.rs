@@ -120,7 +120,9 @@ impl<'s> Located<'s> {
                     value
                 }
                 LocatedValue::Array(items) => {
-                    let Some(index) = items.iter().position(|item| item.span.contains(span)) else { return pointer };
+                    let Some(index) = items.iter().position(|item| item.span.contains(span)) else {
+                        return pointer;
+                    };
                     push_token(&mut pointer, &index.to_string());
                     match items.get(index) {
                         Some(item) => item,

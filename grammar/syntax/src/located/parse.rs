@@ -21,8 +21,15 @@ type Parsed<T> = Result<T, Box<Diagnostic>>;
 /// Parses a document. Returns its tree where the syntax is right, and all diagnostics. Recursion is bounded by
 /// [`MAX_BRACKETS`]. O(bytes).
 pub(crate) fn parse_json(text: &str, file: FileId) -> (Option<Located<'_>>, Vec<Diagnostic>) {
-    let mut parser =
-        Parser { text, bytes: text.as_bytes(), file, at: 0, open: Vec::new(), count: 0, diagnostics: Vec::new() };
+    let mut parser = Parser {
+        text,
+        bytes: text.as_bytes(),
+        file,
+        at: 0,
+        open: Vec::new(),
+        count: 0,
+        diagnostics: Vec::new(),
+    };
     match parser.document() {
         Ok(tree) => {
             // A duplicate is not in the tree: the pointer of the first key is its pointer.
@@ -204,10 +211,8 @@ impl<'s> Parser<'s> {
         let mut unescaped = String::new();
         loop {
             let rest = self.bytes.get(self.at..).unwrap_or_default();
-            self.at += rest
-                .iter()
-                .position(|byte| matches!(byte, b'"' | b'\\' | 0..=0x1f))
-                .unwrap_or(rest.len());
+            self.at +=
+                rest.iter().position(|byte| matches!(byte, b'"' | b'\\' | 0..=0x1f)).unwrap_or(rest.len());
             let text = self.text;
             let run = text.get(plain..self.at).unwrap_or("");
             match self.peek() {

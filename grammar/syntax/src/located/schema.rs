@@ -24,8 +24,8 @@ pub enum Problem<'t> {
     UnknownKey { object: &'t Located<'t>, known: Vec<&'t str> },
     /// The object lacks a required key.
     MissingKey { key: &'t str },
-    /// The value has another type. Lists the JSON types that fit, words of an enumeration apart; `name` is the schema's, where
-    /// only its objects fit.
+    /// The value has another type. Lists the JSON types that fit (`unsigned` is an integer from 0), or the words where only they
+    /// do; `name` is the schema's where it has several forms of objects and nothing else.
     WrongType { types: Vec<&'t str>, words: Vec<&'t str>, name: Option<&'t str> },
     /// The array has another number of elements.
     WrongLength { expected: u64, found: usize },
@@ -112,7 +112,8 @@ impl<'t> SchemaCheck<'t> {
     /// An object with several forms: the first key that names one decides.
     fn form(&mut self, node: &'t Located<'t>, forms: &[Leaf<'t>]) {
         let form_of = |key: &Located<'_>| forms.iter().find(|form| head(form.schema) == key.text());
-        let Some((first, form)) = node.members().iter().find_map(|(key, _)| Some((key, form_of(key)?))) else {
+        let Some((first, form)) = node.members().iter().find_map(|(key, _)| Some((key, form_of(key)?)))
+        else {
             let heads = forms.iter().filter_map(|form| head(form.schema)).collect();
             return self.report(node, Problem::NoForm { forms: heads });
         };
@@ -176,7 +177,9 @@ impl<'t> SchemaCheck<'t> {
     /// Collects the alternatives of a schema, through `$ref`.
     fn leaves(&self, leaf: Leaf<'t>, found: &mut Vec<Leaf<'t>>) {
         let Leaf { schema, name } = leaf;
-        if let Some(pointer) = schema.get("$ref").and_then(Json::as_str).and_then(|target| target.strip_prefix('#')) {
+        if let Some(pointer) =
+            schema.get("$ref").and_then(Json::as_str).and_then(|target| target.strip_prefix('#'))
+        {
             let name = name.or_else(|| pointer.rsplit('/').next());
             if let Some(schema) = self.root.pointer(pointer) {
                 self.leaves(Leaf { schema, name }, found);
@@ -242,23 +245,25 @@ fn head(schema: &Json) -> Option<&str> {
 }
 
 fn wrong_type<'t>(leaves: &[Leaf<'t>]) -> Problem<'t> {
-    let (mut kinds, mut known): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
+    let mut kinds: Vec<&str> = Vec::new();
+    let known: Option<Vec<Vec<&str>>> = leaves.iter().map(|leaf| words(leaf.schema)).collect();
+    if let Some(known) = known {
+        return Problem::WrongType { types: kinds, words: known.concat(), name: None };
+    }
     for leaf in leaves {
-        let words = words(leaf.schema).filter(|_| leaves.len() == 1);
-        let leaf_types = types(leaf.schema).into_iter().filter(|kind| words.is_none() && *kind != "null");
-        for kind in leaf_types.map(|kind| if is_unsigned(leaf.schema) { "unsigned" } else { kind }) {
+        for kind in types(leaf.schema).into_iter().filter(|kind| *kind != "null") {
+            let kind = if kind == "integer" && is_unsigned(leaf.schema) { "unsigned" } else { kind };
             if !kinds.contains(&kind) {
                 kinds.push(kind);
             }
         }
-        known.extend(words.unwrap_or_default());
     }
     let name = leaves.first().and_then(|leaf| leaf.name).filter(|_| leaves.len() > 1 && kinds == ["object"]);
-    Problem::WrongType { types: kinds, words: known, name }
+    Problem::WrongType { types: kinds, words: Vec::new(), name }
 }
 
 fn is_unsigned(schema: &Json) -> bool {
-    types(schema).contains(&"integer") && schema.get("minimum").and_then(Json::as_f64) == Some(0.0)
+    schema.get("minimum").and_then(Json::as_f64) == Some(0.0)
 }
 
 fn out_of_range<'t>(number: Number, schema: &Json) -> Option<Problem<'t>> {
@@ -269,7 +274,11 @@ fn out_of_range<'t>(number: Number, schema: &Json) -> Option<Problem<'t>> {
         "uint32" => u64::from(u32::MAX),
         _ => u64::MAX,
     };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounds of whole numbers from 0")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "bounds of whole numbers from 0"
+    )]
     let least = least as u64;
     match number {
         Number::Unsigned(value) if value < least => Some(Problem::OutOfRange { least, greatest: None }),
