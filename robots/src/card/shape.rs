@@ -1,5 +1,6 @@
-//! Check of a card's keys and types: its TOML tree as a located tree, compared with the schema of the wire types, so that every
-//! wrong key is reported at once and at its place. Numbers and names are checked later, by the reader.
+//! Check of a card's keys and types: its TOML tree as a located tree, compared with the schema of the wire
+//! types, so that every wrong key is reported at once and at its place. Numbers and names are checked later,
+//! by the reader.
 
 use motet_syntax::located::{Located, LocatedValue, Mismatch, Number, Problem, check_schema};
 use motet_syntax::{Diagnostic, FileId, Span, suggest};

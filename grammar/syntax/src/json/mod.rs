@@ -1,4 +1,5 @@
-//! JSON documents: read with their ranges into ordinary serde types. The wire types of a policy are in `wire` and `term`.
+//! JSON documents: read with their ranges into ordinary serde types. The wire types of a policy are in `wire`
+//! and `term`.
 //!
 //! ```
 //! use motet_syntax::json::{self, Spanned};
@@ -42,15 +43,15 @@ use crate::located::{self, Fault, Located, LocatedValue, Mismatch, Problem};
 use crate::source::{FileId, Source, Span};
 use crate::suggest;
 
-/// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a `try` are an
-/// object in an array in an object in an array.
+/// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a
+/// `try` are an object in an array in an object in an array.
 pub const MAX_BRACKETS: usize = 4 * MAX_NESTING + 8;
 
 /// Reads a document as a `T`, with all its mistakes.
 ///
-/// A value comes with errors where the reading could go on: a duplicate key (the first counts), an unknown key (it is
-/// skipped), a mistake in a [`Lenient`]. No value comes without an error. Structs are closed even without
-/// `deny_unknown_fields`. Paths are JSON Pointers. O(bytes).
+/// A value comes with errors where the reading could go on: a duplicate key (the first counts), an unknown
+/// key (it is skipped), a mistake in a [`Lenient`]. No value comes without an error. Structs are closed even
+/// without `deny_unknown_fields`. Paths are JSON Pointers. O(bytes).
 #[must_use]
 pub fn read<'s, T: Deserialize<'s> + JsonSchema>(
     source: &'s Source,
@@ -81,7 +82,8 @@ pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
     (File { items: vec![Item::Policy(policy)] }, found)
 }
 
-/// Reads a document; returns its tree too where the syntax is right, so that a later stage can find its pointers.
+/// Reads a document; returns its tree too where the syntax is right, so that a later stage can find its
+/// pointers.
 fn read_tree<'s, T: Deserialize<'s> + JsonSchema>(
     text: &'s str,
     file: FileId,

@@ -1,9 +1,10 @@
 //! [`serde::Deserializer`] over a [`Located`] tree: ordinary derived types are read with it.
 //!
-//! It differs from `serde_json` in four points. An unknown key is stepped over and noted, unless the list of fields holds
-//! [`OPEN`]. [`super::Spanned`] gets its range. A [`super::Lenient`] absorbs a mistake and notes it. And an enum may be
-//! written as an object with the variant's name among its keys: where the variant's struct has that key as a field, it is
-//! the whole object, as in `{"repeat": 3, "steps": […]}`; otherwise it is the value of the key, as in `{"box": [1, 2, 3]}`.
+//! It differs from `serde_json` in four points. An unknown key is stepped over and noted, unless the list of
+//! fields holds [`OPEN`]. [`super::Spanned`] gets its range. A [`super::Lenient`] absorbs a mistake and notes
+//! it. And an enum may be written as an object with the variant's name among its keys: where the variant's
+//! struct has that key as a field, it is the whole object, as in `{"repeat": 3, "steps": […]}`; otherwise it
+//! is the value of the key, as in `{"box": [1, 2, 3]}`.
 
 use std::cell::RefCell;
 use std::fmt::{self, Display};
@@ -22,8 +23,8 @@ pub(crate) const OPEN: &str = "*";
 /// Name of a newtype that is an enum as an object and a literal otherwise.
 pub(crate) const MIXED: &str = "$mixed";
 
-/// Deserializes a tree. Returns the value, and the mistakes that were met; a value may come with mistakes, no value never
-/// comes without one.
+/// Deserializes a tree. Returns the value, and the mistakes that were met; a value may come with mistakes, no
+/// value never comes without one.
 pub(crate) fn deserialize<'s, T: Deserialize<'s>>(tree: &Located<'s>) -> (Option<T>, Vec<Fault>) {
     let faults = RefCell::default();
     let value = T::deserialize(Reader { node: tree, variant: None, faults: &faults });
@@ -240,8 +241,8 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
     }
 
     serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq map
-        identifier ignored_any
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
+        seq map identifier ignored_any
     }
 }
 
@@ -280,7 +281,8 @@ impl<'s> de::VariantAccess<'s> for Reader<'_, 's> {
     }
 }
 
-/// Content of [`super::Spanned`], a value and its range as one number, or of [`super::Lenient`], a value or nothing.
+/// Content of [`super::Spanned`], a value and its range as one number, or of [`super::Lenient`], a value or
+/// nothing.
 struct Wrapped<'t, 's> {
     reader: Reader<'t, 's>,
     is_lenient: bool,

@@ -1,9 +1,10 @@
 //! Located documents: values with their byte ranges, the same for JSON and TOML.
 //!
-//! A document is read in three steps. A parser makes a [`Located`] tree ([`parse_json`]; who reads TOML converts the tree of
-//! its library). The tree is deserialized by plain serde, with [`Spanned`] for ranges and [`Lenient`] for parts that may
-//! fail alone. Only if that meets a mistake, [`check_schema`] compares the tree with the JSON Schema of the type and reports
-//! every [`Mismatch`] at its place; a document without mistakes never pays for it.
+//! A document is read in three steps. A parser makes a [`Located`] tree ([`parse_json`]; who reads TOML
+//! converts the tree of its library). The tree is deserialized by plain serde, with [`Spanned`] for ranges
+//! and [`Lenient`] for parts that may fail alone. Only if that meets a mistake, [`check_schema`] compares the
+//! tree with the JSON Schema of the type and reports every [`Mismatch`] at its place; a document without
+//! mistakes never pays for it.
 
 mod de;
 mod parse;
@@ -98,7 +99,8 @@ impl<'s> Located<'s> {
         }
     }
 
-    /// Range that stands for the value in a message: of an object its first key, since a whole object is not underlined.
+    /// Range that stands for the value in a message: of an object its first key, since a whole object is not
+    /// underlined.
     #[must_use]
     pub fn head(&self) -> Span {
         self.members().first().map_or(self.span, |(key, _)| key.span)

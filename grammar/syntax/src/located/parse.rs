@@ -1,6 +1,7 @@
-//! Parser of JSON (RFC 8259) into a [`Located`] tree. One syntax error ends it; a duplicate key is reported, and the first of
-//! its values counts. It is our own because no library tells apart the mistakes that language models make (`None`, comments,
-//! single quotes, cut documents) with their ranges and under limits on depth and size.
+//! Parser of JSON (RFC 8259) into a [`Located`] tree. One syntax error ends it; a duplicate key is reported,
+//! and the first of its values counts. It is our own because no library tells apart the mistakes that
+//! language models make (`None`, comments, single quotes, cut documents) with their ranges and under limits
+//! on depth and size.
 
 use std::borrow::Cow;
 
@@ -18,8 +19,8 @@ const FEW_KEYS: usize = 16;
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
 
-/// Parses a document. Returns its tree where the syntax is right, and all diagnostics. Recursion is bounded by
-/// [`MAX_BRACKETS`]. O(bytes).
+/// Parses a document. Returns its tree where the syntax is right, and all diagnostics. Recursion is bounded
+/// by [`MAX_BRACKETS`]. O(bytes).
 pub(crate) fn parse_json(text: &str, file: FileId) -> (Option<Located<'_>>, Vec<Diagnostic>) {
     let mut parser = Parser {
         text,
@@ -133,7 +134,8 @@ impl<'s> Parser<'s> {
         Ok(members)
     }
 
-    /// Steps over an opening bracket, up to the first key or value. Returns `false` where the container is empty.
+    /// Steps over an opening bracket, up to the first key or value. Returns `false` where the container is
+    /// empty.
     fn enter(&mut self, is_object: bool) -> Parsed<bool> {
         if self.open.len() >= MAX_BRACKETS {
             let span = self.span(self.at, self.at + 1);
@@ -149,7 +151,8 @@ impl<'s> Parser<'s> {
         Ok(!is_empty)
     }
 
-    /// After a value: steps over a comma, up to the next key or value (`true`), or over the closing bracket (`false`).
+    /// After a value: steps over a comma, up to the next key or value (`true`), or over the closing bracket
+    /// (`false`).
     fn goes_on(&mut self, is_object: bool) -> Parsed<bool> {
         self.skip_space();
         match self.peek() {

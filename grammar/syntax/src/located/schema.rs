@@ -1,6 +1,7 @@
-//! Comparison of a [`Located`] tree with a JSON Schema: reports every mismatch with its range, for documents in JSON and TOML
-//! alike. Schemas are those that `schemars` derives: `$ref`, `type`, `properties`, `required`, `additionalProperties`,
-//! `items`, `minItems` and `maxItems` that are equal, `minimum`, `enum`, `const`, `anyOf` and `oneOf`.
+//! Comparison of a [`Located`] tree with a JSON Schema: reports every mismatch with its range, for documents
+//! in JSON and TOML alike. Schemas are those that `schemars` derives: `$ref`, `type`, `properties`,
+//! `required`, `additionalProperties`, `items`, `minItems` and `maxItems` that are equal, `minimum`, `enum`,
+//! `const`, `anyOf` and `oneOf`.
 
 use serde_json::Value as Json;
 
@@ -24,8 +25,9 @@ pub enum Problem<'t> {
     UnknownKey { object: &'t Located<'t>, known: Vec<&'t str> },
     /// The object lacks a required key.
     MissingKey { key: &'t str },
-    /// The value has another type. Lists the JSON types that fit (`unsigned` is an integer from 0), or the words where only they
-    /// do; `name` is the schema's where it has several forms of objects and nothing else.
+    /// The value has another type. Lists the JSON types that fit (`unsigned` is an integer from 0), or the
+    /// words where only they do; `name` is the schema's where it has several forms of objects and nothing
+    /// else.
     WrongType { types: Vec<&'t str>, words: Vec<&'t str>, name: Option<&'t str> },
     /// The array has another number of elements.
     WrongLength { expected: u64, found: usize },
@@ -39,7 +41,8 @@ pub enum Problem<'t> {
     TwoForms { first: &'t Located<'t> },
 }
 
-/// Compares a tree with a schema. Returns the mismatches in the order of the schema's objects. O(tree × forms).
+/// Compares a tree with a schema. Returns the mismatches in the order of the schema's objects. O(tree ×
+/// forms).
 ///
 /// ```
 /// # use motet_syntax::json;

@@ -16,8 +16,9 @@ pub(crate) const SPANNED: &str = "$spanned";
 /// Newtype name by which [`super::de`] knows [`Lenient`].
 pub(crate) const LENIENT: &str = "$lenient_value";
 
-/// A value and its byte range in the document. Read by [`crate::json::read`] it has its span; by any other deserializer, or
-/// made by hand, an empty one. It is written, and described in a schema, as the value alone; equality ignores the span.
+/// A value and its byte range in the document. Read by [`crate::json::read`] it has its span; by any other
+/// deserializer, or made by hand, an empty one. It is written, and described in a schema, as the value alone;
+/// equality ignores the span.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spanned<T> {
     pub value: T,
@@ -127,9 +128,9 @@ impl<T: JsonSchema> JsonSchema for Spanned<T> {
     }
 }
 
-/// A value, or `None` where it could not be read: then [`crate::json::read`] has an error for it, and the mistake does not hide
-/// those of its neighbours. By any other deserializer it is as strict as `T`. It is written, and described in a schema, as
-/// `T`; `None` is written as `null`.
+/// A value, or `None` where it could not be read: then [`crate::json::read`] has an error for it, and the
+/// mistake does not hide those of its neighbours. By any other deserializer it is as strict as `T`. It is
+/// written, and described in a schema, as `T`; `None` is written as `null`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Lenient<T>(pub Option<T>);
 
