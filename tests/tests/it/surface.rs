@@ -3,7 +3,7 @@
 use motet_compiler::{Session, Signatures};
 use motet_decode::{Modifiers, Surface, canonical};
 use motet_syntax::ast::Policy;
-use motet_syntax::{Form, Source, Sources};
+use motet_syntax::{Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
 
@@ -25,7 +25,7 @@ fn outline(session: &Session, text: &str) -> (usize, String) {
 }
 
 fn surfaces(modifiers: Modifiers) -> [Surface; 2] {
-    [Form::Json, Form::Text].map(|form| Surface { form, modifiers, ..Surface::default() })
+    [Syntax::Json, Syntax::Text].map(|form| Surface { form, modifiers, ..Surface::default() })
 }
 
 /// The canonical line, which must be that of what it reads as.
