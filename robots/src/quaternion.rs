@@ -1,11 +1,21 @@
-//! The little of rotations that placing things takes. Quaternions have the order x, y, z, w and length 1.
+//! Unit quaternions, order x, y, z, w, for placing shapes and links.
+//!
+//! Only what the readers need; `motet-geometry` computes with `nalgebra`.
 
 use crate::urdf::Pose;
 
-/// A rotation, order x, y, z, w.
+/// Rotation as a unit quaternion, order x, y, z, w.
 pub type Quaternion = [f64; 4];
 
-/// By an angle in rad about one of the axes 0, 1, 2.
+/// Rotation by an angle in rad about one of the axes 0 (x), 1 (y), 2 (z).
+///
+/// ```
+/// use motet_robots::quaternion::{from_axis_angle, rotate};
+///
+/// let quarter = from_axis_angle(2, std::f64::consts::FRAC_PI_2);
+/// let [x, y, _] = rotate(quarter, [1.0, 0.0, 0.0]);
+/// assert!(x.abs() < 1e-12 && (y - 1.0).abs() < 1e-12);
+/// ```
 #[must_use]
 pub fn from_axis_angle(axis: usize, angle: f64) -> Quaternion {
     let (sin, cos) = libm::sincos(angle / 2.0);
@@ -13,7 +23,7 @@ pub fn from_axis_angle(axis: usize, angle: f64) -> Quaternion {
     [part(0), part(1), part(2), cos]
 }
 
-/// First the second, then the first.
+/// Hamilton product `a * b`: applies `b`, then `a`.
 #[must_use]
 pub fn mul([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion) -> Quaternion {
     [
@@ -24,20 +34,20 @@ pub fn mul([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion) -> Quater
     ]
 }
 
-/// The other way round.
+/// Inverse rotation: the conjugate.
 #[must_use]
 pub fn inverse([x, y, z, w]: Quaternion) -> Quaternion {
     [-x, -y, -z, w]
 }
 
-/// A vector turned.
+/// Rotates a vector.
 #[must_use]
 pub fn rotate(by: Quaternion, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let [x, y, z, _] = mul(mul(by, [x, y, z, 0.0]), inverse(by));
     [x, y, z]
 }
 
-/// The pose of `c` in `a` from that of `b` in `a` and of `c` in `b`.
+/// Composes poses: the pose of `c` in `a` from that of `b` in `a` and that of `c` in `b`.
 #[must_use]
 pub fn compose(a_from_b: &Pose, b_from_c: &Pose) -> Pose {
     let [x, y, z] = rotate(a_from_b.quaternion_xyzw, b_from_c.xyz);

@@ -1,4 +1,4 @@
-//! The robot's body: what a card says of its URDF, and whether the URDF agrees.
+//! Check of a card against its URDF: the links and joints that the card names.
 
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
@@ -27,7 +27,7 @@ impl CardReader {
         }
     }
 
-    /// Positions of joints, in rad or m.
+    /// Reads joint positions, in rad or m.
     pub(super) fn positions(
         &mut self,
         key: &str,
@@ -42,7 +42,7 @@ impl CardReader {
         positions.collect()
     }
 
-    /// Where the fingers of a hand point, and along what they close.
+    /// Reads the pointing and the closing direction of a hand.
     pub(super) fn directions(&mut self, name: &str, hand: &wire::HandTable) -> ([f64; 3], [f64; 3]) {
         let points = hand.points.as_ref().map_or(Direction::Z, |at| *at.get());
         let closes = hand.closes.as_ref().map_or(Direction::Y, |at| *at.get());
@@ -67,8 +67,8 @@ fn vector(direction: Direction) -> [f64; 3] {
     }
 }
 
-/// Whether a card that [`super::read`] takes without an error fits its URDF: the links and joints that it names are
-/// there, positions are within limits, and hands and cameras have a place. O(bytes + links).
+/// Checks a card without errors against its URDF: the named links and joints exist, positions are within
+/// limits, and hands and cameras have a link. O(bytes + links).
 #[must_use]
 pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     let Ok(card) = toml::from_str::<wire::CardTable>(&toml.text) else { return vec![] };
@@ -93,7 +93,7 @@ pub fn fit(toml: &Source, file: FileId, urdf: &Urdf) -> Vec<Diagnostic> {
     found
 }
 
-/// That a file or a folder which the card names is not there. None where the card does not name one.
+/// Diagnostic for a missing file or folder that the card names; `None` if the card names none.
 #[must_use]
 pub fn missing(toml: &Source, file: FileId, which: ModelFile) -> Option<Diagnostic> {
     let card = toml::from_str::<wire::CardTable>(&toml.text).ok()?;
@@ -111,12 +111,10 @@ pub fn missing(toml: &Source, file: FileId, which: ModelFile) -> Option<Diagnost
     Some(NoFile { span, key, file: name.get().clone() }.into())
 }
 
-/// A file or a folder under `[model]`.
+/// File or folder under `[model]` of a card.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ModelFile {
-    /// `urdf`
     Urdf,
-    /// `srdf`
     Srdf,
     /// One of `packages`, from 0.
     Package(usize),
@@ -151,14 +149,14 @@ impl UrdfFit<'_> {
         self.link(link);
     }
 
-    /// Whether a joint moves the tip of a hand against the base's link.
+    /// Checks that a joint moves the tip of a hand relative to the link of the base.
     fn arm(&mut self, name: &str, tip: Option<&TomlSpanned<String>>, base: Option<&TomlSpanned<String>>) {
         let Some(tip) = tip else { return };
         let base = base.map_or(Some(self.urdf.root), |base| self.urdf.link(base.get()));
-        // Links that are not there have been told.
+        // Missing links have been reported.
         let (Some(link), Some(base)) = (self.urdf.link(tip.get()), base) else { return };
         let (mut at, mut moves) = (link, false);
-        // From the tips on, each joint stands after the one that carries its parent.
+        // Backwards, each joint comes after the one that carries its parent.
         for joint in self.urdf.joints.iter().rev() {
             if joint.child == at && at != base {
                 moves |= !matches!(joint.kind, JointKind::Fixed | JointKind::Floating);
@@ -203,7 +201,7 @@ impl UrdfFit<'_> {
     }
 }
 
-/// A position that a joint is said to be at, in m or rad, and where that is said.
+/// Joint position as written, in m or rad, with its span.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JointPosition<'a> {
     pub(crate) joint: &'a str,
@@ -212,9 +210,9 @@ pub(crate) struct JointPosition<'a> {
 }
 
 impl JointPosition<'_> {
-    /// What is wrong with it, beside a URDF.
+    /// Checks the position against a URDF.
     pub(crate) fn fault(self, urdf: &Urdf) -> Option<Diagnostic> {
-        // Any place will do for what moves in a plane.
+        // A planar joint has no limits.
         let (joint, part) = self.joint.rsplit_once('/').unwrap_or_default();
         let is_planar = |it: &Joint| it.name == joint && it.kind == JointKind::Planar;
         if matches!(part, "x" | "y" | "theta") && urdf.joints.iter().any(is_planar) {
@@ -234,7 +232,7 @@ impl JointPosition<'_> {
     }
 }
 
-/// The joint of a name that moves by itself; else what there is to say.
+/// Finds the joint with a name that moves by itself, or the mistake.
 fn found<'u>(name: &str, span: Span, urdf: &'u Urdf) -> Result<&'u Joint, NotInUrdf> {
     let moves = |joint: &&Joint| joint.kind.has_one_position() && joint.mimic.is_none();
     urdf.joints.iter().filter(moves).find(|joint| joint.name == name).ok_or_else(|| {

@@ -1,5 +1,5 @@
-//! A first card for a robot of which there is only a URDF. What can be told from the URDF is told, what cannot is
-//! guessed, and every guess says so in a comment.
+//! Draft of a card for a robot of which only a URDF exists. Facts of the URDF are taken over, the rest is
+//! guessed, and every guess is marked in a comment.
 
 mod base;
 mod described;
@@ -14,29 +14,30 @@ use crate::srdf::Srdf;
 use crate::urdf::{Urdf, UrdfShape};
 use parts::{DraftHand, RobotParts};
 
-/// What is known beside the URDF.
+/// Inputs of a draft beside the URDF.
 #[derive(Clone, Default, Debug)]
 pub struct DraftInputs<'a> {
-    /// The SRDF, and its path as seen from the card's folder.
+    /// SRDF, and its path relative to the folder of the card.
     pub srdf: Option<(&'a Srdf, &'a str)>,
-    /// How it stands, as far as that was worked out.
+    /// Stance of the robot, as far as it was computed.
     pub stance: Option<DraftStance>,
 }
 
-/// How a robot stands.
+/// Stance of a robot: height of its base and posture of its arm.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct DraftStance {
-    /// How high the base's link is above the floor, in m.
+    /// Height of the link of the base above the floor, in m.
     pub height_m: f64,
-    /// Positions of joints of the arm by name, in rad or m.
+    /// Joint positions of the arm by name, in rad or m.
     pub joints: IndexMap<SmolStr, f64>,
-    /// Two things that touch in it, where they do so in every posture that was tried.
+    /// Two links or obstacles that touch in it, if every tried posture has a contact.
     pub touch: Option<[SmolStr; 2]>,
 }
 
-/// The text of a card for the robot of a URDF. `file` is the URDF's path as seen from the card's folder.
+/// Writes the text of a card for the robot of a URDF. `file` is the path of the URDF relative to the folder
+/// of the card.
 ///
-/// The card can be read by [`super::read`], and fits the URDF. O(links × joints).
+/// [`super::read`] accepts the card, and it fits the URDF. O(links × joints).
 #[must_use]
 pub fn draft(urdf: &Urdf, file: &str, beside: &DraftInputs<'_>) -> String {
     let parts = RobotParts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
@@ -174,14 +175,14 @@ fn link(urdf: &Urdf, at: usize) -> &str {
     urdf.links.get(at).map_or("", |link| link.name.as_str())
 }
 
-/// A text as a basic string of TOML, which may stand as a key too; what cannot be seen is written by its number.
+/// Basic TOML string, also valid as a key; invisible characters are escaped by number.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for letter in text.chars() {
         match letter {
             '"' | '\\' => quoted.extend(['\\', letter]),
             '\'' => quoted.push(letter),
-            // Rust's own escapes are others, but of what there is nothing to see it knows best.
+            // Rust has other escapes, but it knows which characters are invisible.
             _ if letter.escape_debug().len() > 1 => {
                 // Writing to a string does not fail.
                 let _ = write!(quoted, "\\U{:08X}", u32::from(letter));
@@ -193,7 +194,7 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// A name that a policy can write.
+/// Turns a name into an identifier.
 fn identifier(name: &str) -> String {
     let mut word: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
@@ -203,7 +204,7 @@ fn identifier(name: &str) -> String {
     word.trim_end_matches('_').to_owned()
 }
 
-/// The radius of the disc around the shapes of a link; 0.3 m where it has none that tells.
+/// Radius of the disc around the shapes of a link; 0.3 m if the shapes give none.
 fn radius(urdf: &Urdf, link: usize) -> f64 {
     let solids = urdf.links.get(link).map_or(&[][..], |link| link.collisions.as_slice());
     let reach = solids.iter().filter_map(|solid| {

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot card (M0411 to M0430, M0450, M0479, M0480).
+//! Diagnostics of a robot card (M0411 to M0430, M0450, M0479, M0480).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};

@@ -1,7 +1,8 @@
-//! Robot cards: what a robot is, what it can do, what it can observe.
+//! Robot cards: the base, hands, cameras, resources and primitives of a robot.
 //!
-//! A card is a folder with a `robot.toml` ([`wire`]) and, where the robot's primitives differ from the standard ones, a
-//! `primitives.motet`. [`read`] makes a [`Robot`] of it.
+//! A card is a folder with a `robot.toml` and, if the primitives of the robot differ from the standard ones,
+//! a `primitives.motet`. [`read`] makes a [`Robot`] of it; [`fit`] checks it against a URDF; [`draft`] writes
+//! a first card for a URDF.
 
 mod body;
 mod draft;

@@ -1,52 +1,53 @@
-//! A robot card after reading: every number is finite and in range, every name it mentions exists in the card.
+//! Data model of a robot card: every number is finite and in range, every name in it exists.
 
 use indexmap::IndexMap;
 use smol_str::SmolStr;
 
 use super::spans::CardSpans;
 
-/// A robot.
+/// Robot as its card describes it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Robot {
-    /// Its id, `hsr`.
+    /// Id such as `hsr`.
     pub name: SmolStr,
-    /// What people call it, "Toyota HSR".
+    /// Title for people, such as "Toyota HSR".
     pub title: String,
-    /// How it drives.
+    /// Drive, speeds and size of the base.
     pub base: BaseSpec,
-    /// Its hands, by resource name; the first is the one meant where only one is.
+    /// Hands by resource name; the first is the default.
     pub hands: IndexMap<SmolStr, HandSpec>,
-    /// Its cameras, by resource name.
+    /// Cameras by resource name.
     pub cameras: IndexMap<SmolStr, CameraSpec>,
-    /// Its body, where the card names a URDF.
+    /// URDF and SRDF, if the card names them.
     pub model: Option<ModelSpec>,
-    /// Named postures: positions of joints by name, in rad or m.
+    /// Named postures: joint positions by name, in rad or m.
     pub postures: IndexMap<SmolStr, IndexMap<SmolStr, f64>>,
-    /// Exclusive resources and what each contains, directly (`arm` contains `camera` on a robot with a wrist camera).
-    /// Hands and cameras are resources too and always listed here.
+    /// Exclusive resources, each with those that it contains directly (`arm` contains `camera` on a robot
+    /// with a wrist camera). Hands and cameras are always listed.
     pub resources: IndexMap<SmolStr, Vec<SmolStr>>,
     /// Fluents and measures that it can observe, by name.
     pub observes: Vec<SmolStr>,
-    /// Seconds that one observation takes at most.
+    /// Longest time of one observation, in s.
     pub observe_within_secs: f64,
     /// Primitives that it provides, by name, with bounds on their numeric parameters.
     pub primitives: IndexMap<SmolStr, IndexMap<SmolStr, Range>>,
-    /// QuantityReader that contracts may use as `robot.NAME`, in SI units, with their quantity type (`Length`, `Mass`, …,
-    /// `Number` where it has no unit): `payload`, `opening` and `reach` of the first hand, `speed` of the base, and what
-    /// the card lists beside them.
+    /// QuantityReader that contracts may use as `robot.NAME`, in SI units, with their quantity type
+    /// (`Length`, `Mass`, …, `Number` where it has no unit): `payload`, `opening` and `reach` of the first
+    /// hand, `speed` of the base, and what the card lists beside them.
     pub numbers: IndexMap<SmolStr, (f64, SmolStr)>,
-    /// Facts that hold at the start unless a state says otherwise, as text conditions: `free(hand)`, `not standing(robot)`.
+    /// Facts that hold at the start unless a state says otherwise, as text conditions: `free(hand)`, `not
+    /// standing(robot)`.
     pub initially: Vec<String>,
-    /// Text of the card's `primitives.motet`: signatures that differ from the standard ones; empty where there is none.
+    /// Text of `primitives.motet`: signatures that differ from the standard ones; empty without the file.
     pub declarations: String,
-    /// Where the card says what declarations give a meaning to.
+    /// Spans of the names that only the compiler can check.
     pub spans: CardSpans,
 }
 
-/// How a robot drives.
+/// Mobile or fixed base.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BaseSpec {
-    /// Whether it drives at all, and how.
+    /// Kind of the drive.
     pub drive: Drive,
     /// Nominal speed in m/s.
     pub speed_m_per_s: f64,
@@ -56,10 +57,10 @@ pub struct BaseSpec {
     pub radius_m: f64,
 }
 
-/// The kind of a base.
+/// Kind of a drive.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Drive {
-    /// Bolted down.
+    /// Fixed to the floor or a table.
     Fixed,
     /// Any direction at any time.
     Omnidirectional,
@@ -69,7 +70,7 @@ pub enum Drive {
     Legged,
 }
 
-/// A robot's body.
+/// Files and joint values of the body of a robot.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ModelSpec {
     /// The URDF, a path as seen from the card's folder.
@@ -78,7 +79,7 @@ pub struct ModelSpec {
     pub srdf: Option<String>,
     /// The link whose pose is that of the base; the root where none is named.
     pub base: Option<SmolStr>,
-    /// How high above the floor that link is, in m.
+    /// Height of that link above the floor, in m.
     pub height_m: f64,
     /// Positions of joints where no posture says otherwise, in rad or m.
     pub rest: IndexMap<SmolStr, f64>,
@@ -86,7 +87,7 @@ pub struct ModelSpec {
     pub packages: Vec<String>,
 }
 
-/// A hand.
+/// Hand with its capacity and its place in the URDF.
 #[derive(Clone, PartialEq, Debug)]
 pub struct HandSpec {
     /// The heaviest object in kg.
@@ -107,10 +108,10 @@ pub struct HandSpec {
     pub open: IndexMap<SmolStr, f64>,
 }
 
-/// A camera.
+/// Camera with its range and its place in the URDF.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraSpec {
-    /// How far it sees, in m.
+    /// Range of sight, in m.
     pub range_m: f64,
     /// Full horizontal angle of view in rad.
     pub view_rad: f64,
@@ -118,11 +119,9 @@ pub struct CameraSpec {
     pub frame: Option<SmolStr>,
 }
 
-/// A closed interval in SI units; `least <= greatest`.
+/// Closed interval in SI units; `least <= greatest`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Range {
-    /// Least.
     pub least: f64,
-    /// Greatest.
     pub greatest: f64,
 }

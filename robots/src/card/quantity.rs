@@ -7,21 +7,19 @@ use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
 use super::model::Range;
 use super::wire::{self, TomlSpanned, WrittenQuantity};
 
-/// What a number must be.
+/// Allowed sign of a number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Sign {
-    /// Above zero.
     Positive,
-    /// Zero or above.
+    /// Zero or more.
     NotNegative,
-    /// Anything finite.
     Any,
 }
 
-/// No length, mass, time or speed of a robot is larger.
+/// Greatest length, mass, time or speed of a robot.
 const GREATEST: f64 = 1e6;
 
-/// Reads quantities and collects what is wrong with them.
+/// Reads quantities and collects diagnostics.
 pub(super) struct QuantityReader {
     pub(super) file: FileId,
     pub(super) found: Vec<Diagnostic>,
@@ -33,7 +31,7 @@ impl QuantityReader {
         Span::new(self.file, range.start, range.end)
     }
 
-    /// A quantity of a known dimension; 0 where it is wrong.
+    /// Reads a quantity of a known dimension; 0 if it is wrong.
     pub(super) fn of(
         &mut self,
         key: &str,
@@ -52,7 +50,7 @@ impl QuantityReader {
         self.checked(key, self.span(at), value, sign)
     }
 
-    /// A quantity of any dimension with its unit, in SI units.
+    /// Reads a quantity of any dimension with its unit, in SI units.
     pub(super) fn any(
         &mut self,
         key: &str,
@@ -82,7 +80,7 @@ impl QuantityReader {
         parsed.map(|(value, unit)| (unit.to_si(value), Some(unit)))
     }
 
-    /// The number where it is possible, else 0.
+    /// Checks a number; 0 if it is impossible.
     pub(super) fn checked(&mut self, key: &str, span: Span, value: f64, sign: Sign) -> f64 {
         let (fits, wanted) = match sign {
             Sign::Positive => (value > 0.0, "above zero"),
@@ -102,7 +100,7 @@ impl QuantityReader {
         0.0
     }
 
-    /// The dimension of the first unit that an interval is written with. What is wrong with it is said elsewhere.
+    /// Dimension of the first unit in an interval; its mistakes are reported elsewhere.
     pub(super) fn written(&mut self, at: &wire::RangeTable) -> Option<Dimension> {
         let before = self.found.len();
         let mut unit = |at| self.any("", at).and_then(|(_, unit)| unit);
@@ -111,10 +109,10 @@ impl QuantityReader {
         unit.map(Unit::dimension)
     }
 
-    /// An interval of a known dimension, or of any.
+    /// Reads an interval of a known dimension, or of any.
     pub(super) fn range(&mut self, key: &str, at: &wire::RangeTable, dimension: Option<Dimension>) -> Range {
         let before = self.found.len();
-        // Of an interval of any dimension the first unit that is written decides; a bare number goes with it.
+        // The first unit decides the dimension; a bare number follows it.
         let dimension = dimension.or_else(|| self.written(at)).unwrap_or(Dimension::NONE);
         let least = self.of(&format!("{key}.least"), &at.least, dimension, Sign::Any);
         let greatest = self.of(&format!("{key}.greatest"), &at.greatest, dimension, Sign::Any);
@@ -126,7 +124,7 @@ impl QuantityReader {
     }
 }
 
-/// The units of a dimension; none where it has none of its own.
+/// Units of a dimension; none for one without units of its own.
 pub(super) fn units_of(dimension: Dimension) -> Vec<&'static str> {
     Unit::symbols_of(dimension).collect()
 }

@@ -1,4 +1,4 @@
-//! From the text of a card to a [`Robot`], or to what is wrong with it.
+//! Reader of robot cards: from the text of `robot.toml` to a [`Robot`], with diagnostics.
 
 use indexmap::IndexMap;
 use motet_syntax::unit::{Dimension, Unit};
@@ -13,8 +13,18 @@ use super::shape;
 use super::spans::{self, BoundSpan, CardSpans};
 use super::wire::{self, TomlSpanned};
 
-/// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept as it is: the
-/// compiler reads it. There is no robot where there is an error. O(bytes).
+/// Reads the card of a robot. `declarations` is the text of its `primitives.motet`, which is kept for the
+/// compiler. `None` for the robot if there is an error. O(bytes).
+///
+/// ```
+/// use motet_robots::{builtin, card};
+/// use motet_syntax::{FileId, Source};
+///
+/// let hsr = builtin::robot_texts("hsr").unwrap();
+/// let (robot, diagnostics) = card::read(&Source::new("hsr/robot.toml", hsr.card), FileId(0), None);
+/// assert_eq!(diagnostics, []);
+/// assert_eq!(robot.unwrap().hands.len(), 1);
+/// ```
 #[must_use]
 pub fn read(toml: &Source, file: FileId, declarations: Option<&str>) -> (Option<Robot>, Vec<Diagnostic>) {
     let document = match DeTable::parse(&toml.text) {
@@ -166,7 +176,7 @@ impl CardReader {
         primitives
     }
 
-    /// Where the card says what only the compiler can judge.
+    /// Spans of what only the compiler can check.
     fn spans(
         &mut self,
         card: &wire::CardTable,
@@ -191,7 +201,7 @@ impl CardReader {
         found
     }
 
-    /// The numbers that every robot has, and those of the card.
+    /// Numbers that every robot has, and those of the card.
     fn named_numbers(
         &mut self,
         card: &wire::CardTable,

@@ -1,4 +1,5 @@
-//! Exclusive resources: every one that is named is declared, hands and cameras are among them, and none contains itself.
+//! Exclusive resources of a card: every named one is declared, hands and cameras are among them, and none
+//! contains itself.
 
 use indexmap::IndexMap;
 use motet_syntax::{Span, suggest};
@@ -9,7 +10,7 @@ use super::read::CardReader;
 use super::wire;
 
 impl CardReader {
-    /// What the card says of resources, with what is wrong with it.
+    /// Reads the resources and reports mistakes.
     pub(super) fn resources(&mut self, card: &wire::CardTable) -> IndexMap<SmolStr, Vec<SmolStr>> {
         let mut resources = IndexMap::new();
         for (name, contains) in &card.resources {
@@ -49,7 +50,8 @@ impl CardReader {
     }
 }
 
-/// A chain of resources that ends where it begins. Takes away, again and again, what contains nothing that is left.
+/// Finds a chain of resources that ends where it begins, by removing, again and again, those that contain no
+/// remaining one.
 fn cycle(resources: &IndexMap<SmolStr, Vec<SmolStr>>) -> Option<Vec<SmolStr>> {
     let mut left = resources.clone();
     loop {
@@ -60,7 +62,7 @@ fn cycle(resources: &IndexMap<SmolStr, Vec<SmolStr>>) -> Option<Vec<SmolStr>> {
             break;
         }
     }
-    // From here every resource contains one that is left, so following the first such must come back.
+    // Every remaining resource contains a remaining one, so following the first of these comes back.
     let mut chain = vec![left.keys().next()?.clone()];
     loop {
         let last = left.get(chain.last()?)?;

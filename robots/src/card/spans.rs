@@ -1,5 +1,4 @@
-//! Where a card says what the compiler compares with the library: the names and the bounds that mean something only
-//! beside declarations.
+//! Spans of the names and bounds of a card that the compiler checks against the library.
 
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
@@ -11,24 +10,23 @@ use toml::de::{DeTable, DeValue};
 /// CardSpans in a card. They are no part of what the robot is, so any two are equal.
 #[derive(Clone, Debug, Default)]
 pub struct CardSpans {
-    /// The name of the card's `primitives.motet`, as diagnostics call it.
+    /// Name of `primitives.motet` in diagnostics.
     pub declarations: SmolStr,
-    /// Each name under `observes`.
+    /// Names under `observes`.
     pub observes: IndexMap<SmolStr, Span>,
-    /// Each key under `[primitives]`.
+    /// Keys under `[primitives]`.
     pub primitives: IndexMap<SmolStr, Span>,
-    /// The bounds of each parameter, by primitive and parameter.
+    /// Bounds of each parameter, by primitive and parameter.
     pub bounds: IndexMap<(SmolStr, SmolStr), BoundSpan>,
-    /// Each fact under `initially`, in their order.
+    /// Facts under `initially`, in order.
     pub initially: Vec<Span>,
 }
 
-/// The bounds of a parameter as they are written.
+/// Bounds of a parameter as written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct BoundSpan {
-    /// Their key.
     pub span: Span,
-    /// The dimension of their unit; none where both are bare numbers.
+    /// Dimension of their unit; `None` for bare numbers.
     pub dimension: Option<Dimension>,
 }
 
@@ -38,7 +36,7 @@ impl PartialEq for CardSpans {
     }
 }
 
-/// The keys under `[primitives]`, and below each its parameters.
+/// Keys under `[primitives]`, each with its parameters.
 pub(super) fn primitives(
     document: &Spanned<DeTable<'_>>,
     file: FileId,
@@ -60,7 +58,7 @@ fn keys<'d, 'i>(section: Option<&'d DeValue<'i>>, file: FileId) -> Vec<(SmolStr,
     table.iter().map(key).collect()
 }
 
-/// The name of the file of declarations beside a card.
+/// Name of the declarations file beside a card.
 pub(super) fn beside(card: &str, robot: &str) -> SmolStr {
     match card.strip_suffix("robot.toml") {
         Some(folder) if !folder.is_empty() => SmolStr::new(format!("{folder}primitives.motet")),

@@ -1,4 +1,4 @@
-//! What stands in a `robot.toml`. Only [`super::read`] makes a [`super::Robot`] of it.
+//! TOML form of a `robot.toml`. Only [`super::read`] makes a [`super::Robot`] of it.
 //!
 //! A quantity is a number in the SI unit that its key names, or a text with a unit: `0.2` or `"20 cm"`.
 
@@ -8,19 +8,19 @@ use indexmap::IndexMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-/// The JSON Schema of a `robot.toml`, seen as the JSON of the same shape.
+/// JSON Schema of a `robot.toml`, as the JSON of the same shape.
 #[must_use]
 pub fn schema() -> Schema {
     schemars::schema_for!(CardTable)
 }
 
-/// A value and its place in the document.
+/// Value with its span in the document.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(transparent)]
 pub struct TomlSpanned<T>(pub toml::Spanned<T>);
 
 impl<T> TomlSpanned<T> {
-    /// The value.
+    /// Value without the span.
     pub fn get(&self) -> &T {
         self.0.get_ref()
     }
@@ -59,7 +59,7 @@ pub enum WrittenQuantity {
 pub struct CardTable {
     /// The robot's id in policies and on the command line, `hsr`.
     pub name: TomlSpanned<String>,
-    /// What people call it.
+    /// Title for people.
     pub title: TomlSpanned<String>,
     /// The longest time that one observation takes, in s.
     pub observe_within: TomlSpanned<WrittenQuantity>,
@@ -68,7 +68,7 @@ pub struct CardTable {
     /// Facts that hold at the start unless a state says otherwise, as text conditions: `not standing(robot)`.
     #[serde(default)]
     pub initially: Vec<TomlSpanned<String>>,
-    /// How it drives.
+    /// Drive, speeds and size of the base.
     pub base: BaseTable,
     /// Its hands by the name of their resource; the first is the one meant where only one is.
     #[serde(default)]
@@ -80,19 +80,21 @@ pub struct CardTable {
     #[serde(default)]
     #[schemars(with = "ModelTable")]
     pub model: Option<ModelTable>,
-    /// Named postures: positions of joints, in rad or m. `home` and `start` are those of the standard primitives.
+    /// Named postures: positions of joints, in rad or m. `home` and `start` are those of the standard
+    /// primitives.
     #[serde(default)]
     pub postures: IndexMap<String, TomlSpanned<IndexMap<String, TomlSpanned<WrittenQuantity>>>>,
     /// Exclusive resources, each with what it contains: using one is using what it contains.
     pub resources: IndexMap<String, TomlSpanned<Vec<TomlSpanned<String>>>>,
-    /// Other numbers that contracts may use as `robot.NAME`; a text with a unit gives the type of the quantity.
+    /// Other numbers that contracts may use as `robot.NAME`; a text with a unit gives the type of the
+    /// quantity.
     #[serde(default)]
     pub numbers: IndexMap<String, TomlSpanned<WrittenQuantity>>,
     /// The primitives that it provides, each with bounds on its numeric parameters.
     pub primitives: IndexMap<String, TomlSpanned<IndexMap<String, TomlSpanned<RangeTable>>>>,
 }
 
-/// How a robot drives.
+/// Mobile or fixed base.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Base")]
@@ -112,13 +114,13 @@ pub struct BaseTable {
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "Drive")]
 pub enum DriveWord {
-    /// Bolted down.
+    /// Fixed to the floor or a table.
     Fixed,
     /// Any direction at any time.
     Omnidirectional,
     /// Forward and turning.
     Differential,
-    /// On legs.
+    /// Drives on legs.
     Legged,
 }
 
@@ -133,7 +135,7 @@ pub struct ModelTable {
     #[serde(default)]
     #[schemars(with = "String")]
     pub base: Option<TomlSpanned<String>>,
-    /// How high above the floor that link is, in m.
+    /// Height of that link above the floor, in m.
     #[serde(default)]
     #[schemars(with = "WrittenQuantity")]
     pub height: Option<TomlSpanned<WrittenQuantity>>,
@@ -152,27 +154,27 @@ pub struct ModelTable {
 /// A direction along an axis of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Direction {
-    /// Along x.
+    /// The x axis.
     #[serde(rename = "x")]
     X,
-    /// Against x.
+    /// Opposite to the x axis.
     #[serde(rename = "-x")]
     MinusX,
-    /// Along y.
+    /// The y axis.
     #[serde(rename = "y")]
     Y,
-    /// Against y.
+    /// Opposite to the y axis.
     #[serde(rename = "-y")]
     MinusY,
-    /// Along z.
+    /// The z axis.
     #[serde(rename = "z")]
     Z,
-    /// Against z.
+    /// Opposite to the z axis.
     #[serde(rename = "-z")]
     MinusZ,
 }
 
-/// A hand.
+/// Hand with its capacity and its place in the URDF.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Hand")]
@@ -202,12 +204,12 @@ pub struct HandTable {
     pub open: IndexMap<String, TomlSpanned<WrittenQuantity>>,
 }
 
-/// A camera.
+/// Camera with its range and its place in the URDF.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Camera")]
 pub struct CameraTable {
-    /// How far it sees, in m.
+    /// Range of sight, in m.
     pub range: TomlSpanned<WrittenQuantity>,
     /// Full horizontal angle of view in rad; what a head that turns sees without moving the base counts.
     pub view: TomlSpanned<WrittenQuantity>,
@@ -224,6 +226,6 @@ pub struct CameraTable {
 pub struct RangeTable {
     /// Least, in SI units or as a text with a unit.
     pub least: TomlSpanned<WrittenQuantity>,
-    /// Greatest, likewise.
+    /// Greatest, in SI units or as a text with a unit.
     pub greatest: TomlSpanned<WrittenQuantity>,
 }

@@ -1,4 +1,4 @@
-//! A URDF with its meshes: each is replaced by the pieces that enclose it.
+//! Meshes of a URDF: each is replaced by solids that enclose it.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, FileId, Source, Span};
@@ -10,24 +10,24 @@ use super::read::{self, Triangle};
 use crate::quaternion::compose;
 use crate::urdf::{LinkShape, Urdf, UrdfShape, XmlDialect, XmlDocument};
 
-/// What was found for the name of a mesh.
+/// Result of a search for the file of a mesh.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MeshFile {
-    /// Its file.
+    /// Content of the file.
     Bytes(Vec<u8>),
-    /// Nothing at these paths; none where the name says of no path.
+    /// No file at these paths; no paths if the name gives none.
     Missing(Vec<String>),
-    /// A file, but not below the folder of the card, of the URDF or of a package.
+    /// A file outside of the folders of the card, of the URDF and of the packages.
     Outside,
-    /// A folder, or what has no end, such as a device.
+    /// A folder or a device.
     NotAFile,
-    /// A file of more than [`super::MAX_BYTES`].
+    /// A file of more than [`super::MAX_BYTES`] bytes.
     TooLarge,
 }
 
-/// Replaces the meshes that links collide with by pieces, see [`cover`], and says what is wrong with the others, each file
-/// once. `source` is what the URDF was read from; `find` is asked once a file. What cannot be read stays as it is.
-/// O(bytes of all meshes).
+/// Replaces the collision meshes of links by solids (see [`cover`]) and reports unreadable ones, each file
+/// once. `source` is the text of the URDF; `find` is called once for each file. An unreadable mesh stays in
+/// the URDF. O(bytes of all meshes).
 #[must_use]
 pub fn attach(
     source: &Source,
@@ -97,7 +97,7 @@ fn load(span: Span, name: &str, found: MeshFile) -> Result<Vec<Triangle>, Box<Di
         Box::new(UnreadMesh { span, file: name.to_owned(), problem: problem.to_owned(), help }.into())
     };
     match found {
-        // A format that is not read is no mistake of the robot's.
+        // An unsupported format is no mistake of the robot.
         MeshFile::Bytes(_) if !["stl", "obj"].contains(&read::extension(name).as_str()) => {
             Err(unread("only STL and OBJ are", "convert it, or name a shape that encloses it".to_owned()))
         }
@@ -123,7 +123,7 @@ fn help(looked: &[String]) -> String {
     )
 }
 
-/// Where each mesh is first named.
+/// Spans at which each mesh is first named.
 fn spans(source: &Source, file: FileId) -> IndexMap<String, Span> {
     let mut spans = IndexMap::new();
     let Ok(document) = XmlDocument::parse(source, file, XmlDialect::Urdf) else { return spans };

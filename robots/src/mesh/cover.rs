@@ -1,39 +1,39 @@
-//! A few boxes, cylinders and capsules that together hold a mesh, with all that it encloses.
+//! Cover of a mesh: a few boxes, cylinders and capsules that contain the mesh and all that it encloses.
 //!
-//! The mesh is cut by planes square to two axes of a frame, and each part of its surface is enclosed by itself. A straight
-//! line along the third axis stays in one part, and through a point inside of a closed surface it meets the surface on both
-//! sides: so the point lies between two points of that part, and whatever convex piece holds these holds it too. Cuts square
-//! to all three axes could leave out what lies deep inside.
+//! The mesh is cut by planes perpendicular to two axes of a frame, and each part of its surface is enclosed
+//! by itself. A line along the third axis stays in one part. Through a point inside of a closed surface it
+//! meets the surface on both sides, so the point is between two points of that part, and any convex solid
+//! that contains these contains it too. Cuts perpendicular to all three axes could miss points deep inside.
 
 use super::read::Triangle;
 use crate::quaternion::{Quaternion, from_axis_angle, inverse, mul, rotate};
 use crate::urdf::{LinkShape, Pose, UrdfShape};
 
-/// The most pieces of one mesh.
+/// Greatest number of solids of one mesh.
 const PIECES: usize = 6;
-/// A cut has to leave no more of the volume of all pieces.
+/// Greatest fraction of the total volume that a cut may leave.
 const WORTH: f64 = 0.88;
-/// What every piece is larger than it has to be, in m: more than rounding takes.
+/// Margin of every solid, in m: more than rounding.
 const SLACK: f64 = 1e-6;
-/// Where a part is cut, as shares of its extent.
+/// Positions of cuts, as fractions of the extent of a part.
 const CUTS: [f64; 3] = [0.5, 0.25, 0.75];
 /// Angles about each axis at which the frame is tried, in degrees.
 const ANGLES: [f64; 5] = [15.0, 30.0, 45.0, 60.0, 75.0];
 
-/// Convex polygons, of which the surface of a part is made.
+/// Convex polygons of the surface of a part.
 type Polygons = Vec<Vec<[f64; 3]>>;
 
-/// A part with what encloses it.
+/// Part of the surface with its enclosing solid.
 struct Part {
     polygons: Polygons,
     piece: Piece,
 }
 
-/// A shape in the frame.
+/// Solid in the frame of the cuts.
 #[derive(Clone, Copy)]
 struct Piece {
     centre: [f64; 3],
-    /// The axis of the frame along which the shape's z lies.
+    /// Axis of the frame along the z axis of the shape.
     along: usize,
     shape: Form,
     volume: f64,
@@ -46,8 +46,9 @@ enum Form {
     Capsule { radius: f64, length: f64 },
 }
 
-/// The pieces in the mesh's frame, at most six: every point on the mesh, and every point that it encloses, is in one of them.
-/// `scale` is applied to the mesh first. None where there is no triangle. O(triangles).
+/// Covers a mesh by at most six solids in the frame of the mesh: every point of the mesh, and every point
+/// that it encloses, is in one of them. `scale` is applied to the mesh first. Empty without triangles.
+/// O(triangles).
 #[must_use]
 pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<LinkShape> {
     let scaled = |[x, y, z]: [f64; 3]| [x * scale[0], y * scale[1], z * scale[2]];
@@ -78,7 +79,7 @@ pub fn cover(mesh: &[Triangle], scale: [f64; 3]) -> Vec<LinkShape> {
     parts.iter().map(|(part, _)| part.piece.placed(mesh_from_frame)).collect()
 }
 
-/// Of the mesh's own frame and those turned about one axis, that in which the box around it is smallest.
+/// Of the frame of the mesh and those rotated about one axis, the one with the smallest bounding box.
 fn best_frame(mesh: &[Triangle]) -> Option<Quaternion> {
     let turns = (0..3).flat_map(|axis| ANGLES.map(|angle| from_axis_angle(axis, angle.to_radians())));
     let frames = std::iter::once([0.0, 0.0, 0.0, 1.0]).chain(turns);
@@ -88,7 +89,7 @@ fn best_frame(mesh: &[Triangle]) -> Option<Quaternion> {
         let volume: f64 = low.iter().zip(high).map(|(low, high)| high - low + SLACK).product();
         Some((frame, volume))
     });
-    // A turn has to be worth it: the frame that a mesh was made in tends to be that of its faces.
+    // A rotation must be worth it: faces tend to follow the frame of the mesh.
     sized.reduce(|best, next| if next.1 < 0.99 * best.1 { next } else { best }).map(|(frame, _)| frame)
 }
 
@@ -129,7 +130,7 @@ impl Part {
         Some(Self { polygons, piece })
     }
 
-    /// The cut that leaves the least volume.
+    /// Finds the cut that leaves the least volume.
     fn cut(&self, axes: [usize; 2]) -> Option<[Self; 2]> {
         let (low, high) = bounds(self.polygons.iter().flatten().copied())?;
         let cuts = axes.into_iter().flat_map(|axis| CUTS.map(|share| (axis, share)));
@@ -146,7 +147,8 @@ impl Part {
     }
 }
 
-/// What of polygons lies below a plane, or with the sign −1 above it (Sutherland and Hodgman 1974).
+/// Clips polygons to the half-space below a plane, or with the sign −1 above it (Sutherland and Hodgman
+/// 1974).
 fn below(polygons: &Polygons, axis: usize, at: f64, sign: f64) -> Polygons {
     let depth = |point: [f64; 3]| (at - part(point, axis)) * sign;
     let clip = |polygon: &Vec<[f64; 3]>| {
@@ -168,7 +170,7 @@ fn below(polygons: &Polygons, axis: usize, at: f64, sign: f64) -> Polygons {
 }
 
 impl Piece {
-    /// The smallest of the shapes around polygons; none where there is no point.
+    /// Finds the smallest shape around polygons; `None` without points.
     fn around(polygons: &Polygons) -> Option<Self> {
         let points = || polygons.iter().flatten().copied();
         let (low, high) = bounds(points())?;
@@ -180,7 +182,7 @@ impl Piece {
             let out = |point| libm::hypot(part(point, a) - part(centre, a), part(point, b) - part(centre, b));
             let radius = points().map(out).fold(0.0, f64::max) + SLACK;
             let length = part(size, along);
-            // So far a ball around the end of the tube falls short of the points beyond it.
+            // Distance by which the round end of the tube misses the points beyond it.
             let beyond = |point| {
                 let out = out(point);
                 let rise = (radius * radius - out * out).max(0.0).sqrt();
@@ -203,7 +205,7 @@ impl Piece {
 
     fn placed(&self, mesh_from_frame: Quaternion) -> LinkShape {
         let right = std::f64::consts::FRAC_PI_2;
-        // Turns z to where the shape's own z lies.
+        // Rotates z to the shape's own z axis.
         let frame_from_shape = match self.along {
             0 => from_axis_angle(1, right),
             1 => from_axis_angle(0, -right),

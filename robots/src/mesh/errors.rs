@@ -1,4 +1,4 @@
-//! What can be wrong with the mesh of a link (M0448 and M0449).
+//! Diagnostics of the mesh of a link (M0448 and M0449).
 
 motet_syntax::mistakes! {
     pub const CODES;

@@ -1,10 +1,10 @@
-//! Where the file of a mesh may be. Pure: no shell, no environment, and no file is looked at here.
+//! Search paths for the file of a mesh. Pure: no shell, no environment, no file access.
 
 /// The paths at which a mesh may be, best first; the host takes the first that exists.
 ///
-/// `folder` is that of the URDF. `package://NAME/REST` is `REST` in a folder of the search path that is called `NAME`,
-/// and `NAME/REST` in any; `model://` is read likewise, `file://` is a path, and anything else is a path beside the
-/// URDF. A part `..` in a package path is refused: no paths.
+/// `folder` is that of the URDF. `package://NAME/REST` is `REST` in a folder of the search path that is
+/// called `NAME`, and `NAME/REST` in any; `model://` is read likewise, `file://` is a path, and anything else
+/// is a path beside the URDF. A part `..` in a package path is refused: no paths.
 #[must_use]
 pub fn locate(file: &str, folder: &str, search: &[String]) -> Vec<String> {
     let join = |folder: &str, rest: &str| {

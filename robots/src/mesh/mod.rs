@@ -1,5 +1,5 @@
-//! Meshes of a robot's links: triangles from STL and OBJ files, enclosed in pieces that geometry knows. No file is opened
-//! here: [`attach`] asks for the bytes of each, and [`locate`] says where they may be.
+//! Meshes of a robot's links: triangles from STL and OBJ files, enclosed in pieces that geometry knows. No
+//! file is opened here: [`attach`] asks for the bytes of each, and [`locate`] says where they may be.
 
 mod attach;
 mod cover;

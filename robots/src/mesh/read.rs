@@ -14,8 +14,8 @@ const GREATEST: f64 = 1e9;
 /// Three corners, in the mesh's frame and its unit.
 pub type Triangle = [[f64; 3]; 3];
 
-/// The triangles of a file by the end of its name: `.stl`, binary or text, or `.obj`. There is at least one, and every
-/// coordinate is finite. O(bytes).
+/// The triangles of a file by the end of its name: `.stl`, binary or text, or `.obj`. There is at least one,
+/// and every coordinate is finite. O(bytes).
 ///
 /// # Errors
 ///

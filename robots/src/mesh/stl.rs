@@ -5,7 +5,7 @@ use super::read::{MAX_TRIANGLES, Triangle, too_many};
 const HEADER: usize = 80;
 const RECORD: usize = 50;
 
-/// The triangles; which form it is is told by the length, since binary files too begin with `solid` at times.
+/// Reads STL. The length decides between the forms, since some binary files begin with `solid` too.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     let announced =
         bytes.get(HEADER..HEADER + 4).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     }
     let begins = bytes.trim_ascii_start().get(..5).unwrap_or_default();
     if begins.eq_ignore_ascii_case(b"solid") && !bytes.contains(&0) {
-        // What is no UTF-8 is in the name of the solid, which is passed over.
+        // Only the name of the solid may be no UTF-8, and it is skipped.
         return words(&String::from_utf8_lossy(bytes));
     }
     Err(match announced {
@@ -27,7 +27,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     })
 }
 
-/// Twelve numbers a record, of which the first three are the normal, and two bytes that mean nothing.
+/// Records of twelve numbers, of which the first three are the normal, and two unused bytes.
 fn binary(records: &[u8]) -> Vec<Triangle> {
     let triangle = |record: &[u8]| {
         let mut numbers =
@@ -62,7 +62,7 @@ fn words(text: &str) -> Result<Vec<Triangle>, String> {
     if corners.is_empty() { Ok(triangles) } else { Err("it ends within a facet".to_owned()) }
 }
 
-/// The first three words as numbers.
+/// Parses the first three words as numbers.
 pub(super) fn three<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f64; 3]> {
     let mut number = || words.next()?.parse().ok();
     Some([number()?, number()?, number()?])

@@ -1,4 +1,5 @@
-//! One entity or view: from its wire form to the model's, number by number. What cannot be is left out.
+//! Conversion of one entity or view from its wire form to the model, number by number. Impossible values are
+//! left out.
 
 use indexmap::IndexMap;
 use motet_syntax::Span;
@@ -11,10 +12,10 @@ use super::number::{NumberReader, SceneQuantity};
 use super::wire;
 use crate::mesh::UnreadMesh;
 
-/// Fields of entities that have a key of their own.
+/// Fields of entities with a key of their own.
 const OWN_KEYS: &[&str] = &["mass", "width"];
 
-/// An entity, its relations as given.
+/// Converts an entity, its relations unchecked.
 pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -> Entity {
     if wire.kind.is_empty() {
         numbers.found.push(EmptyName { span: wire.kind.span, key: "kind" }.into());
@@ -117,7 +118,7 @@ fn travel(travel: &wire::Travel, numbers: &mut NumberReader) -> Option<Travel> {
     }
 }
 
-/// What a camera saw.
+/// Converts a camera view.
 pub(super) fn view(view: &wire::View, numbers: &mut NumberReader) -> Option<CameraView> {
     let intrinsics = view.intrinsics.0.as_ref().and_then(|it| {
         let fx = numbers.one(&it.fx, SceneQuantity::FocalLength);

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene beyond its JSON: its numbers, its ids, and how its things stand on each other.
+//! Diagnostics of a scene beyond its JSON (M0431 to M0445): numbers, ids and relations.
 
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;

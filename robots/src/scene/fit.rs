@@ -1,4 +1,4 @@
-//! Whether a scene fits the robot that is in it: what it says of joints, beside the URDF.
+//! Checks a scene against the URDF of its robot: the joints that it names.
 
 use motet_syntax::Diagnostic;
 
@@ -6,8 +6,8 @@ use super::model::Scene;
 use crate::card::JointPosition;
 use crate::urdf::Urdf;
 
-/// Whether the joints that a scene gives are joints of the robot that move by themselves, within their limits; each mistake is told
-/// at its place in the scene. O(joints given × joints).
+/// Checks that the joints of a scene are joints of the robot that move by themselves, within their limits.
+/// Each diagnostic has the span in the scene. O(joints given × joints).
 #[must_use]
 pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
     let place = |name: &str| scene.robot.spans.0.get(name).copied().unwrap_or_default();

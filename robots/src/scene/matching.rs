@@ -1,12 +1,12 @@
-//! Which entities a description means, and how wide a thing is.
+//! Entities that a description fits, and the width of a thing.
 
 use super::model::{Entity, EntityShape, Scene};
 
 impl Scene {
-    /// The entities that a description such as `"the red mug"` fits, in the order of the file.
+    /// Entities that a description such as `"the red mug"` fits, in the order of the file.
     ///
-    /// It fits by id, a name, the class or a category, as a whole; letter case, leading articles, and the difference of
-    /// `_`, `-` and a space do not count. An empty description fits none. O(entities).
+    /// A description fits by id, a name, the class or a category, as a whole; letter case, leading articles,
+    /// and the difference of `_`, `-` and a space do not count. An empty description fits none. O(entities).
     #[must_use]
     pub fn matches(&self, description: &str) -> Vec<&Entity> {
         let wanted = normal(description);
@@ -18,8 +18,8 @@ impl Scene {
 }
 
 impl Entity {
-    /// How far a hand has to open for it, in m: the width that the scene gives, else the smallest horizontal extent of
-    /// the shape in its own frame. `None` where neither is known, as for a mesh.
+    /// Opening that a hand needs, in m: the width that the scene gives, else the smallest horizontal extent
+    /// of the shape in its own frame. `None` if neither is known, as for a mesh.
     #[must_use]
     pub fn width(&self) -> Option<f64> {
         if let Some(width) = self.fields.get("width") {
@@ -34,14 +34,14 @@ impl Entity {
         }
     }
 
-    /// Everything that it is called, as [`normal`] writes it; the same may come twice.
+    /// All its names as [`normal`] writes them, with repetitions.
     pub fn descriptions(&self) -> impl Iterator<Item = String> {
         let names = [&self.id, &self.class].into_iter().chain(&self.names).chain(&self.categories);
         names.map(|name| normal(name)).filter(|name| !name.is_empty())
     }
 }
 
-/// A description as it is compared: words in lower case with single spaces between them, without leading articles.
+/// Normal form of a description: words in lower case with single spaces, without leading articles.
 #[must_use]
 pub fn normal(text: &str) -> String {
     let is_gap = |letter: char| letter.is_whitespace() || matches!(letter, '_' | '-');

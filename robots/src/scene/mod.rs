@@ -1,4 +1,4 @@
-//! Scenes: the room, what stands in it, where the robot is at the start.
+//! Scenes: the room, the things and people in it, and the robot at the start.
 //!
 //! ```
 //! use motet_robots::scene;

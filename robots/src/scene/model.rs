@@ -1,37 +1,37 @@
-//! A scene after reading: ids are unique and identifiers or back-quotable, numbers finite, shapes positive, every
-//! entity named by `on`, `in`, `holding` exists, supports have no cycle.
+//! Data model of a scene: ids are unique and can be written in a policy, numbers are finite, shapes positive,
+//! every entity named by `on`, `in` or `holding` exists, and supports have no cycle.
 
 use indexmap::IndexMap;
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
-/// A scene. Lengths in metres, angles in radians, poses in the frame `map`, z up.
+/// Scene. Lengths in metres, angles in radians, poses in the frame `map`, z up.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Scene {
-    /// Where the robot is.
+    /// State of the robot at the start.
     pub robot: RobotState,
-    /// What there is, by id, in the order of the file.
+    /// Entities by id, in the order of the file.
     pub entities: IndexMap<SmolStr, Entity>,
-    /// What a camera saw.
+    /// Images of a camera in the room.
     pub views: Vec<CameraView>,
 }
 
-/// The robot at the start.
+/// State of the robot at the start.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct RobotState {
-    /// Position in m and heading in rad.
+    /// Position x, y in m and heading in rad.
     pub base: [f64; 3],
     /// Joint values by name, in m or rad.
     pub joints: IndexMap<SmolStr, f64>,
-    /// What it holds: `None` where the scene does not say, `Some(None)` for nothing.
+    /// Held entity: `None` if the scene does not say, `Some(None)` for an empty hand.
     pub holding: Option<Option<SmolStr>>,
-    /// The entity that it stands at so that it serves it, where the scene says.
+    /// Entity at which the robot is within its working area, if the scene gives it.
     pub at: Option<SmolStr>,
-    /// Where the scene's file gives joints.
+    /// Spans of the joints in the file of the scene.
     pub spans: JointSpans,
 }
 
-/// Where each joint was read, by its name. That is no part of where it is, so any two are equal.
+/// Spans of joints by name. They are not part of the state, so any two are equal.
 #[derive(Clone, Debug, Default)]
 pub struct JointSpans(pub IndexMap<SmolStr, Span>);
 
@@ -41,51 +41,48 @@ impl PartialEq for JointSpans {
     }
 }
 
-/// One thing, place or person.
+/// Thing, surface, container, place or person.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Entity {
-    /// Its id; the same as its key.
+    /// Id, equal to its key.
     pub id: SmolStr,
-    /// The name of its kind, `Object`.
+    /// Name of its kind, such as `Object`.
     pub kind: SmolStr,
-    /// What it is, `mug`; empty where nothing is said.
+    /// Class such as `mug`; empty if the scene gives none.
     pub class: SmolStr,
-    /// Other names, `red mug`.
+    /// Other names, such as `red mug`.
     pub names: Vec<SmolStr>,
-    /// What it belongs to, `drinkware`.
+    /// Categories such as `drinkware`.
     pub categories: Vec<SmolStr>,
-    /// The pose of its shape's centre (of the feet for a `Person` and a `Place`), where known.
+    /// Pose of the centre of its shape (of the feet for a `Person` and a `Place`), if known.
     pub pose: Option<Placement>,
-    /// Its shape.
     pub shape: Option<EntityShape>,
-    /// Its mass in kg.
+    /// Mass in kg.
     pub mass_kg: Option<f64>,
-    /// Whether it never moves.
+    /// True if it never moves.
     pub fixed: bool,
-    /// The entity that it stands on.
+    /// Entity that supports it.
     pub on: Option<SmolStr>,
-    /// The container that it is in.
+    /// Container that it is in.
     pub inside: Option<SmolStr>,
-    /// Whether the robot's camera sees it at the start.
+    /// Visibility to the camera of the robot at the start.
     pub visible: Option<bool>,
-    /// Whether it is open.
+    /// Open or closed, if known.
     pub open: Option<bool>,
-    /// Whether it is locked.
+    /// Locked or not, if known.
     pub locked: Option<bool>,
-    /// How it opens.
+    /// Motion of its drawer or door.
     pub travel: Option<Travel>,
     /// Other fields that its kind declares, in SI units.
     pub fields: IndexMap<SmolStr, f64>,
-    /// Where the scene's file says so.
+    /// Spans of the entity in the file of the scene.
     pub spans: EntitySpans,
 }
 
-/// Where an entity was read. That is no part of what it is, so any two are equal.
+/// Spans of an entity. They are not part of it, so any two are equal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EntitySpans {
-    /// Its id.
     pub id: Span,
-    /// Its kind.
     pub kind: Span,
 }
 
@@ -96,7 +93,7 @@ impl PartialEq for EntitySpans {
 }
 
 impl Entity {
-    /// A place of which only the pose is known.
+    /// Makes a place of which only the pose is known.
     #[must_use]
     pub fn place(id: SmolStr, pose: Placement) -> Self {
         Self {
@@ -121,80 +118,72 @@ impl Entity {
     }
 }
 
-/// A pose as a scene gives it.
+/// Pose with roll, pitch and yaw.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Placement {
     /// Position in m.
     pub xyz: [f64; 3],
-    /// Roll, pitch, yaw in rad, about fixed axes x, y, z in that order.
+    /// Roll, pitch, yaw in rad, about the fixed axes x, y, z in that order.
     pub rpy: [f64; 3],
 }
 
-/// A shape about its own centre, axes along the entity's.
+/// Shape centred at its origin, axes along those of the entity.
 #[derive(Clone, PartialEq, Debug)]
 pub enum EntityShape {
-    /// Full extents along x, y, z.
+    /// Box with full extents along x, y, z.
     Box([f64; 3]),
-    /// Along z.
+    /// Cylinder along z.
     Cylinder {
-        /// Radius.
         radius: f64,
-        /// Height.
         height: f64,
     },
-    /// A ball.
     Sphere {
-        /// Radius.
         radius: f64,
     },
-    /// Along z; `height` without the caps.
+    /// Capsule along z; `height` without the caps.
     Capsule {
-        /// Radius.
         radius: f64,
         /// Height of the cylinder between the caps.
         height: f64,
     },
     /// Triangles in a file.
     Mesh {
-        /// The file's name as given.
+        /// Name of the file as written.
         file: String,
         /// Scale along x, y, z.
         scale: [f64; 3],
     },
 }
 
-/// How a container or a door opens.
+/// Motion of the drawer or door of a container.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Travel {
-    /// A drawer.
     Slide {
-        /// Unit direction of opening in the entity's frame.
+        /// Unit direction of opening in the frame of the entity.
         axis: [f64; 3],
-        /// How far, in m.
+        /// Distance in m.
         distance: f64,
     },
-    /// A door.
     Hinge {
-        /// Unit axis in the entity's frame.
+        /// Unit axis in the frame of the entity.
         axis: [f64; 3],
-        /// A point of the axis in the entity's frame.
+        /// Point of the axis in the frame of the entity.
         at: [f64; 3],
-        /// How far, in rad.
+        /// Angle in rad.
         angle: f64,
     },
 }
 
-/// What a camera saw.
+/// Images of a camera in the room.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraView {
-    /// Which camera.
     pub camera: SmolStr,
-    /// The image's file.
+    /// File of the image.
     pub image: String,
-    /// The depth image's file: 16-bit PNG in mm.
+    /// File of the depth image: 16-bit PNG in mm.
     pub depth: Option<String>,
-    /// The camera's pose.
+    /// Pose of the camera.
     pub pose: Option<Placement>,
-    /// fx, fy, cx, cy in pixels.
+    /// Intrinsics fx, fy, cx, cy in pixels.
     pub intrinsics: Option<[f64; 4]>,
 }

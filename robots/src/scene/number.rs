@@ -1,28 +1,28 @@
-//! The numbers of a scene: what each measures, and whether it can be.
+//! Numbers of a scene: their quantity and their range.
 
 use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 
 use super::errors::{NotPositive, TooFar, ZeroAxis};
 
-/// The furthest coordinate and the greatest size, in m: a scene is a room or a house. The greatest angle, in rad: of a greater one
-/// rounding leaves less and less.
+/// Greatest coordinate and size in m, for a room or a house, and greatest angle in rad, beyond which rounding
+/// grows.
 pub(super) const FURTHEST: f64 = 1000.0;
 
-/// What a number measures.
+/// Quantity that a number of a scene measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum SceneQuantity {
     /// A coordinate of a position, in m.
     Coordinate,
-    /// An extent, radius, height, width or way, in m.
+    /// Extent, radius, height, width or distance, in m.
     Size,
-    /// In kg.
+    /// Mass in kg.
     Mass,
-    /// In rad.
+    /// Angle in rad.
     Angle,
-    /// How far a door opens, in rad.
+    /// Opening angle of a door, in rad.
     Opening,
-    /// Of a mesh.
+    /// Scale of a mesh.
     Scale,
     /// Of a camera, in pixels.
     FocalLength,
@@ -37,7 +37,7 @@ pub(crate) enum SceneQuantity {
 }
 
 impl SceneQuantity {
-    /// As the subject of a sentence.
+    /// Name of the quantity, with an article.
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::Coordinate => "a coordinate",
@@ -54,7 +54,7 @@ impl SceneQuantity {
         }
     }
 
-    /// A number with its unit.
+    /// Formats a number with the unit.
     pub(super) fn show(self, value: f64) -> String {
         let unit = match self {
             Self::Coordinate | Self::Size => " m",
@@ -75,7 +75,7 @@ impl SceneQuantity {
         }
     }
 
-    /// Whether it is no farther from 0 than [`FURTHEST`].
+    /// True if the magnitude is limited to [`FURTHEST`].
     fn has_bound(self) -> bool {
         match self {
             Self::Coordinate | Self::Size | Self::Angle | Self::Joint => true,
@@ -90,20 +90,20 @@ impl SceneQuantity {
     }
 }
 
-/// Says what is wrong with numbers.
+/// Checks numbers and collects diagnostics.
 #[derive(Debug, Default)]
 pub(super) struct NumberReader {
-    /// What was found so far.
+    /// Diagnostics so far.
     pub(super) found: Vec<Diagnostic>,
 }
 
 impl NumberReader {
-    /// The number, where it can be.
+    /// Checks a number; `None` if it is impossible.
     pub(super) fn one(&mut self, number: &Spanned<f64>, quantity: SceneQuantity) -> Option<f64> {
         self.value(number.value, number.span, quantity)
     }
 
-    /// The three numbers, where all can be; at most one mistake is told.
+    /// Checks three numbers; reports at most one mistake.
     pub(super) fn three(&mut self, point: &Spanned<[f64; 3]>, quantity: SceneQuantity) -> Option<[f64; 3]> {
         let [x, y, z] = point.value;
         Some([
@@ -113,10 +113,10 @@ impl NumberReader {
         ])
     }
 
-    /// The direction of a vector, with length 1.
+    /// Normalises a direction to length 1.
     pub(super) fn axis(&mut self, axis: &Spanned<[f64; 3]>) -> Option<[f64; 3]> {
         let raw = self.three(axis, SceneQuantity::Direction)?;
-        // Scaled first, so that neither tiny nor huge components are lost in the squares.
+        // Scaled first, so that the squares lose neither tiny nor huge components.
         let greatest = raw.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         if greatest == 0.0 {
             self.found.push(ZeroAxis { span: axis.span }.into());
@@ -127,7 +127,7 @@ impl NumberReader {
         Some(scaled.map(|part| part / length))
     }
 
-    /// The value is finite: JSON has no other, and the reader takes no number that is too large for a float.
+    /// The value is finite: JSON has no other numbers, and the reader refuses those too large for a float.
     fn value(&mut self, value: f64, span: Span, quantity: SceneQuantity) -> Option<f64> {
         if quantity.has_to_be_positive() && value <= 0.0 {
             self.found.push(NotPositive { span, quantity, found: value }.into());

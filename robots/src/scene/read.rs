@@ -1,5 +1,5 @@
-//! From JSON to a [`Scene`]: ids, the robot, and what stands on what. Entities are checked one by one in
-//! [`super::check`], their relations in [`super::relations`].
+//! Reader of scenes, from JSON to a [`Scene`]: ids and the robot. [`super::check`] checks single entities,
+//! [`super::relations`] their relations.
 
 use indexmap::IndexMap;
 use motet_syntax::json::{self, Spanned};
@@ -13,15 +13,15 @@ use super::number::{NumberReader, SceneQuantity};
 use super::relations;
 use super::wire;
 
-/// The most entities of one scene.
+/// Greatest number of entities in one scene.
 pub const MAX_ENTITIES: usize = 20_000;
 
-/// Ids that mean something else in a policy.
+/// Ids with a meaning of their own in policies.
 const RESERVED: &[&str] = &["robot", "any"];
 
-/// Reads a scene, with everything that is wrong with it.
+/// Reads a scene and returns it with its diagnostics.
 ///
-/// A scene comes with every error but those after which nothing could be read; what is wrong is left out of it, so it
+/// Only an unreadable document gives no scene. Otherwise the scene comes without its faulty parts, so it
 /// keeps the invariants of the model. O(bytes).
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> (Option<Scene>, Vec<Diagnostic>) {

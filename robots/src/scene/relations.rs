@@ -1,4 +1,4 @@
-//! What stands on, lies in or is held by what: every name exists, and nothing carries itself.
+//! Relations of a scene (`on`, `in`, `holding`, `at`): every name exists, and supports have no cycle.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,10 +10,10 @@ use super::errors::{HeldElsewhere, SupportCycle, UnknownEntity};
 use super::model::Scene;
 use super::wire;
 
-/// For how many mistakes a close name is looked for, and how many things of a ring are shown.
+/// Number of mistakes for which a close name is searched, and of entities of a cycle that are listed.
 const SHOWN: usize = 8;
 
-/// Takes relations out of the scene that cannot be, and says why.
+/// Removes impossible relations from the scene and returns their diagnostics.
 pub(super) fn resolve_relations(
     scene: &mut Scene,
     wires: &[Spanned<wire::Entity>],
@@ -39,12 +39,12 @@ struct Relations<'s> {
 }
 
 impl Relations<'_> {
-    /// Whether a name is not known; then it is told, with the right one where one is close.
+    /// Reports an unknown name, with the right one if one is close; returns true for an unknown name.
     fn unknown(&mut self, key: &'static str, name: &Spanned<SmolStr>) -> bool {
         if self.scene.entities.contains_key(&name.value) {
             return false;
         }
-        // Looking for a close name takes as long as there are names: it is worth it for the first mistakes.
+        // A search for a close name is linear in the names: it is worth it for the first mistakes.
         let known = self.scene.entities.keys().map(SmolStr::as_str).filter(|_| self.found.len() < SHOWN);
         let near = suggest::closest(&name.value, known).map(SmolStr::new);
         self.found.push(UnknownEntity { span: name.span, key, name: name.value.clone(), near }.into());
@@ -80,7 +80,7 @@ impl Relations<'_> {
         }
     }
 
-    /// Finds rings, and opens each. Every entity has at most two supports; each is walked once. O(entities).
+    /// Finds cycles and cuts each. An entity has at most two supports, and each is visited once. O(entities).
     fn cycles(&mut self, wires: &[Spanned<wire::Entity>]) {
         // Of entities with one id the first counts.
         let places = wires.iter().rev().map(|wire| (&wire.id.value, where_said(wire)));
@@ -88,7 +88,7 @@ impl Relations<'_> {
         let mut done: HashSet<SmolStr> = HashSet::new();
         let roots: Vec<SmolStr> = self.scene.entities.keys().cloned().collect();
         for root in roots {
-            // The way that the walk came, each with how many of its two supports were seen, and the same as a set.
+            // Path of the walk, each entity with the number of its supports visited, and the same as a set.
             let mut way: Vec<(SmolStr, u8)> = Vec::new();
             let mut on_way: HashSet<SmolStr> = HashSet::new();
             let mut next = Some(root);
@@ -117,7 +117,7 @@ impl Relations<'_> {
         }
     }
 
-    /// What carries an entity: first what it is on, then what it is in.
+    /// Support of an entity: 0 for `on`, 1 for `in`.
     fn support(&self, id: &SmolStr, which: u8) -> Option<SmolStr> {
         let entity = self.scene.entities.get(id)?;
         match which {
@@ -141,7 +141,7 @@ impl Relations<'_> {
     }
 }
 
-/// Where an entity says what carries it.
+/// Span of the support of an entity.
 fn where_said(wire: &wire::Entity) -> Span {
     wire.on.as_ref().or(wire.r#in.as_ref()).map_or(wire.id.span, |place| place.span)
 }

@@ -1,5 +1,4 @@
-//! What a scene looks like in JSON. From these types it is read and described; they are not the model, which
-//! [`super::read`] makes of them.
+//! JSON form of a scene. These types give its reader and its schema; [`super::read`] makes the model of them.
 
 use indexmap::IndexMap;
 use motet_syntax::json::{Lenient, Spanned};
@@ -7,16 +6,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use smol_str::SmolStr;
 
-/// The JSON Schema of a scene.
+/// JSON Schema of a scene.
 #[must_use]
 pub fn schema() -> schemars::Schema {
     schemars::schema_for!(Document)
 }
 
-/// A number, position or direction, with its place.
+/// Three numbers with their span.
 pub(super) type Point = Spanned<[f64; 3]>;
 
-/// A Motet scene: the room, what stands in it, where the robot is at the start. Lengths in metres, angles in radians,
+/// A Motet scene: the room, its entities, and the robot at the start. Lengths in metres, angles in radians,
 /// masses in kilograms, z up.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -35,7 +34,7 @@ pub(super) struct Document {
     /// Things, places and people.
     #[serde(default)]
     pub(super) entities: Vec<Lenient<Spanned<Entity>>>,
-    /// What cameras saw.
+    /// Images of cameras in the room.
     #[serde(default)]
     pub(super) views: Vec<Lenient<View>>,
 }
@@ -50,15 +49,15 @@ pub(super) struct Robot {
     /// Joint values by name, in m or rad.
     #[serde(default)]
     pub(super) joints: IndexMap<SmolStr, Spanned<f64>>,
-    /// What it holds: `null` for nothing; nothing is said where the key is missing.
+    /// Held entity: `null` for an empty hand; without the key nothing is known.
     #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
     pub(super) holding: Option<Option<Spanned<SmolStr>>>,
-    /// The entity that it stands at so that it serves it.
+    /// Entity at which the robot is within its working area.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at: Option<Spanned<SmolStr>>,
 }
 
-/// Tells a key that is `null` from one that is missing.
+/// Distinguishes a key that is `null` from a missing one.
 fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Spanned<SmolStr>>>, D::Error> {
     Deserialize::deserialize(deserializer).map(Some)
 }
@@ -71,27 +70,29 @@ fn is_absent<T>(value: &Lenient<T>) -> bool {
     value.0.is_none()
 }
 
-/// One thing, place or person.
+/// A thing, surface, container, place or person.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Entity {
     /// Its id, unique in the scene.
     pub(super) id: Spanned<SmolStr>,
-    /// The name of its kind: `Object`, `Surface`, `Container`, `Place`, `Person`, or one that a robot declares.
+    /// The name of its kind: `Object`, `Surface`, `Container`, `Place`, `Person`, or one that a robot
+    /// declares.
     pub(super) kind: Spanned<SmolStr>,
-    /// What it is: `mug`.
+    /// Class, such as `mug`.
     #[serde(default)]
     pub(super) class: SmolStr,
-    /// Other names: `red mug`.
+    /// Other names, such as `red mug`.
     #[serde(default)]
     pub(super) names: Vec<SmolStr>,
-    /// What it belongs to: `drinkware`.
+    /// Categories, such as `drinkware`.
     #[serde(default)]
     pub(super) categories: Vec<SmolStr>,
-    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`; of what opens, the pose when closed.
+    /// The pose of its shape's centre, of the feet for a `Person` and a `Place`; of what opens, the pose when
+    /// closed.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
     pub(super) pose: Lenient<Pose>,
-    /// Its shape.
+    /// Shape about its pose.
     #[serde(default = "absent::<Shape>", skip_serializing_if = "is_absent")]
     pub(super) shape: Lenient<Shape>,
     /// Its mass in kg.
@@ -100,25 +101,25 @@ pub(super) struct Entity {
     /// The width in m that a hand has to span; without it the smallest horizontal extent of the shape counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) width: Option<Spanned<f64>>,
-    /// Whether it never moves.
+    /// True if it never moves.
     #[serde(default)]
     pub(super) fixed: bool,
-    /// The entity that it stands on.
+    /// Entity at which the robot is within its working area.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) on: Option<Spanned<SmolStr>>,
     /// The container that it is in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) r#in: Option<Spanned<SmolStr>>,
-    /// Whether the robot's camera sees it at the start.
+    /// Visibility to the camera of the robot at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) visible: Option<bool>,
-    /// Whether it is open.
+    /// Open (true) or closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) open: Option<bool>,
-    /// Whether it is locked.
+    /// Locked (true) or not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) locked: Option<bool>,
-    /// How it opens; what has none is always open.
+    /// Motion of its drawer or door; a container without one is always open.
     #[serde(default = "absent::<Travel>", skip_serializing_if = "is_absent")]
     pub(super) travel: Lenient<Travel>,
     /// Other numbers that its kind declares, in SI units.
@@ -143,9 +144,9 @@ pub(super) struct Pose {
 pub(super) enum Shape {
     /// Full extents along x, y, z in m.
     Box(Point),
-    /// Along z.
+    /// Cylinder along z.
     Cylinder(Rod),
-    /// A ball.
+    /// Sphere with its radius.
     Sphere(Ball),
     /// Along z; `height` without the caps.
     Capsule(Rod),
@@ -163,7 +164,7 @@ pub(super) struct Rod {
     pub(super) height: Spanned<f64>,
 }
 
-/// A ball.
+/// Sphere with its radius.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Ball {
@@ -182,27 +183,27 @@ pub(super) struct Mesh {
     pub(super) scale: Option<Point>,
 }
 
-/// How a container or a door opens.
+/// Motion of the drawer or door of a container.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Travel {
-    /// A drawer.
+    /// Drawer that slides out.
     Slide(Slide),
     /// A door or a lid.
     Hinge(Hinge),
 }
 
-/// How a drawer opens.
+/// Motion of a drawer.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Slide {
     /// Direction of opening in the entity's frame.
     pub(super) axis: Point,
-    /// How far, in m.
+    /// Distance, in m.
     pub(super) distance: Spanned<f64>,
 }
 
-/// How a door opens.
+/// Motion of a door.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Hinge {
@@ -210,15 +211,15 @@ pub(super) struct Hinge {
     pub(super) axis: Point,
     /// A point of the axis in the entity's frame, in m.
     pub(super) at: Point,
-    /// How far, in rad, at most a whole turn.
+    /// Angle, in rad, at most a full turn.
     pub(super) angle: Spanned<f64>,
 }
 
-/// What a camera saw.
+/// Images of a camera in the room.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct View {
-    /// Which camera.
+    /// Name of the camera.
     pub(super) camera: SmolStr,
     /// The image's file.
     pub(super) image: String,

@@ -1,10 +1,12 @@
-//! From a [`Scene`] to its JSON text. What the model leaves open is left out, so reading it gives the same scene.
+//! From a [`Scene`] to its JSON text. What the model leaves open is left out, so reading it gives the same
+//! scene.
 
 use serde_json::{Map, Value, json};
 
 use super::model::{CameraView, Entity, EntityShape, Placement, RobotState, Scene, Travel};
 
-/// Writes a scene as one line of JSON. Reading it again gives the same scene where all its numbers are finite. O(entities).
+/// Writes a scene as one line of JSON. Reading it again gives the same scene where all its numbers are
+/// finite. O(entities).
 #[must_use]
 pub fn write(scene: &Scene) -> String {
     let entities: Vec<Value> = scene.entities.values().map(entity).collect();
@@ -145,7 +147,7 @@ mod tests {
     fn what_is_written_is_read_as_the_same_scene() {
         for (name, text) in embedded().iter().copied().chain([("all", ALL)]) {
             let (scene, mut said) = read(&Source::new(name, text), FileId(0));
-            // That a mesh is not read.
+            // Warnings for meshes are expected.
             said.retain(|said| said.severity == Severity::Error);
             assert!(said.is_empty(), "{name}: {said:?}");
             let scene = scene.unwrap();

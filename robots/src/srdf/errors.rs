@@ -1,4 +1,4 @@
-//! What can be wrong with a SRDF (M0471, M0472, M0477 and M0478), beside what can be wrong with any XML.
+//! Diagnostics of an SRDF (M0471, M0472, M0477 and M0478), beside those of any XML.
 
 use motet_syntax::{Related, Span};
 

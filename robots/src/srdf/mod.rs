@@ -1,5 +1,6 @@
-//! What a SRDF adds to a URDF: groups of links and joints, end effectors, and pairs of links that may touch. Read against
-//! the URDF, so that every name in it stands for something. Virtual and passive joints, spheres and states are passed over.
+//! SRDF: groups of links and joints, end effectors, and pairs of links that may touch. It is read against the
+//! URDF, so every name in it refers to a link or joint. Virtual and passive joints, spheres and states are
+//! skipped.
 
 mod errors;
 mod read;
@@ -10,23 +11,21 @@ use smol_str::SmolStr;
 pub use errors::CODES;
 pub use read::read;
 
-/// A SRDF after reading; links and joints are indices into the URDF.
+/// SRDF after reading; links and joints are indices into the URDF.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Srdf {
     /// Groups by name.
     pub groups: IndexMap<SmolStr, JointGroup>,
     /// End effectors by name.
     pub end_effectors: IndexMap<SmolStr, EndEffector>,
-    /// Pairs of links whose collision does not count, the lower index first, sorted, each once.
+    /// Pairs of links that may touch, the lower index first, sorted, each once.
     pub disabled: Vec<[usize; 2]>,
 }
 
-/// Parts that are planned for together.
+/// Links and joints that are planned together.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct JointGroup {
-    /// Links.
     pub links: Vec<usize>,
-    /// Joints.
     pub joints: Vec<usize>,
     /// Chains, from base link to tip link.
     pub chains: Vec<[usize; 2]>,
@@ -34,11 +33,11 @@ pub struct JointGroup {
     pub groups: Vec<SmolStr>,
 }
 
-/// A hand.
+/// End effector: a hand on an arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EndEffector {
-    /// The group of its own links and joints.
+    /// Group of its own links and joints.
     pub group: SmolStr,
-    /// The link that it is mounted on.
+    /// Link on which it is mounted.
     pub parent: usize,
 }

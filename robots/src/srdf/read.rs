@@ -1,4 +1,4 @@
-//! From the text of a SRDF to a [`Srdf`], or to what is wrong with it.
+//! Reader of SRDF, with diagnostics.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
@@ -10,7 +10,7 @@ use super::errors::{GroupCycle, NotSrdf, TakenPart, UnknownPart};
 use super::{EndEffector, JointGroup, Srdf};
 use crate::urdf::{Urdf, XmlDialect, XmlDocument, XmlSpans, children, is_own, unknown};
 
-/// Reads a SRDF of a robot. There is none where there is an error. O(bytes + links + joints).
+/// Reads the SRDF of a robot. `None` if there is an error. O(bytes + links + joints).
 #[must_use]
 pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Diagnostic>) {
     let document = match XmlDocument::parse(source, file, XmlDialect::Srdf) {
@@ -38,10 +38,10 @@ pub fn read(source: &Source, file: FileId, urdf: &Urdf) -> (Option<Srdf>, Vec<Di
     ((!wrong).then_some(srdf), found)
 }
 
-/// What is read.
+/// Elements that are read.
 const PARTS: [&str; 3] = ["group", "end_effector", "disable_collisions"];
 
-/// What other tools read.
+/// Elements of other tools, which are skipped.
 const PASSED_OVER: [&str; 9] = [
     "virtual_joint",
     "passive_joint",
@@ -112,7 +112,7 @@ impl SrdfReader {
         srdf
     }
 
-    /// Says what stands in an element and is neither known nor read by others.
+    /// Reports elements that are neither read nor known from other tools.
     fn elements(&mut self, node: Node<'_, '_>, known: &[&'static str], passed_over: &[&'static str]) {
         for child in node.children().filter(|child| is_own(node, child)) {
             let name = child.tag_name().name();
@@ -174,12 +174,13 @@ impl SrdfReader {
     }
 }
 
-/// A group that contains itself, by way of those between, the first at both ends. O(groups and what they name).
+/// Finds a group that contains itself, with those in between and the first at both ends. O(groups and their
+/// names).
 fn ring(groups: &IndexMap<SmolStr, JointGroup>) -> Option<Vec<SmolStr>> {
     let mut seen = vec![false; groups.len()];
     let mut is_open = vec![false; groups.len()];
     for start in 0..groups.len() {
-        // Groups that contain each other, with how many of each one's own were looked at.
+        // Open groups, each with the number of its subgroups visited.
         let mut path = vec![(start, 0)];
         while let Some((at, next)) = path.last_mut() {
             let at = *at;

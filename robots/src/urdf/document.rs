@@ -1,37 +1,39 @@
-//! The XML under a robot description: parsed within limits, with the place of every element and attribute.
+//! XML of a robot description: parsed within limits, with the span of every element and attribute.
 //!
-//! The parser keeps no recursion and opens no entity; a depth limit guards whoever reads the file after us.
+//! The parser does not recurse and opens no entity; a depth limit guards later readers of the file.
 
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::{Error, Node, ParsingOptions};
 
 use super::errors::{LeftoverXacro, MissingPart, NotXml, TooMuch};
 
-/// The most XML nodes (elements, texts, comments) of one description. The largest in use have some ten thousand.
+/// Greatest number of XML nodes (elements, texts, comments) of one description. The largest in use have some
+/// ten thousand.
 const MAX_NODES: u32 = 200_000;
-/// The deepest nesting; a URDF needs five levels, extensions some more.
+/// Greatest nesting depth; a URDF needs five levels, extensions some more.
 const MAX_DEPTH: usize = 64;
 
-/// What a document is meant to be.
+/// Format of an XML document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum XmlDialect {
     /// A robot's links and joints.
     Urdf,
-    /// What is said beside it.
+    /// Semantic description beside a URDF.
     Srdf,
 }
 
-/// A parsed description.
+/// Parsed XML document.
 pub(crate) struct XmlDocument<'t> {
     xml: roxmltree::Document<'t>,
     pub(crate) spans: XmlSpans,
 }
 
-/// From nodes to places in the file.
+/// Conversion of nodes to spans.
 #[derive(Clone, Copy)]
 pub(crate) struct XmlSpans {
     file: FileId,
-    /// Bytes before the XML, which must start its file to be well-formed: a blanked byte order mark, empty lines.
+    /// Bytes before the XML, which must start its file to be well-formed: a blanked byte order mark, empty
+    /// lines.
     skipped: usize,
 }
 
@@ -66,7 +68,8 @@ impl<'t> XmlDocument<'t> {
     fn too_deep(&self) -> Option<Node<'_, 't>> {
         let mut open: Vec<roxmltree::NodeId> = Vec::new();
         for node in self.xml.root_element().descendants().filter(Node::is_element) {
-            // `descendants` goes in document order, so the elements around this one are a prefix of those before it.
+            // `descendants` goes in document order, so the elements around this one are a prefix of those
+            // before it.
             while open.last().copied() != node.parent().map(|parent| parent.id()) && open.pop().is_some() {}
             open.push(node.id());
             if open.len() > MAX_DEPTH {
@@ -82,7 +85,7 @@ impl XmlSpans {
         Span::new(self.file, range.start + self.skipped, range.end + self.skipped)
     }
 
-    /// The place of an element: `<` and its name.
+    /// Span of an element: `<` and its name.
     pub(crate) fn tag(self, node: Node<'_, '_>) -> Span {
         let start = node.range().start;
         let text = node.document().input_text().get(start..).unwrap_or_default();
@@ -90,7 +93,7 @@ impl XmlSpans {
         self.span(start..start + end)
     }
 
-    /// An attribute's value and the value's place.
+    /// Value of an attribute and its span.
     pub(crate) fn attribute<'a>(self, node: Node<'a, '_>, name: &str) -> Option<(&'a str, Span)> {
         let attribute = node.attribute_node(name)?;
         Some((attribute.value(), self.span(attribute.range_value())))
@@ -110,7 +113,7 @@ impl XmlSpans {
         attribute
     }
 
-    /// That an element lacks a part.
+    /// Diagnostic for a missing part of an element.
     pub(crate) fn missing(self, node: Node<'_, '_>, part: &'static str, kind: XmlPart) -> Diagnostic {
         let name = node.attribute("name").unwrap_or_default().to_owned();
         let element = node.tag_name().name().to_owned();
@@ -147,26 +150,24 @@ impl XmlSpans {
     }
 }
 
-/// What kind of part an element lacks.
+/// Kind of a missing part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum XmlPart {
-    /// `name="…"`
     Attribute,
-    /// `<name …/>`
     Element,
 }
 
-/// Whether an element belongs to the same language as the one around it: a prefix says that it is somebody else's.
+/// Checks whether a child belongs to the language of its parent: a prefix marks another one.
 pub(crate) fn is_own(node: Node<'_, '_>, child: &Node<'_, '_>) -> bool {
     child.is_element() && child.tag_name().namespace() == node.tag_name().namespace()
 }
 
-/// The child elements with this name.
+/// Child elements with a name.
 pub(crate) fn children<'a, 't>(node: Node<'a, 't>, name: &'static str) -> impl Iterator<Item = Node<'a, 't>> {
     node.children().filter(move |child| is_own(node, child) && child.tag_name().name() == name)
 }
 
-/// The first child element with this name.
+/// First child element with a name.
 pub(crate) fn child<'a, 't>(node: Node<'a, 't>, name: &'static str) -> Option<Node<'a, 't>> {
     children(node, name).next()
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a URDF (M0451 to M0470, M0473 to M0476).
+//! Diagnostics of a URDF (M0451 to M0470, M0473 to M0476).
 
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};

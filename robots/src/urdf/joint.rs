@@ -1,4 +1,4 @@
-//! One joint: its kind, axis, limits and mimic rule. What its names refer to is settled in [`super::tree`].
+//! Reader of one joint: kind, axis, limits and mimic rule. [`super::tree`] resolves its names.
 
 use motet_syntax::{Span, suggest};
 use roxmltree::Node;
@@ -8,10 +8,10 @@ use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, ZeroAxi
 use super::model::{JointKind, JointLimits, Pose};
 use super::number::UrdfReader;
 
-/// A name and where it stands.
+/// Name with its span.
 pub(super) type SpannedName<'a> = (&'a str, Span);
 
-/// A joint whose names are not looked up yet.
+/// Joint with unresolved names.
 pub(super) struct RawJoint<'a> {
     pub(super) name: SpannedName<'a>,
     pub(super) kind: JointKind,
@@ -24,7 +24,7 @@ pub(super) struct RawJoint<'a> {
     pub(super) mimic: Option<RawMimic<'a>>,
 }
 
-/// A mimic rule whose leader is not looked up yet.
+/// Mimic rule with an unresolved leader.
 pub(super) struct RawMimic<'a> {
     pub(super) leader: SpannedName<'a>,
     pub(super) multiplier: f64,
@@ -32,7 +32,7 @@ pub(super) struct RawMimic<'a> {
 }
 
 impl UrdfReader {
-    /// A joint; `None` where a part is missing without which it means nothing.
+    /// Reads a joint; `None` if an essential part is missing.
     pub(super) fn joint<'a>(&mut self, node: Node<'a, '_>, name: SpannedName<'a>) -> Option<RawJoint<'a>> {
         let kind = self.kind(node);
         let parent = self.end(node, "parent");
@@ -84,7 +84,7 @@ impl UrdfReader {
         self.spans.required(end, "link", &mut self.found)
     }
 
-    /// The axis at length 1; x where the file gives none, as URDF says.
+    /// Axis with length 1; x if the file gives none, as URDF says.
     fn axis(&mut self, node: Node<'_, '_>, joint: &str, kind: JointKind) -> [f64; 3] {
         const X: [f64; 3] = [1.0, 0.0, 0.0];
         if matches!(kind, JointKind::Fixed | JointKind::Floating) {
@@ -101,7 +101,7 @@ impl UrdfReader {
         xyz.map(|value| value / norm)
     }
 
-    /// Position limits and the greatest speed, from `<limit>`. `<safety_controller>` is passed over: its soft limits
+    /// Position limits and greatest speed, from `<limit>`. `<safety_controller>` is skipped: its soft limits
     /// belong to a controller, and files leave them at zero.
     fn limits(
         &mut self,
@@ -121,7 +121,7 @@ impl UrdfReader {
         if !needed {
             return (None, velocity);
         }
-        // URDF takes a bound that is not written as 0.
+        // A missing bound counts as 0 in URDF.
         let (lower, upper) = (self.limit(limit, "lower"), self.limit(limit, "upper"));
         let span = lower.or(upper).map_or(self.spans.tag(limit), |(_, span)| span);
         let (lower, upper) = (lower.map_or(0.0, |(value, _)| value), upper.map_or(0.0, |(value, _)| value));

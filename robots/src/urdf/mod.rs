@@ -1,9 +1,19 @@
-//! Robot descriptions in URDF: from the text to a tree of links and joints that is sound, or to what is wrong with it.
+//! URDF: from text to a sound tree of links and joints, with diagnostics.
 //!
-//! The reader takes its numbers from the same parse that it checks, so what was checked is what is used. It reads what
-//! kinematics and collision need: links with their shapes, joints with their origin, axis, limits and mimic rule.
-//! Inertia, materials, transmissions and simulator extensions are passed over. No file is opened: a mesh is a name
-//! until [`crate::mesh::attach`] reads it.
+//! The reader takes its numbers from the parse that it checks, so the checked values are the used ones. It
+//! reads what kinematics and collision checking need: links with their shapes, joints with origin, axis,
+//! limits and mimic rule. It skips inertia, materials, transmissions and simulator extensions. It opens no
+//! file: a mesh is a name until [`crate::mesh::attach`] reads it.
+//!
+//! ```
+//! use motet_robots::{builtin, urdf};
+//! use motet_syntax::{FileId, Source};
+//!
+//! let text = builtin::robot_texts("panda").unwrap().urdf;
+//! let (robot, diagnostics) = urdf::read(&Source::new("robot.urdf", text), FileId(0));
+//! assert!(diagnostics.is_empty());
+//! assert!(robot.unwrap().joint("panda_joint1").is_some());
+//! ```
 
 mod document;
 mod errors;

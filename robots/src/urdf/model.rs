@@ -1,97 +1,92 @@
-//! A URDF after reading: names are unique, every number is finite and in range, and the links form one tree.
+//! Data model of a URDF: names are unique, every number is finite and in range, and the links form one tree.
 
 use smol_str::SmolStr;
 
-/// A robot's links and joints. There is at least one link.
+/// Links and joints of a robot. There is at least one link.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Urdf {
-    /// What the file calls the robot; may be empty.
+    /// Name of the robot in the file; may be empty.
     pub name: SmolStr,
-    /// The links, in the order of the file.
+    /// Links, in the order of the file.
     pub links: Vec<Link>,
-    /// The joints, each after the joint that carries its parent link.
+    /// Joints, each after the joint that carries its parent link.
     pub joints: Vec<Joint>,
     /// Index of the link that no joint moves.
     pub root: usize,
-    /// Pairs of links whose collision does not count, the lower index first: none from the file itself, what
-    /// [`crate::srdf::read`] finds in an SRDF.
+    /// Pairs of links that may touch, the lower index first: empty for the file alone; [`crate::srdf::read`]
+    /// finds them in an SRDF.
     pub may_touch: Vec<[usize; 2]>,
 }
 
 impl Urdf {
-    /// Index of the link with this name. O(links).
+    /// Index of the link with a name. O(links).
     #[must_use]
     pub fn link(&self, name: &str) -> Option<usize> {
         self.links.iter().position(|link| link.name == name)
     }
 
-    /// Index of the joint with this name. O(joints).
+    /// Index of the joint with a name. O(joints).
     #[must_use]
     pub fn joint(&self, name: &str) -> Option<usize> {
         self.joints.iter().position(|joint| joint.name == name)
     }
 
-    /// The joint that carries a link; `None` for the root. O(joints).
+    /// Joint that carries a link; `None` for the root. O(joints).
     #[must_use]
     pub fn carrier(&self, link: usize) -> Option<&Joint> {
         self.joints.iter().find(|joint| joint.child == link)
     }
 }
 
-/// A rigid part.
+/// Rigid link of a robot.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Link {
-    /// Its name, unique among links.
+    /// Name, unique among links.
     pub name: SmolStr,
-    /// Its shapes for collision, in the link's frame.
+    /// Shapes for collision checks, in the frame of the link.
     pub collisions: Vec<LinkShape>,
-    /// Its shapes for showing, in the link's frame.
+    /// Shapes for display, in the frame of the link.
     pub visuals: Vec<LinkShape>,
 }
 
-/// A shape somewhere on a link.
+/// Shape with its pose on a link.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LinkShape {
-    /// Pose of the shape's centre in the link's frame.
+    /// Pose of the centre of the shape in the frame of the link.
     pub link_from_shape: Pose,
-    /// What it is.
     pub shape: UrdfShape,
 }
 
-/// A shape, centred at its origin; lengths in m, none negative.
+/// Shape centred at its origin; lengths in m, none negative.
 #[derive(Clone, PartialEq, Debug)]
 pub enum UrdfShape {
-    /// A box with its full extents along x, y and z.
+    /// Box with full extents along x, y and z.
     Box([f64; 3]),
-    /// A cylinder along z.
+    /// Cylinder along z.
     Cylinder {
-        /// Radius.
         radius: f64,
-        /// Full length.
         length: f64,
     },
-    /// A capsule along z.
+    /// Capsule along z.
     Capsule {
         /// Radius of the tube and of both ends.
         radius: f64,
         /// Length of the tube, without the round ends.
         length: f64,
     },
-    /// A sphere.
     Sphere {
-        /// Radius.
         radius: f64,
     },
     /// Triangles from a file.
     Mesh {
-        /// The file as the URDF names it: `package://…`, `file://…` or a path beside the URDF.
+        /// File as the URDF names it: `package://…`, `file://…` or a path relative to the URDF.
         file: String,
         /// Factors along x, y and z, none zero; a negative one mirrors.
         scale: [f64; 3],
     },
 }
 
-/// A rigid transform.
+/// Rigid transform.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pose {
     /// Translation in m.
@@ -101,35 +96,35 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// No motion at all.
+    /// Identity transform.
     pub const IDENTITY: Self = Self { xyz: [0.0; 3], quaternion_xyzw: [0.0, 0.0, 0.0, 1.0] };
 }
 
-/// How a link hangs on its parent.
+/// Joint between a parent and a child link.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Joint {
-    /// Its name, unique among joints.
+    /// Name, unique among joints.
     pub name: SmolStr,
-    /// What it allows.
+    /// Motions that it allows.
     pub kind: JointKind,
-    /// Index of the link that it hangs on.
+    /// Index of the parent link.
     pub parent: usize,
-    /// Index of the link that it moves.
+    /// Index of the child link.
     pub child: usize,
     /// Pose of the joint, and of the child at position 0, in the parent's frame.
     pub parent_from_joint: Pose,
     /// Unit vector in the joint's frame: axis of rotation, direction of travel, or normal of the plane.
     pub axis: [f64; 3],
-    /// Range of positions in rad or m; `None` for a joint without (fixed, continuous, planar, floating). For one
-    /// that moves by itself it is where all that follow it are within theirs, too.
+    /// Range of positions in rad or m; `None` for a joint without limits (fixed, continuous, planar,
+    /// floating). For a joint that moves by itself it is narrowed to the limits of all that follow it.
     pub limits: Option<JointLimits>,
-    /// Greatest speed in rad/s or m/s; `None` where the file gives none.
+    /// Greatest speed in rad/s or m/s; `None` if the file gives none.
     pub velocity: Option<f64>,
-    /// The joint that it follows. No chain of these comes back to itself.
+    /// Mimic rule. No chain of these has a cycle.
     pub mimic: Option<Mimic>,
 }
 
-/// The kind of a joint.
+/// Kind of a joint.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum JointKind {
     /// Does not move.
@@ -142,12 +137,12 @@ pub enum JointKind {
     Prismatic,
     /// Slides in a plane and turns about its normal.
     Planar,
-    /// Moves freely; held at its origin, which a warning says.
+    /// Moves freely; held at its origin, with a warning.
     Floating,
 }
 
 impl JointKind {
-    /// The kinds by the word that a URDF uses.
+    /// Kinds by their word in a URDF.
     pub const WORDS: [(&'static str, Self); 6] = [
         ("fixed", Self::Fixed),
         ("revolute", Self::Revolute),
@@ -157,28 +152,26 @@ impl JointKind {
         ("floating", Self::Floating),
     ];
 
-    /// Whether one number says where it is.
+    /// True if one number gives the position of the joint.
     #[must_use]
     pub fn has_one_position(self) -> bool {
         matches!(self, Self::Revolute | Self::Continuous | Self::Prismatic)
     }
 }
 
-/// A closed interval of joint positions; `lower <= upper`, both finite.
+/// Closed interval of joint positions; `lower <= upper`, both finite.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct JointLimits {
-    /// Least, in rad or m.
+    /// Least position, in rad or m.
     pub lower: f64,
-    /// Greatest.
     pub upper: f64,
 }
 
-/// A joint that follows another: `position = multiplier * other + offset`.
+/// Mimic rule: `position = multiplier * leader + offset`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Mimic {
-    /// Index of the joint that it follows.
+    /// Index of the leader joint.
     pub joint: usize,
-    /// Factor.
     pub multiplier: f64,
     /// Offset in rad or m.
     pub offset: f64,

@@ -1,5 +1,5 @@
-//! Numbers and poses in attributes. Every word of a vector has to be a number: a reader that skips what it cannot parse
-//! takes `"abc 1 2 3"` for a vector.
+//! Reader of numbers and poses in attributes. Every word of a vector must be a number: a reader that skips
+//! what it cannot parse accepts `"abc 1 2 3"` as a vector.
 
 use motet_syntax::{Diagnostic, Span};
 use roxmltree::Node;
@@ -8,19 +8,19 @@ use super::document::{XmlSpans, child};
 use super::errors::{BadNumber, ImpossibleNumber};
 use super::model::Pose;
 
-/// No length or offset of a robot is larger, in m or rad.
+/// Greatest length or offset of a robot, in m or rad.
 const GREATEST: f64 = 1e6;
 
-/// Reads numbers and collects what is wrong with them.
+/// Reads numbers and collects diagnostics.
 pub(super) struct UrdfReader {
     pub(super) spans: XmlSpans,
-    /// Whether `<origin>` may have `quat_xyzw`, as since URDF 1.1.
+    /// True if `<origin>` may have `quat_xyzw`, as since URDF 1.1.
     pub(super) quaternions: bool,
     pub(super) found: Vec<Diagnostic>,
 }
 
 impl UrdfReader {
-    /// Exactly `N` finite numbers; `None` where the attribute is missing or wrong.
+    /// Reads exactly `N` finite numbers; `None` if the attribute is missing or wrong.
     fn vector<const N: usize>(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<([f64; N], Span)> {
         let (text, span) = self.spans.attribute(node, key)?;
         let words: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
@@ -45,17 +45,17 @@ impl UrdfReader {
         Some((values, span))
     }
 
-    /// Three numbers, `default` where they are not given or wrong.
+    /// Reads three numbers; `default` if they are missing or wrong.
     pub(super) fn triple(&mut self, node: Node<'_, '_>, key: &'static str, default: [f64; 3]) -> [f64; 3] {
         self.vector::<3>(node, key).map_or(default, |(values, _)| values)
     }
 
-    /// One number; `None` where it is not given or wrong.
+    /// Reads one number; `None` if it is missing or wrong.
     pub(super) fn scalar(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<f64> {
         self.vector::<1>(node, key).map(|([value], _)| value)
     }
 
-    /// One number of a joint's limits, which may be beyond what a length can be: "unlimited" is often `1e16`.
+    /// Reads one limit of a joint, which may exceed any length: "unlimited" is often `1e16`.
     pub(super) fn limit(&mut self, node: Node<'_, '_>, key: &'static str) -> Option<(f64, Span)> {
         let (text, span) = self.spans.attribute(node, key)?;
         match text.trim().parse::<f64>() {
@@ -72,7 +72,7 @@ impl UrdfReader {
         }
     }
 
-    /// Lengths that have to be given and not be negative.
+    /// Reads required lengths, none negative.
     pub(super) fn lengths<const N: usize>(
         &mut self,
         node: Node<'_, '_>,
@@ -87,7 +87,7 @@ impl UrdfReader {
         Some(values)
     }
 
-    /// Factors of which none is zero; ones where they are not given or wrong.
+    /// Reads factors, none zero; ones if they are missing or wrong.
     pub(super) fn factors(&mut self, node: Node<'_, '_>, key: &'static str) -> [f64; 3] {
         let Some((values, span)) = self.vector::<3>(node, key) else { return [1.0; 3] };
         if values.contains(&0.0) {
@@ -98,7 +98,7 @@ impl UrdfReader {
         values
     }
 
-    /// The pose in the child element `origin`; the identity where there is none.
+    /// Reads the child element `origin`; the identity without one.
     pub(super) fn origin(&mut self, node: Node<'_, '_>) -> Pose {
         let Some(origin) = child(node, "origin") else { return Pose::IDENTITY };
         let xyz = self.triple(origin, "xyz", [0.0; 3]);
@@ -121,7 +121,8 @@ impl UrdfReader {
     }
 }
 
-/// Roll about x, then pitch about y, then yaw about z, all about the fixed axes, in rad, as a unit quaternion x, y, z, w.
+/// Rotation from roll about x, then pitch about y, then yaw about z, about fixed axes, in rad, as a unit
+/// quaternion x, y, z, w.
 fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> [f64; 4] {
     let ((sr, cr), (sp, cp), (sy, cy)) =
         (libm::sincos(roll / 2.0), libm::sincos(pitch / 2.0), libm::sincos(yaw / 2.0));

@@ -1,4 +1,4 @@
-//! From the text of a URDF to a [`Urdf`], or to what is wrong with it.
+//! Reader of URDF, with diagnostics.
 
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
@@ -12,11 +12,10 @@ use super::number::UrdfReader;
 use super::surplus::surplus;
 use super::tree;
 
-/// Reads a URDF with everything that is wrong with it. There is none where there is an error; a warning leaves it.
-/// O(bytes).
+/// Reads a URDF and returns it with its diagnostics; `None` if there is an error. O(bytes).
 ///
-/// Joints may be fixed, revolute, continuous, prismatic or planar, and follow others by `<mimic>`; a floating one is
-/// held at its origin, with a warning. Position limits come from `<limit>`.
+/// Joints may be fixed, revolute, continuous, prismatic or planar, and follow others by `<mimic>`; a floating
+/// joint is held at its origin, with a warning. Position limits come from `<limit>`.
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> (Option<Urdf>, Vec<Diagnostic>) {
     let document = match XmlDocument::parse(source, file, XmlDialect::Urdf) {
@@ -41,7 +40,7 @@ pub fn read(source: &Source, file: FileId) -> (Option<Urdf>, Vec<Diagnostic>) {
     if links.is_empty() {
         found.push(NoLink { span: spans.tag(root) }.into());
     }
-    // A part that was left out has been told; that the tree has a hole there is no second mistake.
+    // An omitted part has been reported; the hole in the tree is no second mistake.
     let whole =
         links.len() == children(root, "link").count() && joints.len() == children(root, "joint").count();
     let name = root.attribute("name").unwrap_or_default();
@@ -68,7 +67,8 @@ fn links<'a>(root: Node<'a, '_>, numbers: &mut UrdfReader) -> (Vec<Link>, Vec<Sp
 fn joints<'a>(root: Node<'a, '_>, numbers: &mut UrdfReader) -> Vec<RawJoint<'a>> {
     let mut joints = Vec::new();
     let mut taken = FxHashMap::default();
-    // A transmission has elements of this name too, but inside; only those directly under the robot are its joints.
+    // A transmission has elements of this name inside too; only those directly under the robot are its
+    // joints.
     for node in children(root, "joint") {
         let Some(name) = numbers.spans.required(node, "name", &mut numbers.found) else { continue };
         let joint = numbers.joint(node, name);
@@ -93,7 +93,7 @@ fn is_new<'a>(
     true
 }
 
-/// The first macro that was not expanded: an element of xacro, or `${…}` and `$(…)` in a link or a joint.
+/// First macro that was not expanded: a xacro element, or `${…}` and `$(…)` in a link or a joint.
 fn leftover(root: Node<'_, '_>, spans: XmlSpans) -> Option<Diagnostic> {
     let is_xacro = |node: &Node<'_, '_>| {
         node.tag_name().namespace().is_some_and(|namespace| namespace.ends_with("/xacro"))

@@ -1,4 +1,4 @@
-//! The shapes of a link.
+//! Reader of the shapes of a link.
 
 use motet_syntax::suggest;
 use roxmltree::Node;
@@ -8,11 +8,11 @@ use super::errors::BadShape;
 use super::model::{Link, LinkShape, UrdfShape};
 use super::number::UrdfReader;
 
-/// The elements that a `<geometry>` may hold.
+/// Elements that a `<geometry>` may hold.
 pub(super) const WORDS: [&str; 5] = ["box", "cylinder", "sphere", "capsule", "mesh"];
 
 impl UrdfReader {
-    /// A link and its shapes; a shape that is wrong is left out.
+    /// Reads a link and its shapes; a wrong shape is left out.
     pub(super) fn link(&mut self, node: Node<'_, '_>, name: &str) -> Link {
         let mut solids = |part| children(node, part).filter_map(|part| self.solid(part)).collect();
         Link { name: name.into(), collisions: solids("collision"), visuals: solids("visual") }

@@ -1,5 +1,5 @@
-//! What stands in a description and is not read: elements that are there twice of which one counts, and names that nothing
-//! has, which are misspelt. What other tools read is passed over in silence.
+//! Check for unread parts of a URDF: repeated elements of which one counts, and misspelt names. Parts for
+//! other tools are skipped silently.
 
 use motet_syntax::{Diagnostic, suggest};
 use roxmltree::Node;
@@ -7,15 +7,16 @@ use roxmltree::Node;
 use super::document::{XmlSpans, children, is_own};
 use super::errors::{Repeated, UnknownAttribute, UnknownElement};
 
-/// What may stand in an element.
+/// Allowed content of an element.
 struct ElementRule {
     name: &'static str,
     attributes: &'static [&'static str],
-    /// Whether other tools write attributes of their own, so that one which is like none of these says nothing.
+    /// True if other tools add attributes, so that an unknown one is no mistake unless it is close to a known
+    /// one.
     is_open: bool,
-    /// Elements of which there may be one.
+    /// Elements that may occur once.
     once: &'static [&'static str],
-    /// Elements of which there may be any number.
+    /// Elements that may occur any number of times.
     many: &'static [&'static str],
 }
 
@@ -39,10 +40,10 @@ const KNOWN: [ElementRule; 17] = [
     closed("mesh", &["filename", "scale"], &[]),
 ];
 
-/// Those of a geometry; a name that is none of them is told where shapes are read.
+/// Elements of a geometry; other names are reported with the shapes.
 const SHAPES: &[&str] = &super::shape::WORDS;
 
-/// Elements that other tools read.
+/// Elements of other tools.
 const FOREIGN: [&str; 19] = [
     "transmission",
     "gazebo",
@@ -82,9 +83,9 @@ const fn closed(
     ElementRule { name, attributes, is_open: false, once: &[], many }
 }
 
-/// Everything of a description's links and joints that is not read and belongs to no other tool. O(bytes).
+/// Reports every unread part of a description's links and joints that belongs to no other tool. O(bytes).
 pub(super) fn surplus(root: Node<'_, '_>, spans: XmlSpans, found: &mut Vec<Diagnostic>) {
-    // The levels of a description are few, and nothing below an element that is not known is looked at.
+    // A description has few levels, and unknown elements are not entered.
     let mut open = vec![root];
     while let Some(node) = open.pop() {
         let name = node.tag_name().name();
@@ -94,7 +95,7 @@ pub(super) fn surplus(root: Node<'_, '_>, spans: XmlSpans, found: &mut Vec<Diagn
         if known.name == "geometry" {
             shapes(node, spans, found);
         }
-        // A joint within a transmission is no joint of the robot's: only what belongs here is gone into.
+        // A joint within a transmission is no joint of the robot: only known elements are entered.
         let belongs = |child: &Node<'_, '_>| {
             let name = child.tag_name().name();
             is_own(node, child) && (known.once.contains(&name) || known.many.contains(&name))

@@ -1,5 +1,5 @@
-//! Names to indices, and whether links and joints form one tree and mimic rules no ring. Nothing here recurses, and all
-//! of it is linear in the links and joints.
+//! Resolution of names to indices, and check that links and joints form one tree and mimic rules no cycle.
+//! Nothing recurses, and all is linear in links and joints.
 
 use motet_syntax::{Diagnostic, suggest};
 use rustc_hash::FxHashMap;
@@ -10,10 +10,10 @@ use super::errors::{
 use super::joint::{RawJoint, SpannedName};
 use super::model::{Joint, JointLimits, Link, Mimic, Urdf};
 
-/// What a follower's limits may be rounded by.
+/// Tolerance for the limits of a follower.
 const ROUNDED: f64 = 1e-9;
 
-/// The tree of what was read; `None` where it is none.
+/// Builds the tree of a URDF; `None` if the parts do not form one.
 pub(super) fn build_tree(
     name: &str,
     links: Vec<Link>,
@@ -31,7 +31,7 @@ pub(super) fn build_tree(
             parent.zip(child)
         })
         .collect();
-    // Unknown links have been told; what else they would break is no second mistake.
+    // Unknown links have been reported; what they would break is no second mistake.
     if found.len() > before {
         return None;
     }
@@ -40,7 +40,7 @@ pub(super) fn build_tree(
     let root = root(&ends, &carriers, spans, found)?;
     let order = order(&ends, root, links.len());
     let leaders = leaders(&raw, found)?;
-    // Joints in order of the tree, so their indices change.
+    // Joints are reordered along the tree, so their indices change.
     let mut moved = vec![0; raw.len()];
     for (new, old) in order.iter().enumerate() {
         if let Some(slot) = moved.get_mut(*old) {
@@ -72,7 +72,7 @@ pub(super) fn build_tree(
     Some(Urdf { name: name.into(), links, joints, root, may_touch: vec![] })
 }
 
-/// Narrows the limits of joints to where all that follow them are within theirs.
+/// Narrows the limits of joints to those of all that follow them.
 fn follow(joints: &mut [Joint], raw: &[RawJoint<'_>], moved: &[usize], found: &mut Vec<Diagnostic>) {
     let ranges = ranges(joints);
     for (joint, at) in raw.iter().zip(moved) {
@@ -87,8 +87,8 @@ fn follow(joints: &mut [Joint], raw: &[RawJoint<'_>], moved: &[usize], found: &m
     }
 }
 
-/// For each joint the limits within which it and all that follow it are within theirs; where there is no such place, `lower` is above
-/// `upper`. Joints may follow each other in chains of any length, of which one alone is long.
+/// For each joint the limits that keep it and its followers within theirs; `lower` is above `upper` if there
+/// are none. Chains of followers may be long, but only one of them.
 fn ranges(joints: &[Joint]) -> Vec<Option<JointLimits>> {
     let mut ranges: Vec<Option<JointLimits>> = joints.iter().map(|joint| joint.limits).collect();
     for joint in joints {
@@ -153,7 +153,7 @@ fn carriers(
     (found.len() == before).then_some(carriers)
 }
 
-/// The one link that no joint moves.
+/// The only link that no joint moves.
 fn root(
     ends: &[(usize, usize)],
     carriers: &[Option<usize>],
@@ -165,7 +165,7 @@ fn root(
         let joint = carriers.get(link).copied().flatten()?;
         ends.get(joint).map(|(parent, _)| *parent)
     };
-    // Each link is walked over once: 0 not seen, else the number of the walk that saw it.
+    // Each link is visited once: 0 for unseen, else the number of the walk that saw it.
     let mut seen = vec![0_usize; carriers.len()];
     for start in 0..carriers.len() {
         let mut at = start;
@@ -205,7 +205,7 @@ fn ring(start: usize, parent_of: impl Fn(usize) -> Option<usize>, spans: &[Spann
     LinkCycle { span, chain }.into()
 }
 
-/// The joints, breadth first from the root, those of one link in the order of the file.
+/// Joints in breadth-first order from the root, those of one link in the order of the file.
 fn order(ends: &[(usize, usize)], root: usize, links: usize) -> Vec<usize> {
     let mut on: Vec<Vec<usize>> = vec![Vec::new(); links];
     for (joint, (parent, _)) in ends.iter().enumerate() {
@@ -223,7 +223,7 @@ fn order(ends: &[(usize, usize)], root: usize, links: usize) -> Vec<usize> {
     order
 }
 
-/// For each joint the one that it follows, directly.
+/// For each joint its direct leader.
 fn leaders(raw: &[RawJoint<'_>], found: &mut Vec<Diagnostic>) -> Option<Vec<Option<usize>>> {
     let before = found.len();
     let by_name: FxHashMap<&str, usize> =

@@ -1,4 +1,4 @@
-//! The solids of a robot, and which pairs of them may not touch.
+//! Collision model of a robot: the solids of its links, and the pairs of them that must not touch.
 
 use std::ops::Range;
 
@@ -9,38 +9,40 @@ use super::link_solid::{LinkSolid, parts};
 use super::solid::Solid;
 use crate::kinematics::{KinematicTree, quasi_random_in};
 
-/// Configurations that are looked at to find links which always touch.
+/// Number of sampled configurations by which links that always touch are found.
 const SAMPLES: usize = 64;
 
-/// What of a robot can touch something. Poses are those of [`KinematicTree::root_from_links`], in any frame.
+/// Collision model of a robot: solids on its links. Link poses are those of
+/// [`KinematicTree::root_from_links`], in any common frame.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CollisionModel {
     parts: Vec<LinkSolid>,
-    /// Pairs of parts, by index, that may not touch.
+    /// Pairs of solids, by index, that must not touch.
     pairs: Vec<[usize; 2]>,
-    /// For each link the links that it is fixed to, by the first of them.
+    /// For each link, the first link of the group that fixed joints make of it.
     groups: Vec<usize>,
     uncovered_links: Vec<usize>,
 }
 
-/// What is nearest.
+/// Pair of solids with the smallest distance.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NearestPair {
-    /// Distance in m; 0 or less where they overlap.
+    /// Distance in m; 0 or less if they overlap.
     pub metres: f64,
-    /// Index of one part.
+    /// Index of one solid.
     pub part: usize,
-    /// Index of the other part, or of the obstacle.
+    /// Index of the other solid, or of the obstacle.
     pub other: usize,
 }
 
 impl CollisionModel {
-    /// The body of a URDF; its shapes as they are, but for meshes.
+    /// Builds the collision model of a URDF from its shapes; meshes are left out (see
+    /// [`Self::uncovered_links`]).
     ///
-    /// Parts of a link and of links that are fixed to each other never count, nor links next to each other at a joint, nor
-    /// those which the SRDF allows to touch (`allowed`). Two links that touch in each of 64 configurations spread over
-    /// the limits are built into each other, and do not count either. O(parts²) where most are apart in the first of these, else
-    /// O(parts² × 64).
+    /// These pairs are never checked: solids of one link or of links fixed to each other, links next to each
+    /// other at a joint, pairs that the SRDF disables (`allowed`), and pairs of links that touch in each of
+    /// 64 sampled configurations. O(solids²) if most pairs are apart in the first sample, else O(solids² ×
+    /// 64).
     #[must_use]
     pub fn new(urdf: &Urdf, tree: &KinematicTree, allowed: &[[usize; 2]]) -> Self {
         let (groups, next_to) = groups(urdf);
@@ -58,7 +60,7 @@ impl CollisionModel {
         let has = |pairs: &[[usize; 2]], one, other| {
             pairs.binary_search(&[one, other]).is_ok() || pairs.binary_search(&[other, one]).is_ok()
         };
-        // All of the limits: what follows a joint may go on where that has turned once.
+        // The whole range of limits counts: a mimic joint may go on where its leader has made a full turn.
         let ranges = tree.dofs().iter().map(|known| known.limits.unwrap_or(known.sampling_range()));
         let samples = (0..SAMPLES).map(|sample| quasi_random_in(ranges.clone(), sample));
         let poses: Vec<_> = samples.map(|sample| tree.root_from_links(&sample)).collect();
@@ -94,7 +96,8 @@ impl CollisionModel {
         body
     }
 
-    /// The body with one more solid that a link carries. It may touch no link but those of `exempt`.
+    /// Adds a solid that a link carries, such as a held object. It must touch no link except those for which
+    /// `exempt` is true.
     #[must_use]
     pub fn with_attached(&self, part: LinkSolid, exempt: impl Fn(usize) -> bool) -> Self {
         let mut body = self.clone();
@@ -105,19 +108,19 @@ impl CollisionModel {
         body
     }
 
-    /// The parts.
+    /// Solids of all links, in the order of the links.
     #[must_use]
     pub fn parts(&self) -> &[LinkSolid] {
         &self.parts
     }
 
-    /// Pairs of parts, by index, that may not touch.
+    /// Pairs of solids, by index, that must not touch.
     #[must_use]
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
     }
 
-    /// Whether two links are one, or fixed to each other.
+    /// Checks whether two links are the same or joined by fixed joints only.
     #[must_use]
     pub fn is_rigidly_attached(&self, one: usize, other: usize) -> bool {
         self.group(one) == self.group(other)
@@ -127,20 +130,20 @@ impl CollisionModel {
         self.groups.get(link).copied().unwrap_or(link)
     }
 
-    /// Links with a mesh, which no solid stands for: what is said of the robot does not hold for them.
+    /// Links with a mesh that no solid encloses: a verdict about the robot does not cover them.
     #[must_use]
     pub fn uncovered_links(&self) -> &[usize] {
         &self.uncovered_links
     }
 
-    /// The parts where the links are, in their order.
+    /// Moves the solids to where the links are, in the order of [`Self::parts`].
     #[must_use]
     pub fn placed(&self, poses: &[Isometry3<f64>]) -> Vec<Solid> {
         let pose = |link: usize| poses.get(link).copied().unwrap_or_default();
         self.parts.iter().map(|part| part.solid.moved(&pose(part.link))).collect()
     }
 
-    /// The two parts that are nearest to each other, of those that may not touch. O(pairs).
+    /// Finds the two solids nearest to each other, of those that must not touch. O(pairs).
     #[must_use]
     pub fn nearest_self_pair(&self, placed: &[Solid]) -> Option<NearestPair> {
         let near = self.pairs.iter().filter_map(|[part, other]| {
@@ -151,12 +154,13 @@ impl CollisionModel {
     }
 }
 
-/// Whether two parts are farther from each other than `metres`.
+/// Checks whether two solids are farther apart than `metres`.
 fn is_clear(placed: &[Solid], [one, other]: &[usize; 2], metres: f64) -> bool {
     placed.get(*one).zip(placed.get(*other)).is_none_or(|(one, other)| one.is_farther(other, metres))
 }
 
-/// For each link the first of those that it is fixed to, and which of these hang on which.
+/// Rigid groups: for each link the first link that it is fixed to, and the pairs of groups that a joint
+/// connects.
 fn groups(urdf: &Urdf) -> (Vec<usize>, Vec<[usize; 2]>) {
     // Joints are ordered from the root, so a parent's group is known before its children's.
     let mut groups: Vec<usize> = (0..urdf.links.len()).collect();

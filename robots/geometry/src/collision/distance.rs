@@ -1,39 +1,50 @@
-//! The distance between two solids: in closed form where both are capsules, else by Gilbert, Johnson and Keerthi (1988).
+//! Distance between two solids: in closed form for two capsules, else by Gilbert, Johnson and Keerthi (1988).
 
 use nalgebra::Vector3;
 
 use super::simplex::Simplex;
 use super::solid::{Shape, Solid};
 
-/// How near the bounds from below and above have to come, in m.
+/// Greatest gap between the lower and the upper bound of a distance, in m.
 const CLOSE: f64 = 1e-9;
 
-/// Steps after which the bound from below is taken as it is.
+/// Number of GJK steps after which the lower bound is taken as it is.
 const STEPS: usize = 96;
 
 impl Solid {
-    /// The distance in m to another solid: never above the true one, and below it by no more than 1e-9 m but where both are
-    /// nearly flat. Where they overlap it is 0 or negative, and says nothing about how deep.
+    /// Distance in m to another solid: never above the true one, and below it by no more than 1e-9 m unless
+    /// both are nearly flat. 0 or negative if the solids overlap; the value is no penetration depth.
+    ///
+    /// ```
+    /// use motet_geometry::collision::{Shape, Solid};
+    /// use nalgebra::{Isometry3, Vector3};
+    ///
+    /// let ball = |x: f64| Solid::new(&Isometry3::translation(x, 0.0, 0.0), Shape::Capsule { radius: 0.1,
+    /// half: 0.0 });
+    /// let cube = Solid::new(&Isometry3::identity(), Shape::Box(Vector3::new(0.5, 0.5, 0.5)));
+    /// assert!((cube.distance(&ball(1.0)) - 0.4).abs() < 1e-9);
+    /// assert!(cube.is_farther(&ball(1.0), 0.3));
+    /// ```
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
         self.bounded(other, Precision { enough: f64::INFINITY, least: None }, &mut Vector3::zeros())
     }
 
-    /// Whether the distance is more than `metres`. Cheaper than the distance.
+    /// Checks whether the distance is more than `metres`. Cheaper than [`Self::distance`].
     #[must_use]
     pub fn is_farther(&self, other: &Self, metres: f64) -> bool {
         self.apart(self.reach(), other, other.reach(), [metres, metres], &mut Vector3::zeros()) > metres
     }
 
-    /// The distance, or a bound from below where one is above `enough`: at once where that suffices, from the balls around
-    /// both, whose radii the caller knows, or from the directions of a box or a cylinder.
+    /// Distance, or a lower bound as soon as one is above `enough`: from the bounding balls, whose radii the
+    /// caller knows, or from the axes of a box or a cylinder.
     pub(crate) fn distance_to(&self, reach: f64, other: &Self, other_reach: f64, enough: f64) -> f64 {
         self.precision(reach, other, other_reach, Precision { enough, least: None }, &mut Vector3::zeros())
     }
 
-    /// A bound from below that tells only whether the distance is above `enough`, and if it is not, whether it is above
-    /// `least`, which is no more: cheaper than the distance. `axis` is a direction, of length 1, along which the two were apart
-    /// before, or 0; it becomes one for the next time.
+    /// Lower bound that decides only whether the distance is above `enough`, and otherwise whether it is
+    /// above `least`, which is no more. Cheaper than the distance. `axis` is a unit vector that separated the
+    /// two solids before, or 0; it becomes one for the next call.
     pub(crate) fn apart(
         &self,
         reach: f64,
@@ -45,8 +56,8 @@ impl Solid {
         self.precision(reach, other, other_reach, Precision { enough, least: Some(least) }, axis)
     }
 
-    /// Whether the distance is at most `metres`, for certain but for what a number rounds: a place on each is that near to the
-    /// other. What is nearer by less than a millionth of that may count as farther.
+    /// Checks whether the distance is at most `metres`, up to rounding, by a point on each solid. A distance
+    /// that is smaller by less than a millionth of `metres` may count as larger.
     pub(crate) fn is_nearer(&self, other: &Self, metres: f64) -> bool {
         match (&self.shape, &other.shape) {
             (Shape::HalfSpace, _)
@@ -81,8 +92,8 @@ impl Solid {
         if below > enough { below } else { self.bounded(other, precision, axis) }
     }
 
-    /// A bound from below that tells only whether the distance is above `enough`, for all places of this solid while it moves by
-    /// `shift` without turning.
+    /// Lower bound that decides only whether the distance is above `enough`, over all places of this solid
+    /// while it is translated by `shift`.
     pub(crate) fn swept_distance_to(
         &self,
         shift: &Vector3<f64>,
@@ -112,12 +123,13 @@ impl Solid {
         cores(&Swept { solid: self, shift: *shift }, other, precision, &mut Vector3::zeros()) - rims
     }
 
-    /// The distance from this box to the smallest box along its directions that holds the other, less its rim.
+    /// Distance from this box to the smallest box along its axes that holds the other solid, less its rim.
     fn beside_box(&self, half: &Vector3<f64>, other: &Self) -> f64 {
         self.beside_swept(half, other, &Vector3::zeros())
     }
 
-    /// The same for all places of the other while it moves.
+    /// Distance from this box to the box along its axes that holds all places of the other solid while it is
+    /// translated.
     fn beside_swept(&self, half: &Vector3<f64>, other: &Self, shift: &Vector3<f64>) -> f64 {
         let between = other.centre + shift * 0.5 - self.centre;
         let square: f64 = self
@@ -133,7 +145,7 @@ impl Solid {
         square.sqrt() - other.rim()
     }
 
-    /// The distance from this cylinder to the smallest one about its axis that holds the other, less its rim.
+    /// Distance from this cylinder to the smallest coaxial cylinder that holds the other solid, less its rim.
     fn beside_cylinder(&self, radius: f64, half: f64, other: &Self) -> f64 {
         let [_, _, z] = &self.axes;
         let between = other.centre - self.centre;
@@ -157,7 +169,7 @@ impl Solid {
         (up * up + out * out).sqrt() - other.rim()
     }
 
-    /// The distance, or a bound from below as soon as one is above `enough`.
+    /// Distance, or a lower bound as soon as one is above `enough`.
     fn bounded(&self, other: &Self, precision: Precision, axis: &mut Vector3<f64>) -> f64 {
         match (&self.shape, &other.shape) {
             (Shape::HalfSpace, Shape::HalfSpace) => f64::NEG_INFINITY,
@@ -175,12 +187,13 @@ impl Solid {
     }
 }
 
-/// What is to be told of a distance.
+/// Precision that a caller needs of a distance.
 #[derive(Clone, Copy)]
 struct Precision {
-    /// Above this any bound does.
+    /// A bound above this value suffices.
     enough: f64,
-    /// If it is not above that, only whether it is above this; the distance itself where there is none.
+    /// If the distance is not above `enough`: the value against which it is compared; `None` for the distance
+    /// itself.
     least: Option<f64>,
 }
 
@@ -194,11 +207,11 @@ fn ends(solid: &Solid, half: f64) -> [Vector3<f64>; 2] {
     [solid.centre - z * half, solid.centre + z * half]
 }
 
-/// What has a farthest point in each direction.
+/// Convex set with a support function.
 trait Convex {
-    /// A point within.
+    /// An interior point.
     fn middle(&self) -> Vector3<f64>;
-    /// The point that lies farthest in a direction.
+    /// Support point: the point farthest in a direction.
     fn farthest(&self, direction: &Vector3<f64>) -> Vector3<f64>;
 }
 
@@ -212,7 +225,7 @@ impl Convex for Solid {
     }
 }
 
-/// All places of a solid that moves without turning.
+/// All places of a solid during a translation.
 struct Swept<'a> {
     solid: &'a Solid,
     shift: Vector3<f64>,
@@ -229,14 +242,15 @@ impl Convex for Swept<'_> {
     }
 }
 
-/// The distance between the cores of two solids, from below. With the nearest point `v` of a simplex within the difference of
-/// both, no point of the difference is nearer to the origin than the plane square to `v` through the support `w`.
+/// Lower bound of the distance between the cores of two solids. With the nearest point `v` of a simplex
+/// within the Minkowski difference, no point of the difference is nearer to the origin than the plane square
+/// to `v` through the support point `w`.
 ///
 /// `nearest` is a point of the difference, so its length is never below the distance.
 fn cores(one: &impl Convex, other: &Solid, precision: Precision, axis: &mut Vector3<f64>) -> f64 {
     let enough = precision.enough;
     if *axis != Vector3::zeros() {
-        // The plane square to where they were apart before, most often, is enough.
+        // The plane square to the last separating direction is enough in most cases.
         let below = axis.dot(&(one.farthest(&-*axis) - other.support(axis)));
         if below > enough {
             return below;
@@ -268,7 +282,7 @@ fn cores(one: &impl Convex, other: &Solid, precision: Precision, axis: &mut Vect
     below
 }
 
-/// Whether two places within the cores of two solids are so near to each other.
+/// Checks whether two points within the cores of two solids are as near to each other as `metres`.
 fn are_nearer(one: &Solid, other: &Solid, metres: f64) -> bool {
     let mut nearest = one.centre - other.centre;
     let mut simplex = Simplex::empty();
@@ -289,7 +303,7 @@ fn are_nearer(one: &Solid, other: &Solid, metres: f64) -> bool {
     false
 }
 
-/// The distance between two segments (Ericson 2005, 5.1.9).
+/// Distance between two segments (Ericson 2005, 5.1.9).
 fn segments([p1, q1]: &[Vector3<f64>; 2], [p2, q2]: &[Vector3<f64>; 2]) -> f64 {
     let (d1, d2, r) = (q1 - p1, q2 - p2, p1 - p2);
     let (a, e, f) = (d1.norm_squared(), d2.norm_squared(), d2.dot(&r));

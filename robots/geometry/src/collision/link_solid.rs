@@ -1,23 +1,23 @@
-//! The solids of one link: what its URDF lists, without what is listed twice.
+//! Solids of one link: the shapes that its URDF lists, without duplicates.
 
 use motet_robots::urdf::{Link, UrdfShape};
 
 use super::solid::{Shape, Solid};
 use crate::kinematics::isometry;
 
-/// A solid that a link carries.
+/// Solid that a link carries.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LinkSolid {
-    /// Index of the link.
+    /// Index of the link in the kinematic tree.
     pub link: usize,
     /// The solid, in the link's frame.
     pub solid: Solid,
 }
 
-/// The parts of a link, and whether a mesh is left out.
+/// Solids of a link, and whether they cover all its shapes (a mesh is left out).
 ///
-/// URDFs write a capsule as a cylinder with a ball at each end, and so it becomes one again. A ball within another part
-/// goes.
+/// URDFs write a capsule as a cylinder with a ball at each end; it becomes a capsule again. A ball within
+/// another solid is dropped.
 pub(super) fn parts(link: &Link, at: usize) -> (Vec<LinkSolid>, bool) {
     let mut solids: Vec<Solid> = Vec::new();
     let mut is_complete = true;
@@ -48,7 +48,7 @@ pub(super) fn parts(link: &Link, at: usize) -> (Vec<LinkSolid>, bool) {
     (kept.collect(), is_complete)
 }
 
-/// The capsule that a cylinder is together with the balls at its ends; else the solid as it is.
+/// The capsule made of a cylinder with balls at both ends; any other solid unchanged.
 fn with_round_ends(solid: &Solid, all: &[Solid]) -> Solid {
     let Shape::Cylinder { radius, half } = solid.shape else { return *solid };
     let [_, _, z] = &solid.axes;
@@ -61,7 +61,7 @@ fn with_round_ends(solid: &Solid, all: &[Solid]) -> Solid {
             Shape::Capsule { .. } | Shape::Box(_) | Shape::Cylinder { .. } | Shape::HalfSpace => false,
         })
     };
-    // The millionth of a metre above is made up for.
+    // Makes up for the tolerance of a millionth of a metre above.
     let shape = Shape::Capsule { radius: radius + 2e-6, half };
     if has_ball(-1.0) && has_ball(1.0) { Solid { shape, ..*solid } } else { *solid }
 }

@@ -1,4 +1,4 @@
-//! What touches what, in `f64`: solids and the distance between two, and the solids of a robot.
+//! Collision checking in `f64`: solids, the distance between two, and the collision model of a robot.
 
 mod collision_model;
 mod distance;

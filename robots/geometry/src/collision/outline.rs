@@ -1,13 +1,13 @@
-//! A solid seen from above: for drawings, not for collision.
+//! Outline of a solid from above: for drawings, not for collision checking.
 
 use super::solid::{Shape, Solid};
 
-/// Corners around a circle.
+/// Number of corners of a polygon that stands for a circle.
 const AROUND: u32 = 24;
 
 impl Solid {
-    /// The corners of its outline from above, in m, counter-clockwise; circles as polygons of 24 corners. Nothing for a
-    /// half-space.
+    /// Corners of the outline from above, in m, counter-clockwise; circles become polygons of 24 corners.
+    /// Empty for a half-space.
     #[must_use]
     pub fn outline(&self) -> Vec<[f64; 2]> {
         let [x, y, z] = self.axes;
@@ -25,7 +25,7 @@ impl Solid {
                     for step in 0..AROUND {
                         let (sin, cos) =
                             libm::sincos(std::f64::consts::TAU * f64::from(step) / f64::from(AROUND));
-                        // The rim of an upright cylinder; of a lying one a little more than it is.
+                        // Exact for an upright cylinder; for a lying one slightly larger than the cylinder.
                         points.push([end.x + radius * cos, end.y + radius * sin]);
                     }
                 }
@@ -35,7 +35,7 @@ impl Solid {
     }
 }
 
-/// The convex hull (Andrew 1979).
+/// Convex hull (Andrew 1979).
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|[ax, ay], [bx, by]| ax.total_cmp(bx).then(ay.total_cmp(by)));
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {

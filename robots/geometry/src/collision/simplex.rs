@@ -1,10 +1,10 @@
-//! The point of a simplex that is nearest to the origin (Ericson 2005, 5.1).
+//! Point of a simplex nearest to the origin (Ericson 2005, 5.1).
 
 use nalgebra::Vector3;
 
 type Point = Vector3<f64>;
 
-/// Up to four points.
+/// Simplex of up to four points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Simplex {
     points: [Point; 4],
@@ -33,7 +33,7 @@ impl Simplex {
         self.points.iter().take(self.count).any(|known| known == point)
     }
 
-    /// The nearest point, and the corners that make it up; `None` where the origin is within.
+    /// Nearest point to the origin and the corners that span it; `None` if the origin is inside.
     pub(super) fn nearest(&self) -> Option<(Point, Self)> {
         let [a, b, c, d] = self.points;
         match self.count {
@@ -61,7 +61,7 @@ fn segment(a: Point, b: Point) -> (Point, Simplex) {
 fn triangle(a: Point, b: Point, c: Point) -> (Point, Simplex) {
     let normal = (b - a).cross(&(c - a));
     let square = normal.norm_squared();
-    // On which side of each edge the origin's image in the plane is.
+    // Side of each edge on which the origin projects.
     let inside = |one: &Point, other: &Point| normal.dot(&one.cross(other)) >= 0.0;
     if square > 1e-300 && inside(&a, &b) && inside(&b, &c) && inside(&c, &a) {
         return (normal * (normal.dot(&a) / square), Simplex::of([a, b, c]));
@@ -75,7 +75,7 @@ fn tetrahedron([a, b, c, d]: [Point; 4]) -> Option<(Point, Simplex)> {
     for (one, two, three, rest) in faces {
         let normal = (two - one).cross(&(three - one));
         let (apex, origin) = (normal.dot(&(rest - one)), -normal.dot(&one));
-        // A flat one has no inside, so that each of its faces counts.
+        // A flat tetrahedron has no inside, so each of its faces counts.
         let is_flat = apex.abs() <= 1e-12 * normal.norm() * (rest - one).norm();
         if is_flat || apex * origin < 0.0 {
             let found = triangle(one, two, three);

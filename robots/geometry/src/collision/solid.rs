@@ -1,60 +1,56 @@
-//! A convex solid somewhere: its shape, its centre and its axes.
+//! Convex solids with a pose: shape, centre and axes.
 
 use nalgebra::{Isometry3, Vector3};
 
-/// A solid in some frame.
+/// Convex solid with a pose in some frame.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Solid {
-    /// Its centre.
     pub centre: Vector3<f64>,
-    /// Directions of its own x, y and z, each of length 1.
+    /// Unit vectors of its own x, y and z axes.
     pub axes: [Vector3<f64>; 3],
-    /// What it is.
     pub shape: Shape,
 }
 
-/// A shape around the origin; lengths in m.
+/// Convex shape centred at the origin; lengths in m.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Shape {
-    /// A box by half of its extents.
+    /// Box with half extents along x, y and z.
     Box(Vector3<f64>),
-    /// A cylinder along z.
+    /// Cylinder along z.
     Cylinder {
-        /// Radius.
         radius: f64,
-        /// Half of its height.
+        /// Half of the height.
         half: f64,
     },
-    /// A capsule along z; a sphere where `half` is 0.
+    /// Capsule along z; a sphere if `half` is 0.
     Capsule {
-        /// Radius.
         radius: f64,
-        /// Half of the length of its tube.
+        /// Half of the length of the tube.
         half: f64,
     },
-    /// Everything below z = 0.
+    /// Half-space below z = 0.
     HalfSpace,
 }
 
 impl Solid {
-    /// A shape at a pose.
+    /// Places a shape at a pose.
     #[must_use]
     pub fn new(pose: &Isometry3<f64>, shape: Shape) -> Self {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis);
         Self { centre: pose.translation.vector, axes, shape }
     }
 
-    /// The floor: everything below the height 0.
+    /// The floor: the half-space below height 0.
     #[must_use]
     pub fn floor() -> Self {
         Self::new(&Isometry3::identity(), Shape::HalfSpace)
     }
 
-    /// The solid moved.
+    /// Moves the solid by a rigid transform.
     #[must_use]
     pub fn moved(&self, by: &Isometry3<f64>) -> Self {
         let axes = match self.shape {
-            // The other two do not show.
+            // The other two axes have no effect on the shape.
             Shape::Capsule { .. } | Shape::HalfSpace => {
                 let [x, y, z] = self.axes;
                 [x, y, by.rotation * z]
@@ -64,7 +60,7 @@ impl Solid {
         Self { centre: by.rotation * self.centre + by.translation.vector, axes, shape: self.shape }
     }
 
-    /// The radius of the sphere around the centre that holds it; infinite for a half-space.
+    /// Radius of the bounding sphere around the centre, in m; infinite for a half-space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         match self.shape {
@@ -75,7 +71,7 @@ impl Solid {
         }
     }
 
-    /// How far it extends from its centre in a direction of length 1; infinite for a half-space.
+    /// Extent from the centre along a unit vector, in m; infinite for a half-space.
     #[must_use]
     pub fn extent(&self, direction: &Vector3<f64>) -> f64 {
         let along = self.axes.map(|axis| axis.dot(direction).abs());
@@ -88,7 +84,8 @@ impl Solid {
         }
     }
 
-    /// How far its core, which is what is left without the round rim of a capsule, extends in a direction of length 1.
+    /// Extent of the core along a unit vector, in m. The core of a capsule is its axis, without the round
+    /// rim.
     pub(super) fn core_extent(&self, direction: &Vector3<f64>) -> f64 {
         match self.shape {
             Shape::Capsule { half, .. } => {
@@ -99,7 +96,7 @@ impl Solid {
         }
     }
 
-    /// The point of its core, which is what is left without the round rim of a capsule, that lies farthest in a direction.
+    /// Support point of the core: the point farthest in a direction. The core of a capsule is its axis.
     pub(crate) fn support(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         let [x, y, z] = &self.axes;
         match &self.shape {
@@ -109,7 +106,7 @@ impl Solid {
                 })
             }
             Shape::Cylinder { radius, half } => {
-                // Taken apart by the axes, so that rounding cannot tilt the rim.
+                // Resolved along the axes, so that rounding cannot tilt the rim.
                 let (a, b) = (x.dot(direction), y.dot(direction));
                 let length = libm::hypot(a, b);
                 let scale = if length > 1e-300 { radius / length } else { 0.0 };
@@ -120,7 +117,7 @@ impl Solid {
         }
     }
 
-    /// The radius of the rim around its core.
+    /// Radius of the rim around the core: that of a capsule, else 0.
     pub(crate) fn rim(&self) -> f64 {
         match self.shape {
             Shape::Capsule { radius, .. } => radius,

@@ -1,10 +1,11 @@
-//! The family of solutions of a [`LiftArm`], for eight poses of the tip at a time in `f32`: the hot path of a query, which looks
-//! for a member of the family that is free. What it finds is a candidate, and [`LiftArm::solve`] at the same yaw and
-//! shoulder value gives it in `f64`, confirmed.
+//! Solution family of a [`LiftArm`] for eight poses of the tip at a time, in `f32`: the hot path of a query
+//! that searches a collision-free member of the family. Its results are candidates; [`LiftArm::solve`] at the
+//! same yaw and shoulder value confirms them in `f64`.
 //!
-//! With the wrist's axes n₁ ⊥ n₂ ⊥ n₃ and the rotation M that they have to make up, the vector M n₃ in the frame
-//! (n₁, n₂, n₂ × n₁) has the middle angle's cosine as its first component and the first angle's sine and cosine, times
-//! the middle one's sine, as the others; Mᵀ n₁ shows the last angle likewise. The two branches are the signs of that sine.
+//! Let the axes of the wrist be n₁ ⊥ n₂ ⊥ n₃, and M the rotation that they make up. In the frame (n₁, n₂, n₂
+//! × n₁) the vector M n₃ has the cosine of the middle angle as its first component, and the sine and cosine
+//! of the first angle, times the sine of the middle one, as the others. Mᵀ n₁ gives the last angle likewise.
+//! The two branches are the signs of that sine.
 
 use nalgebra::{Isometry3, Vector3};
 use wide::f32x8;
@@ -15,35 +16,35 @@ use super::wide_angles::{above, atan2};
 use crate::kinematics::Dof;
 use crate::trigonometry::{atan2 as atan2_of_one, sin_cos, wrapped};
 
-/// Poses that are looked at at once.
+/// Number of poses in a batch.
 pub const LANES: usize = 8;
 
-/// What of an arm its candidates need; made once for a query.
+/// Batch solver for one arm; built once for a query.
 #[derive(Clone, Debug)]
 pub struct BatchSolver<'a> {
     arm: &'a LiftArm,
-    /// From the third axis back to the first, about the second.
+    /// Angle from the third axis back to the first, about the second.
     bend: f32,
     /// Vectors whose images show the angles: n₃, n₂ and n₂ × n₃.
     shown: [Vector3<f64>; 3],
-    /// Of the lift and of the wrist.
+    /// Scales and limits of the lift and of the wrist joints.
     lift: JointScale,
     wrist: [JointScale; 3],
 }
 
-/// Eight poses of the tip, each with a yaw of the base from which others are counted.
+/// Eight poses of the tip, each with a reference yaw of the base.
 #[derive(Clone, Debug)]
 pub struct TipBatch {
-    /// The wrist's centre, in m.
+    /// Centre of the wrist, in m.
     centre: [f32x8; 3],
-    /// Where what shows the angles points.
+    /// Images of the vectors that show the angles.
     shown: [[f32x8; 3]; 3],
     yaws: [f64; LANES],
     sin: f32x8,
     cos: f32x8,
 }
 
-/// How a joint's value follows from its angle, and where it has to be.
+/// Linear map from angles to values of a joint, and its limits.
 #[derive(Clone, Copy, Debug)]
 struct JointScale {
     scale: f32,
@@ -52,32 +53,32 @@ struct JointScale {
     upper: f32,
 }
 
-/// Candidates at one value of the shoulder, one for each of eight poses.
+/// Candidates for one value of the shoulder, one for each of eight poses.
 #[derive(Clone, Copy, Debug)]
 pub struct CandidateBatch {
-    /// Value of the shoulder's variable.
+    /// Value of the shoulder joint.
     pub shoulder: f64,
-    /// Values of the lift's variable.
+    /// Values of the lift joint.
     pub lift: f32x8,
-    /// The base's yaws in rad, in [−π, π].
+    /// Yaws of the base, in rad, in [−π, π].
     pub yaws: [f64; LANES],
-    /// The base's places, x then y, in m from the origin of the poses.
+    /// Positions of the base, x then y, in m from the origin of the poses.
     pub base: [f32x8; 2],
-    /// The two ways to hold the wrist.
+    /// The two branches of the wrist.
     pub branches: [WristBranch; 2],
 }
 
-/// One way to hold the wrist.
+/// One branch of the wrist.
 #[derive(Clone, Copy, Debug)]
 pub struct WristBranch {
-    /// Values of the wrist's variables.
+    /// Values of the wrist joints.
     pub values: [f32x8; 3],
-    /// A bit for each lane, the first lowest: whether all values are within the limits, to about 1e-6 rad.
+    /// Bit mask of the lanes, the first lowest, in which all values are within the limits to about 1e-6 rad.
     pub allowed: u8,
 }
 
 impl<'a> BatchSolver<'a> {
-    /// What an arm's candidates need.
+    /// Prepares the solver for an arm.
     #[must_use]
     pub fn new(arm: &'a LiftArm) -> Self {
         let [one, two, three] = arm.wrist;
@@ -91,8 +92,8 @@ impl<'a> BatchSolver<'a> {
         }
     }
 
-    /// Poses, seen from an origin on the floor, each with the yaw from which others are counted, in rad: at most eight, and of
-    /// fewer the first stands in the lanes that are left.
+    /// Prepares at most eight poses with their reference yaws in rad, relative to an origin on the floor. The
+    /// first pose fills the lanes that are left.
     #[must_use]
     pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> TipBatch {
         let lane = |lane: usize| poses.get(lane).or(poses.first()).copied().unwrap_or_default();
@@ -117,7 +118,8 @@ impl<'a> BatchSolver<'a> {
         }
     }
 
-    /// The candidates with the base turned on by `further` rad from the yaw of each pose, at a value of the shoulder's variable.
+    /// Candidates with the base at `further` rad from the reference yaw of each pose, for one value of the
+    /// shoulder.
     #[must_use]
     pub fn block(&self, poses: &TipBatch, further: f64, shoulder: f64) -> CandidateBatch {
         let splat = f32x8::splat;
@@ -132,7 +134,7 @@ impl<'a> BatchSolver<'a> {
         let is_lifted = lift.simd_ge(splat(self.lift.lower)).to_bitmask()
             & lift.simd_le(splat(self.lift.upper)).to_bitmask();
         let base = [x - (cos * px - sin * py), y - (sin * px + cos * py)];
-        // The base turns by the yaw; seen from it, what is shown turns back.
+        // Relative to the base, the vectors rotate by minus the yaw.
         let [three, two, side] = poses.shown.map(|[x, y, z]| [cos * x + sin * y, cos * y - sin * x, z]);
         let dot = |axis: &Vector3<f32>, [x, y, z]: [f32x8; 3]| {
             splat(axis.x) * x + splat(axis.y) * y + splat(axis.z) * z
@@ -167,11 +169,11 @@ impl<'a> BatchSolver<'a> {
     }
 }
 
-/// The arm at a value of the shoulder.
+/// Arm at one value of the shoulder.
 struct ShoulderPose {
-    /// From the base to the wrist's centre with the lift at position 0.
+    /// From the base to the centre of the wrist with the lift at position 0.
     wrist: Vector3<f32>,
-    /// n₁, n₂ and n₂ × n₁, as the shoulder turns them.
+    /// n₁, n₂ and n₂ × n₁, rotated by the shoulder.
     frame: [Vector3<f32>; 3],
 }
 
@@ -194,7 +196,7 @@ impl JointScale {
             .joints
             .get(at)
             .map_or((1.0, 0.0), |joint| (1.0 / joint.coupling.multiplier, joint.coupling.offset));
-        // Of a wrist joint one turn, of the lift all.
+        // One turn of a wrist joint, the whole range of the lift.
         let range = |dof: &Dof| dof.limits.filter(|_| at == 0).unwrap_or(dof.sampling_range());
         let (lower, upper) = arm.chain.dofs.get(at).map_or((0.0, 0.0), range);
         Self { scale: scale as f32, offset: offset as f32, lower: lower as f32, upper: upper as f32 }

@@ -1,9 +1,10 @@
 //! Closed form for an arm on a lift with a spherical wrist, on a base that drives in any direction.
 //!
-//! The chain slides along the vertical, turns about a shoulder, then about three axes that meet in the wrist's centre.
-//! A pose of the tip fixes the wrist's centre. With the base's yaw and the shoulder's angle as free parameters, the
-//! centre's height gives the lift, its place in the plane gives the base, and the orientation that is left gives the
-//! three angles of the wrist, in two ways. So a pose has a family of solutions with two parameters, and two branches.
+//! The chain has a vertical prismatic joint, a shoulder, and three axes that meet in the centre of the wrist.
+//! A pose of the tip fixes that centre. With the yaw of the base and the angle of the shoulder as free
+//! parameters, the height of the centre gives the lift, its horizontal place gives the base, and the
+//! remaining rotation gives the three wrist angles, in two branches. So each pose has a two-parameter family
+//! of solutions with two branches.
 
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
@@ -13,41 +14,41 @@ use super::subproblem::{angle_between, component, turned, within};
 use crate::kinematics::{Dof, KinematicChain, planar};
 use crate::trigonometry::{turn, wrapped};
 
-/// The solver of one arm. The base's frame stands on the floor, z up.
+/// Solver for one arm. The frame of the base is on the floor, z up.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LiftArm {
     pub(crate) chain: KinematicChain,
-    /// 1 where the lift's positive direction is up, −1 where it is down.
+    /// 1 if the positive direction of the lift is up, −1 if it is down.
     pub(crate) up: f64,
     pub(crate) shoulder: Shoulder,
-    /// Axes of the wrist at positions 0, in the base's frame.
+    /// Axes of the wrist at positions 0, in the frame of the base.
     pub(crate) wrist: [Vector3<f64>; 3],
-    /// The wrist's centre in the tip's frame.
+    /// Centre of the wrist in the frame of the tip.
     pub(crate) centre_in_tip: Vector3<f64>,
-    /// The tip's rotation at positions 0, in the base's frame.
+    /// Rotation of the tip at positions 0, in the frame of the base.
     pub(crate) base_from_tip: UnitQuaternion<f64>,
 }
 
-/// The shoulder at positions 0, in the base's frame.
+/// Shoulder at positions 0, in the frame of the base.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Shoulder {
     pub(crate) axis: Vector3<f64>,
     pub(crate) point: Vector3<f64>,
-    /// From that point to the wrist's centre.
+    /// From that point to the centre of the wrist.
     pub(crate) to_wrist: Vector3<f64>,
 }
 
-/// A base pose on the floor with the positions of the arm.
+/// Solution for a mobile arm: base pose on the floor and joint values.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MobileSolution {
-    /// x and y in m and yaw in (−π, π], of the base in the map.
+    /// x and y in m and yaw in (−π, π], of the base in the map frame.
     pub base: [f64; 3],
-    /// Values of the chain's variables: lift, shoulder, three of the wrist.
+    /// Values of the degrees of freedom: lift, shoulder, three of the wrist.
     pub values: [f64; 5],
 }
 
 impl LiftArm {
-    /// The solver, where the chain is of this kind.
+    /// Solver for the chain; `None` if its axes do not have this arrangement.
     #[must_use]
     pub fn detect(chain: &KinematicChain) -> Option<Self> {
         let kinds: Vec<bool> = chain.joints.iter().map(|joint| joint.is_prismatic).collect();
@@ -61,7 +62,7 @@ impl LiftArm {
             return None;
         }
         let centre = one.meeting(&two).filter(|centre| three.contains(centre))?;
-        // Axes that are square to the next reach every orientation, so that the two branches are all there are.
+        // Consecutive perpendicular axes reach every orientation, so there are exactly two branches.
         let square = |a: &Screw, b: &Screw| a.direction.dot(&b.direction).abs() < ROUNDED;
         if !square(&one, &two) || !square(&two, &three) {
             return None;
@@ -80,14 +81,14 @@ impl LiftArm {
         })
     }
 
-    /// The chain that it solves.
+    /// Kinematic chain of the arm.
     #[must_use]
     pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
-    /// Every solution with the given yaw of the base and value of the shoulder's variable, within the limits; the
-    /// branches in a fixed order: at most two. Of values that differ by full turns it has the nearest to 0.
+    /// Solves for a given yaw of the base and value of the shoulder: at most two solutions within the limits,
+    /// in a fixed order of branches. Of values that differ by full turns it takes the one nearest to 0.
     #[must_use]
     pub fn solve(&self, map_from_tip: &Isometry3<f64>, yaw: f64, shoulder: f64) -> Vec<MobileSolution> {
         let [lift_joint, shoulder_joint, wrist_joints @ ..] = self.chain.joints.as_slice() else {
@@ -131,20 +132,21 @@ impl LiftArm {
         found
     }
 
-    /// Where the tip is.
+    /// Pose of the tip in the map frame, by forward kinematics.
     #[must_use]
     pub fn map_from_tip(&self, placed: &MobileSolution) -> Isometry3<f64> {
         let [x, y, yaw] = placed.base;
         planar(x, y, yaw) * self.chain.base_from_tip(&placed.values)
     }
 
-    /// The wrist's centre for a pose of the tip.
+    /// Centre of the wrist for a pose of the tip.
     #[must_use]
     pub fn centre(&self, map_from_tip: &Isometry3<f64>) -> nalgebra::Point3<f64> {
         map_from_tip * nalgebra::Point3::from(self.centre_in_tip)
     }
 
-    /// The heights, in m, between which the wrist's centre can be, with every value of the shoulder within the limits.
+    /// Least and greatest height of the centre of the wrist, in m, over all values of the shoulder within the
+    /// limits.
     #[must_use]
     pub fn heights(&self) -> [f64; 2] {
         let range = |at: usize| self.chain.dofs.get(at).and_then(|dof| dof.limits);
@@ -161,11 +163,12 @@ impl LiftArm {
         let height = |angle: f64| point.z + turned(&axis, angle, &to_wrist).z;
         let (lower, upper) = self.shoulder_span();
         let (first, last) = (place(1, lower), place(1, upper));
-        // As the shoulder turns the height is a wave: its ends, and its crests where they are within.
+        // The height is a sine of the shoulder angle: its extrema are at the ends and at the crests within
+        // the limits.
         let across = axis.cross(&to_wrist);
         let crest = crate::trigonometry::atan2(across.z, (to_wrist - axis * axis.dot(&to_wrist)).z);
         let (from, to) = (first.min(last), first.max(last));
-        // Of all crests the first two within show both heights.
+        // The first two crests within the limits have both extreme heights.
         let pi = std::f64::consts::PI;
         let nearest = libm::ceil((from - crest) / pi);
         let crests = [-1.0, 0.0, 1.0, 2.0].into_iter().map(|half| crest + pi * (nearest + half));
@@ -177,19 +180,19 @@ impl LiftArm {
         [low + one.min(other), high + one.max(other)]
     }
 
-    /// Values of the shoulder's variable that stand for all others.
+    /// Range of shoulder values that represents all others.
     pub(crate) fn shoulder_span(&self) -> (f64, f64) {
         self.chain.dofs.get(1).map_or((0.0, 0.0), Dof::sampling_range)
     }
 
-    /// How far the tip can be from the vertical axis of the base, in m.
+    /// Greatest distance of the tip from the vertical axis of the base, in m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let Shoulder { point, to_wrist, .. } = self.shoulder;
         libm::hypot(point.x, point.y) + to_wrist.norm() + self.centre_in_tip.norm()
     }
 
-    /// The same family of solutions seen from a base that is raised: its frame is `height` above the floor.
+    /// The same solver for a base whose frame is `height` m above the floor.
     #[must_use]
     pub fn raised(mut self, height: f64) -> Self {
         let lift = Translation3::new(0.0, 0.0, height);
@@ -201,8 +204,8 @@ impl LiftArm {
     }
 }
 
-/// The angles about three axes, each square to the next, that make up a rotation: two ways, in a fixed order. Where the
-/// outer axes coincide only their sum counts, and the first angle is 0.
+/// Angles about three axes, each perpendicular to the next, that make up a rotation: two branches in a fixed
+/// order. If the outer axes coincide only their sum counts, and the first angle is 0.
 pub(super) fn wrist(axes: &[Vector3<f64>; 3], rotation: &UnitQuaternion<f64>) -> Vec<[f64; 3]> {
     let [one, two, three] = axes;
     let pointing = rotation * three;
@@ -210,7 +213,8 @@ pub(super) fn wrist(axes: &[Vector3<f64>; 3], rotation: &UnitQuaternion<f64>) ->
     let ways = middles.into_iter().map(|middle| {
         let bent = turned(two, middle, three);
         let first = angle_between(one, &bent, &pointing);
-        // Of what is left, a turn about the third axis, a vector square to it shows the angle.
+        // The remaining rotation is about the third axis; a vector perpendicular to that axis shows its
+        // angle.
         let rest =
             turn(&Unit::new_unchecked(*two), -middle) * turn(&Unit::new_unchecked(*one), -first) * rotation;
         let last = angle_between(three, two, &(rest * two));

@@ -1,10 +1,10 @@
-//! Inverse kinematics: joint positions that put a tip at a pose.
+//! Inverse kinematics: joint values that put a tip at a pose.
 //!
-//! Which arm has a closed form is read off the axes of its joints, never off names: [`LiftArm`] for a lift, a shoulder
-//! and a wrist whose three axes meet in a point, on a base that drives in any direction; [`ParallelArm`] for six turning
-//! joints of which the inner three are parallel; [`SevenArm`] for a shoulder, an elbow and a wrist as of the Franka arms. [`numeric`]
-//! takes any chain. What is returned is within the limits, and
-//! forward kinematics confirms it.
+//! The closed form for an arm is chosen by the axes of its joints, never by names: [`LiftArm`] for a lift, a
+//! shoulder and a spherical wrist on a base that drives in any direction; [`ParallelArm`] for six revolute
+//! joints of which three inner ones are parallel; [`SevenArm`] for shoulder, elbow and wrist as in the Franka
+//! arms. [`numeric`] solves any chain. All solutions are within the limits and confirmed by forward
+//! kinematics.
 
 pub mod batch;
 pub(crate) mod interval;
@@ -24,20 +24,20 @@ use nalgebra::Isometry3;
 
 use crate::trigonometry::rotation_vector;
 
-/// How far a pose may be from the one that was asked for.
+/// Greatest deviation of a pose from the requested one.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tolerance {
-    /// In m.
+    /// Distance of the origins, in m.
     pub position: f64,
-    /// In rad.
+    /// Angle of the relative rotation, in rad.
     pub angle: f64,
 }
 
 impl Tolerance {
-    /// What counts as the same pose: far below what any robot can do, far above rounding.
+    /// Tolerance for equal poses: far below the accuracy of a robot, far above rounding.
     pub const EXACT: Self = Self { position: 1e-7, angle: 1e-7 };
 
-    /// Whether two poses in one frame are as near as that.
+    /// Checks whether two poses in one frame differ by no more than the tolerance.
     #[must_use]
     pub fn covers(self, one: &Isometry3<f64>, other: &Isometry3<f64>) -> bool {
         let metres = (one.translation.vector - other.translation.vector).norm();

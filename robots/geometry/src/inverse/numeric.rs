@@ -1,5 +1,5 @@
-//! Inverse kinematics of any chain: Levenberg–Marquardt within the limits, from a start and then from seeds of a
-//! low-discrepancy sequence. It finds one solution or none, and that it finds none proves nothing.
+//! Numeric inverse kinematics of any chain: Levenberg–Marquardt within the limits, from a given start and
+//! then from a low-discrepancy sequence. It finds one solution or none; a failure proves nothing.
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -7,14 +7,14 @@ use super::Tolerance;
 use crate::kinematics::{KinematicChain, quasi_random};
 use crate::trigonometry::{rotation_vector, turn};
 
-/// How long to look.
+/// Effort and accuracy of the numeric search.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NumericSettings {
-    /// Starts, the given one included.
+    /// Number of starts, the given one included.
     pub starts: usize,
-    /// Steps from one start.
+    /// Greatest number of steps from one start.
     pub steps: usize,
-    /// When it is found.
+    /// Accuracy at which a solution counts as found.
     pub tolerance: Tolerance,
 }
 
@@ -24,8 +24,9 @@ impl Default for NumericSettings {
     }
 }
 
-/// Values of the chain's variables, within the limits, that put the tip at the pose; `None` where none was found.
-/// The first start is `from`; the next are spread over the limits. O(starts × steps × joints).
+/// Searches values of the degrees of freedom, within the limits, that put the tip at a pose; `None` if the
+/// search fails. The first start is `from`, the others are quasi-random within the limits. O(starts × steps ×
+/// joints).
 #[must_use]
 pub fn solve(
     chain: &KinematicChain,
@@ -39,7 +40,7 @@ pub fn solve(
         .find_map(|start| refined(chain, base_from_tip, &start, settings.steps, settings.tolerance))
 }
 
-/// The same from one start only.
+/// Searches from one start only. O(steps × joints).
 #[must_use]
 pub fn refined(
     chain: &KinematicChain,
@@ -76,7 +77,8 @@ pub fn refined(
     is_within(&placed.error, tolerance).then_some(values)
 }
 
-/// A solution of a closed form as it is where forward kinematics confirms it; a URDF whose axes are rounded needs a step or two.
+/// Confirms a closed-form solution by forward kinematics; a URDF with rounded axes needs a step or two of the
+/// numeric search.
 pub(super) fn polished<const N: usize>(
     chain: &KinematicChain,
     values: [f64; N],
@@ -88,7 +90,7 @@ pub(super) fn polished<const N: usize>(
     refined(chain, base_from_tip, &values, 4, Tolerance::EXACT)?.try_into().ok()
 }
 
-/// Metres, then a rotation vector in rad: in the base's frame.
+/// Twist in the frame of the base: metres, then a rotation vector in rad.
 type Twist = [f64; 6];
 
 fn squared(twist: &Twist) -> f64 {
@@ -99,13 +101,13 @@ fn is_within([x, y, z, a, b, c]: &Twist, tolerance: Tolerance) -> bool {
     (x * x + y * y + z * z).sqrt() <= tolerance.position && (a * a + b * b + c * c).sqrt() <= tolerance.angle
 }
 
-/// A chain with its variables at some values.
+/// Chain at some joint values.
 #[derive(Default)]
 struct ChainState {
-    /// For each joint its axis, as long as its position changes with its variable, and where it is.
+    /// For each joint its axis, scaled by the change of position per degree of freedom, and its origin.
     axes: Vec<[Vector3<f64>; 2]>,
     tip: Vector3<f64>,
-    /// What is missing to the pose that is wanted.
+    /// Remaining error to the requested pose.
     error: Twist,
 }
 
@@ -131,7 +133,7 @@ impl ChainState {
         self.error = [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z];
     }
 
-    /// For each variable how the tip moves with it: velocity, then angular velocity.
+    /// Geometric Jacobian: for each degree of freedom the velocity and angular velocity of the tip.
     fn jacobian(&self, chain: &KinematicChain) -> Vec<Twist> {
         let mut columns = vec![[0.0; 6]; chain.dofs.len()];
         for (joint, [axis, at]) in chain.joints.iter().zip(&self.axes) {
@@ -148,8 +150,8 @@ impl ChainState {
     }
 }
 
-/// The damped step `Jᵀ (J Jᵀ + damping)⁻¹ error`, within the limits. A variable that stands at a limit and would be
-/// pushed beyond is held, and the others share its part.
+/// Damped step `Jᵀ (J Jᵀ + damping)⁻¹ error`, within the limits. A degree of freedom at a limit that would be
+/// pushed beyond it is held, and the others share its part.
 fn step(
     chain: &KinematicChain,
     values: &[f64],
@@ -158,7 +160,7 @@ fn step(
     damping: f64,
 ) -> Option<Vec<f64>> {
     let mut held = vec![false; values.len()];
-    // Every round holds one variable more, or is the last.
+    // Every round holds one more degree of freedom, or is the last.
     for _ in 0..=values.len() {
         let mut normal = [[0.0; 6]; 6];
         for (column, _) in columns.iter().zip(&held).filter(|(_, held)| !**held) {
@@ -205,8 +207,8 @@ fn clamp(chain: &KinematicChain, values: &mut [f64]) {
     }
 }
 
-/// Solves a symmetric positive definite system of six equations by elimination; `None` where it is singular. Written
-/// out because a library's may fuse products with sums on some machines.
+/// Solves a symmetric positive definite system of six equations by elimination; `None` if it is singular.
+/// Written out because a library may fuse products with sums on some machines.
 fn solved(mut rows: [[f64; 6]; 6], mut right: [f64; 6]) -> Option<[f64; 6]> {
     for pivot in 0..6 {
         let top = *rows.get(pivot)?;
@@ -216,7 +218,7 @@ fn solved(mut rows: [[f64; 6]; 6], mut right: [f64; 6]) -> Option<[f64; 6]> {
         }
         for (row, slot) in rows.iter_mut().zip(&mut right).skip(pivot + 1) {
             let factor = row.get(pivot)? / first;
-            // What stands before the pivot is not looked at again.
+            // Entries before the pivot are not read again.
             row.iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
             *slot -= factor * value;
         }

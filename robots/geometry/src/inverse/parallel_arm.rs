@@ -1,9 +1,10 @@
-//! Closed form for six turning joints of which the second to fourth are parallel and the last two meet in a point, such
-//! as the arms of Universal Robots and the Unitree Z1: at most eight solutions.
+//! Closed form for six revolute joints of which the second to fourth are parallel and the last two meet in a
+//! point, such as the arms of Universal Robots and the Unitree Z1: at most eight solutions.
 //!
-//! Turning about the parallel axes leaves components along them alone. The place of the point where the last two axes
-//! meet so gives the first joint, the orientation the fifth and then the sixth; what is left is a planar arm of two
-//! links (after Hawkins 2013, and Elias and Wen 2022, without Denavit–Hartenberg parameters).
+//! Rotations about the parallel axes leave components along them unchanged. So the intersection of the last
+//! two axes gives the first joint, and the orientation gives the fifth and then the sixth; the rest is a
+//! planar arm of two links (after Hawkins 2013, and Elias and Wen 2022, without Denavit–Hartenberg
+//! parameters).
 
 use nalgebra::{Isometry3, Unit, UnitQuaternion, Vector3};
 
@@ -13,26 +14,27 @@ use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
 use crate::kinematics::KinematicChain;
 use crate::trigonometry::turn;
 
-/// The solver of one arm.
+/// Solver for one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ParallelArm {
     pub(super) chain: KinematicChain,
-    /// Directions of the six axes at positions 0, in the base's frame.
+    /// Directions of the six axes at positions 0, in the frame of the base.
     pub(super) axes: [Vector3<f64>; 6],
-    /// For the parallel joints 1 where they turn with the second axis, −1 where against it.
+    /// Sign of each parallel joint: 1 if it turns with the second axis, −1 if against it.
     pub(super) signs: [f64; 3],
-    /// A point on the first axis.
+    /// Point on the first axis.
     pub(super) first: Vector3<f64>,
-    /// From that point to the second axis, from axis to axis, and from the fourth to where the last two meet.
+    /// From that point to the second axis, from axis to axis, and from the fourth axis to the intersection of
+    /// the last two.
     pub(super) offsets: [Vector3<f64>; 4],
-    /// That point, in the tip's frame.
+    /// Intersection of the last two axes, in the frame of the tip.
     pub(super) centre_in_tip: Vector3<f64>,
-    /// The tip's rotation at positions 0, in the base's frame.
+    /// Rotation of the tip at positions 0, in the frame of the base.
     pub(super) base_from_tip: UnitQuaternion<f64>,
 }
 
 impl ParallelArm {
-    /// The solver, where the chain is of this kind.
+    /// Solver for the chain; `None` if its axes do not have this arrangement.
     #[must_use]
     pub fn detect(chain: &KinematicChain) -> Option<Self> {
         if chain.joints.iter().any(|joint| joint.is_prismatic) || !drives_each(chain) {
@@ -63,15 +65,15 @@ impl ParallelArm {
         })
     }
 
-    /// The chain that it solves.
+    /// Kinematic chain of the arm.
     #[must_use]
     pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
-    /// Every solution within the limits, in a fixed order: values of the chain's variables, of those that differ by full turns the
-    /// nearest to 0. Where the last axis is parallel to the inner three, a family of solutions is stood for by those with the last
-    /// joint at 0.
+    /// All solutions within the limits, in a fixed order, as values of the degrees of freedom; of those that
+    /// differ by full turns the nearest to 0. If the last axis is parallel to the inner three, the members
+    /// with the last joint at 0 represent the family.
     #[must_use]
     pub fn solve(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
         let positions = self.positions(base_from_tip);
@@ -79,7 +81,7 @@ impl ParallelArm {
         found.filter_map(|values| self.confirmed(values, base_from_tip)).collect()
     }
 
-    /// The solution within the limits that is nearest to some values, by the largest difference of one.
+    /// Solution within the limits that is nearest to `to`, by the largest difference of one value.
     #[must_use]
     pub fn nearest(&self, base_from_tip: &Isometry3<f64>, to: &[f64; 6]) -> Option<[f64; 6]> {
         let mut best: Option<(f64, [f64; 6])> = None;
@@ -97,7 +99,7 @@ impl ParallelArm {
         polished(&self.chain, values, base_from_tip).filter(|values| self.chain.allows(values))
     }
 
-    /// Whether a joint may be at a position, or at one that differs by full turns.
+    /// Checks whether a joint allows a position, or one that differs by full turns.
     fn may_be(&self, joint: usize, position: f64) -> bool {
         let known = self.chain.joints.get(joint).zip(self.chain.dofs.get(joint));
         known.is_some_and(|(joint, dof)| {
@@ -105,13 +107,14 @@ impl ParallelArm {
         })
     }
 
-    /// Joint positions, up to full turns, with the first, the fifth and the sixth within their limits, on which the others turn.
+    /// Joint positions up to full turns; the first, the fifth and the sixth, on which the others depend, are
+    /// within their limits.
     fn positions(&self, base_from_tip: &Isometry3<f64>) -> Vec<[f64; 6]> {
         let [h1, h, _, _, h5, h6] = &self.axes;
         let [to_two, to_three, to_four, to_centre] = &self.offsets;
         let centre = base_from_tip * nalgebra::Point3::from(self.centre_in_tip);
         let from_first = centre.coords - self.first;
-        // Most of what is asked for is out of reach, and that is quickly seen.
+        // Most requests are out of reach, which this test shows quickly.
         let reach: f64 = self.offsets.iter().map(Vector3::norm).sum();
         if from_first.norm() > reach + 1e-6 {
             return vec![];
@@ -119,7 +122,7 @@ impl ParallelArm {
         let turned_by = base_from_tip.rotation * self.base_from_tip.inverse();
         let along = h.dot(&(to_two + to_three + to_four + to_centre));
         let mut found = Vec::new();
-        // Turning the point back by the first joint is turning it by minus its angle.
+        // Rotating the point back by the first joint is rotating it by minus its angle.
         for q1 in component(h1, &from_first, h, along).into_iter().flatten().map(|angle| -angle) {
             if !self.may_be(0, q1) {
                 continue;
@@ -155,7 +158,7 @@ impl ParallelArm {
         found
     }
 
-    /// Values within the limits that stand for positions, of those that differ by full turns the nearest to some.
+    /// Values within the limits for joint positions; of those that differ by full turns the nearest to `to`.
     fn values(&self, positions: &[f64; 6], to: &[f64; 6]) -> Option<[f64; 6]> {
         let mut values = *to;
         let joints = self.chain.joints.iter().zip(&self.chain.dofs).zip(positions);

@@ -1,14 +1,14 @@
-//! The axes of a chain with every joint at position 0, in the base's frame: the chain as a product of exponentials
+//! Joint axes of a chain at position 0, in the frame of the base: the chain as a product of exponentials
 //! (Brockett 1984).
 
 use nalgebra::{Isometry3, Vector3};
 
 use crate::kinematics::KinematicChain;
 
-/// How far directions and points of a URDF may be off what is meant: its numbers are often rounded to six digits.
+/// Tolerance for axes of a URDF, whose numbers are often rounded to six digits.
 pub(super) const ROUNDED: f64 = 1e-6;
 
-/// An axis: a direction of length 1, and a point on it (for a joint that slides, of no meaning).
+/// Axis of a joint: a unit vector and a point on the axis (without meaning for a prismatic joint).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Screw {
     pub(super) direction: Vector3<f64>,
@@ -20,7 +20,7 @@ impl Screw {
         self.direction.cross(&other.direction).norm() < ROUNDED
     }
 
-    /// The point where two axes meet; `None` where they are parallel or pass each other.
+    /// Intersection of two axes; `None` if they are parallel or skew.
     pub(super) fn meeting(&self, other: &Self) -> Option<Vector3<f64>> {
         let normal = self.direction.cross(&other.direction);
         let square = normal.norm_squared();
@@ -39,7 +39,7 @@ impl Screw {
     }
 }
 
-/// The axes of all joints, and the tip's pose.
+/// Axes of all joints, and the pose of the tip, at position 0.
 pub(super) fn screws(chain: &KinematicChain) -> (Vec<Screw>, Isometry3<f64>) {
     let mut base_from_joint = Isometry3::identity();
     let screws = chain.joints.iter().map(|joint| {
@@ -53,7 +53,7 @@ pub(super) fn screws(chain: &KinematicChain) -> (Vec<Screw>, Isometry3<f64>) {
     (screws, base_from_joint * chain.last_from_tip)
 }
 
-/// Whether each joint has a variable of its own, of which a turn is a turn of the joint.
+/// Checks that each joint has a degree of freedom of its own, and that full turns of both coincide.
 pub(super) fn drives_each(chain: &KinematicChain) -> bool {
     chain.dofs.len() == chain.joints.len()
         && chain.joints.iter().zip(0..).all(|(joint, at)| {

@@ -1,11 +1,11 @@
-//! Closed form for seven turning joints: three that meet in a shoulder, an elbow, two that meet in a wrist, and a last one that may
-//! stand off from them, as the Franka arms have it. The last joint is the free parameter; there are at most eight solutions for
-//! each of its values.
+//! Closed form for seven revolute joints: three that meet in a shoulder, an elbow, two that meet in a wrist,
+//! and a last one that may be offset, as in the Franka arms. The last joint is the free parameter; there are
+//! at most eight solutions for each of its values.
 //!
-//! With the last joint known the place of the wrist is, and its distance from the shoulder gives the elbow. The fifth axis is square to
-//! the sixth, which is known, and leans against the line from the shoulder to the wrist as the elbow says, which gives the sixth
-//! joint. Both directions then give the orientation of the shoulder (after He and Liu 2021, without Denavit–Hartenberg
-//! parameters).
+//! The last joint fixes the place of the wrist, whose distance from the shoulder gives the elbow. The fifth
+//! axis is perpendicular to the known sixth axis and at an angle to the line from shoulder to wrist that the
+//! elbow fixes; this gives the sixth joint. Both directions then give the rotation of the shoulder (after He
+//! and Liu 2021, without Denavit–Hartenberg parameters).
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
@@ -16,26 +16,26 @@ use super::subproblem::{angle_between, component, sum_of_waves, turned, within};
 use crate::kinematics::{Dof, KinematicChain};
 use crate::trigonometry::turn;
 
-/// The solver of one arm.
+/// Solver for one arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SevenArm {
     pub(super) chain: KinematicChain,
-    /// Directions of the axes at positions 0, in the base's frame.
+    /// Directions of the axes at positions 0, in the frame of the base.
     pub(super) axes: [Vector3<f64>; 7],
-    /// Where the first three axes meet.
+    /// Intersection of the first three axes.
     pub(super) shoulder: Vector3<f64>,
-    /// A point on the fourth axis, as far along it as the shoulder.
+    /// Point on the fourth axis, at the height of the shoulder along it.
     pub(super) elbow: Vector3<f64>,
-    /// Where the fifth and the sixth axis meet.
+    /// Intersection of the fifth and the sixth axis.
     pub(super) wrist: Vector3<f64>,
-    /// A point on the seventh axis.
+    /// Point on the seventh axis.
     pub(super) last: Vector3<f64>,
-    /// The tip at positions 0, in the base's frame.
+    /// Pose of the tip at positions 0, in the frame of the base.
     pub(super) base_from_tip: Isometry3<f64>,
 }
 
 impl SevenArm {
-    /// The solver, where the chain is of this kind.
+    /// Solver for the chain; `None` if its axes do not have this arrangement.
     #[must_use]
     pub fn detect(chain: &KinematicChain) -> Option<Self> {
         if chain.joints.iter().any(|joint| joint.is_prismatic) || !drives_each(chain) {
@@ -66,27 +66,28 @@ impl SevenArm {
         })
     }
 
-    /// The chain that it solves.
+    /// Kinematic chain of the arm.
     #[must_use]
     pub fn chain(&self) -> &KinematicChain {
         &self.chain
     }
 
-    /// Values of the last joint's variable that stand for all others.
+    /// Range of values of the last joint that represents all others.
     pub(crate) fn last_span(&self) -> (f64, f64) {
         self.chain.dofs.last().map_or((0.0, 0.0), Dof::sampling_range)
     }
 
-    /// Every solution within the limits with the given value of the last joint's variable, in a fixed order: values of the chain's
-    /// variables. Where the arm is stretched out or an axis does not matter, a family is stood for by some of it.
+    /// Solves for a given value of the last joint: all solutions within the limits, in a fixed order, as
+    /// values of the degrees of freedom. A family of solutions, as of a stretched arm, is represented by some
+    /// of its members.
     #[must_use]
     pub fn solve(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 7]> {
         let found = self.unconfirmed(base_from_tip, last);
         found.into_iter().filter_map(|values| self.confirmed(values, base_from_tip)).collect()
     }
 
-    /// Solutions with the last joint's variable at any of some values, the nearest to other values of all variables first, by the
-    /// squares of their differences: at most `most`.
+    /// Solutions for several values of the last joint, nearest to `to` first (sum of squared differences), at
+    /// most `most`.
     #[must_use]
     pub fn nearest(
         &self,
@@ -105,7 +106,7 @@ impl SevenArm {
         confirmed.take(most).collect()
     }
 
-    /// Values within the limits that forward kinematics has yet to confirm.
+    /// Values within the limits that forward kinematics has not confirmed yet.
     fn unconfirmed(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 7]> {
         let Some((joint, dof)) = self.chain.joints.last().zip(self.chain.dofs.last()) else {
             return vec![];
@@ -125,7 +126,7 @@ impl SevenArm {
     /// Positions of the first six joints, up to full turns, regardless of limits.
     fn positions(&self, base_from_tip: &Isometry3<f64>, last: f64) -> Vec<[f64; 6]> {
         let [h1, h2, h3, h4, h5, h6, h7] = &self.axes;
-        // The motion that the first six joints make together.
+        // Combined motion of the first six joints.
         let moved = base_from_tip * self.base_from_tip.inverse();
         let back = turn(&Unit::new_unchecked(*h7), -last);
         let rotation = moved.rotation * back;
@@ -157,7 +158,7 @@ impl SevenArm {
         found
     }
 
-    /// Values within the limits that stand for the positions, of those that differ by full turns the nearest to 0.
+    /// Values within the limits for joint positions; of those that differ by full turns the nearest to 0.
     fn values(&self, angles: &[f64; 6], last: f64) -> Option<[f64; 7]> {
         let mut values = [last; 7];
         let joints = self.chain.joints.iter().zip(&self.chain.dofs);
@@ -169,7 +170,8 @@ impl SevenArm {
     }
 }
 
-/// The rotation that takes a direction to another, and a second one with it; `None` where they are along each other.
+/// Rotation that takes one direction to another, and a second direction along with it; `None` if they are
+/// parallel.
 pub(super) fn between(from: [&Vector3<f64>; 2], to: [&Vector3<f64>; 2]) -> Option<UnitQuaternion<f64>> {
     let frame = |[along, beside]: [&Vector3<f64>; 2]| {
         let first = along / along.norm();

@@ -1,5 +1,5 @@
-//! The three questions about rotations that closed forms come down to (Paden 1986; Kahan 1983), and their answers
-//! within limits.
+//! The three rotation subproblems of closed-form inverse kinematics (Paden 1986; Kahan 1983), and their
+//! solutions within limits.
 
 use std::f64::consts::TAU;
 
@@ -8,21 +8,21 @@ use nalgebra::{Unit, Vector3};
 use crate::kinematics::Dof;
 use crate::trigonometry::{acos, atan2, turn};
 
-/// How far a cosine may be outside of [−1, 1] and still be rounding: at the ends of a range two solutions become one.
+/// Tolerance for a cosine outside of [−1, 1]: at the ends of a range two solutions become one.
 const ROUNDING: f64 = 1e-9;
 
-/// `vector`, turned by `angle` about the unit vector `axis`.
+/// Rotates `vector` by `angle` about the unit vector `axis`.
 pub(super) fn turned(axis: &Vector3<f64>, angle: f64, vector: &Vector3<f64>) -> Vector3<f64> {
     turn(&Unit::new_unchecked(*axis), angle) * vector
 }
 
-/// The angle about `axis` that brings `from` nearest to `to`; 0 where it does not matter.
+/// Angle about `axis` that brings `from` nearest to `to`; 0 if every angle does.
 pub(super) fn angle_between(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     let (sin, cos) = (axis.dot(&from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
     if sin.abs() + cos.abs() < 1e-12 { 0.0 } else { atan2(sin, cos) }
 }
 
-/// The angles `q` with `a cos q + b sin q = c`: none, or two, which may be the same.
+/// Solves `a cos q + b sin q = c`: no angle, or two, which may be equal.
 pub(super) fn sum_of_waves(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     let size = libm::hypot(a, b);
     let cosine = if size > 0.0 { c / size } else { return None };
@@ -33,7 +33,8 @@ pub(super) fn sum_of_waves(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     Some([middle - half, middle + half])
 }
 
-/// The angles about `axis` that give the turned `vector` the component `wanted` along the unit vector `along`.
+/// Angles about `axis` for which the rotated `vector` has the component `wanted` along the unit vector
+/// `along`.
 pub(super) fn component(
     axis: &Vector3<f64>,
     vector: &Vector3<f64>,
@@ -44,8 +45,9 @@ pub(super) fn component(
     sum_of_waves(vector.dot(along) - still, along.dot(&axis.cross(vector)), wanted - still)
 }
 
-/// Of the values of a variable that differ from `angle` by full turns the nearest to `to` within its limits; `None` where there is none. A
-/// value that rounding put outside by less than 1e-9 rad is the limit itself. Without limits it is in [−π, π) from `to`.
+/// Value nearest to `to` within the limits, of those that differ from `angle` by full turns; `None` if there
+/// is none. A value outside by less than 1e-9 rad, as rounding may put it, becomes the limit. Without limits
+/// the value is in [−π, π) around `to`.
 pub(super) fn within(dof: &Dof, angle: f64, to: f64) -> Option<f64> {
     let Some((lower, upper)) = dof.limits else {
         return Some(angle + TAU * libm::floor((to - angle) / TAU + 0.5));

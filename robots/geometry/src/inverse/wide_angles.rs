@@ -1,11 +1,12 @@
-//! Eight numbers at a time, and the angle of a vector among them.
+//! Angles of eight vectors at a time, in `f32`.
 //!
-//! Only sums, products, quotients, square roots and comparisons are used, one after the other: these are the same to
-//! the last bit on every processor, where a library's own arc tangent may fuse products with sums.
+//! Only sums, products, quotients, square roots and comparisons are used, unfused: IEEE 754 fixes them to the
+//! last bit on every processor, where the arc tangent of a library may fuse products with sums.
 
 use wide::f32x8;
 
-/// Coefficients of arctan(t) = t + t³ (c0 + c1 t² + …) for |t| ≤ 1, fitted at Chebyshev points; off by 1.2e-7 at most.
+/// Coefficients of arctan(t) = t + t³ (c0 + c1 t² + …) for |t| ≤ 1, fitted at Chebyshev points; error at most
+/// 1.2e-7.
 const ARC: [f32; 8] = [
     -0.333_333_25,
     0.199_988_1,
@@ -19,7 +20,7 @@ const ARC: [f32; 8] = [
 
 pub(super) const TURN: f32 = std::f32::consts::TAU;
 
-/// The angles of the vectors (x, y), in [−π, π]; 0 for the zero vector.
+/// Angles of the vectors (x, y), in [−π, π]; 0 for the zero vector.
 pub(super) fn atan2(y: f32x8, x: f32x8) -> f32x8 {
     let (zero, one) = (f32x8::splat(0.0), f32x8::splat(1.0));
     let (ax, ay) = (x.abs(), y.abs());
@@ -37,7 +38,7 @@ pub(super) fn atan2(y: f32x8, x: f32x8) -> f32x8 {
     y.simd_lt(zero).select(zero - angle, angle)
 }
 
-/// The angles, brought by full turns to `least` or up to a turn above it.
+/// Shifts angles by full turns into [`least`, `least` + 2π).
 pub(super) fn above(angle: f32x8, least: f32) -> f32x8 {
     let least = f32x8::splat(least);
     angle - ((angle - least) * f32x8::splat(1.0 / TURN)).floor() * f32x8::splat(TURN)

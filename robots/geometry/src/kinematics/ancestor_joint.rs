@@ -1,25 +1,25 @@
-//! Which joints move a link, to bound how far any of its points can go.
+//! Ancestor joints of a link: the joints that move it, for bounds on the motion of its points.
 
 use nalgebra::{Unit, Vector3};
 
 use super::tree::{JointCoupling, JointMotion, KinematicTree};
 
-/// A joint on the way from the root to a link.
+/// Joint between the root and a link.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct AncestorJoint {
-    /// Index of the link whose frame sits in the joint.
+    /// Index of the link whose frame is that of the joint.
     pub frame: usize,
-    /// Its axis or direction, in that frame.
+    /// Axis of rotation or direction of travel, in that frame.
     pub axis: Unit<Vector3<f64>>,
-    /// Whether it slides, and does not turn.
+    /// True for a prismatic joint, false for a revolute one.
     pub is_prismatic: bool,
-    /// Its position in terms of a configuration.
+    /// Coupling to a degree of freedom.
     pub coupling: JointCoupling,
 }
 
 impl KinematicTree {
-    /// The joints that move a link, by index, root first. Of a planar joint the directions are those of its frame as
-    /// turned, which leaves their lengths as they are. O(links).
+    /// Joints that move a link, root first. For a planar joint the directions are those of its rotated frame,
+    /// which keeps lengths. O(links).
     #[must_use]
     pub fn ancestor_joints(&self, link: usize) -> Vec<AncestorJoint> {
         let mut ancestors = Vec::new();

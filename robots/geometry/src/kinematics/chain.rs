@@ -1,41 +1,52 @@
-//! The joints between two links, with everything fixed folded into the poses between them: what inverse kinematics
-//! works on.
+//! Kinematic chains: the joints between two links, with fixed parts folded into the poses between. Inverse
+//! kinematics works on these.
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::tree::{Dof, JointCoupling, JointMotion, KinematicTree};
 use crate::trigonometry::turn;
 
-/// The moving joints from a base link to a tip link, of which the base is on the way from the root to the tip.
+/// Kinematic chain from a base link to a tip link, where the base carries the tip.
 ///
-/// The pose of the tip is `joints[0].before * motion(0) * joints[1].before * … * motion(n-1) * last_from_tip`.
+/// The pose of the tip is `joints[0].before * motion(0) * joints[1].before * … * motion(n-1) *
+/// last_from_tip`.
+///
+/// ```
+/// use motet_geometry::KinematicTree;
+/// use motet_geometry::kinematics::KinematicChain;
+/// use motet_robots::builtin;
+///
+/// let tree = KinematicTree::new(&builtin::robot("panda").unwrap().urdf);
+/// let chain = KinematicChain::new(&tree, tree.root(), tree.link("panda_hand").unwrap()).unwrap();
+/// assert_eq!(chain.dofs.len(), 7);
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct KinematicChain {
-    /// The joints, base first.
+    /// Joints, base first.
     pub joints: Vec<ChainJoint>,
-    /// From the frame after the last joint to the tip.
+    /// Pose of the tip in the frame after the last joint.
     pub last_from_tip: Isometry3<f64>,
-    /// The variables that move the joints, each once, in the order in which they first move one.
+    /// Degrees of freedom of the chain, each once, in the order of the first joint that each moves.
     pub dofs: Vec<Dof>,
-    /// For each variable of the chain its index in the tree's configuration.
+    /// For each degree of freedom of the chain, its index in a configuration of the tree.
     pub in_tree: Vec<usize>,
 }
 
-/// One joint of a chain.
+/// Joint of a chain.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ChainJoint {
-    /// From the frame after the previous joint to this joint's own.
+    /// Pose of the joint in the frame after the previous one.
     pub before: Isometry3<f64>,
-    /// Its axis or direction, in its own frame.
+    /// Axis of rotation or direction of travel, in the frame of the joint.
     pub axis: Unit<Vector3<f64>>,
-    /// Whether it slides, and does not turn.
+    /// True for a prismatic joint, false for a revolute one.
     pub is_prismatic: bool,
-    /// Its position in terms of the chain's variables.
+    /// Coupling to a degree of freedom of the chain.
     pub coupling: JointCoupling,
 }
 
 impl ChainJoint {
-    /// The joint's motion at a position.
+    /// Rigid motion of the joint at a position.
     #[must_use]
     pub fn motion(&self, position: f64) -> Isometry3<f64> {
         if self.is_prismatic {
@@ -47,9 +58,9 @@ impl ChainJoint {
 }
 
 impl KinematicChain {
-    /// The chain between two links by index; `None` where the base does not carry the tip. O(links).
+    /// Builds the chain between two links by index; `None` if the base does not carry the tip. O(links).
     ///
-    /// A planar joint becomes two that slide and one that turns.
+    /// A planar joint becomes two prismatic joints and a revolute one.
     #[must_use]
     pub fn new(tree: &KinematicTree, base: usize, tip: usize) -> Option<Self> {
         let (from_base, from_tip) = (tree.segments_to(base), tree.segments_to(tip));
@@ -101,7 +112,7 @@ impl KinematicChain {
         });
     }
 
-    /// The pose of the tip in the base's frame; one value for each variable of the chain. O(joints).
+    /// Pose of the tip in the frame of the base, for one value per degree of freedom. O(joints).
     #[must_use]
     pub fn base_from_tip(&self, values: &[f64]) -> Isometry3<f64> {
         let moved = self.joints.iter().fold(Isometry3::identity(), |pose, joint| {
@@ -110,7 +121,7 @@ impl KinematicChain {
         moved * self.last_from_tip
     }
 
-    /// Whether values are within the limits of every variable.
+    /// Checks whether values are within the limits of every degree of freedom.
     #[must_use]
     pub fn allows(&self, values: &[f64]) -> bool {
         values.len() == self.dofs.len()

@@ -1,19 +1,19 @@
-//! Poses of links at states of one straight way: what does not move on it is worked out once.
+//! Poses of links along one edge: fixed segments are evaluated once.
 
 use nalgebra::Isometry3;
 
 use super::tree::{JointMotion, KinematicTree};
 
-/// The links of a robot on its way between two configurations.
+/// Poses of the links of a robot along the edge between two configurations.
 #[derive(Clone, Debug)]
 pub struct EdgePoses {
-    /// For each step from link to link its pose where the way begins, and whether that changes.
+    /// For each segment its pose at the start of the edge, and whether it changes along the edge.
     segments: Vec<(Isometry3<f64>, bool)>,
     poses: Vec<Isometry3<f64>>,
 }
 
 impl EdgePoses {
-    /// The poses of the links where they were last placed, in the order of the links.
+    /// Poses of the links where they were last placed, in the order of the links.
     #[must_use]
     pub fn poses(&self) -> &[Isometry3<f64>] {
         &self.poses
@@ -21,7 +21,7 @@ impl EdgePoses {
 }
 
 impl KinematicTree {
-    /// A way between two configurations. O(links).
+    /// Prepares an edge between two configurations. O(links).
     #[must_use]
     pub fn edge_poses(&self, from: &[f64], to: &[f64]) -> EdgePoses {
         let changes = |at: usize| from.get(at) != to.get(at);
@@ -36,7 +36,7 @@ impl KinematicTree {
         EdgePoses { segments: segments.collect(), poses: vec![Isometry3::identity(); self.links().len()] }
     }
 
-    /// Places the links where the root has a pose, at a configuration on the way. O(links).
+    /// Places the links for a pose of the root and a configuration on the edge. O(links).
     pub fn place_on_edge(&self, edge: &mut EdgePoses, root: &Isometry3<f64>, configuration: &[f64]) {
         if let Some(slot) = edge.poses.get_mut(self.root()) {
             *slot = *root;

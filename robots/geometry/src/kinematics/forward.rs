@@ -1,4 +1,4 @@
-//! Poses of links from joint positions.
+//! Forward kinematics: poses of links from a configuration.
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -6,8 +6,8 @@ use super::tree::{JointMotion, KinematicTree, Segment};
 use crate::trigonometry::turn;
 
 impl KinematicTree {
-    /// The pose of every link in the root's frame, in the order of the links. Variables that `configuration` lacks are 0.
-    /// O(links).
+    /// Poses of all links in the frame of the root, in the order of the links. Degrees of freedom that
+    /// `configuration` lacks are 0. O(links).
     #[must_use]
     pub fn root_from_links(&self, configuration: &[f64]) -> Vec<Isometry3<f64>> {
         let mut poses = vec![Isometry3::identity(); self.links.len()];
@@ -20,7 +20,7 @@ impl KinematicTree {
         poses
     }
 
-    /// The pose of one link in the root's frame. O(links between it and the root).
+    /// Pose of one link in the frame of the root. O(links between it and the root).
     #[must_use]
     pub fn root_from_link(&self, configuration: &[f64], link: usize) -> Isometry3<f64> {
         let mut pose = Isometry3::identity();
@@ -34,11 +34,11 @@ impl KinematicTree {
         pose
     }
 
-    /// The pose of link `tip` in the frame of link `base`; both by index. O(links between them and the root).
+    /// Pose of link `tip` in the frame of link `base`, both by index. O(links between them and the root).
     #[must_use]
     pub fn pose(&self, configuration: &[f64], base: usize, tip: usize) -> Isometry3<f64> {
         let (from_base, from_tip) = (self.segments_to(base), self.segments_to(tip));
-        // What both have in common cancels out, so it is left out: no rounding comes from it.
+        // The common part cancels out, so it is skipped: it adds no rounding.
         let common = from_base.iter().zip(&from_tip).take_while(|(one, other)| one == other).count();
         let along = |segments: &[usize]| {
             let segments = segments.iter().skip(common).filter_map(|segment| self.segments.get(*segment));
@@ -47,7 +47,7 @@ impl KinematicTree {
         along(&from_base).inverse() * along(&from_tip)
     }
 
-    /// The steps from the root to a link, in this order.
+    /// Segments from the root to a link, in this order.
     pub(super) fn segments_to(&self, link: usize) -> Vec<usize> {
         let mut segments = Vec::new();
         let mut at = link;

@@ -1,4 +1,4 @@
-//! Forward kinematics: the tree of a URDF, flattened, and the poses of its links.
+//! Forward kinematics: the kinematic tree of a URDF, flattened, and the poses of its links.
 
 mod ancestor_joint;
 mod chain;

@@ -1,36 +1,37 @@
-//! The joints that some variables move, with all that others hold still folded into the poses between them.
+//! Reduced model: the joints that some degrees of freedom move, with all others fixed and folded into the
+//! poses between.
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::tree::{JointCoupling, JointMotion, KinematicTree};
 use crate::trigonometry::turn;
 
-/// A robot of which only some joints move. Frame 0 is the root's, frame `n` + 1 that of joint `n`.
+/// Robot with only some joints free. Frame 0 is that of the root, frame `n` + 1 that of joint `n`.
 #[derive(Clone, Debug)]
 pub(crate) struct ReducedModel {
-    /// Each after the one that carries it.
+    /// Joints, each after the one that carries it.
     pub(crate) joints: Vec<ReducedJoint>,
-    /// For each link the frame that it does not move in, and its pose in it.
+    /// For each link the frame to which it is fixed, and its pose in that frame.
     pub(crate) links: Vec<(usize, Isometry3<f64>)>,
 }
 
-/// A joint of a [`ReducedModel`].
+/// Joint of a [`ReducedModel`].
 #[derive(Clone, Debug)]
 pub(crate) struct ReducedJoint {
-    /// The frame that carries it.
+    /// Index of the parent frame.
     pub(crate) parent: usize,
-    /// Its pose in that frame.
+    /// Pose of the joint in the parent frame.
     pub(crate) before: Isometry3<f64>,
-    /// Its axis or direction, in its own frame.
+    /// Axis of rotation or direction of travel, in the frame of the joint.
     pub(crate) axis: Unit<Vector3<f64>>,
-    /// Whether it slides, and does not turn.
+    /// True for a prismatic joint, false for a revolute one.
     pub(crate) is_prismatic: bool,
-    /// Its position in terms of the tree's variables.
+    /// Coupling to a degree of freedom of the tree.
     pub(crate) coupling: JointCoupling,
 }
 
 impl ReducedJoint {
-    /// The joint's motion at a position.
+    /// Rigid motion of the joint at a position.
     pub(crate) fn motion(&self, position: f64) -> Isometry3<f64> {
         if self.is_prismatic {
             Translation3::from(self.axis.into_inner() * position).into()
@@ -41,8 +42,8 @@ impl ReducedJoint {
 }
 
 impl KinematicTree {
-    /// The rig in which only these variables move and the others are as in a configuration; `None` where one of them moves a planar
-    /// joint. O(links).
+    /// Reduced model in which only the selected degrees of freedom move and the others are as in a
+    /// configuration; `None` if one of them moves a planar joint. O(links).
     pub(crate) fn reduced(
         &self,
         configuration: &[f64],

@@ -1,4 +1,5 @@
-//! The joints of a robot as a flat list, each after the one that carries it, and the variables that move them.
+//! Kinematic tree: the joints of a robot as a flat list, each after the joint that carries it, and the
+//! degrees of freedom that move them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,47 +7,58 @@ use motet_robots::urdf::{Joint, JointKind, JointLimits, Pose, Urdf};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use smol_str::{SmolStr, format_smolstr};
 
-/// A robot's kinematics: links, and variables that move them.
+/// Kinematic tree of a robot.
 ///
-/// A *configuration* is one number for each variable, in the order of [`KinematicTree::dofs`]. A revolute, continuous or
-/// prismatic joint that follows no other has one variable of its name. A planar joint has three, `NAME/x`, `NAME/y` and
-/// `NAME/theta`. The position of a joint that follows others is a multiple of one variable plus an offset, which is
-/// worked out here once; the variable's limits are those of the joint and of all that follow it.
+/// A *configuration* is one number for each degree of freedom, in the order of [`KinematicTree::dofs`]. A
+/// revolute, continuous or prismatic joint that follows no other has one degree of freedom of its name. A
+/// planar joint has three: `NAME/x`, `NAME/y` and `NAME/theta`. The position of a mimic joint is a multiple
+/// of one degree of freedom plus an offset, resolved here once; the limits of a degree of freedom are those
+/// of its joint and of all that follow it.
+///
+/// ```
+/// use motet_geometry::KinematicTree;
+/// use motet_robots::builtin;
+///
+/// let tree = KinematicTree::new(&builtin::robot("panda").unwrap().urdf);
+/// let hand = tree.link("panda_hand").unwrap();
+/// let root_from_hand = tree.root_from_link(&tree.neutral(), hand);
+/// assert!(root_from_hand.translation.vector.norm() > 0.3);
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct KinematicTree {
     pub(super) links: Vec<SmolStr>,
-    /// Index of the step that places a link; `None` for the root.
+    /// Index of the segment that ends at a link; `None` for the root.
     pub(super) placed_by: Vec<Option<usize>>,
     pub(super) root: usize,
     dofs: Vec<Dof>,
     pub(super) segments: Vec<Segment>,
 }
 
-/// What a robot moves by itself.
+/// Degree of freedom: one independent joint variable.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dof {
-    /// Its name.
     pub name: SmolStr,
-    /// Least and greatest value in rad or m; `None` where it has no limits.
+    /// Least and greatest value in rad or m; `None` without limits.
     pub limits: Option<(f64, f64)>,
-    /// Whether a full turn brings it back, so that it is an angle without limits.
+    /// True for an angle without limits, for which a full turn is the identity.
     pub is_continuous: bool,
-    /// Whether it is a length in m, and no angle.
+    /// True for a length in m, false for an angle in rad.
     pub is_prismatic: bool,
 }
 
-/// JointLimits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written as 1e16.
+/// JointLimits as far from 0 as that on both sides, in rad and in m, are none: "unlimited" is often written
+/// as 1e16.
 const UNLIMITED: [f64; 2] = [1000.0 * TAU, 1000.0];
 
 impl Dof {
-    /// Whether a value lies within the limits, both ends included.
+    /// Checks whether a value is within the limits, both ends included.
     #[must_use]
     pub fn allows(&self, value: f64) -> bool {
         self.limits.is_none_or(|(lower, upper)| lower <= value && value <= upper) && value.is_finite()
     }
 
-    /// Where values are looked for: within the limits, of an angle within one full turn, about 0 as far as they allow it; half a turn or
-    /// 1 m either way where there are none.
+    /// Range that is searched and sampled: the limits; for an angle at most one full turn, about 0 as far as
+    /// the limits allow; half a turn or 1 m to either side without limits.
     #[must_use]
     pub fn sampling_range(&self) -> (f64, f64) {
         match self.limits {
@@ -64,14 +76,14 @@ impl Dof {
         }
     }
 
-    /// Room to the nearer limit in rad or m, negative outside; infinite where there is no limit.
+    /// Distance to the nearer limit in rad or m, negative outside; infinite without limits.
     #[must_use]
     pub fn limit_margin(&self, value: f64) -> f64 {
         self.limits.map_or(f64::INFINITY, |(lower, upper)| (value - lower).min(upper - value))
     }
 }
 
-/// From a link to the next: a fixed pose, then at most one motion.
+/// Segment of the tree, from a link to the next: a fixed pose, then at most one joint motion.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Segment {
     pub(super) parent: usize,
@@ -80,44 +92,41 @@ pub(super) struct Segment {
     pub(super) motion: JointMotion,
 }
 
-/// What a step moves.
+/// Motion of the joint of a segment.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum JointMotion {
-    /// Nothing.
     Fixed,
-    /// A rotation about an axis.
+    /// Rotation about an axis.
     Turn(Unit<Vector3<f64>>, JointCoupling),
-    /// A shift along an axis.
+    /// Translation along an axis.
     Slide(Unit<Vector3<f64>>, JointCoupling),
-    /// A shift along two axes, then a rotation about the third; the three variables follow each other.
+    /// Translation along two axes, then a rotation about the third, by three consecutive degrees of freedom.
     Planar {
         /// Directions of x, y and the normal.
         axes: [Unit<Vector3<f64>>; 3],
-        /// Index of the variable for x.
+        /// Index of the degree of freedom for x.
         first: usize,
     },
 }
 
-/// A joint position in terms of a variable: `multiplier * dof + offset`.
+/// Coupling of a joint to a degree of freedom: `position = multiplier * dof + offset`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct JointCoupling {
-    /// Index of the variable.
+    /// Index of the degree of freedom.
     pub dof: usize,
-    /// Factor.
     pub multiplier: f64,
-    /// Offset in rad or m.
     pub offset: f64,
 }
 
 impl JointCoupling {
-    /// The joint's position.
+    /// Position of the joint at a configuration, in rad or m.
     #[must_use]
     pub fn position(&self, configuration: &[f64]) -> f64 {
         self.multiplier * configuration.get(self.dof).copied().unwrap_or(0.0) + self.offset
     }
 }
 
-/// A link or a variable that a robot does not have.
+/// Error for a link or degree of freedom that the robot does not have.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct UnknownName(pub SmolStr);
 
@@ -130,7 +139,7 @@ impl std::fmt::Display for UnknownName {
 impl std::error::Error for UnknownName {}
 
 impl KinematicTree {
-    /// The tree of a URDF. O(links + joints).
+    /// Builds the kinematic tree of a URDF. O(links + joints).
     #[must_use]
     pub fn new(urdf: &Urdf) -> Self {
         let mut dofs = Vec::new();
@@ -171,13 +180,13 @@ impl KinematicTree {
         Self { links, placed_by, root: urdf.root, dofs, segments }
     }
 
-    /// The variables, in the order of a configuration.
+    /// Degrees of freedom, in the order of a configuration.
     #[must_use]
     pub fn dofs(&self) -> &[Dof] {
         &self.dofs
     }
 
-    /// The links' names, in the order of the URDF.
+    /// Names of the links, in the order of the URDF.
     #[must_use]
     pub fn links(&self) -> &[SmolStr] {
         &self.links
@@ -198,22 +207,18 @@ impl KinematicTree {
         self.links.iter().position(|link| link == name).ok_or_else(|| UnknownName(name.into()))
     }
 
-    /// Index of a variable. O(variables).
-    ///
-    /// # Errors
-    ///
-    /// There is no such variable.
+    /// Index of a degree of freedom. O(degrees of freedom).
     pub fn dof(&self, name: &str) -> Result<usize, UnknownName> {
         self.dofs.iter().position(|known| known.name == name).ok_or_else(|| UnknownName(name.into()))
     }
 
-    /// A configuration with zero where the limits allow it, else the nearer limit.
+    /// Configuration with zeros where the limits allow them, else the nearer limits.
     #[must_use]
     pub fn neutral(&self) -> Vec<f64> {
         self.dofs.iter().map(|known| known.limits.map_or(0.0, |(l, u)| 0.0_f64.clamp(l, u))).collect()
     }
 
-    /// Whether a configuration is within the limits of every variable.
+    /// Checks whether a configuration is within the limits of every degree of freedom.
     #[must_use]
     pub fn allows(&self, configuration: &[f64]) -> bool {
         configuration.len() == self.dofs.len()
@@ -221,7 +226,7 @@ impl KinematicTree {
     }
 }
 
-/// The variable of a joint that follows no other.
+/// Adds the degrees of freedom of a joint that follows no other.
 fn own_dof(joint: &Joint, is_followed: bool, dofs: &mut Vec<Dof>) -> Option<JointCoupling> {
     if joint.mimic.is_some() {
         return None;
@@ -231,7 +236,7 @@ fn own_dof(joint: &Joint, is_followed: bool, dofs: &mut Vec<Dof>) -> Option<Join
     let [angle, length] = UNLIMITED;
     let most = if is_prismatic { length } else { angle };
     let limits = joint.limits.map(|JointLimits { lower, upper }| (lower, upper));
-    // One that is followed has limits for the sake of others, in whatever unit.
+    // The limits of a leader include those of its followers, in whatever unit.
     let limits = limits.filter(|(lower, upper)| is_followed || -most < *lower || *upper < most);
     match joint.kind {
         JointKind::Fixed | JointKind::Floating => return None,
@@ -250,7 +255,7 @@ fn own_dof(joint: &Joint, is_followed: bool, dofs: &mut Vec<Dof>) -> Option<Join
     Some(JointCoupling { dof: first, multiplier: 1.0, offset: 0.0 })
 }
 
-/// What moves a joint in the end: follows the chain of mimic rules, which has no ring.
+/// Coupling of a joint to a degree of freedom, through the chain of mimic rules, which has no cycle.
 fn resolved(urdf: &Urdf, couplings: &[Option<JointCoupling>], joint: usize) -> Option<JointCoupling> {
     let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
     while let Some(mimic) = urdf.joints.get(at)?.mimic {
@@ -262,14 +267,14 @@ fn resolved(urdf: &Urdf, couplings: &[Option<JointCoupling>], joint: usize) -> O
     Some(JointCoupling { dof, multiplier, offset })
 }
 
-/// Two directions that make a right-handed frame with a normal; x and y for the normal z.
+/// Two directions that complete a normal to a right-handed frame; x and y for the normal z.
 fn plane(normal: Unit<Vector3<f64>>) -> [Unit<Vector3<f64>>; 3] {
     let helper = if normal.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let x = Unit::new_normalize(helper - normal.into_inner() * normal.dot(&helper));
     [x, Unit::new_normalize(normal.cross(&x)), normal]
 }
 
-/// A pose as a URDF writes it.
+/// Converts a pose of a URDF.
 pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let [x, y, z] = pose.xyz;
     let [i, j, k, w] = pose.quaternion_xyzw;

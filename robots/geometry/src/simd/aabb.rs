@@ -1,27 +1,27 @@
-//! Boxes along the directions of the map, eight side by side: which of them are near another one.
+//! Axis-aligned boxes in the map frame, eight side by side: overlap tests against another box.
 
 use pulp::Simd;
 
 use super::lanes::{Lanes, Lanes3};
 
-/// A box by its least and its greatest corner.
+/// Axis-aligned box by its least and greatest corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aabb {
     pub(super) low: [f32; 3],
     pub(super) high: [f32; 3],
 }
 
-/// Boxes in rows of eight; what is left of the last row is nowhere.
+/// Boxes in rows of eight; unused lanes of the last row are empty boxes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AabbRows {
     rows: Vec<[[f32; 8]; 6]>,
 }
 
 impl Aabb {
-    /// What holds nothing.
+    /// Empty box.
     pub(super) const NOWHERE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// Grows so that it holds another one.
+    /// Grows to contain another box.
     #[inline(always)]
     pub(super) fn add(&mut self, other: &Self) {
         for (slot, value) in self.low.iter_mut().zip(&other.low) {
@@ -50,7 +50,7 @@ impl FromIterator<Aabb> for AabbRows {
 }
 
 impl AabbRows {
-    /// Sets one, of which the row before is there.
+    /// Sets a box; the row before it must exist.
     #[inline(always)]
     pub(super) fn set(&mut self, at: usize, bound: &Aabb) {
         let (row, lane) = (at / 8, at % 8);
@@ -64,13 +64,13 @@ impl AabbRows {
         }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     #[inline(always)]
     pub(super) fn rows(&self) -> usize {
         self.rows.len()
     }
 
-    /// A bit for each box of a row that is no farther than `wide` from another one along each of the directions.
+    /// Bit mask of the boxes of a row that are at most `wide` from another box along each axis.
     #[inline(always)]
     pub(super) fn near<S: Simd>(&self, simd: S, row: usize, other: &Aabb, wide: f32) -> u8 {
         let Some([low_x, low_y, low_z, high_x, high_y, high_z]) = self.rows.get(row) else { return 0 };

@@ -1,4 +1,4 @@
-//! Which pairs of solids cannot be told to be apart in eight states.
+//! Batch check: finds the pairs of solids that are not certainly apart in eight configurations.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -8,65 +8,64 @@ use super::batch_model::{Batch8, BatchModel, bit};
 use super::obb::ObbSet;
 use super::posed_batch::{Lane8, PosedBatch};
 
-/// There is room for so many pairs from the beginning.
+/// Capacity reserved for pairs.
 const MET: usize = 16;
 
-/// What a part may touch.
+/// Second member of a pair: the body that a part may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PairTarget {
-    /// A thing, by its index.
+    /// Obstacle, by its index.
     Obb(usize),
-    /// Another part, and how many joints from the root on move both.
+    /// Another part, and the number of joints, from the root on, that move both.
     Part(usize, usize),
-    /// The floor.
     Floor,
 }
 
-/// A pair of solids.
+/// Pair of a part and another body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct BatchPair {
     pub(crate) part: usize,
     pub(crate) target: PairTarget,
 }
 
-/// A pair that may touch.
+/// Pair that may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct NearPair {
     pub(crate) pair: BatchPair,
-    /// A bit for each state: whether they are not known to stay apart while the robot goes as far as it does.
+    /// Bit mask of the configurations around which the pair may touch while the robot moves as far as given.
     pub(crate) lanes: u8,
-    /// The same while it stays where it is.
+    /// Bit mask of the configurations in which the pair may touch without motion.
     pub(crate) still: u8,
-    /// Of these, whether they are known to be no farther apart than wanted.
+    /// Bit mask, of these, of the configurations in which the pair certainly touches.
     pub(crate) sure: u8,
 }
 
-/// Eight states to look at.
+/// Check of eight configurations.
 pub(crate) struct BatchCheck<'a, F> {
     pub(crate) batch_model: &'a BatchModel,
     pub(crate) batch: &'a Batch8,
     pub(crate) obbs: &'a ObbSet,
-    /// How far apart all has to be in each state, in m.
+    /// Required clearance in each configuration, in m.
     pub(crate) gaps: [f32; 8],
-    /// Whether parts are looked at among each other, where all pairs are.
+    /// True to check self-collision pairs too, where all pairs are checked.
     pub(crate) is_own: bool,
-    /// Whether no more has to be known as soon as something is touched for certain: in all states, or in one on a way.
+    /// True to stop at the first certain contact: in all configurations, or in one on an edge.
     pub(crate) is_first: bool,
-    /// Pairs to look at, each with a bit for the states that count; all where there are none.
+    /// Pairs to check, each with a bit mask of configurations; `None` for all pairs.
     pub(crate) pairs: Option<&'a [(BatchPair, u8)]>,
-    /// Where the robot is placed.
+    /// Buffer for the poses of the robot.
     pub(crate) posed: &'a mut PosedBatch,
-    /// Whether a part counts against an entity, and against the floor, where all pairs are looked at.
+    /// Filter for pairs of a part and an entity, or the floor (`None`), where all pairs are checked.
     pub(crate) counts: F,
 }
 
 impl<F: Fn(usize, Option<usize>) -> bool> BatchCheck<'_, F> {
-    /// The pairs, in a fixed order.
+    /// Pairs that may touch, in a fixed order.
     pub(crate) fn near_pairs(self) -> Vec<NearPair> {
         self.near_pairs_on(Arch::new())
     }
 
-    /// The same on a processor that can do no more than is said.
+    /// The same with the instructions of a given processor.
     pub(crate) fn near_pairs_on(self, arch: Arch) -> Vec<NearPair> {
         arch.dispatch(self)
     }
@@ -129,7 +128,7 @@ impl BatchChecker<'_> {
         is_own: bool,
         near_pairs: &mut Vec<NearPair>,
     ) {
-        // More than what may be off of any two parts.
+        // More than the error of any two parts.
         let wide = self.gaps.iter().fold(0.0, |most: f32, gap| most.max(*gap))
             + self.batch_model.parts.iter().fold(0.0, |most: f32, part| most.max(2.0 * part.slack))
             + TOLD;
@@ -188,7 +187,7 @@ impl BatchChecker<'_> {
                 for lane in ones(others.parts & posed.bounds.near(simd, row, &place.bound, wide)) {
                     let at = 8 * row + lane;
                     let Some(other) = self.batch_model.parts.get(at) else { continue };
-                    // What moves both, or none, leaves them as far apart as they were.
+                    // A joint that moves both, or none, keeps their distance.
                     if !own.is_moved_against(other, moving) {
                         continue;
                     }
@@ -207,13 +206,14 @@ impl BatchChecker<'_> {
         }
     }
 
-    /// Whether no more has to be known, by the states in which something is touched: all of them, or one on a way.
+    /// True to stop at the first certain contact: in all configurations, or in one on an edge.
     #[inline(always)]
     fn is_told(&self, touched: u8) -> bool {
         self.is_first && (touched == u8::MAX || (self.batch.is_way && touched != 0))
     }
 
-    /// Looks at one pair in some states, closer and closer: those of them in which it is known to be near.
+    /// Checks one pair in some configurations, with tighter bounds at each step; returns those with a certain
+    /// contact.
     #[inline(always)]
     fn look<S: Simd>(&self, simd: S, pair: BatchPair, wanted: u8, near_pairs: &mut Vec<NearPair>) -> u8 {
         let (mut lanes, mut still, mut sure) = (0, 0, 0);
@@ -231,7 +231,7 @@ impl BatchChecker<'_> {
     }
 }
 
-/// The bits that are set, the lowest first.
+/// Indices of the set bits, lowest first.
 fn ones(bits: u8) -> impl Iterator<Item = usize> {
     let rest = |bits: &u8| Some(bits & bits.wrapping_sub(1));
     let left = std::iter::successors(Some(bits), rest).take_while(|bits| *bits != 0);

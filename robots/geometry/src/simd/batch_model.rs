@@ -1,4 +1,4 @@
-//! A robot of which some joints move: what is needed to place it in eight states at once.
+//! Batch model of a robot with some joints free, for eight configurations at once.
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
@@ -8,33 +8,33 @@ use super::{FAR, LONG, MOVED, TURNED, TURNS};
 use crate::collision::{CollisionModel, Shape, Solid};
 use crate::kinematics::{JointCoupling, ReducedJoint, ReducedModel};
 
-/// A robot. Frame 0 stands still on the base, frame `n` + 1 is that of joint `n`.
+/// Robot with some joints free. Frame 0 is fixed to the base, frame `n` + 1 is that of joint `n`.
 #[derive(Clone, Debug)]
 pub(crate) struct BatchModel {
     pub(super) base_from_root: Rigid,
     pub(super) joints: Vec<BatchJoint>,
     couplings: Vec<JointCoupling>,
     pub(super) parts: Vec<BatchPart>,
-    /// For each part, in rows of eight, the later ones that it may not touch.
+    /// For each part, in rows of eight, the later parts that it must not touch.
     pub(super) beside: Vec<Vec<Beside>>,
     /// For each frame the joints that move it, from the root on.
     pub(super) ancestors: Vec<Vec<usize>>,
     stride: usize,
 }
 
-/// A pose by the images of the three directions, and of the origin.
+/// Pose as the images of the three axes and of the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid {
     pub(super) turn: [[f32; 3]; 3],
     pub(super) at: [f32; 3],
 }
 
-/// A joint turned by `q`: `still + swing sin q + bend (1 − cos q)`.
+/// Joint with its rotation by `q` as `still + swing sin q + bend (1 − cos q)`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BatchJoint {
     pub(super) parent: usize,
     pub(super) is_prismatic: bool,
-    /// In the frame that carries it, as is all else.
+    /// In the parent frame, as are the other fields.
     pub(super) at: [f32; 3],
     pub(super) axis: [f32; 3],
     pub(super) still: [[f32; 3]; 3],
@@ -42,68 +42,69 @@ pub(super) struct BatchJoint {
     pub(super) bend: [[f32; 3]; 3],
 }
 
-/// A part as the capsule that holds it, in its frame.
+/// Part as its bounding capsule, in its frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BatchPart {
     pub(super) frame: usize,
-    /// A bit for that frame and for each that carries it.
+    /// Bit mask of that frame and its ancestors.
     pub(super) carriers: u64,
     pub(super) centre: [f32; 3],
     /// From the centre to an end of the capsule's axis.
     pub(super) half: [f32; 3],
     pub(super) radius: f32,
-    /// The radius of a capsule about the same axis within it.
+    /// Radius of an inner capsule about the same axis.
     pub(super) inner: f32,
-    /// The radius of the ball around the centre that holds it.
+    /// Radius of the bounding ball around the centre.
     pub(super) reach: f32,
-    /// The radius of the ball around the frame's origin that holds it.
+    /// Radius of the bounding ball around the origin of the frame.
     pub(super) far: f32,
-    /// How far it may be off as it is placed, twice, in m.
+    /// Twice the error of its place, in m.
     pub(super) slack: f32,
-    /// What is no capsule: the box that holds it, by its directions and half of its sides.
+    /// Box of a part that is no capsule: its axes and half extents.
     pub(super) obb: Option<([[f32; 3]; 3], [f32; 3])>,
-    /// Whether it is a cylinder along the last of these directions.
+    /// True for a cylinder along the last of these axes.
     pub(super) is_round: bool,
 }
 
-/// Of eight parts those that may not touch another one and are in other frames than it.
+/// Self-collision pairs of one part with a row of eight others in other frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Beside {
-    /// A bit for each of them.
+    /// Bit mask of the parts.
     pub(super) parts: u8,
-    /// How many joints, from the root on, move both.
+    /// Number of joints, from the root on, that move both.
     pub(super) common: [usize; 8],
 }
 
-/// Eight states, and how far the robot may go from each.
+/// Eight configurations, and the motion of the robot around each.
 #[derive(Clone, Debug)]
 pub(crate) struct Batch8 {
-    /// x and y from the origin, and yaw.
+    /// x and y from the origin, and yaw, of the base.
     pub(super) base: [[f32; 8]; 3],
-    /// The directions and the origin of the root's frame, where it is not on a base.
+    /// Axes and origin of the root frame, for a body that is not on a base.
     pub(super) root: Option<[Lane8x3; 4]>,
-    /// For each joint.
+    /// Positions of each joint.
     pub(super) positions: Vec<[f32; 8]>,
-    /// By how much each joint changes on the way, and the base.
+    /// Signed change of each joint and of the base along the edge.
     pub(super) changes: Vec<f32>,
     pub(super) shift: [f32; 3],
-    /// How far each joint goes, and the base slides and turns.
+    /// Greatest motion of each joint, and translation and rotation of the base.
     pub(super) amounts: Vec<f32>,
     pub(super) slides: f32,
     pub(super) turns: f32,
-    /// Whether they are on a way between free states, so that what does not move on it is free.
+    /// True for configurations on an edge between free ones: solids that do not move on it are free.
     pub(super) is_way: bool,
 }
 
 impl BatchModel {
-    /// A robot with a body; `None` where it is too large.
+    /// Builds the batch model of a robot; `None` if it is too large for the error bounds.
     pub(crate) fn new(
         reduced: &ReducedModel,
         base_from_root: &Isometry3<f64>,
         body: &CollisionModel,
     ) -> Option<Self> {
         let mut ancestors: Vec<Vec<usize>> = vec![vec![]];
-        // How far from the base's origin each frame can be, and how far its directions and its origin may be off.
+        // Greatest distance of each frame from the origin of the base, and the errors of its axes and its
+        // origin.
         let mut frames = vec![[base_from_root.translation.vector.norm(), TURNED, 4.0 * TURNED + MOVED]];
         for (joint, at) in reduced.joints.iter().zip(0..) {
             let mut own = ancestors.get(joint.parent)?.clone();
@@ -127,7 +128,7 @@ impl BatchModel {
         let mut beside = vec![vec![Beside::default(); parts.len().div_ceil(8)]; parts.len()];
         for [one, other] in body.pairs() {
             let frames = (parts.get(*one)?.frame, parts.get(*other)?.frame);
-            // What is in one frame is as far apart as it was.
+            // Solids on one frame keep their distance.
             if frames.0 != frames.1 {
                 let (a, b) = (ancestors.get(frames.0)?, ancestors.get(frames.1)?);
                 let common = a.iter().zip(b).take_while(|(a, b)| a == b).count();
@@ -147,7 +148,7 @@ impl BatchModel {
         })
     }
 
-    /// Solids that move as one, in a frame of their own; `None` where they are too large.
+    /// Batch model of solids that move as one body; `None` if they are too large.
     pub(crate) fn rigid<'s>(solids: impl Iterator<Item = &'s Solid>) -> Option<Self> {
         let parts = solids.map(|solid| {
             let long = solid.centre.norm() + solid.reach();
@@ -168,7 +169,8 @@ impl BatchModel {
         })
     }
 
-    /// The root's frame at some poses, at most eight, the first again for what is left; `None` where one is too far away.
+    /// Batch of poses of the root, at most eight; the first fills the lanes that are left. `None` if one is
+    /// too far away.
     pub(crate) fn at(&self, poses: &[Isometry3<f64>]) -> Option<Batch8> {
         let mut root = [[[0.0; 8]; 3]; 4];
         let first = poses.first()?;
@@ -188,12 +190,12 @@ impl BatchModel {
         Some(Batch8 { root: Some(root), ..self.batch() })
     }
 
-    /// One more than the most joints that move a part, and one more.
+    /// Two more than the greatest number of joints that move a part.
     pub(super) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Eight times the same state, which is nowhere yet.
+    /// Batch of eight equal configurations without a place yet.
     pub(crate) fn batch(&self) -> Batch8 {
         Batch8 {
             base: [[0.0; 8]; 3],
@@ -208,7 +210,8 @@ impl BatchModel {
         }
     }
 
-    /// Sets one of eight states; whether it is within what is accurate. The base is seen from the origin.
+    /// Sets one of eight configurations, with the base relative to the origin; returns whether it is within
+    /// the accurate range.
     pub(crate) fn set(&self, batch: &mut Batch8, lane: usize, base: [f64; 3], joints: &[f64]) -> bool {
         let mut is_within = true;
         for ((slots, value), limit) in batch.base.iter_mut().zip(base).zip([FAR, FAR, TURNS]) {
@@ -223,8 +226,8 @@ impl BatchModel {
         is_within
     }
 
-    /// Sets eight states at shares of the straight way between two free ones, from each of which the robot goes on by `half` of the
-    /// way to either side; whether the way is within what is accurate.
+    /// Sets eight configurations at fractions of the edge between two free ones, each the centre of a segment
+    /// of `half` of the edge to either side; returns whether the edge is within the accurate range.
     pub(crate) fn set_on(
         &self,
         batch: &mut Batch8,
@@ -256,8 +259,8 @@ impl BatchModel {
         is_within
     }
 
-    /// Says that the states are on a way between free ones, and how far the robot goes from each: by a change of the base, and of
-    /// the tree's variables.
+    /// Marks the configurations as points of an edge between free ones, and sets the motion around each: by a
+    /// change of the base and of the degrees of freedom of the tree.
     pub(crate) fn set_motion(&self, batch: &mut Batch8, base: [f64; 3], change: impl Fn(usize) -> f64) {
         batch.is_way = true;
         // Rounded up.
@@ -298,7 +301,7 @@ impl BatchJoint {
 }
 
 impl BatchPart {
-    /// Whether a joint of which the frame's bit is set moves one of two and not the other.
+    /// Checks whether one of the moving joints moves exactly one of two parts.
     #[inline(always)]
     pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
         let last = bit(usize::MAX);
@@ -308,7 +311,7 @@ impl BatchPart {
     fn new((frame, carriers): (usize, u64), solid: &Solid, slack: f64) -> Option<Self> {
         let sides = sides(&solid.shape)?;
         let along = |axis: usize, half: f64| solid.axes.get(axis).map(|axis| axis * half);
-        // In a capsule around the longest axis of a box or a cylinder, a little less long than it.
+        // Capsule around the longest axis of a box or a cylinder, slightly shorter than it.
         let around = |axis: usize| {
             let half = *sides.get(axis)?;
             let wide = (sides.norm_squared() - half * half).max(0.0).sqrt();
@@ -341,14 +344,14 @@ impl BatchPart {
 }
 
 impl Batch8 {
-    /// Bits of the frames whose joints move on the way.
+    /// Bit mask of the frames whose joints move along the edge.
     pub(super) fn moving(&self) -> u64 {
         let moving = self.amounts.iter().zip(1..).filter(|(amount, _)| **amount > 0.0);
         moving.fold(0, |bits, (_, frame)| bits | bit(frame))
     }
 }
 
-/// A bit for each of some, of which the last stand together.
+/// Bit of an index; those from 63 on share one.
 #[inline(always)]
 pub(super) fn bit(at: usize) -> u64 {
     1 << at.min(63)

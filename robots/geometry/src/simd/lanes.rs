@@ -1,22 +1,23 @@
-//! Several numbers of one kind at once, as many as the processor takes; the same bits on every one.
+//! Vector registers of numbers and of 3-vectors, as wide as the processor; the same bits on every processor.
 //!
-//! Everything here, and what uses it, is inlined into one function that is compiled for a kind of processor. A closure that an
-//! adaptor calls is not, most often, and then costs a call an operation: hence destructured arrays and plain loops.
+//! All of this module and its callers are inlined into one function that is compiled for a kind of processor.
+//! A closure passed to an adaptor is usually not, and then costs a call for each operation: hence
+//! destructured arrays and plain loops.
 //!
-//! Only sums, products, quotients, square roots and comparisons are used, one after the other and never fused, which IEEE 754
-//! defines to the last bit.
+//! Only sums, products, quotients, square roots and comparisons are used, one after the other and unfused:
+//! IEEE 754 defines these to the last bit.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use pulp::Simd;
 
-/// Numbers in as many lanes as `S` has.
+/// Numbers, one for each lane of `S`.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd>(S, S::f32s);
 
-/// A quarter of a turn in three parts, each of which has so few digits that small multiples of it are exact.
+/// A quarter turn in three parts, each with so few digits that small multiples are exact.
 const QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
-/// Added and taken away again, it rounds to a whole number.
+/// Rounds to a whole number when added and subtracted again.
 const ROUNDER: f32 = 12_582_912.0;
 
 impl<S: Simd> Lanes<S> {
@@ -25,7 +26,7 @@ impl<S: Simd> Lanes<S> {
         Self(simd, simd.splat_f32s(value))
     }
 
-    /// The chunk `at` of eight numbers.
+    /// Loads the chunk `at` of eight numbers.
     #[inline(always)]
     pub(super) fn of(simd: S, values: &[f32; 8], at: usize) -> Self {
         let (chunks, _) = S::as_simd_f32s(values);
@@ -35,7 +36,7 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
-    /// Writes them to the chunk `at` of eight numbers.
+    /// Stores to the chunk `at` of eight numbers.
     #[inline(always)]
     pub(super) fn store(self, values: &mut [f32; 8], at: usize) {
         let (chunks, _) = S::as_mut_simd_f32s(values);
@@ -46,7 +47,7 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        // The library's own is a call.
+        // The `abs` of the library is a call.
         self.max(-self)
     }
 
@@ -60,51 +61,51 @@ impl<S: Simd> Lanes<S> {
         Self(self.0, self.0.div_f32s(self.1, other.1))
     }
 
-    /// Of each lane the smaller one.
+    /// Smaller value in each lane.
     #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
-        // By the greater one, which is the same on every processor.
+        // Through `max`, which is the same on every processor.
         -(-self).max(-other)
     }
 
-    /// Of each lane the greater one.
+    /// Greater value in each lane.
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
         Self(self.0, self.0.max_f32s(self.1, other.1))
     }
 
-    /// Zero where negative.
+    /// Replaces negative values by zero.
     #[inline(always)]
     pub(super) fn max_zero(self) -> Self {
         self.max(Self::splat(self.0, 0.0))
     }
 
-    /// No less than −1 and no more than 1.
+    /// Clamps to [−1, 1].
     #[inline(always)]
     pub(super) fn within(self) -> Self {
         self.max(self.like(-1.0)).min(self.like(1.0))
     }
 
-    /// One of two, by whether this is less than a number.
+    /// Selects `yes` in lanes below a number, else `no`.
     #[inline(always)]
     fn pick(self, less_than: f32, yes: Self, no: Self) -> Self {
         let is_less = self.0.less_than_f32s(self.1, self.0.splat_f32s(less_than));
         Self(self.0, self.0.select_f32s(is_less, yes.1, no.1))
     }
 
-    /// The least of all lanes.
+    /// Least value of all lanes.
     #[inline(always)]
     pub(super) fn min_lane(self) -> f32 {
         self.0.reduce_min_f32s(self.1)
     }
 
-    /// The greatest of all lanes.
+    /// Greatest value of all lanes.
     #[inline(always)]
     pub(super) fn max_lane(self) -> f32 {
         self.0.reduce_max_f32s(self.1)
     }
 
-    /// A bit for each lane, the first lowest: whether it is not above 0. What is no number at all is not.
+    /// Bit mask, first lane lowest, of the lanes that are not above 0; NaN counts as such.
     #[inline(always)]
     pub(super) fn not_positive(self) -> u8 {
         let zero = self.like(0.0);
@@ -112,7 +113,7 @@ impl<S: Simd> Lanes<S> {
         Self(self.0, self.0.select_f32s(is_above, zero.1, self.bits().1)).summed()
     }
 
-    /// A bit for each lane, the first lowest: whether it is below 0.
+    /// Bit mask, first lane lowest, of the lanes that are below 0.
     #[inline(always)]
     pub(super) fn negative(self) -> u8 {
         let zero = self.like(0.0);
@@ -120,38 +121,38 @@ impl<S: Simd> Lanes<S> {
         Self(self.0, self.0.select_f32s(is_below, self.bits().1, zero.1)).summed()
     }
 
-    /// In each lane the number that its bit alone is.
+    /// Value of the bit of each lane.
     #[inline(always)]
     fn bits(self) -> Self {
         Self::of(self.0, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0], 0)
     }
 
-    /// The sum of lanes that are zero or their bit: exact, and the same in every order.
+    /// Sum of lanes that are zero or their bit: exact, and the same in every order.
     #[inline(always)]
     fn summed(self) -> u8 {
         self.0.reduce_sum_f32s(self.1) as u8
     }
 
-    /// The sum of the powers of this from the zeroth on, times the terms.
+    /// Evaluates a polynomial with four coefficients, lowest first.
     #[inline(always)]
     fn series(self, [a, b, c, d]: [f32; 4]) -> Self {
         ((self.like(d) * self + self.like(c)) * self + self.like(b)) * self + self.like(a)
     }
 
-    /// A number in all lanes.
+    /// Broadcasts a number to all lanes.
     #[inline(always)]
     fn like(self, value: f32) -> Self {
         Self::splat(self.0, value)
     }
 
-    /// The nearest whole number.
+    /// Rounds to the nearest whole number.
     #[inline(always)]
     fn round(self) -> Self {
         (self + self.like(ROUNDER)) - self.like(ROUNDER)
     }
 
-    /// Sine and cosine, off by 4e-7 at most for angles up to 100 rad: taken back to an eighth of a turn on either side of 0
-    /// (Cody and Waite 1980), where the first terms of the series are enough.
+    /// Sine and cosine with an error of at most 4e-7 for angles up to 100 rad: the angle is reduced to an
+    /// eighth turn on either side of 0 (Cody and Waite 1980), where the first terms of the series suffice.
     #[inline(always)]
     pub(super) fn sin_cos(self) -> [Self; 2] {
         let quarters = (self * self.like(std::f32::consts::FRAC_2_PI)).round();
@@ -162,7 +163,7 @@ impl<S: Simd> Lanes<S> {
         let sin =
             rest + rest * square * square.series([-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0]);
         let cos = self.like(1.0) + square * square.series([-0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0]);
-        // Which quarter it is: −2 to 2.
+        // Quarter of the turn: −2 to 2.
         let quarter = quarters - self.like(4.0) * (quarters * self.like(0.25)).round();
         let is_swapped = (quarter.abs() - self.like(1.0)).abs();
         let (first, second) = (is_swapped.pick(0.5, cos, sin), is_swapped.pick(0.5, sin, cos));
@@ -204,7 +205,7 @@ impl<S: Simd> Neg for Lanes<S> {
     }
 }
 
-/// Vectors in lanes.
+/// 3-vectors, one for each lane.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes3<S: Simd>(pub(super) [Lanes<S>; 3]);
 
@@ -220,13 +221,13 @@ impl<S: Simd> Lanes3<S> {
         a * x + b * y + c * z
     }
 
-    /// The chunk `at` of eight vectors.
+    /// Loads the chunk `at` of eight vectors.
     #[inline(always)]
     pub(super) fn of(simd: S, [x, y, z]: &[[f32; 8]; 3], at: usize) -> Self {
         Self([Lanes::of(simd, x, at), Lanes::of(simd, y, at), Lanes::of(simd, z, at)])
     }
 
-    /// Writes them to the chunk `at` of eight vectors.
+    /// Stores to the chunk `at` of eight vectors.
     #[inline(always)]
     pub(super) fn store(self, [x, y, z]: &mut [[f32; 8]; 3], at: usize) {
         let [a, b, c] = self.0;

@@ -1,10 +1,11 @@
-//! How two solids drift apart or towards each other on a leg, to the first order, and how far they may be from that.
+//! First-order motion bounds: approach of two solids along a segment of an edge, and a bound for the rest.
 //!
-//! On a leg all joints change evenly. A place on a part is at `p + v t + r(t)` then, with `t` from −1 to 1 and `v` its velocity in
-//! the middle. Two joints that turn by angles `a` and `b`, the first nearer to the root, accelerate a place at a distance `d` from the
-//! axis of the second by no more than `2 a b d`, one alone by `a² d`, and what slides is accelerated by what turns it only. So `r` is no
-//! longer than the sum of `a b d` over all pairs of joints and of `a² d / 2` over all joints. A place that goes along something, and not
-//! towards it, may so be known to stay clear of it, however far it goes.
+//! On a segment all joints change evenly. A point of a part is at `p + v t + r(t)`, with `t` from −1 to 1 and
+//! `v` its velocity in the middle. Two joints that rotate by angles `a` and `b`, the first nearer to the
+//! root, accelerate a point at a distance `d` from the axis of the second by at most `2 a b d`, one joint
+//! alone by `a² d`; a prismatic joint adds acceleration only through rotations before it. So `r` is at most
+//! the sum of `a b d` over all pairs of joints and of `a² d / 2` over all joints. So a point that moves along
+//! a body, and not towards it, is known to stay clear of it however far it moves.
 
 use pulp::Simd;
 
@@ -12,27 +13,28 @@ use super::lanes::{Lanes, Lanes3};
 use super::posed_batch::{Lane8, Lane8x3};
 use super::separation::{CapsuleAxis, Cuboid};
 
-/// How much a place may be off as it is placed, for each rad that it turns, in m.
+/// Error of a place for each rad of its rotation, in m.
 const OFF: f32 = 2e-4;
 
-/// How a frame moves until the end of a leg, by some of the joints that move it.
+/// Motion of a frame until the end of a segment, by some of the joints that move it.
 #[derive(Clone, Copy)]
 pub(super) struct FrameMotion<S: Simd> {
-    /// Of its origin.
+    /// Translation of its origin.
     shift: Lanes3<S>,
-    /// The axis about which it turns, as long as the angle.
+    /// Rotation vector: axis times angle.
     spin: Lanes3<S>,
-    /// How far its origin goes at most, and how much more what is 1 m from it.
+    /// Greatest displacement of its origin, and more for each m of distance from it.
     goes: Lanes<S>,
     spread: f32,
-    /// How far its origin may be from the first order, and how much more what is 1 m from it.
+    /// Bound for the part of the displacement beyond first order at its origin, and more for each m of
+    /// distance from it.
     bends: Lanes<S>,
     bend: f32,
-    /// The sum of all angles.
+    /// Sum of all angles, in rad.
     turns: f32,
 }
 
-/// The same in eight lanes.
+/// The same motion stored for eight lanes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FrameMotion8 {
     shift: Lane8x3,
@@ -67,7 +69,7 @@ impl FrameMotion8 {
         (self.spread, self.bend, self.turns) = (motion.spread, motion.bend, motion.turns);
     }
 
-    /// How far any place goes that is no farther from the frame's origin than `reach`.
+    /// Greatest displacement of any point within `reach` of the origin of the frame.
     #[inline(always)]
     pub(super) fn goes<S: Simd>(&self, simd: S, reach: f32, chunk: usize) -> Lanes<S> {
         Lanes::of(simd, &self.goes, chunk) + Lanes::splat(simd, self.spread * reach)
@@ -75,22 +77,22 @@ impl FrameMotion8 {
 }
 
 impl<S: Simd> FrameMotion<S> {
-    /// What does not move.
+    /// Zero motion.
     #[inline(always)]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));
         Self { shift: none, spin: none, goes: zero, spread: 0.0, bends: zero, bend: 0.0, turns: 0.0 }
     }
 
-    /// Adds a joint that turns about an axis, from a place on which the frame's origin stands off, and by how much and, at least as much,
-    /// how far. Joints come from the last on.
+    /// Adds a revolute joint: offset of the origin of the frame from the axis, axis, signed change, and
+    /// greatest change. Joints are added from the last to the first.
     #[inline(always)]
     pub(super) fn turn(&mut self, simd: S, off: Lanes3<S>, axis: Lanes3<S>, [change, amount]: [f32; 2]) {
         let across = axis.cross(off);
         let change = Lanes::splat(simd, change);
         self.shift = self.shift + across.times(change);
         self.spin = self.spin + axis.times(change);
-        // A place is no farther from its axis than it is in the middle and goes by the joints after it.
+        // A point is at most as far from the axis as in the middle, plus its motion by later joints.
         let (far, farther) = (across.dot(across).sqrt() + self.goes, 1.0 + self.spread);
         let (all, half) = (Lanes::splat(simd, amount), Lanes::splat(simd, 0.5 * amount));
         self.bends = self.bends + all * (self.goes + half * far);
@@ -100,7 +102,7 @@ impl<S: Simd> FrameMotion<S> {
         self.turns += amount;
     }
 
-    /// Adds a joint that slides.
+    /// Adds a prismatic joint.
     #[inline(always)]
     pub(super) fn slide(&mut self, simd: S, axis: Lanes3<S>, [change, amount]: [f32; 2]) {
         self.shift = self.shift + axis.times(Lanes::splat(simd, change));
@@ -108,23 +110,24 @@ impl<S: Simd> FrameMotion<S> {
     }
 }
 
-/// A capsule on a leg, in a frame that drifts.
+/// Motion of a capsule on a moving frame along a segment.
 #[derive(Clone, Copy)]
 pub(super) struct CapsuleMotion<S: Simd> {
-    /// Of its centre, and the axis about which it turns.
+    /// Translation of its centre, and its rotation vector.
     shift: Lanes3<S>,
     spin: Lanes3<S>,
     /// From its centre to an end of its axis.
     half: Lanes3<S>,
-    /// How far what is beside the axis goes by turning.
+    /// Displacement of its rim by rotation.
     round: Lanes<S>,
-    /// How far any of its places goes, and may be from the first order.
+    /// Greatest displacement of any of its points, and the bound beyond first order.
     goes: Lanes<S>,
     beyond: Lanes<S>,
 }
 
 impl<S: Simd> CapsuleMotion<S> {
-    /// A capsule with such a half axis and radius, its centre so far off the frame's origin and no part of it farther from it than `reach`.
+    /// Motion of a capsule with a half axis and radius, an offset of its centre from the origin of the frame,
+    /// and all its points within `reach` of that origin.
     #[inline(always)]
     pub(super) fn new(
         simd: S,
@@ -145,22 +148,21 @@ impl<S: Simd> CapsuleMotion<S> {
         }
     }
 
-    /// A ball that holds it.
+    /// Motion of a bounding ball.
     #[inline(always)]
     pub(super) fn ball(self, simd: S, radius: f32) -> Self {
         let turning = self.spin.dot(self.spin).sqrt();
         Self { half: Lanes3::splat(simd, [0.0; 3]), round: turning * Lanes::splat(simd, radius), ..self }
     }
 
-    /// What does not move.
+    /// Zero motion.
     #[inline(always)]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));
         Self { shift: none, spin: none, half: none, round: zero, goes: zero, beyond: zero }
     }
 
-    /// By how much it and another one may come nearer to each other along a direction until the end of the leg, of which the length is
-    /// given: at most so much, times that length, and no more than both go.
+    /// Greatest approach of two capsules along a direction of the given length until the end of the segment.
     #[inline(always)]
     pub(super) fn approach(self, other: Self, way: Lanes3<S>, length: Lanes<S>) -> Lanes<S> {
         let along = way.dot(self.shift - other.shift).abs();
@@ -170,8 +172,8 @@ impl<S: Simd> CapsuleMotion<S> {
     }
 }
 
-/// A bit for each state in which a capsule may come no farther from a box than wanted along any of the directions of that, with how
-/// both drift.
+/// Bit mask of the configurations in which a capsule may come too near to a box along all axes of the box,
+/// with the motion of both.
 #[inline(always)]
 pub(super) fn stays_clear_of_box<S: Simd>(
     simd: S,

@@ -1,4 +1,4 @@
-//! A thing in a neighbourhood as the smallest box along its own directions.
+//! Obstacles as oriented bounding boxes, relative to the origin of a neighbourhood.
 
 use nalgebra::Vector3;
 use pulp::Simd;
@@ -8,7 +8,7 @@ use super::aabb::{Aabb, AabbRows};
 use super::lanes::{Lanes, Lanes3};
 use crate::collision::{Shape, Solid};
 
-/// A box that holds a thing, in m from the origin of a neighbourhood.
+/// Oriented bounding box of an obstacle, in m from the origin of a neighbourhood.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Obb {
     /// Index of the entity in the scene.
@@ -16,13 +16,14 @@ pub(crate) struct Obb {
     pub(super) centre: [f32; 3],
     pub(super) axes: [[f32; 3]; 3],
     pub(super) half: [f32; 3],
-    /// The box around it along the directions of the map.
+    /// Axis-aligned box around it in the map frame.
     pub(super) bound: Aabb,
-    /// Whether the thing is that box, and so small and near that a tenth of a millimetre is more than it is rounded by.
+    /// True if the obstacle is that box, and so small and near that its rounding is below a tenth of a
+    /// millimetre.
     pub(super) is_exact: bool,
 }
 
-/// What stands around.
+/// Obstacles of a neighbourhood.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ObbSet {
     pub(super) all: Vec<Obb>,
@@ -37,7 +38,7 @@ impl FromIterator<Obb> for ObbSet {
 }
 
 impl Obb {
-    /// Positive where a point is farther than `wanted` for certain: by the box along the directions of the map.
+    /// Positive if a point is certainly farther than `wanted`, by the axis-aligned box.
     #[inline(always)]
     pub(super) fn aside<S: Simd>(&self, simd: S, point: Lanes3<S>, wanted: Lanes<S>) -> Lanes<S> {
         let (Lanes3([x, y, z]), Lanes3([a, b, c]), Lanes3([d, e, f])) =
@@ -48,11 +49,11 @@ impl Obb {
         x * x + y * y + z * z - wanted * wanted
     }
 
-    /// The box of a solid; `None` for what has no end.
+    /// Oriented box of a solid; `None` for an unbounded one.
     pub(crate) fn new(entity: usize, solid: &Solid, [x, y]: [f64; 2]) -> Option<Self> {
         let half = sides(&solid.shape)?;
         let centre = solid.centre - Vector3::new(x, y, 0.0);
-        // What is large or far is rounded more, by as much as that is of 3 m.
+        // A large or distant box is rounded more, in proportion to 3 m.
         let size = centre.norm() + half.norm();
         let half = half.add_scalar(size / FAR * 1e-6);
         let extent = solid
@@ -72,7 +73,7 @@ impl Obb {
     }
 }
 
-/// Half of the sides of the box that holds a shape.
+/// Half extents of the bounding box of a shape.
 pub(super) fn sides(shape: &Shape) -> Option<Vector3<f64>> {
     Some(match *shape {
         Shape::Box(half) => half,

@@ -1,5 +1,5 @@
-//! Whether two solids may be near each other in eight states: closer and closer, from the balls around them to their boxes, and on a
-//! way by how they drift.
+//! Check of one pair of solids in eight configurations with tighter bounds at each step: bounding balls,
+//! boxes, and on an edge the first-order motion.
 
 use pulp::Simd;
 
@@ -13,7 +13,8 @@ use super::separation::{CapsuleAxis, Cuboid, beside};
 use super::{SURE, TOLD};
 
 impl BatchChecker<'_> {
-    /// Bits for the states in which a pair may be near on the way, where it stands, and is for certain where it stands.
+    /// Bit masks of the configurations in which a pair may touch during its motion, may touch at rest, and
+    /// certainly touches at rest.
     #[inline(always)]
     pub(super) fn chunk<S: Simd>(
         &self,
@@ -57,7 +58,7 @@ impl BatchChecker<'_> {
                 if balls == 0 {
                     return [0; 3];
                 }
-                // What one state alone would be told counts, whatever it is looked at with.
+                // The result at rest must not depend on the other lanes.
                 let going = match self.batch.is_way {
                     true => {
                         let motion_after = self.posed.motion_in_map(simd, self.batch_model, part, chunk);
@@ -97,7 +98,7 @@ impl BatchChecker<'_> {
                     return [0; 3];
                 };
                 let least = gap + Lanes::splat(simd, own.slack + far.slack + TOLD);
-                // What moves both leaves them as far apart as they were.
+                // A joint that moves both keeps their distance.
                 let goes = match self.batch.is_way {
                     true => {
                         let goes = |part| self.posed.goes(simd, self.batch_model, (part, common), chunk);
@@ -151,7 +152,7 @@ impl BatchChecker<'_> {
         }
     }
 
-    /// A bit for each state in which a part may be no farther from a thing than wanted.
+    /// Bit mask of the configurations in which a part may be nearer to an obstacle than `wanted`.
     #[inline(always)]
     fn obb<S: Simd>(
         &self,
@@ -170,7 +171,7 @@ impl BatchChecker<'_> {
         bits
     }
 
-    /// The box of a part that is no capsule.
+    /// Box of a part that is no capsule.
     #[inline(always)]
     fn cuboid<S: Simd>(
         &self,

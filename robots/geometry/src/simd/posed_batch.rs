@@ -1,4 +1,4 @@
-//! A figure placed in eight states.
+//! Batch model placed in eight configurations.
 
 use pulp::Simd;
 
@@ -7,22 +7,23 @@ use super::batch_model::{Batch8, BatchJoint, BatchModel, bit};
 use super::lanes::{Lanes, Lanes3};
 use super::motion::{CapsuleMotion, FrameMotion, FrameMotion8};
 
-/// Eight numbers, and eight vectors.
+/// Eight numbers, one for each configuration.
 pub(super) type Lane8 = [f32; 8];
 pub(super) type Lane8x3 = [Lane8; 3];
 
-/// Where all is in eight states, and how far each part goes from there. What is not needed is anywhere.
+/// Poses of a batch model in eight configurations, and the motion around each. Parts that are not needed have
+/// no defined pose.
 #[derive(Debug, Default)]
 pub(crate) struct PosedBatch {
     frames: Vec<Frame>,
     pub(super) parts: Vec<PosedPart>,
-    /// The boxes of all parts.
+    /// Axis-aligned boxes of all parts.
     pub(super) bounds: AabbRows,
-    /// On a way, for each frame: see [`PosedBatch::motion`].
+    /// On an edge, the motions of each frame: see [`PosedBatch::motion`].
     motions: Vec<FrameMotion8>,
 }
 
-/// A frame: its directions and its origin, and the axis of its joint.
+/// Frame: its axes and origin, and the axis of its joint.
 #[derive(Clone, Copy, Debug, Default)]
 struct Frame {
     turn: [Lane8x3; 3],
@@ -30,22 +31,22 @@ struct Frame {
     axis: Lane8x3,
 }
 
-/// A part.
+/// Part with its pose and motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PosedPart {
     pub(super) centre: Lane8x3,
     /// From the centre to an end of its axis.
     pub(super) half: Lane8x3,
-    /// How far any of its points goes in the map.
+    /// Greatest displacement of any of its points in the map frame.
     pub(super) goes: Lane8,
-    /// Whether it goes anywhere.
+    /// True if any displacement is above 0.
     pub(super) moves: bool,
-    /// The box around all places that it takes, but for the slack, where it was asked for.
+    /// Axis-aligned box around all its places, without the slack, if requested.
     pub(super) bound: Aabb,
 }
 
 impl PosedBatch {
-    /// Places a figure, of its parts those that are needed, and where they are, with the boxes around them.
+    /// Places the needed parts of a batch model, and computes their boxes if requested.
     #[inline(always)]
     pub(super) fn set<S: Simd>(
         &mut self,
@@ -73,7 +74,7 @@ impl PosedBatch {
         }
     }
 
-    /// Places frames, those of which the bit is set.
+    /// Places the frames whose bits are set.
     #[inline(always)]
     fn carry<S: Simd>(
         &mut self,
@@ -150,7 +151,7 @@ impl PosedBatch {
         }
     }
 
-    /// A direction of a frame where it is.
+    /// Image of a direction of a frame.
     #[inline(always)]
     pub(super) fn direction<S: Simd>(
         &self,
@@ -163,7 +164,7 @@ impl PosedBatch {
         self.frames.get(frame).unwrap_or(&none).direction(simd, vector, chunk)
     }
 
-    /// How a part drifts by those of its joints that come after the first so many.
+    /// Motion of a part by its joints after the first `common` ones.
     #[inline(always)]
     pub(super) fn motion_after<S: Simd>(
         &self,
@@ -175,7 +176,7 @@ impl PosedBatch {
         self.motion_by(simd, batch_model, part, common + 1, chunk)
     }
 
-    /// How far any place of a part goes by those of its joints that come after the first so many.
+    /// Greatest displacement of a part by its joints after the first `common` ones.
     #[inline(always)]
     pub(super) fn goes<S: Simd>(
         &self,
@@ -190,7 +191,7 @@ impl PosedBatch {
         known.map_or(Lanes::splat(simd, 0.0), |(own, motion)| motion.goes(simd, own.far, chunk))
     }
 
-    /// The same by all of its joints and by the base.
+    /// Motion of a part by all its joints and the base.
     #[inline(always)]
     pub(super) fn motion_in_map<S: Simd>(
         &self,
@@ -221,8 +222,8 @@ impl PosedBatch {
         CapsuleMotion::new(simd, motion.of(simd, chunk), off, half, [own.radius, own.far])
     }
 
-    /// Finds out how frames drift, those of which the bit is set: each by the base and all of its joints, by all joints, by those after the
-    /// first, and so on, one after the other.
+    /// Computes the motions of the frames whose bits are set: by the base and all joints, by all joints, by
+    /// those after the first, and so on.
     #[inline(always)]
     fn motion<S: Simd>(
         &mut self,
@@ -283,7 +284,7 @@ impl PosedBatch {
     }
 }
 
-/// A vector turned about the vertical.
+/// Rotates a vector about the vertical.
 #[inline(always)]
 fn about<S: Simd>(simd: S, [sin, cos]: [Lanes<S>; 2], vector: [f32; 3]) -> Lanes3<S> {
     let Lanes3([x, y, z]) = Lanes3::splat(simd, vector);
@@ -304,7 +305,7 @@ impl Frame {
         Lanes3::of(simd, &self.at, chunk) + self.direction(simd, vector, chunk)
     }
 
-    /// Places the frame of a joint that this one carries.
+    /// Places the frame of a child joint.
     #[inline(always)]
     fn carry<S: Simd>(&self, simd: S, joint: &BatchJoint, position: Lanes<S>, slot: &mut Self, chunk: usize) {
         let axis = self.direction(simd, joint.axis, chunk);
@@ -333,7 +334,7 @@ impl Frame {
     }
 }
 
-/// How far each part goes in the first of eight states.
+/// Displacements of all parts in the first of eight configurations.
 #[cfg(test)]
 pub(super) fn displacements_in_map(batch_model: &BatchModel, batch: &Batch8) -> Vec<f32> {
     let mut posed = PosedBatch::default();

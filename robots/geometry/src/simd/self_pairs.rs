@@ -1,5 +1,5 @@
-//! Whether two parts of a robot may be near each other in eight states: by the planes square to the way between their axes, and by
-//! the boxes of those that are no capsules.
+//! Check of a self-collision pair in eight configurations: by planes perpendicular to the line between the
+//! axes, and by the boxes of parts that are no capsules.
 
 use pulp::Simd;
 
@@ -8,15 +8,16 @@ use super::lanes::{Lanes, Lanes3};
 use super::motion::{CapsuleMotion, stays_clear_of_box};
 use super::separation::{CapsuleAxis, Cuboid, beside};
 
-/// Two parts where they are.
+/// Two parts of a robot, placed.
 #[derive(Clone, Copy)]
 pub(super) struct SelfPair<'a, S: Simd> {
     parts: [&'a BatchPart; 2],
     axes: [CapsuleAxis<S>; 2],
-    /// From a place on the axis of the second to one on that of the first, of which both are nearly the nearest.
+    /// From a point on the axis of the second part to one on the axis of the first; both are nearly the
+    /// nearest points.
     pub(super) way: Lanes3<S>,
     length: Lanes<S>,
-    /// How far the axes are apart along the way, times its length.
+    /// Separation of the axes along that line, times its length.
     room: Lanes<S>,
     radii: Lanes<S>,
 }
@@ -35,13 +36,13 @@ impl<'a, S: Simd> SelfPair<'a, S> {
         }
     }
 
-    /// A bit for each state in which the capsules around them may be no farther apart than wanted.
+    /// Bit mask of the configurations in which the bounding capsules may be nearer than `wanted`.
     #[inline(always)]
     pub(super) fn capsules(self, wanted: Lanes<S>) -> u8 {
         (self.room - (self.radii + wanted) * self.length).not_positive()
     }
 
-    /// The same of the boxes of those that have one.
+    /// The same for the boxes of the parts that have one.
     #[inline(always)]
     pub(super) fn near(self, simd: S, boxes: [Option<Cuboid<S>>; 2], wanted: Lanes<S>) -> u8 {
         let ([own, far], [axis, other]) = (self.parts, self.axes);
@@ -59,8 +60,8 @@ impl<'a, S: Simd> SelfPair<'a, S> {
         bits
     }
 
-    /// A bit for each state in which they may come no farther apart than wanted, by how they drift along the way between them and the
-    /// directions of what is a box.
+    /// Bit mask of the configurations in which the parts may come too near, by their motion along the line
+    /// between them and along the axes of boxes.
     #[inline(always)]
     pub(super) fn motion_after(
         self,

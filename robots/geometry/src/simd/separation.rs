@@ -1,28 +1,30 @@
-//! Bounds from below of the distance between two solids, in lanes: how much more than wanted the square of one is.
+//! Lower bounds of the distance between two solids in lanes: the excess of the squared distance over the
+//! required one.
 
 use pulp::Simd;
 
 use super::lanes::{Lanes, Lanes3};
 
-/// The axis of a capsule: its centre, and from there to an end.
+/// Axis of a capsule: its centre, and the vector to an end.
 #[derive(Clone, Copy)]
 pub(super) struct CapsuleAxis<S: Simd> {
     pub(super) centre: Lanes3<S>,
     pub(super) half: Lanes3<S>,
 }
 
-/// A box: its centre, directions, and half of its sides.
+/// Box: its centre, axes and half extents.
 #[derive(Clone, Copy)]
 pub(super) struct Cuboid<S: Simd> {
     pub(super) centre: Lanes3<S>,
     pub(super) axes: [Lanes3<S>; 3],
     pub(super) half: Lanes3<S>,
-    /// Whether it is a cylinder along the last direction.
+    /// True for a cylinder along the last axis.
     pub(super) is_round: bool,
 }
 
 impl<S: Simd> Cuboid<S> {
-    /// Positive where another box is farther than `wanted` for certain: by the box around it along the directions of this one.
+    /// Positive if another box is certainly farther than `wanted`, by its bounding box along the axes of this
+    /// one.
     #[inline(always)]
     pub(super) fn aside(self, simd: S, other: Self, wanted: Lanes<S>) -> Lanes<S> {
         let between = other.centre - self.centre;
@@ -34,14 +36,14 @@ impl<S: Simd> Cuboid<S> {
         x * x + y * y + z * z - wanted * wanted
     }
 
-    /// How far it goes from its centre in a direction of length 1.
+    /// Extent from its centre along a unit vector.
     #[inline(always)]
     fn extent(self, simd: S, direction: Lanes3<S>) -> Lanes<S> {
         let [x, y, z] = self.axes;
         let Lanes3([a, b, c]) = self.half;
         let up = direction.dot(z).abs();
         if self.is_round {
-            // A little more, for directions that are not quite of length 1.
+            // Slightly more, for vectors that are not exactly of length 1.
             let aside = (Lanes::splat(simd, 1.00001) - up * up).max_zero().sqrt();
             return a * aside + c * up;
         }
@@ -50,8 +52,8 @@ impl<S: Simd> Cuboid<S> {
 }
 
 impl<S: Simd> CapsuleAxis<S> {
-    /// Positive where the axis is farther than `wanted` from a box for certain: by the boxes along the directions of that one around
-    /// `pieces` pieces of the axis.
+    /// Positive if the axis is certainly farther than `wanted` from a box, by the bounding boxes of `pieces`
+    /// pieces of the axis along the axes of the box.
     #[inline(always)]
     pub(super) fn beside(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>, pieces: u8) -> Lanes<S> {
         let between = self.centre - other.centre;
@@ -67,7 +69,7 @@ impl<S: Simd> CapsuleAxis<S> {
         least - wanted * wanted
     }
 
-    /// Negative where the middle or an end of the axis is nearer to a box than `wanted` for certain.
+    /// Negative if the middle or an end of the axis is certainly nearer to a box than `wanted`.
     #[inline(always)]
     pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>) -> Lanes<S> {
         let between = self.centre - other.centre;
@@ -80,7 +82,8 @@ impl<S: Simd> CapsuleAxis<S> {
         middle.min(first).min(last) - wanted * wanted
     }
 
-    /// The way from a place on another axis to one on this, of which both are nearly the nearest (Ericson 2005, 5.1.9).
+    /// Vector from a point on another axis to one on this; both are nearly the nearest points (Ericson 2005,
+    /// 5.1.9).
     #[inline(always)]
     pub(super) fn way(self, simd: S, other: Self) -> Lanes3<S> {
         let tiny = Lanes::splat(simd, 1e-9);
@@ -88,7 +91,7 @@ impl<S: Simd> CapsuleAxis<S> {
         let (d1, d2) = (self.half, other.half);
         let (a, b, e) = (d1.dot(d1) + tiny, d1.dot(d2), d2.dot(d2) + tiny);
         let (c, f) = (d1.dot(between), d2.dot(between));
-        // From −1 to 1 along each, the first free of the other's ends.
+        // From −1 to 1 along each, the first regardless of the ends of the other.
         let s = (b * f - c * e).div((a * e - b * b).max(Lanes::splat(simd, 1e-12))).within();
         let t = (b * s + f).div(e).within();
         let s = (b * t - c).div(a).within();
@@ -96,7 +99,8 @@ impl<S: Simd> CapsuleAxis<S> {
     }
 }
 
-/// A bit for each state in which an axis may be no farther from a box than wanted; in pieces where it matters.
+/// Bit mask of the configurations in which an axis may be nearer to a box than `wanted`; in pieces only where
+/// needed.
 #[inline(always)]
 pub(super) fn beside<S: Simd>(
     simd: S,
@@ -111,8 +115,8 @@ pub(super) fn beside<S: Simd>(
     }
 }
 
-/// The square of the distance of a box from the box around a piece of an axis, along the directions of the first, of which the
-/// middle of the axis is so far off. The piece is at a place from −1 to 1, and is a share of the axis.
+/// Squared distance of a box from the bounding box of a piece of an axis, along the axes of the box; `off` is
+/// the offset of the middle of the axis, `place` is from −1 to 1, and `share` is the fraction of the axis.
 #[inline(always)]
 fn squared<S: Simd>(
     simd: S,

@@ -1,4 +1,4 @@
-//! What is told eight at a time is the same on every processor, and agrees with what `f64` says of each alone.
+//! Batch checks give the same results on every processor, and agree with `f64` checks of each configuration.
 
 use nalgebra::Isometry3;
 use pulp::Arch;
@@ -26,7 +26,7 @@ fn robot(name: &str) -> Robot {
     Robot { tree, body, batch_model, rest }
 }
 
-/// Legs turn farther than is accurate, and stand still.
+/// Legs turn farther than the accurate range, and are fixed.
 fn is_leg(tree: &KinematicTree, at: usize) -> bool {
     ["HAA", "HFE", "KFE"].iter().any(|end| tree.dofs()[at].name.ends_with(end))
 }
@@ -42,7 +42,8 @@ impl Robot {
         joints
     }
 
-    /// Pairs of parts with how far they are apart, but for those that do not move against each other, which are not looked at.
+    /// Pairs of solids with their distances, without those that do not move relative to each other, which are
+    /// not checked.
     fn moved_pairs<'a>(
         &'a self,
         placed: &'a [Solid],
@@ -144,7 +145,7 @@ fn what_is_near_is_met() {
                 }
             }
         }
-        // Boxes around cylinders and capsules take some more, and not many.
+        // Boxes around cylinders and capsules report some more pairs, but not many.
         assert!(near > 50 && told < 2 * near, "{name}: {near} near, {told} told");
         assert!(sure > 30, "{name}: {sure} for certain");
     }
@@ -171,7 +172,7 @@ fn every_processor_tells_the_same() {
     }
 }
 
-/// What is told to stay apart on a leg does, wherever the robot is on it.
+/// Pairs reported as apart on an edge segment are apart at every configuration of it.
 #[test]
 fn what_is_told_to_stay_apart_on_a_leg_does() {
     let things = things();
@@ -182,7 +183,7 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
         for block in 0..40 {
             let (from, to) = (robot.joints(block), robot.joints(block + 1));
             let start = base(block);
-            // Every third turns only joints, as most ways of an arm do.
+            // Every third moves only joints, as most edges of an arm do.
             let end =
                 if block % 3 == 0 { start } else { [0, 1, 2].map(|at| start[at] + [0.3, -0.2, 0.4][at]) };
             let half = [0.01, 0.03, 0.1][block % 3];
@@ -206,7 +207,7 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                 for placed in [-1.0, -0.6, -0.2, 0.3, 0.7, 1.0].map(at) {
                     for (part, solid) in placed.iter().enumerate() {
                         for (at, thing) in things.iter().enumerate() {
-                            // What does not move on a way is free.
+                            // Solids that do not move on an edge are free.
                             let is_near =
                                 !solid.is_farther(thing, f64::from(GAP)) && moves(solid, &still[part]);
                             near += u32::from(is_near);
@@ -234,7 +235,7 @@ fn moves(one: &Solid, other: &Solid) -> bool {
         || one.axes.iter().zip(other.axes).any(|(a, b)| (a - b).norm() > 1e-9)
 }
 
-/// No point of a part goes farther than is said.
+/// No point of a part moves farther than its bound.
 #[test]
 fn parts_stay_within_how_far_they_go() {
     for name in ["hsr", "anymal_z1", "panda"] {

@@ -1,21 +1,22 @@
-//! Which link of a URDF is the base: what a root that stands for the room carries, and joints by which the base itself moves.
+//! Search for the base of a URDF: links that stand for the room, and joints that move the base itself.
 
 use crate::quaternion::{mul, rotate};
 use crate::urdf::{Joint, JointKind, Urdf};
 
 use super::parts::has_word;
 
-/// The base.
+/// Base link, with the reason of the choice.
 #[derive(Clone, Copy)]
 pub(super) struct DraftBase {
     pub(super) link: usize,
     pub(super) why: &'static str,
-    /// Whether joints before it slide it over the floor.
+    /// True if joints before it slide it over the floor.
     pub(super) is_planar: bool,
 }
 
 impl DraftBase {
-    /// The root, or what hangs on links that stand for the room. O(joints²) of the links before the base.
+    /// Finds the base: the root, or the first link after links that stand for the room. O(joints²) of the
+    /// links before the base.
     pub(super) fn find(urdf: &Urdf) -> Self {
         let mut base = Self { link: urdf.root, why: "the root", is_planar: false };
         while let Some(joint) = only(urdf, base.link) {
@@ -31,7 +32,7 @@ impl DraftBase {
                 JointKind::Fixed if has_word(name, &["world", "map", "odom"]) => {
                     Self { link: joint.child, why: "what the root carries", ..base }
                 }
-                // What turns on a root of whatever name is an arm.
+                // A revolute joint on the root is part of an arm, whatever the name of the root.
                 JointKind::Fixed | JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
                     return base;
                 }
@@ -41,17 +42,17 @@ impl DraftBase {
     }
 }
 
-/// The joint of a link that carries no other.
+/// The only joint on a link.
 fn only(urdf: &Urdf, link: usize) -> Option<&Joint> {
     let mut hanging = urdf.joints.iter().filter(|joint| joint.parent == link);
     hanging.next().filter(|_| hanging.next().is_none())
 }
 
-/// What a chain of joints moves that slides along x and along y, and may turn about z, with no shape before its last link: a
+/// Link at the end of a chain of joints along x and along y, and maybe about z, without shapes before it: a
 /// machine that slides has beams.
 fn slid(urdf: &Urdf, from: usize) -> Option<usize> {
     let (mut at, mut turn) = (from, [0.0, 0.0, 0.0, 1.0]);
-    // Along x, along y, about z.
+    // Joints seen along x, along y and about z.
     let mut has = [false; 3];
     while let Some(joint) = only(urdf, at).filter(|joint| joint.mimic.is_none()) {
         if urdf.links.get(at).is_none_or(|link| !link.collisions.is_empty() || !link.visuals.is_empty()) {

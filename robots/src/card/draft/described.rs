@@ -1,27 +1,27 @@
-//! What an SRDF says of the arm and the hand: its end effectors, and its groups.
+//! Arm and hand as an SRDF describes them: its end effectors and its groups.
 
 use smol_str::SmolStr;
 
 use crate::srdf::{JointGroup, Srdf};
 use crate::urdf::{JointKind, Urdf};
 
-/// A hand as it is described.
+/// Hand as described.
 pub(super) struct Described {
-    /// The link that the hand is mounted on, or with which the arm ends.
+    /// Link on which the hand is mounted, or with which the arm ends.
     pub(super) mount: usize,
-    /// The links of the hand.
+    /// Links of the hand.
     pub(super) links: Vec<usize>,
-    /// The joints of the hand.
+    /// Joints of the hand.
     pub(super) joints: Vec<usize>,
-    /// Whether the arm ends here, with nothing said of a hand.
+    /// True if only the end of the arm is described, and no hand.
     pub(super) is_end: bool,
-    /// What says so.
+    /// Source of the description.
     pub(super) why: String,
 }
 
 impl Described {
-    /// The end effector on the longest arm, or the end of the longest chain of a group; `length` counts the joints between the
-    /// base and a link.
+    /// Finds the end effector on the longest arm, or the end of the longest chain of a group; `length` counts
+    /// the joints between the base and a link.
     pub(super) fn find(urdf: &Urdf, srdf: &Srdf, length: impl Fn(usize) -> usize) -> Option<Self> {
         let hands = srdf.end_effectors.iter().rev().max_by_key(|(_, hand)| length(hand.parent));
         if let Some((name, hand)) = hands {
@@ -30,21 +30,21 @@ impl Described {
             return Some(Self { mount: hand.parent, links, joints, is_end: false, why });
         }
         let ends = srdf.groups.iter().flat_map(|(name, group)| ends(urdf, group).map(move |end| (name, end)));
-        // Of several that are as long, the first.
+        // Of several with the same length the first.
         let (name, mount) = ends.collect::<Vec<_>>().into_iter().rev().max_by_key(|(_, end)| length(*end))?;
         let why = format!("the end of the group `{}`", name.escape_debug());
         Some(Self { mount, links: vec![], joints: vec![], is_end: true, why })
     }
 }
 
-/// Where the chains of a group end, and what its last joint moves.
+/// Tips of the chains of a group, and the child of its last joint.
 fn ends<'a>(urdf: &'a Urdf, group: &'a JointGroup) -> impl Iterator<Item = usize> + 'a {
-    // Each joint stands after the one that carries its parent.
+    // Each joint comes after the one that carries its parent.
     let last = group.joints.iter().max().and_then(|joint| urdf.joints.get(*joint)).map(|joint| joint.child);
     group.chains.iter().map(|[_, tip]| *tip).chain(last)
 }
 
-/// The links and joints of a group and of those in it, with what its joints move.
+/// Links and joints of a group and of its subgroups, with the children of its joints.
 fn members(urdf: &Urdf, srdf: &Srdf, group: &str) -> (Vec<usize>, Vec<usize>) {
     let (mut links, mut joints): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut open = vec![SmolStr::new(group)];
@@ -60,7 +60,7 @@ fn members(urdf: &Urdf, srdf: &Srdf, group: &str) -> (Vec<usize>, Vec<usize>) {
         next += 1;
     }
     links.extend(joints.iter().filter_map(|joint| urdf.joints.get(*joint)).map(|joint| joint.child));
-    // A joint that is fixed is in the lists of some tools.
+    // Some tools list fixed joints.
     joints.retain(|joint| urdf.joints.get(*joint).is_some_and(|joint| joint.kind != JointKind::Fixed));
     (links, joints)
 }

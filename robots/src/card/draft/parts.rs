@@ -1,43 +1,43 @@
-//! Which link of a URDF is the base, the tip of the hand, the frame of the camera: told by what moves what, then by
-//! the words that names are made of.
+//! Search for the tip of the hand and the frame of the camera in a URDF: by the structure of the joints, then
+//! by words in names.
 
 use super::base::DraftBase;
 use super::described::Described;
 use crate::srdf::Srdf;
 use crate::urdf::{Joint, JointKind, Urdf};
 
-/// What was found.
+/// Parts of a robot that the search found.
 pub(super) struct RobotParts {
     pub(super) base: usize,
     pub(super) base_why: &'static str,
-    /// The kind of drive, and why.
+    /// Kind of the drive, and the reason.
     pub(super) drive: (&'static str, &'static str),
     pub(super) hand: Option<DraftHand>,
-    /// The camera's link, and why.
+    /// Link of the camera, and the reason.
     pub(super) camera: Option<(usize, &'static str)>,
     pub(super) camera_is_on_arm: bool,
 }
 
-/// The hand at the end of the arm.
+/// Hand at the end of the arm.
 pub(super) struct DraftHand {
     pub(super) tip: usize,
-    /// Why it is the tip, and who says so.
+    /// Reason of the choice and its source.
     pub(super) why: String,
     /// Length of the stretched arm, in m.
     pub(super) reach: f64,
-    /// Height of the shoulder above the base at rest, in m; turns on the way are left out.
+    /// Height of the shoulder above the base at rest, in m; rotations in between are ignored.
     pub(super) shoulder: f64,
-    /// What the fingers open to, in m, where they slide.
+    /// Opening of sliding fingers, in m.
     pub(super) opening: Option<f64>,
     pub(super) points: &'static str,
     pub(super) closes: &'static str,
-    /// Its sliding fingers that move by themselves, with where they are when it is open, in m.
+    /// Sliding fingers that move by themselves, with their open positions, in m.
     pub(super) open: Vec<(String, f64)>,
-    /// The joints of the arm with positions within their limits.
+    /// Joints of the arm with positions within their limits.
     pub(super) arm: Vec<(String, f64)>,
 }
 
-/// Fewest joints of an arm.
+/// Least number of joints of an arm.
 const ARM: usize = 3;
 
 impl RobotParts {
@@ -53,11 +53,11 @@ impl RobotParts {
     }
 }
 
-/// The joints from the root to a link; see [`beyond`]. O(joints).
+/// Joints from the root to a link; see [`beyond`]. O(joints).
 fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
     let mut way = Vec::new();
     let mut at = link;
-    // From the tips on, each joint stands after the one that carries its parent.
+    // Backwards, each joint comes after the one that carries its parent.
     for joint in urdf.joints.iter().rev() {
         if joint.child == at {
             way.push(joint);
@@ -68,7 +68,7 @@ fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
     way
 }
 
-/// Those of them after the base. All of them where it is not on the way.
+/// Joints between the base and a link; all from the root if the base is not among them.
 fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
     let mut way = way(urdf, link);
     let before = way.iter().position(|joint| joint.child == base).map_or(0, |at| at + 1);
@@ -76,7 +76,7 @@ fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
     way
 }
 
-/// Whether a link is called after something that feels, and is no part of a hand.
+/// Checks whether a link has the name of a sensor.
 fn senses(name: &str) -> bool {
     let is_imu = |word: &str| word.eq_ignore_ascii_case("imu");
     has_word(name, &["camera", "sensor", "optical"])
@@ -87,12 +87,12 @@ fn moves(joint: &Joint) -> bool {
     joint.kind.has_one_position() && joint.mimic.is_none()
 }
 
-/// A joint that moves between limits that differ.
+/// Checks whether a joint moves between limits that differ.
 fn works(joint: &Joint) -> bool {
     moves(joint) && joint.limits.is_none_or(|limits| limits.upper > limits.lower)
 }
 
-/// Whether a name has one of these in it, in whatever case.
+/// Checks whether a name contains one of some words, ignoring case.
 pub(super) fn has_word(name: &str, words: &[&str]) -> bool {
     let name = name.to_ascii_lowercase();
     words.iter().any(|word| name.contains(word))
@@ -117,11 +117,11 @@ fn drive(urdf: &Urdf, is_planar: bool) -> (&'static str, &'static str) {
     }
 }
 
-/// Words for the tip of a hand, the best first.
+/// Words for the tip of a hand, best first.
 const TIPS: [&[&str]; 3] =
     [&["tcp", "tool0", "grasp", "ee_link", "end_effector"], &["palm"], &["hand", "gripper"]];
 
-/// The hand that the SRDF describes, else that at the end of the longest arm.
+/// Finds the hand that the SRDF describes, else that at the end of the longest arm.
 fn hand(urdf: &Urdf, srdf: Option<&Srdf>, base: usize) -> Option<DraftHand> {
     let stems = stems(urdf, base);
     let length = |link: usize| stems.get(link).filter(|stem| !stem.is_leg).map_or(0, |stem| stem.joints);
@@ -138,7 +138,8 @@ fn hand(urdf: &Urdf, srdf: Option<&Srdf>, base: usize) -> Option<DraftHand> {
     }
 }
 
-/// Of what is rigid with the link that a hand is mounted on, what is named for a tip, else the hand's first link, else that link.
+/// Tip of a described hand: a link rigidly attached to the mount with a name for a tip, else the first link
+/// of the hand, else the mount.
 fn described_tip(urdf: &Urdf, hand: &Described, length: impl Fn(usize) -> usize) -> usize {
     let mut rigid = vec![hand.mount];
     // Each joint stands after the one that carries its parent.
@@ -147,7 +148,7 @@ fn described_tip(urdf: &Urdf, hand: &Described, length: impl Fn(usize) -> usize)
             rigid.push(joint.child);
         }
     }
-    // Where there is no end effector, the group's end is the tip.
+    // Without an end effector the end of the group is the tip.
     let named = TIPS.iter().filter(|_| !hand.is_end).find_map(|words| {
         rigid.iter().rev().copied().find(|link| {
             let name = urdf.links.get(*link).map_or("", |link| link.name.as_str());
@@ -158,7 +159,8 @@ fn described_tip(urdf: &Urdf, hand: &Described, length: impl Fn(usize) -> usize)
     named.or_else(|| hand.links.iter().copied().find(is_own)).unwrap_or(hand.mount)
 }
 
-/// The tip of the longest arm: a link named for it, else the link that carries fingers, else the last link.
+/// Guesses the tip of the longest arm: a link with a name for it, else the link that carries fingers, else
+/// the last link.
 fn guessed_tip(urdf: &Urdf, base: usize, stems: &[ArmStem]) -> Option<(usize, &'static str)> {
     let is_leg = |link: usize| stems.get(link).is_some_and(|stem| stem.is_leg);
     let arms = |link: usize| stems.get(link).map_or(0, |stem| stem.joints);
@@ -187,7 +189,7 @@ fn guessed_tip(urdf: &Urdf, base: usize, stems: &[ArmStem]) -> Option<(usize, &'
     })
 }
 
-/// The hand with this tip, whose own joints the SRDF may name.
+/// Measures the hand with a tip, whose own joints the SRDF may name.
 fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) -> DraftHand {
     let steps = beyond(urdf, base, tip);
     let arm: Vec<&Joint> = steps.iter().copied().filter(|joint| works(joint)).collect();
@@ -212,20 +214,20 @@ fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) ->
     }
 }
 
-/// What lies between the base and a link.
+/// Joints between the base and a link.
 #[derive(Clone, Copy, Default)]
 struct ArmStem {
-    /// How many joints work.
+    /// Number of joints that move.
     joints: usize,
     is_leg: bool,
-    /// Of a part of a finger the link that carries the fingers: nearest to the base of those that carry two joints which
-    /// follow each other or slide.
+    /// For a finger the link that carries the fingers: the one nearest to the base that carries two joints
+    /// which follow each other or slide.
     palm: Option<usize>,
 }
 
-/// That of each link; nothing for what the base does not carry. O(links + joints).
+/// Stem of each link; empty for links that the base does not carry. O(links + joints).
 fn stems(urdf: &Urdf, base: usize) -> Vec<ArmStem> {
-    // Whether a link carries two joints, and whether one of them follows another or slides.
+    // For each link the number of its joints, and whether one of them is a mimic joint or slides.
     let mut carried = vec![(0_usize, false); urdf.links.len()];
     for joint in urdf.joints.iter().filter(|joint| joint.kind.has_one_position()) {
         if let Some((count, is_finger)) = carried.get_mut(joint.parent) {
@@ -259,8 +261,8 @@ fn stems(urdf: &Urdf, base: usize) -> Vec<ArmStem> {
     stems
 }
 
-/// Where fingers on a link, or beside it, point, along what they close, and those that slide. Joints that the hand is said to
-/// have are fingers whatever they are called.
+/// Pointing and closing direction of the fingers on a link or beside it, and those that slide. Joints of a
+/// described hand count as fingers, whatever their names.
 fn fingers<'u>(urdf: &'u Urdf, tip: usize, own: &[usize]) -> (&'static str, &'static str, Vec<&'u Joint>) {
     let hosts: Vec<usize> =
         way(urdf, tip).iter().rev().take(2).map(|joint| joint.parent).chain([tip]).collect();
@@ -293,14 +295,14 @@ fn fingers<'u>(urdf: &'u Urdf, tip: usize, own: &[usize]) -> (&'static str, &'st
     (points, closes, sliding)
 }
 
-/// Where a finger that slides is open: at the limit farther from 0, where it is shut.
+/// Open position of a sliding finger: the limit farther from 0, where it is closed.
 fn opened(joint: &&Joint) -> Option<(String, f64)> {
     let limits = joint.limits?;
     let far = if limits.lower.abs() > limits.upper.abs() { limits.lower } else { limits.upper };
     Some((joint.name.to_string(), far))
 }
 
-/// 0, or the limit nearest to it.
+/// Position 0, or the limit nearest to it.
 fn at_rest(joint: &Joint) -> f64 {
     joint.limits.map_or(0.0, |limits| 0.0_f64.clamp(limits.lower, limits.upper))
 }

@@ -1,66 +1,67 @@
-//! How far what a frame carries can be from where it is in the middle of a cell.
+//! Displacement bounds: the greatest distance of a body on a frame from its place in the middle of a cell.
 
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
 
-/// Directions in which a frame slides at most.
+/// Greatest number of translations in a bound.
 const SLIDES: usize = 6;
 
-/// Axes about which a frame turns at most.
+/// Greatest number of rotations about known axes in a bound.
 const SPINS: usize = 3;
 
-/// A frame goes by no more than this: it slides, turns about a point, then about axes one after the other, and is shifted before or after.
+/// Bound for the displacement of a frame: translations along given vectors, a rotation about any axis through
+/// a point, then rotations about given axes one after the other, and a shift before or after.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DisplacementBound {
-    /// In m, in any direction, and in any that is level.
+    /// Shift in m in any direction, and in any horizontal one.
     shift: f64,
     flat: f64,
-    /// By no more than each of these forwards or backwards.
+    /// Translation by at most each of these vectors, forwards or backwards.
     slides: [Vector3<f64>; SLIDES],
     count: usize,
-    /// In rad about any axis through a point, in the map.
+    /// Rotation in rad about any axis through the point `about`, in the map frame.
     turn: f64,
     about: Vector3<f64>,
     spins: [RotationBound; SPINS],
     turns: usize,
 }
 
-/// A turn about one axis of length 1 through a point.
+/// Rotation by at most an angle about one unit axis through a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RotationBound {
-    /// In rad.
+    /// Greatest angle, in rad.
     pub(crate) angle: f64,
     pub(crate) axis: Vector3<f64>,
     pub(crate) at: Vector3<f64>,
 }
 
 impl RotationBound {
-    /// From the axis to a point.
+    /// Perpendicular vector from the axis to a point.
     fn out(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let off = point - self.at;
         off - self.axis * off.dot(&self.axis)
     }
 
-    /// How far a point goes at most that is within `rim` of a place, less what it was off from there before, in m.
+    /// Greatest distance, in m, of any point within `rim` of a point that is displaced by `before` already.
     pub(crate) fn far(&self, point: &Vector3<f64>, rim: f64, before: f64) -> f64 {
         // A chord is no longer than its arc, nor than twice the radius.
         self.angle.min(2.0) * (self.out(point).norm() + rim + before)
     }
 
-    /// How far along a direction of length 1, where it may have gone so far before.
+    /// Greatest distance along a unit vector, in m, for a point that is displaced by `before` already.
     pub(crate) fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>, before: f64) -> f64 {
         let out = self.out(point);
         let across = self.axis.cross(direction);
         sine(self.angle) * across.dot(&out).abs()
             + versine(self.angle) * out.dot(direction).abs()
-            // Nothing goes along the axis.
+            // A rotation moves nothing along its axis.
             + self.angle.min(2.0) * before * across.norm()
     }
 }
 
 impl DisplacementBound {
-    /// What does not move.
+    /// Zero displacement.
     pub(crate) fn none() -> Self {
         let (zero, axis) = (Vector3::zeros(), Vector3::z());
         let spins = [RotationBound { angle: 0.0, axis, at: zero }; SPINS];
@@ -68,17 +69,17 @@ impl DisplacementBound {
         Self { shift: 0.0, flat: 0.0, slides, count: 0, turn: 0.0, about: zero, spins, turns: 0 }
     }
 
-    /// What is anywhere.
+    /// Unbounded displacement.
     pub(crate) fn unknown() -> Self {
         Self { shift: f64::INFINITY, ..Self::none() }
     }
 
-    /// The same, and shifted by so much more.
+    /// Adds a shift in any direction, in m.
     pub(crate) fn shifted(self, more: f64) -> Self {
         Self { shift: self.shift + more, ..self }
     }
 
-    /// The same, and slid by no more than a step.
+    /// Adds a translation by at most a vector.
     pub(crate) fn slid(mut self, step: Vector3<f64>) -> Self {
         match self.slides.get_mut(self.count) {
             Some(slot) => (*slot, self.count) = (step, self.count + 1),
@@ -87,18 +88,18 @@ impl DisplacementBound {
         self
     }
 
-    /// The same, and moved as the end of an arm is that turns about an axis to which it is square, by no more than an angle.
+    /// Adds the motion of the end of a lever arm that rotates by at most an angle about a perpendicular axis.
     pub(crate) fn swung(self, axis: &Vector3<f64>, arm: &Vector3<f64>, angle: f64) -> Self {
         let across = axis.cross(arm);
         self.slid(across * sine(angle)).shifted(across.norm() * versine(angle))
     }
 
-    /// The same, with a turn about a point.
+    /// Sets the rotation about a point.
     pub(crate) fn turned(self, about: Vector3<f64>, turn: f64) -> Self {
         Self { turn, about, ..self }
     }
 
-    /// The same, with a turn about an axis through a point after all others.
+    /// Adds a rotation about an axis through a point, after all others.
     pub(crate) fn spun(mut self, axis: Vector3<f64>, at: Vector3<f64>, angle: f64) -> Self {
         match self.spins.get_mut(self.turns) {
             Some(slot) => (*slot, self.turns) = (RotationBound { angle, axis, at }, self.turns + 1),
@@ -107,14 +108,14 @@ impl DisplacementBound {
         self
     }
 
-    /// The same of what keeps its height, where nothing is known to turn.
+    /// Restricts the bound to motions that keep the height, if no rotation is known.
     pub(crate) fn level(mut self) -> Self {
         (self.flat, self.shift) = (self.flat + self.shift, 0.0);
         self.slides.iter_mut().for_each(|slide| slide.z = 0.0);
         self
     }
 
-    /// What goes along with a point that this carries, without turning.
+    /// Bound for a body that follows a point of this frame without rotating.
     pub(crate) fn carried(&self, point: &Vector3<f64>) -> Self {
         let mut carried = Self { turn: 0.0, turns: 0, ..*self };
         let mut gone = self.straight();
@@ -129,7 +130,7 @@ impl DisplacementBound {
         carried
     }
 
-    /// How directions turn: what it does to places as far from the origin as they are long.
+    /// Bound for directions: the displacement of points at the distance of 1 m from the axes.
     pub(crate) fn turning(&self) -> Self {
         let zero = Vector3::zeros();
         let mut turning = Self { shift: 0.0, flat: 0.0, count: 0, about: zero, ..*self };
@@ -137,23 +138,24 @@ impl DisplacementBound {
         turning
     }
 
-    /// By how much it is turned at most, in rad.
+    /// Greatest angle of rotation, in rad.
     pub(crate) fn angle(&self) -> f64 {
         let spins = match self.spins() {
-            // About axes square to each other: the cosine of half of both is the product of those of the halves.
+            // For perpendicular axes, the cosine of half the total angle is the product of the cosines of the
+            // halves.
             [one, other] if one.axis.dot(&other.axis).abs() < 1e-9 => libm::hypot(one.angle, other.angle),
             spins => spins.iter().map(|spin| spin.angle).sum(),
         };
         self.turn + spins
     }
 
-    /// How far a solid goes at most, in m: the axis of a capsule, whose rim goes along however it turns, and every point of
-    /// anything else.
+    /// Greatest displacement of a solid, in m: of the axis of a capsule, whose rim follows however it
+    /// rotates, and of every point of any other shape.
     pub(crate) fn of(&self, solid: &Solid) -> f64 {
         farthest(solid, self.turns_about(), |point, rim| self.point(point, rim))
     }
 
-    /// The one direction about which it turns, if there is one.
+    /// The only axis of rotation, if there is one.
     pub(crate) fn turns_about(&self) -> Option<Vector3<f64>> {
         match self.spins() {
             [] if self.turn == 0.0 => Some(Vector3::z()),
@@ -162,7 +164,7 @@ impl DisplacementBound {
         }
     }
 
-    /// How far what is within `rim` of a point goes at most, in m.
+    /// Greatest displacement of any point within `rim` of a point, in m.
     pub(crate) fn point(&self, point: &Vector3<f64>, rim: f64) -> f64 {
         let mut gone = self.straight();
         // A chord is no longer than its arc, nor than twice the radius.
@@ -175,7 +177,7 @@ impl DisplacementBound {
         gone
     }
 
-    /// How far a point goes at most along a direction of length 1, in m: to first order by where it goes, and by how far for the rest.
+    /// Greatest displacement of a point along a unit vector, in m: exact to first order, and bounded beyond.
     pub(crate) fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
         let mut gone = self.shift + self.flat * libm::hypot(direction.x, direction.y);
         gone += self.slides().iter().map(|slide| slide.dot(direction).abs()).sum::<f64>();
@@ -193,7 +195,7 @@ impl DisplacementBound {
         gone
     }
 
-    /// How far it slides and is shifted at most, in m.
+    /// Greatest sum of translations and shifts, in m.
     fn straight(&self) -> f64 {
         self.shift + self.flat + self.slides().iter().map(Vector3::norm).sum::<f64>()
     }
@@ -207,18 +209,19 @@ impl DisplacementBound {
     }
 }
 
-/// The greatest sine of an angle that is no larger.
+/// Greatest sine of any angle up to `angle`.
 fn sine(angle: f64) -> f64 {
     if angle < 0.5 { angle } else { libm::sin(angle.min(std::f64::consts::FRAC_PI_2)) }
 }
 
-/// The greatest of 1 less the cosine of an angle that is no larger.
+/// Greatest value of 1 − cos of any angle up to `angle`.
 fn versine(angle: f64) -> f64 {
     if angle < 0.5 { 0.5 * angle * angle } else { 1.0 - libm::cos(angle.min(std::f64::consts::PI)) }
 }
 
-/// The most of what is told of a place and so much around it, where that is largest at the ends of a line, over the axis of a capsule, whose
-/// rim goes along however it turns, and every point of anything else. What turns about one axis alone is told of.
+/// Maximum over a solid of a function of a point and a rim that has its maximum at ends of lines: over the
+/// axis of a capsule, whose rim follows however it rotates, and over every point of any other shape. `axis`
+/// is the only axis of rotation, if there is one.
 pub(crate) fn farthest(
     solid: &Solid,
     axis: Option<Vector3<f64>>,
@@ -232,7 +235,7 @@ pub(crate) fn farthest(
         Shape::Capsule { half: 0.0, .. } => told(&solid.centre, 0.0),
         Shape::Capsule { half, .. } => ends(z * half, 0.0),
         Shape::Cylinder { radius, half } => {
-            // About its own direction it turns into itself.
+            // A rotation about its own axis maps the cylinder to itself.
             let is_along = axis.is_some_and(|axis| z.cross(&axis).norm_squared() < 1e-18);
             ends(z * half, if is_along { 0.0 } else { radius })
         }
@@ -265,7 +268,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4096))]
 
-        /// What moves in one of the ways that a drift allows goes nowhere farther than it says, nor does what is carried along.
+        /// No motion within the bound exceeds it, nor does a carried body.
         #[test]
         fn nothing_goes_farther_than_is_told(
             slides in prop::collection::vec(vector(), 0..4), shares in prop::collection::vec(-1.0..1.0_f64, 8),

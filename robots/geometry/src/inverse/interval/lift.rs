@@ -1,4 +1,4 @@
-//! Cells of a [`LiftArm`]: by the base's yaw and the value of the shoulder's variable, for each way to hold the wrist.
+//! Cells of a [`LiftArm`]: yaw of the base and value of the shoulder, for each branch of the wrist.
 
 use nalgebra::{Unit, Vector3};
 
@@ -14,20 +14,20 @@ use crate::inverse::subproblem::turned;
 use crate::trigonometry::turn;
 
 impl LiftArm {
-    /// Cells that hold all solutions.
+    /// Cells that contain all solutions.
     pub(crate) fn cells(&self) -> Vec<IkCell> {
         let (lower, upper) = self.shoulder_span();
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
         (0..2).map(|branch| IkCell { branch, middle: [0.0, middle, 0.0], half: [PI, half, 0.0] }).collect()
     }
 
-    /// How far something goes for a change of each parameter of a cell, about, in m.
+    /// Approximate displacement, in m, per unit of each parameter of a cell.
     pub(crate) fn weights(&self) -> [f64; 3] {
         let long = self.shoulder.to_wrist.norm();
         [libm::hypot(self.shoulder.point.x, self.shoulder.point.y) + long, long, 0.0]
     }
 
-    /// What is known of a cell.
+    /// Encloses all solutions of a cell.
     pub(crate) fn enclose(&self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
         let map_from_tip = &tips.map_from_tip;
         let ([yaw, value, _], [yaws, values, _]) = (cell.middle, cell.half);
@@ -36,7 +36,7 @@ impl LiftArm {
             (joint.coupling.position(&[0.0, value]), values * joint.coupling.multiplier.abs());
         let Shoulder { axis, point, to_wrist } = self.shoulder;
         let centre = self.centre(map_from_tip).coords;
-        // The wrist's centre may be off as well, and the hand turned.
+        // The centre of the wrist is uncertain as well, and so is the rotation of the hand.
         let swings = turned(&Vector3::z(), yaw, &axis);
         let (moves, tilts) = (tips.displacement.along(&centre, &Vector3::z()), tips.displacement.angle());
         let arm = turned(&axis, angle, &to_wrist);
@@ -64,7 +64,8 @@ impl LiftArm {
         let in_map = turned(&Vector3::z(), yaw, &(point + arm));
         let base = [centre.x - in_map.x, centre.y - in_map.y, yaw];
         let placed = frames(&self.chain, based(base, 0.0), &values);
-        // The shoulder moves opposite to the wrist's centre as the arm bends, and all but the hand turns with the base.
+        // The shoulder moves opposite to the centre of the wrist as the arm bends, and all but the hand
+        // rotates with the base.
         let held = tips.displacement.carried(&centre);
         let back = turned(&Vector3::z(), yaw, &-arm);
         let carries = held.swung(&swings, &(back - swings * swings.dot(&back)), bends);
@@ -85,7 +86,7 @@ impl LiftArm {
         ];
         IntervalSolution::Enclosed(Box::new(CellEnclosure {
             base,
-            // The base keeps its height, whatever the shoulder's.
+            // The base keeps its height, whatever the height of the shoulder.
             base_displacement: upright(carries.level()),
             frames: placed.into_iter().zip(displacements).collect(),
             values,

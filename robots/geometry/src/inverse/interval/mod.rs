@@ -1,11 +1,14 @@
-//! Cells of the family of solutions of an arm whose tip is at a pose: over a box of the family's free parameters, between which
-//! values each joint is, and how far each frame can be from where it is in the middle of the box.
+//! Interval inverse kinematics: enclosures of all solutions over a cell, for branch and bound.
 //!
-//! Nothing here looks at what stands around. What is said holds for every member of the family whose parameters are in the
-//! box, so that a box in which a joint is beyond its limits throughout has no state, and what a frame carries can be looked at
-//! in the middle, smaller by as much as it can be off. Which arms have such cells: [`LiftArm`](super::LiftArm), by the base's yaw and
-//! the shoulder; [`ParallelArm`](super::ParallelArm) on a base that drives, by the heading of the arm, the lean of the forearm,
-//! and the base's yaw; [`SevenArm`](super::SevenArm) on one that does not, by the last joint.
+//! A cell is a box of free parameters of the solution family of an arm whose tip is at a pose. Its enclosure
+//! gives an interval for each joint value, and a bound for the displacement of each frame from its pose in
+//! the middle of the cell. It knows no obstacles. It holds for every member of the cell: if a joint is beyond
+//! its limits throughout, the cell has no solution; and a solid on a frame can be checked at the middle,
+//! deflated by the displacement bound.
+//!
+//! Cells exist for [`LiftArm`](super::LiftArm) (yaw of the base and shoulder), for
+//! [`ParallelArm`](super::ParallelArm) on a mobile base (heading of the arm, lean of the forearm, yaw of the
+//! base), and for [`SevenArm`](super::SevenArm) on a fixed base (last joint).
 
 mod displacement;
 mod lift;
@@ -22,10 +25,10 @@ use super::lift_arm::wrist;
 use crate::kinematics::{KinematicChain, planar};
 use crate::trigonometry::acos;
 
-/// How far, in rad or m, a value may be beyond a limit and still be rounding.
+/// Tolerance, in rad or m, for a value beyond a limit.
 const SLACK: f64 = 1e-5;
 
-/// A box of free parameters, and one of the ways in which the rest follows from them.
+/// Box of free parameters of a solution family, for one branch of the closed form.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IkCell {
     pub(crate) branch: u8,
@@ -34,12 +37,12 @@ pub(crate) struct IkCell {
     pub(crate) half: [f64; 3],
 }
 
-/// Poses of the tip that are near to one.
+/// Set of tip poses: one pose and a bound for the displacement from it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PoseSet {
     pub(crate) map_from_tip: Isometry3<f64>,
     pub(crate) displacement: DisplacementBound,
-    /// Whether joints count that are beyond their limits, and an arm that is too short.
+    /// If true, joint limits and the reach of the arm are ignored.
     pub(crate) is_any: bool,
 }
 
@@ -48,45 +51,45 @@ impl PoseSet {
         Self { map_from_tip, displacement, is_any: false }
     }
 
-    /// The same, whatever the limits of joints.
+    /// The same set with joint limits and reach ignored.
     pub(crate) fn any(self) -> Self {
         Self { is_any: true, ..self }
     }
 }
 
-/// What is known of a cell.
+/// Enclosure of the solutions over a cell.
 pub(crate) enum IntervalSolution {
     /// No member is within the limits.
     Empty,
-    /// All members are as near to this as it says.
+    /// All members are in this enclosure.
     Enclosed(Box<CellEnclosure>),
-    /// Nothing is known.
+    /// No statement is possible.
     Unknown,
 }
 
-/// The middle of a cell, and how far its members can be from it.
+/// Middle of a cell, with bounds for the difference of its members from it.
 pub(crate) struct CellEnclosure {
-    /// x, y and yaw of the base.
+    /// x, y and yaw of the base in the map frame.
     pub(crate) base: [f64; 3],
     pub(crate) base_displacement: DisplacementBound,
-    /// The frame after each joint, in the map.
+    /// Frame after each joint, in the map frame, with its displacement bound.
     pub(crate) frames: Vec<(Isometry3<f64>, DisplacementBound)>,
-    /// Of each variable its value, and how far it can be from there.
+    /// Value of each degree of freedom, and the radius of its interval.
     pub(crate) values: Vec<[f64; 2]>,
-    /// By how much an arm is too short in the middle, in m, and how far that can be off.
+    /// Missing length of the arm in the middle, in m, and the radius of its interval.
     pub(crate) short: [f64; 2],
-    /// Whether the frames are where the values put them, from the base on.
+    /// True if the frames are the forward kinematics of the values, from the base on.
     pub(crate) is_joined: bool,
 }
 
 impl IkCell {
-    /// The two halves of a cell, cut across a parameter.
+    /// Splits a cell into halves across a parameter.
     pub(crate) fn halves(&self, across: usize) -> [Self; 2] {
         let mut halves = [*self; 2];
         for (half, sign) in halves.iter_mut().zip([-0.5, 0.5]) {
             if let (Some(middle), Some(side)) = (half.middle.get_mut(across), half.half.get_mut(across)) {
                 *middle += sign * *side;
-                // The halves overlap by what rounding may take.
+                // The halves overlap by more than rounding.
                 *side = 0.5 * *side + 1e-12;
             }
         }
@@ -94,8 +97,8 @@ impl IkCell {
     }
 }
 
-/// The angles about three axes, each square to the next, that make up a rotation, in one of two ways, and how far each can be from
-/// there where the rotation is off by some angle.
+/// Interval of the angles about three axes, each perpendicular to the next, that make up a rotation that is
+/// uncertain by the angle `off`, for one branch: values and radii.
 fn wrist_interval(
     axes: &[Vector3<f64>; 3],
     rotation: &UnitQuaternion<f64>,
@@ -104,14 +107,16 @@ fn wrist_interval(
 ) -> Option<[[f64; 2]; 3]> {
     let [one, _, three] = axes;
     let [first, middle, last] = *wrist(axes, rotation).get(usize::from(branch))?;
-    // The third axis is this far from the first, and that changes by no more than the rotation does; so does the middle angle.
+    // The angle between the third and the first axis changes by no more than the rotation does; so does the
+    // middle angle.
     let polar = acos(one.dot(&(rotation * three)));
     let around = azimuth(polar, off);
     Some([[first, around], [middle, off], [last, around]])
 }
 
-/// The same of a wrist that something carries, which turns in the map by no more than `carrier`, while what it holds turns by no more than
-/// `held`: by which way both turn. A hand that points straight down does so however the arm turns about the vertical.
+/// Interval of the angles of a wrist whose carrier rotates in the map frame within `carrier` while the held
+/// body rotates within `held`. It depends on the axes of both rotations: a hand that points straight down
+/// stays so however the arm rotates about the vertical.
 fn carried_wrist_interval(
     axes: &[Vector3<f64>; 3],
     [map_from_carrier, rotation]: [&UnitQuaternion<f64>; 2],
@@ -127,7 +132,7 @@ fn carried_wrist_interval(
         return Some([first, middle, last]);
     }
     let aside = aside / sin;
-    // How far a direction that goes along with one is off along another one that goes along with the other.
+    // Displacement of one direction along another, each displaced on its own.
     let off = |[displacement, beyond]: [&DisplacementBound; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
         displacement.along(from, to)
             + beyond.along(to, from)
@@ -149,21 +154,21 @@ fn carried_wrist_interval(
     ])
 }
 
-/// How far the direction in which a vector leans away from an axis can turn about it, where the vector is so far from the axis and
-/// is turned by no more than `off`.
+/// Greatest change of azimuth about an axis of a vector at the angle `polar` to the axis, under a rotation by
+/// at most `off`.
 fn azimuth(polar: f64, off: f64) -> f64 {
     let room = polar.min(PI - polar) - 1e-6;
     if off >= room { PI } else { libm::asin((libm::sin(off) / libm::sin(polar)).min(1.0)) + 1e-9 }
 }
 
-/// How far the component of a vector can go in a direction while it turns about an axis to which both are square: the vector is so long,
-/// and its component across the direction is `slope`.
+/// Greatest change of a component of a vector of length `long` that rotates by at most `off` about an axis
+/// perpendicular to both; `slope` is the component perpendicular to the measured direction.
 fn wave(slope: f64, long: f64, off: f64) -> f64 {
     (slope.abs() * off + 0.5 * long * off * off).min(2.0 * long)
 }
 
-/// Values of a chain's variables for positions of its joints, each with how far it can be off; `None` where one is beyond its
-/// limits throughout and that counts.
+/// Intervals of the degrees of freedom for intervals of joint positions; `None` if one is beyond its limits
+/// throughout and limits count.
 fn dof_intervals(chain: &KinematicChain, positions: &[[f64; 2]], is_any: bool) -> Option<Vec<[f64; 2]>> {
     let joints = chain.joints.iter().zip(&chain.dofs).zip(positions);
     let values = joints.map(|((joint, dof), [position, off])| {
@@ -181,7 +186,7 @@ fn dof_intervals(chain: &KinematicChain, positions: &[[f64; 2]], is_any: bool) -
     values.collect()
 }
 
-/// The frames after the joints, in the map, for values of the variables.
+/// Frames after the joints, in the map frame, at the middle values.
 fn frames(chain: &KinematicChain, map_from_base: Isometry3<f64>, values: &[[f64; 2]]) -> Vec<Isometry3<f64>> {
     let values: Vec<f64> = values.iter().map(|[value, _]| *value).collect();
     let mut pose = map_from_base;
@@ -192,7 +197,7 @@ fn frames(chain: &KinematicChain, map_from_base: Isometry3<f64>, values: &[[f64;
     placed.collect()
 }
 
-/// The pose of a base's link so high above the floor.
+/// Pose of the link of a base at a height above the floor.
 fn based([x, y, yaw]: [f64; 3], height: f64) -> Isometry3<f64> {
     let mut pose = planar(x, y, yaw);
     pose.translation.z = height;

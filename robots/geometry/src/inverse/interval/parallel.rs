@@ -1,9 +1,10 @@
-//! Cells of a [`ParallelArm`] that stands upright on a base that drives: by the direction in the map in which the plane of the arm's
-//! parallel joints heads, the angle of the forearm in that plane, and the base's yaw, for each way to hold the wrist and the elbow.
+//! Cells of a [`ParallelArm`] that is upright on a mobile base: heading of the plane of the parallel joints
+//! in the map frame, angle of the forearm in that plane, and yaw of the base, for each branch of wrist and
+//! elbow.
 //!
-//! The heading leaves a rotation that the sum of the parallel joints and the last two make up, as a wrist does. With the forearm's angle
-//! the elbow has a place, and its height, against that of the shoulder, the angle of the upper arm. The base then stands somewhere on
-//! the circle about the first axis.
+//! The heading leaves a rotation that the sum of the parallel joints and the last two joints make up, as a
+//! wrist does. The angle of the forearm fixes the elbow; its height relative to the shoulder gives the angle
+//! of the upper arm. The base is then on the circle about the first axis.
 
 use std::f64::consts::PI;
 
@@ -19,7 +20,8 @@ use crate::inverse::subproblem::turned;
 use crate::trigonometry::{acos, atan2};
 
 impl ParallelArm {
-    /// Cells that hold all solutions with the base anywhere; none where the arm does not stand upright, or where the axes are not square.
+    /// Cells that contain all solutions for any place of the base; none if the arm is not upright or its axes
+    /// are not perpendicular.
     pub(crate) fn cells(&self) -> Vec<IkCell> {
         let [up, across, _, _, five, six] = &self.axes;
         let is_square = up.z > 1.0 - ROUNDED * ROUNDED
@@ -28,21 +30,20 @@ impl ParallelArm {
         ways.map(|branch| IkCell { branch, middle: [0.0; 3], half: [PI; 3] }).collect()
     }
 
-    /// How far something goes for a change of each parameter of a cell, about, in m; that of the base counts less, because it is
-    /// not asked for where the arm alone is in the way.
+    /// Approximate displacement, in m, per unit of each parameter of a cell.
     pub(crate) fn weights(&self) -> [f64; 3] {
         let [_, upper, fore, _] = self.offsets.map(|offset| offset.norm());
         [upper + fore, upper, 0.25 * upper]
     }
 
-    /// What is known of a cell, with the base so high above the floor.
+    /// Encloses all solutions of a cell, with the base at a height above the floor.
     pub(crate) fn enclose(&self, tips: &PoseSet, height: f64, cell: &IkCell) -> IntervalSolution {
         let map_from_tip = &tips.map_from_tip;
         let ([heading, lean, yaw], [headings, leans, yaws]) = (cell.middle, cell.half);
         let [_, across, _, _, five, six] = self.axes;
         let [to_two, to_three, to_four, to_centre] = self.offsets;
         let centre = (map_from_tip * nalgebra::Point3::from(self.centre_in_tip)).coords;
-        // The wrist's centre may be off as well, and the hand turned.
+        // The centre of the wrist is uncertain as well, and so is the rotation of the hand.
         let (moves, tilts) = (tips.displacement.along(&centre, &Vector3::z()), tips.displacement.angle());
         let facing = crate::trigonometry::turn(&Vector3::z_axis(), heading);
         let left = facing.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
@@ -53,7 +54,7 @@ impl ParallelArm {
         else {
             return IntervalSolution::Unknown;
         };
-        // What leads from the elbow and from the fourth axis on, and the upper arm as it would be at 0.
+        // Vectors from the elbow and from the fourth axis on, and the upper arm at position 0.
         let (end, fore) = (turned(&across, sum, &to_centre), turned(&across, lean, &to_four));
         let [end_long, fore_long, long] =
             [&to_centre, &to_four, &to_three].map(|vector| across.cross(vector).norm());
@@ -83,21 +84,21 @@ impl ParallelArm {
         let Some(values) = dof_intervals(&self.chain, &positions, tips.is_any) else {
             return IntervalSolution::Empty;
         };
-        // Back from the wrist's centre to the first axis.
+        // Back from the centre of the wrist to the first axis.
         let four = centre - facing * end;
         let elbow = four - facing * fore;
         let first = elbow - facing * (upper + to_two);
         let from_base = turned(&Vector3::z(), yaw, &self.first);
         let base = [first.x - from_base.x, first.y - from_base.y, yaw];
         let mut placed = frames(&self.chain, based(base, first.z - from_base.z), &values);
-        // The shoulder is as high as it is, whatever the middle of the upper arm's angles says.
+        // The height of the shoulder is fixed, whatever the middle of the angles of the upper arm.
         if let Some(pose) = placed.first_mut() {
             pose.translation.z += height + from_base.z - first.z;
         }
         let roll = self.chain.joints.get(5).zip(placed.get(5));
         let axis = roll.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner());
         let [_, rolls] = sixth;
-        // All in the plane of the arm turns about one direction.
+        // Everything in the plane of the arm rotates about one direction.
         let aside = facing * across;
         let square = |vector: &Vector3<f64>| facing * (vector - across * across.dot(vector));
         let held = tips.displacement.carried(&centre);
@@ -113,7 +114,7 @@ impl ParallelArm {
             held.turned(centre, tilts).spun(axis, centre, rolls),
             tips.displacement,
         ];
-        // The base turns about the first axis, which goes about the wrist's centre.
+        // The base rotates about the first axis, which moves about the centre of the wrist.
         let out = first - centre;
         let out = Vector3::new(out.x, out.y, 0.0);
         let more = headings.min(2.0) * shoulder.point(&first, 0.0);

@@ -1,10 +1,11 @@
-//! Cells of a [`SevenArm`] on a base that stands still: by the position of the last joint, for each way to hold the elbow, the wrist
-//! and the shoulder.
+//! Cells of a [`SevenArm`] on a fixed base: position of the last joint, for each branch of elbow, wrist and
+//! shoulder.
 //!
-//! The last joint leaves the wrist's centre and the hand's side of the wrist. The distance of that from the shoulder is the elbow's
-//! angle, and so how far the fifth axis leans from the line between both; where on the circle square to the sixth axis it then is gives
-//! the sixth joint. Both directions turn the shoulder. What each can be off follows from what those before it can, by the law of cosines
-//! and by how far a direction turns about an axis that it leans away from.
+//! The last joint leaves the centre of the wrist and the side of the hand. The distance of the centre from
+//! the shoulder gives the elbow, and so the angle of the fifth axis to the line between both; its place on
+//! the circle perpendicular to the sixth axis gives the sixth joint. Both directions give the rotation of the
+//! shoulder. Each interval follows from those before it, by the law of cosines and by the change of azimuth
+//! of a direction about an axis.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -19,23 +20,23 @@ use crate::inverse::seven_arm::between;
 use crate::inverse::subproblem::{angle_between, turned};
 use crate::trigonometry::{acos, atan2, turn};
 
-/// What rounding may take of a length or a cosine.
+/// Tolerance for rounding of a length or a cosine.
 const ROUNDED: f64 = 1e-7;
 
 impl SevenArm {
-    /// Cells that hold all solutions.
+    /// Cells that contain all solutions.
     pub(crate) fn cells(&self) -> Vec<IkCell> {
         let (lower, upper) = self.last_span();
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
         (0..8).map(|branch| IkCell { branch, middle: [middle, 0.0, 0.0], half: [half, 0.0, 0.0] }).collect()
     }
 
-    /// How far something goes for a change of each parameter of a cell, about, in m.
+    /// Approximate displacement, in m, per unit of each parameter of a cell.
     pub(crate) fn weights(&self) -> [f64; 3] {
         [0.5 * (self.wrist - self.shoulder).norm(), 0.0, 0.0]
     }
 
-    /// What is known of a cell, with the base at a pose.
+    /// Encloses all solutions of a cell, with the base at a pose.
     pub(crate) fn enclose(
         &self,
         tips: &PoseSet,
@@ -55,7 +56,7 @@ impl SevenArm {
         let reached_at =
             moved.rotation * (self.last + back * (self.wrist - self.last)) + moved.translation.vector;
         let wrist_in_map = (map_from_base * Point3::from(reached_at)).coords;
-        // The wrist turns about the last axis, and goes where the tip does.
+        // The wrist rotates about the last axis, and follows the tip.
         let swing = h7.cross(&(self.wrist - self.last)).norm() * lasts.min(2.0);
         let moves = swing + tips.displacement.point(&wrist_in_map, swing) + ROUNDED;
         let tilts = lasts + tips.displacement.angle();
@@ -76,7 +77,8 @@ impl SevenArm {
         let (q4, fourth) = (straight + sign * (least + greatest) / 2.0, (greatest - least) / 2.0 + ROUNDED);
         let to_wrist = turned(h4, q4, &fore) - upper;
         let leaning = turned(h4, q4, h5);
-        // How fast the fifth axis leans from the line to the wrist, and how fast that turns, at most, while the elbow does.
+        // Greatest rates, per angle of the elbow, of the lean of the fifth axis from the line to the wrist
+        // and of that line itself.
         let rates = [near, far].map(|long| {
             let share = (two * two - one * one) / (2.0 * long * long);
             [(0.5 - share).abs(), (0.5 + share).abs()]
