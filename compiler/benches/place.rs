@@ -18,9 +18,10 @@ use std::time::Instant;
 use motet_compiler::{Geometry, Options, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_graph::{NodeKind, Verdict};
-use motet_robots::card::{self, Robot};
-use motet_robots::scene::{self, Scene};
-use motet_robots::urdf::{self, Urdf};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::card::Robot;
+use motet_robots::scene::Scene;
+use motet_robots::urdf::Urdf;
 use motet_syntax::{FileId, Parsed, Source, Sources};
 
 fn session(robot: &Robot, urdf: &Urdf, scene: &Scene) -> Session {
@@ -79,12 +80,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 fn main() {
-    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").expect("hsr");
-    let robot = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.expect("a card");
-    let text = card::embedded_urdf("hsr").expect("a URDF");
-    let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.expect("a URDF");
-    let (_, text) = scene::embedded().iter().find(|(name, _)| *name == "kitchen").expect("kitchen");
-    let scene = scene::read(&Source::new("kitchen", *text), FileId(0)).0.expect("a scene");
+    let RobotWithBody { robot, urdf } = builtin::robot("hsr").expect("hsr");
+    let scene = builtin::scene("kitchen").expect("kitchen");
     let examples = examples();
     let shared = session(&robot, &urdf, &scene);
     let (mut alone, mut first, mut again) = (vec![], vec![], vec![]);

@@ -347,7 +347,7 @@ pub(crate) fn other_robot(policy: &Policy, library: &Library) -> Option<Diagnost
         let given = library.robot.clone();
         return (name != given).then(|| OtherRobot { span, written: name, given }.into());
     }
-    let known = || motet_robots::card::embedded().iter().map(|(known, ..)| *known);
+    let known = || motet_robots::builtin::ROBOTS.iter().map(|robot| robot.name);
     let is_unknown = known().all(|known| name != known);
     is_unknown.then(|| {
         let (near, known) = (near(&name, known()), list(known().map(SmolStr::new_static)));

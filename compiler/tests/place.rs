@@ -16,21 +16,19 @@ use std::sync::{Arc, LazyLock};
 use motet_compiler::{Geometry, Options, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_graph::{CallNode, Graph, NodeKind, Verdict};
-use motet_robots::card::{self, Robot};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::card::Robot;
 use motet_robots::scene::{self, Placement, Scene};
-use motet_robots::urdf::{self, Urdf};
+use motet_robots::urdf::Urdf;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 
 fn robot(name: &str) -> (Robot, Urdf) {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let robot = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
     (robot, urdf)
 }
 
 fn kitchen() -> Scene {
-    let text = scene::embedded().iter().find(|(known, _)| *known == "kitchen").unwrap().1;
-    scene::read(&Source::new("kitchen", text), FileId(0)).0.unwrap()
+    builtin::scene("kitchen").unwrap()
 }
 
 fn session(scene: &Scene) -> Session {

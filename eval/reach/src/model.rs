@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 
 use glamx::{DPose3, DVec3};
 use motet_geometry::planning::{Configuration, RobotModel};
-use motet_robots::card;
-use motet_robots::urdf::{self, JointKind, Pose, Urdf, UrdfShape};
-use motet_syntax::{FileId, Source};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::urdf::{JointKind, Pose, Urdf, UrdfShape};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use parry3d_f64::query;
 use parry3d_f64::shape;
@@ -122,10 +121,8 @@ fn isometry(pose: &Pose) -> Isometry3<f64> {
 /// One of the robots that come with Motet; `None` where there is none of this name.
 #[must_use]
 pub fn robot(name: &str) -> Option<Model> {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name)?;
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0?;
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name)?), FileId(0)).0?;
-    Model::new(RobotModel::new(&card, &urdf), urdf)
+    let RobotWithBody { robot, urdf } = builtin::robot(name)?;
+    Model::new(RobotModel::new(&robot, &urdf), urdf)
 }
 
 impl Model {

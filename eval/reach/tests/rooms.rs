@@ -17,7 +17,7 @@ use motet_syntax::{FileId, Source};
 
 #[test]
 #[ignore = "searches for a minute or more: run it with --ignored"]
-fn witnesses_hold() {
+fn reach_witnesses_hold() {
     let robots = vec!["hsr".into()];
     let settings = Settings {
         robots,
@@ -49,7 +49,7 @@ fn can(xyz: [f64; 3]) -> String {
 
 /// Where the arm is folded there is no room for the open hand of the HSR: it opens on the way.
 #[test]
-fn the_search_finds_what_is_in_the_open() {
+fn exhaustive_search_finds_open_targets() {
     for (name, xyz) in [("hsr", [1.3, 0.2, 0.6]), ("anymal_z1", [1.5, 0.2, 0.5]), ("panda", [0.45, 0.1, 0.9])]
     {
         let model = robot(name).unwrap();
@@ -60,7 +60,7 @@ fn the_search_finds_what_is_in_the_open() {
 }
 
 #[test]
-fn what_was_found_is_kept() {
+fn truth_cache_is_kept() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("kept");
     let _ = std::fs::remove_dir_all(&folder);
     let settings = |xyz: [f64; 3]| Settings {
@@ -90,7 +90,7 @@ fn what_was_found_is_kept() {
 }
 
 #[test]
-fn a_seed_gives_one_room() {
+fn room_generator_is_determined_by_its_seed() {
     for name in ["hsr", "anymal_z1", "panda"] {
         let model = robot(name).unwrap();
         let scene = furnished(&model.machine, 7);
@@ -101,7 +101,7 @@ fn a_seed_gives_one_room() {
 }
 
 #[test]
-fn every_argument_is_told() {
+fn command_reports_wrong_arguments() {
     let (told, is_good) = motet_reach::command(&["--help".into()]).unwrap();
     assert!(is_good);
     for argument in [

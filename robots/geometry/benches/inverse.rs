@@ -8,12 +8,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use motet_geometry::inverse::batch::BatchSolver;
 use motet_geometry::inverse::{LiftArm, ParallelArm, numeric};
 use motet_geometry::kinematics::{KinematicChain, KinematicTree, planar};
-use motet_robots::{card, urdf};
-use motet_syntax::{FileId, Source};
+use motet_robots::builtin;
 
 fn tree(robot: &str) -> KinematicTree {
-    let text = card::embedded_urdf(robot).unwrap();
-    KinematicTree::new(&urdf::read(&Source::new(robot, text), FileId(0)).0.unwrap())
+    KinematicTree::new(&builtin::robot(robot).unwrap().urdf)
 }
 
 fn chain(robot: &str, base: &str, tip: &str) -> KinematicChain {

@@ -16,17 +16,12 @@ use motet_geometry::planning::{
     AllowedCollisions, Configuration, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
     SearchBudget,
 };
+use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
-use motet_robots::{card, scene, urdf};
-use motet_syntax::{FileId, Source};
 
 fn query(criterion: &mut Criterion) {
-    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").unwrap();
-    let robot = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
-    let text = card::embedded_urdf("hsr").unwrap();
-    let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.unwrap();
-    let text = scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap().1;
-    let scene = scene::read(&Source::new("kitchen", text), FileId(0)).0.unwrap();
+    let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    let scene = builtin::scene("kitchen").unwrap();
     let machine = RobotModel::new(&robot, &urdf);
     let world = SceneState::new(&machine, &scene);
     let room = QueryContext::new(&machine, &scene, &world);
@@ -90,10 +85,7 @@ fn depot(tables: i32) -> Scene {
 }
 
 fn among(criterion: &mut Criterion) {
-    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").unwrap();
-    let robot = card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap();
-    let text = card::embedded_urdf("hsr").unwrap();
-    let urdf = urdf::read(&Source::new("hsr", text), FileId(0)).0.unwrap();
+    let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
     let machine = RobotModel::new(&robot, &urdf);
     let mut group = criterion.benchmark_group("hsr, objects");
     group.sample_size(20);

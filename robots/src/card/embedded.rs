@@ -1,30 +1,23 @@
-//! The cards that are built in.
+//! The cards that are built in, as texts.
+
+use crate::builtin::ROBOTS;
 
 /// Name, `robot.toml` and, where there is one, `primitives.motet` of each built-in robot.
 #[must_use]
 pub fn embedded() -> &'static [(&'static str, &'static str, Option<&'static str>)] {
-    &[
-        ("hsr", include_str!("../../models/hsr/robot.toml"), None),
-        (
-            "anymal_z1",
-            include_str!("../../models/anymal_z1/robot.toml"),
-            Some(include_str!("../../models/anymal_z1/primitives.motet")),
-        ),
-        (
-            "panda",
-            include_str!("../../models/panda/robot.toml"),
-            Some(include_str!("../../models/panda/primitives.motet")),
-        ),
-    ]
+    const CARDS: [(&str, &str, Option<&str>); 3] = {
+        let [one, two, three] = ROBOTS;
+        [
+            (one.name, one.card, one.declarations),
+            (two.name, two.card, two.declarations),
+            (three.name, three.card, three.declarations),
+        ]
+    };
+    &CARDS
 }
 
 /// The `robot.urdf` of a built-in robot.
 #[must_use]
 pub fn embedded_urdf(name: &str) -> Option<&'static str> {
-    match name {
-        "hsr" => Some(include_str!("../../models/hsr/robot.urdf")),
-        "anymal_z1" => Some(include_str!("../../models/anymal_z1/robot.urdf")),
-        "panda" => Some(include_str!("../../models/panda/robot.urdf")),
-        _ => None,
-    }
+    ROBOTS.iter().find(|robot| robot.name == name).map(|robot| robot.urdf)
 }

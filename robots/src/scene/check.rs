@@ -1,16 +1,19 @@
-//! Conversion of one entity or view from its wire form to the model, number by number. Impossible values are
+//! Checks of the parts of a scene: conversion of one entity or view from its wire form to the model, number by number. Impossible values are
 //! left out.
 
 use indexmap::IndexMap;
-use motet_syntax::Span;
 use motet_syntax::json::Spanned;
+use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use super::errors::{EmptyName, FieldTwice, TooWideAngle};
-use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Travel};
-use super::number::{NumberReader, SceneQuantity};
+use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};
+use super::number::NumberReader;
+use super::quantity::SceneQuantity;
 use super::wire;
+use crate::card::JointPosition;
 use crate::mesh::UnreadMesh;
+use crate::urdf::Urdf;
 
 /// Fields of entities with a key of their own.
 const OWN_KEYS: &[&str] = &["mass", "width"];
@@ -134,4 +137,15 @@ pub(super) fn view(view: &wire::View, numbers: &mut NumberReader) -> Option<Came
         pose: view.pose.0.as_ref().and_then(|pose| placement(pose, numbers)),
         intrinsics,
     })
+}
+
+/// Checks that the joints of a scene are joints of the robot that move by themselves, within their limits.
+/// Each diagnostic has the span in the scene. O(joints given × joints).
+#[must_use]
+pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
+    let place = |name: &str| scene.robot.spans.0.get(name).copied().unwrap_or_default();
+    let told = scene.robot.joints.iter().filter_map(|(name, value)| {
+        JointPosition { joint: name, value: *value, span: place(name) }.fault(urdf)
+    });
+    told.collect()
 }

@@ -3,8 +3,8 @@
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use super::number::{FURTHEST, SceneQuantity};
-use super::read::MAX_ENTITIES;
+use super::model::MAX_ENTITIES;
+use super::quantity::{FURTHEST, SceneQuantity};
 
 motet_syntax::mistakes! {
     pub const CODES;

@@ -13,20 +13,20 @@
 mod check;
 mod embedded;
 mod errors;
-mod fit;
 mod matching;
 pub mod model;
 mod number;
+mod quantity;
 mod read;
 mod relations;
 mod wire;
 mod write;
 
+pub use check::fit;
 pub use embedded::embedded;
 pub use errors::CODES;
-pub use fit::fit;
 pub use matching::normal;
 pub use model::*;
-pub use read::{MAX_ENTITIES, read};
+pub use read::read;
 pub use wire::schema;
 pub use write::write;

@@ -5,6 +5,9 @@ use indexmap::IndexMap;
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
+/// Greatest number of entities in one scene.
+pub const MAX_ENTITIES: usize = 20_000;
+
 /// Scene. Lengths in metres, angles in radians, poses in the frame `map`, z up.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Scene {

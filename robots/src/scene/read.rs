@@ -8,13 +8,11 @@ use smol_str::SmolStr;
 
 use super::check;
 use super::errors::{BadId, DuplicateId, Frame, ReservedId, TooManyEntities, Version};
-use super::model::{Entity, JointSpans, RobotState, Scene};
-use super::number::{NumberReader, SceneQuantity};
+use super::model::{Entity, JointSpans, MAX_ENTITIES, RobotState, Scene};
+use super::number::NumberReader;
+use super::quantity::SceneQuantity;
 use super::relations;
 use super::wire;
-
-/// Greatest number of entities in one scene.
-pub const MAX_ENTITIES: usize = 20_000;
 
 /// Ids with a meaning of their own in policies.
 const RESERVED: &[&str] = &["robot", "any"];

@@ -144,7 +144,7 @@ mod tests {
                    "intrinsics": {"fx": 500, "fy": 500, "cx": 320, "cy": 240}}]}"#;
 
     #[test]
-    fn what_is_written_is_read_as_the_same_scene() {
+    fn write_and_read_round_trip() {
         for (name, text) in embedded().iter().copied().chain([("all", ALL)]) {
             let (scene, mut said) = read(&Source::new(name, text), FileId(0));
             // Warnings for meshes are expected.

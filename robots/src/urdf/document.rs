@@ -5,22 +5,13 @@
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::{Error, Node, ParsingOptions};
 
-use super::errors::{LeftoverXacro, MissingPart, NotXml, TooMuch};
+use super::errors::{LeftoverXacro, MissingPart, NotXml, TooMuch, XmlDialect, XmlPart};
 
 /// Greatest number of XML nodes (elements, texts, comments) of one description. The largest in use have some
 /// ten thousand.
 const MAX_NODES: u32 = 200_000;
 /// Greatest nesting depth; a URDF needs five levels, extensions some more.
 const MAX_DEPTH: usize = 64;
-
-/// Format of an XML document.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum XmlDialect {
-    /// A robot's links and joints.
-    Urdf,
-    /// Semantic description beside a URDF.
-    Srdf,
-}
 
 /// Parsed XML document.
 pub(crate) struct XmlDocument<'t> {
@@ -148,13 +139,6 @@ impl XmlSpans {
         let column = rest.char_indices().nth(at.col.saturating_sub(1) as usize);
         self.skipped + line + column.map_or(0, |(byte, _)| byte)
     }
-}
-
-/// Kind of a missing part.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum XmlPart {
-    Attribute,
-    Element,
 }
 
 /// Checks whether a child belongs to the language of its parent: a prefix marks another one.

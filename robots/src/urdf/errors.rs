@@ -3,7 +3,21 @@
 use motet_syntax::suggest::one_of;
 use motet_syntax::{Related, Span};
 
-use super::document::{XmlDialect, XmlPart};
+/// Format of an XML document.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum XmlDialect {
+    /// A robot's links and joints.
+    Urdf,
+    /// Semantic description beside a URDF.
+    Srdf,
+}
+
+/// Kind of a missing part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum XmlPart {
+    Attribute,
+    Element,
+}
 
 motet_syntax::mistakes! {
     pub const CODES;

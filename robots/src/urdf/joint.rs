@@ -3,8 +3,8 @@
 use motet_syntax::{Span, suggest};
 use roxmltree::Node;
 
-use super::document::{XmlPart, child};
-use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, ZeroAxis};
+use super::document::child;
+use super::errors::{EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, XmlPart, ZeroAxis};
 use super::model::{JointKind, JointLimits, Pose};
 use super::number::UrdfReader;
 

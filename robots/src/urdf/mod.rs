@@ -26,8 +26,9 @@ mod surplus;
 mod tree;
 
 pub use errors::CODES;
+pub(crate) use errors::XmlDialect;
 pub use model::*;
 pub use read::read;
 
-pub(crate) use document::{XmlDialect, XmlDocument, XmlSpans, children, is_own};
+pub(crate) use document::{XmlDocument, XmlSpans, children, is_own};
 pub(crate) use surplus::unknown;

@@ -4,8 +4,8 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 
-use super::document::{XmlDialect, XmlDocument, XmlSpans, children};
-use super::errors::{LeftoverXacro, NoLink, NotUrdf, TakenName};
+use super::document::{XmlDocument, XmlSpans, children};
+use super::errors::{LeftoverXacro, NoLink, NotUrdf, TakenName, XmlDialect};
 use super::joint::{RawJoint, SpannedName};
 use super::model::{Link, Urdf};
 use super::number::UrdfReader;

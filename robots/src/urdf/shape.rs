@@ -3,8 +3,8 @@
 use motet_syntax::suggest;
 use roxmltree::Node;
 
-use super::document::{XmlPart, child, children};
-use super::errors::BadShape;
+use super::document::{child, children};
+use super::errors::{BadShape, XmlPart};
 use super::model::{Link, LinkShape, UrdfShape};
 use super::number::UrdfReader;
 

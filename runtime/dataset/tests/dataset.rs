@@ -15,22 +15,19 @@ use motet_dataset::lint::{Fault, Finding, Linter, Shelf, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
 use motet_dataset::{Body, Row, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
-use motet_robots::{card, scene, urdf};
-use motet_syntax::{FileId, Source};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::scene;
 use serde_json::{Value, json};
 
 const FORMS: [Form; 4] = [Form::Trl, Form::LlamaFactory, Form::QwenVl, Form::InteLiPlan];
 
 fn body(name: &str) -> Body {
-    let (_, toml, declarations) = card::embedded().iter().find(|row| row.0 == name).unwrap();
-    let (robot, _) = card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations);
-    let (urdf, _) = urdf::read(&Source::new("robot.urdf", card::embedded_urdf(name).unwrap()), FileId(0));
-    Body { robot: robot.unwrap(), urdf }
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
+    Body { robot, urdf: Some(urdf) }
 }
 
 fn room(name: &str) -> scene::Scene {
-    let (_, text) = scene::embedded().iter().find(|row| row.0 == name).unwrap();
-    scene::read(&Source::new(name, *text), FileId(0)).0.unwrap()
+    builtin::scene(name).unwrap()
 }
 
 fn order(form: Form) -> Order {

@@ -50,7 +50,7 @@ mod tests {
     use wide::f32x8;
 
     #[test]
-    fn angles_are_right_all_around() {
+    fn atan2_is_accurate_all_around() {
         for step in 0..10_000_u16 {
             let angle = (f64::from(step) / 5000.0 - 1.0) * std::f64::consts::PI * 0.999_999;
             let (x, y) = ((angle.cos() * 0.3) as f32, (angle.sin() * 0.3) as f32);

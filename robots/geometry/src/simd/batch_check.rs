@@ -5,8 +5,9 @@ use pulp::{Arch, Simd, WithSimd};
 use super::TOLD;
 use super::aabb::Aabb;
 use super::batch_model::{Batch8, BatchModel, bit};
+use super::lanes::Lane8;
 use super::obb::ObbSet;
-use super::posed_batch::{Lane8, PosedBatch};
+use super::posed_batch::PosedBatch;
 
 /// Capacity reserved for pairs.
 const MET: usize = 16;

@@ -11,6 +11,11 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use pulp::Simd;
 
+/// Eight numbers, one for each configuration.
+pub(super) type Lane8 = [f32; 8];
+/// Eight vectors, by component.
+pub(super) type Lane8x3 = [Lane8; 3];
+
 /// Numbers, one for each lane of `S`.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd>(S, S::f32s);

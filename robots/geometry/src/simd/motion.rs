@@ -9,8 +9,7 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Lanes3};
-use super::posed_batch::{Lane8, Lane8x3};
+use super::lanes::{Lane8, Lane8x3, Lanes, Lanes3};
 use super::separation::{CapsuleAxis, Cuboid};
 
 /// Error of a place for each rad of its rotation, in m.

@@ -4,12 +4,8 @@ use pulp::Simd;
 
 use super::aabb::{Aabb, AabbRows};
 use super::batch_model::{Batch8, BatchJoint, BatchModel, bit};
-use super::lanes::{Lanes, Lanes3};
+use super::lanes::{Lane8, Lane8x3, Lanes, Lanes3};
 use super::motion::{CapsuleMotion, FrameMotion, FrameMotion8};
-
-/// Eight numbers, one for each configuration.
-pub(super) type Lane8 = [f32; 8];
-pub(super) type Lane8x3 = [Lane8; 3];
 
 /// Poses of a batch model in eight configurations, and the motion around each. Parts that are not needed have
 /// no defined pose.

@@ -6,8 +6,7 @@ use pulp::Arch;
 use super::{Batch8, BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 use crate::collision::{CollisionModel, Shape, Solid};
 use crate::kinematics::{KinematicTree, planar, quasi_random};
-use motet_robots::{card, urdf};
-use motet_syntax::{FileId, Source};
+use motet_robots::builtin;
 
 struct Robot {
     tree: KinematicTree,
@@ -17,7 +16,7 @@ struct Robot {
 }
 
 fn robot(name: &str) -> Robot {
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
+    let urdf = builtin::robot(name).unwrap().urdf;
     let tree = KinematicTree::new(&urdf);
     let body = CollisionModel::new(&urdf, &tree, &[]);
     let rest = tree.neutral();
@@ -92,7 +91,7 @@ fn near_pairs(robot: &Robot, batch: &Batch8, obbs: &ObbSet, gap: f32, arch: Arch
 const GAP: f32 = 0.01;
 
 #[test]
-fn what_is_near_is_met() {
+fn batch_check_finds_all_near_pairs() {
     let things = things();
     let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
@@ -152,7 +151,7 @@ fn what_is_near_is_met() {
 }
 
 #[test]
-fn every_processor_tells_the_same() {
+fn batch_check_is_equal_on_every_processor() {
     let obbs: ObbSet = things().iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
@@ -174,7 +173,7 @@ fn every_processor_tells_the_same() {
 
 /// Pairs reported as apart on an edge segment are apart at every configuration of it.
 #[test]
-fn what_is_told_to_stay_apart_on_a_leg_does() {
+fn batch_check_is_sound_along_an_edge() {
     let things = things();
     let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
@@ -237,7 +236,7 @@ fn moves(one: &Solid, other: &Solid) -> bool {
 
 /// No point of a part moves farther than its bound.
 #[test]
-fn parts_stay_within_how_far_they_go() {
+fn batch_motion_bounds_are_sound() {
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         for block in 0..12 {

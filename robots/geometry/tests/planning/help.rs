@@ -4,21 +4,20 @@ use motet_geometry::planning::{
     Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState,
     SearchBudget,
 };
+use motet_robots::builtin;
 use motet_robots::card;
 use motet_robots::scene::{EntityShape, Placement, Scene, Travel};
-use motet_robots::urdf;
 use motet_syntax::{FileId, Source};
 
 use super::{changed, embedded, machine};
 
 /// The HSR with a line of its card replaced.
 fn hsr(from: &str, to: &str) -> RobotModel {
-    let (name, toml, own) = card::embedded().iter().find(|(known, ..)| *known == "hsr").unwrap();
-    assert!(toml.contains(from));
-    let toml = toml.replace(from, to);
-    let card = card::read(&Source::new(*name, toml.as_str()), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(*name, card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
-    RobotModel::new(&card, &urdf)
+    let texts = builtin::robot_texts("hsr").unwrap();
+    assert!(texts.card.contains(from));
+    let toml = texts.card.replace(from, to);
+    let robot = card::read(&Source::new("hsr", toml), FileId(0), texts.declarations).0.unwrap();
+    RobotModel::new(&robot, &texts.urdf().unwrap())
 }
 
 /// The answer as it is told, and what would help.

@@ -22,27 +22,23 @@ use motet_geometry::planning::{
     AllowedCollisions, Configuration, ContactShare, GraspSide, InfeasibleReason, MotionAnswer, MotionQuery,
     QueryContext, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
-use motet_robots::card;
+use motet_robots::builtin::{self, BuiltinRobot, ROBOTS, RobotWithBody};
 use motet_robots::scene::{self, Placement, Scene};
-use motet_robots::urdf::{self, Urdf};
-use motet_syntax::{FileId, Source};
+use motet_robots::urdf::Urdf;
 use proptest::prelude::*;
 
 fn machine(name: &str) -> (RobotModel, Urdf) {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    (RobotModel::new(&card, &urdf), urdf)
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
+    (RobotModel::new(&robot, &urdf), urdf)
 }
 
 fn embedded(name: &str) -> Scene {
-    let text = scene::embedded().iter().find(|(known, _)| *known == name).unwrap().1;
-    scene::read(&Source::new(name, text), FileId(0)).0.unwrap()
+    builtin::scene(name).unwrap()
 }
 
 #[test]
 fn postures_are_free_of_the_robot_itself_and_of_the_floor() {
-    for (name, _, _) in card::embedded() {
+    for BuiltinRobot { name, .. } in ROBOTS {
         let (machine, _) = machine(name);
         assert!(machine.body().uncovered_links().is_empty());
         let scene = Scene::default();

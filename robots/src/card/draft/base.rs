@@ -3,8 +3,6 @@
 use crate::quaternion::{mul, rotate};
 use crate::urdf::{Joint, JointKind, Urdf};
 
-use super::parts::has_word;
-
 /// Base link, with the reason of the choice.
 #[derive(Clone, Copy)]
 pub(super) struct DraftBase {
@@ -73,4 +71,10 @@ fn slid(urdf: &Urdf, from: usize) -> Option<usize> {
         at = joint.child;
     }
     matches!(has, [true, true, _]).then_some(at)
+}
+
+/// Checks whether a name contains one of some words, ignoring case.
+pub(super) fn has_word(name: &str, words: &[&str]) -> bool {
+    let name = name.to_ascii_lowercase();
+    words.iter().any(|word| name.contains(word))
 }

@@ -1,7 +1,7 @@
 //! Search for the tip of the hand and the frame of the camera in a URDF: by the structure of the joints, then
 //! by words in names.
 
-use super::base::DraftBase;
+use super::base::{DraftBase, has_word};
 use super::described::Described;
 use crate::srdf::Srdf;
 use crate::urdf::{Joint, JointKind, Urdf};
@@ -90,12 +90,6 @@ fn moves(joint: &Joint) -> bool {
 /// Checks whether a joint moves between limits that differ.
 fn works(joint: &Joint) -> bool {
     moves(joint) && joint.limits.is_none_or(|limits| limits.upper > limits.lower)
-}
-
-/// Checks whether a name contains one of some words, ignoring case.
-pub(super) fn has_word(name: &str, words: &[&str]) -> bool {
-    let name = name.to_ascii_lowercase();
-    words.iter().any(|word| name.contains(word))
 }
 
 fn drive(urdf: &Urdf, is_planar: bool) -> (&'static str, &'static str) {

@@ -13,25 +13,17 @@ use motet_planner::builtin;
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
 use motet_planner::model::{self, Happening, Listener, ModelPlanner};
 use motet_requests::RequestContext;
+use motet_robots::builtin as builtin_models;
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};
-use motet_syntax::{Source, Sources};
+use motet_syntax::Sources;
 
 use super::server::Server;
 
 /// The HSR in the kitchen.
 pub(crate) fn setting() -> Setting {
-    let cards = motet_robots::card::embedded();
-    let (name, toml, declarations) = cards.iter().find(|row| row.0 == "hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new(*name, *toml);
-    let id = sources.add(source.clone());
-    let robot = motet_robots::card::read(&source, id, *declarations).0.unwrap();
-    let scenes = motet_robots::scene::embedded();
-    let (name, json) = scenes.iter().find(|row| row.0 == "kitchen").unwrap();
-    let source = Source::new(*name, *json);
-    let id = sources.add(source.clone());
-    let scene = motet_robots::scene::read(&source, id).0.unwrap();
+    let robot = builtin_models::robot("hsr").unwrap().robot;
+    let scene = builtin_models::scene("kitchen").unwrap();
     Setting { robot, scene, domains: Vec::new(), geometry: None, options: CheckOptions::default() }
 }
 
@@ -42,11 +34,7 @@ pub(crate) fn session(setting: &Setting) -> Session {
 
 /// The robot's body in the scene of a setting.
 pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
-    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
-    let mut sources = Sources::default();
-    let source = Source::new("hsr.urdf", text);
-    let id = sources.add(source.clone());
-    let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
+    let urdf = builtin_models::robot("hsr").unwrap().urdf;
     Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, SearchBudget::default()))
 }
 

@@ -3,20 +3,18 @@
 
 use motet_compiler::{Geometry, Options, Session};
 use motet_geometry::planning::SearchBudget;
-use motet_robots::card::{self, Robot};
-use motet_robots::scene::{self, EntityShape, Placement, Scene};
-use motet_robots::urdf;
-use motet_syntax::{FileId, Source, Sources};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::card::Robot;
+use motet_robots::scene::{EntityShape, Placement, Scene};
+use motet_syntax::Sources;
 use std::sync::Arc;
 
 pub(crate) fn hsr() -> Robot {
-    let (_, toml, own) = card::embedded().iter().find(|(name, ..)| *name == "hsr").unwrap();
-    card::read(&Source::new("hsr", *toml), FileId(0), *own).0.unwrap()
+    builtin::robot("hsr").unwrap().robot
 }
 
 pub(crate) fn kitchen() -> Scene {
-    let (_, text) = scene::embedded().iter().find(|(name, _)| *name == "kitchen").unwrap();
-    scene::read(&Source::new("kitchen", *text), FileId(0)).0.unwrap()
+    builtin::scene("kitchen").unwrap()
 }
 
 /// The kitchen with walls around the table, higher than the robot.
@@ -34,8 +32,7 @@ pub(crate) fn walled() -> Scene {
 }
 
 pub(crate) fn session(scene: &Scene) -> Session {
-    let robot = hsr();
-    let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
+    let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
     let (session, said) =
         Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut Sources::default());
     assert!(said.is_empty(), "{said:?}");

@@ -18,7 +18,7 @@ mod limits;
 mod primitives;
 
 use motet_graph::Value;
-use motet_robots::{card, scene};
+use motet_robots::{builtin, card, scene};
 use motet_runtime::{Command, Driver, DriverEvent, GoalId, Outcome, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source};
@@ -33,8 +33,7 @@ struct Bench {
 }
 
 fn robot(name: &str) -> card::Robot {
-    let (_, toml, declarations) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    card::read(&Source::new("robot.toml", *toml), FileId(0), *declarations).0.unwrap()
+    builtin::robot(name).unwrap().robot
 }
 
 fn scene(text: &str) -> scene::Scene {
@@ -43,8 +42,7 @@ fn scene(text: &str) -> scene::Scene {
 }
 
 fn sim(robot: &str, room: &str, options: SimOptions) -> Sim {
-    let (_, text) = scene::embedded().iter().find(|(name, _)| *name == room).unwrap();
-    Sim::new(&self::robot(robot), &scene(text), options)
+    Sim::new(&self::robot(robot), &builtin::scene(room).unwrap(), options)
 }
 
 impl Bench {

@@ -270,7 +270,7 @@ mod tests {
 
         /// No motion within the bound exceeds it, nor does a carried body.
         #[test]
-        fn nothing_goes_farther_than_is_told(
+        fn displacement_bound_is_sound(
             slides in prop::collection::vec(vector(), 0..4), shares in prop::collection::vec(-1.0..1.0_f64, 8),
             spins in prop::collection::vec((vector(), vector()), 0..3), angles in prop::collection::vec(prop::sample::select(vec![0.0, 1e-3, 0.05, 0.3, 1.0, 2.5]), 4),
             size in prop::sample::select(vec![1e-3, 0.02, 0.3]), shift in vector(), pivot in (vector(), vector()),

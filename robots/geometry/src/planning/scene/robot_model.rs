@@ -386,12 +386,8 @@ fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
 impl RobotModel {
     /// A robot that the crates bring along.
     pub(crate) fn embedded(name: &str) -> Self {
-        use motet_robots::{card, urdf};
-        use motet_syntax::{FileId, Source};
-        let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-        let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-        let text = card::embedded_urdf(name).unwrap();
-        let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
-        Self::new(&card, &urdf)
+        let motet_robots::builtin::RobotWithBody { robot, urdf } =
+            motet_robots::builtin::robot(name).unwrap();
+        Self::new(&robot, &urdf)
     }
 }

@@ -1,10 +1,9 @@
 //! What is said of scenes that are wrong, and what a scene that is right means.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use std::fmt::Write;
 
 use insta::assert_snapshot;
+use motet_robots::builtin;
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
@@ -36,7 +35,7 @@ fn right(text: &str) -> Scene {
 }
 
 #[test]
-fn the_head_of_a_scene_is_checked() {
+fn scene_reader_checks_version_and_frame() {
     assert_snapshot!(said(r#"{"motet_scene": 2}"#), @r#"
     M0431 2: this scene is of version 2, known is version 1 (write `"motet_scene": 1`)
     "#);
@@ -50,9 +49,8 @@ fn the_head_of_a_scene_is_checked() {
 }
 
 #[test]
-fn joints_are_those_of_the_robot() {
-    let text = motet_robots::card::embedded_urdf("hsr").unwrap();
-    let urdf = motet_robots::urdf::read(&Source::new("robot.urdf", text), FileId(1)).0.unwrap();
+fn scene_fit_checks_joints() {
+    let urdf = builtin::robot("hsr").unwrap().urdf;
     let fit = |joints: &str| {
         let text = format!(r#"{{"motet_scene": 1, "robot": {{"joints": {{{joints}}}}}}}"#);
         let source = Source::new("scene.json", text.as_str());
@@ -82,7 +80,7 @@ fn joints_are_those_of_the_robot() {
 }
 
 #[test]
-fn ids_are_checked() {
+fn scene_reader_checks_ids() {
     assert_snapshot!(said(&room(r#"{"id": "a", "kind": "Object"}, {"id": "a", "kind": "Place"}"#)), @r#"
     M0433 "a": the id `a` is taken (give each entity an id of its own)
           "a": it is first used here
@@ -102,7 +100,7 @@ fn ids_are_checked() {
 }
 
 #[test]
-fn numbers_are_checked() {
+fn scene_reader_checks_numbers() {
     let shape = |shape: &str| said(&room(&format!(r#"{{"id": "a", "kind": "Object", "shape": {shape}}}"#)));
     assert_snapshot!(shape(r#"{"box": [1, 0, 1]}"#), @r#"
     M0441 [1, 0, 1]: a size is 0 m, it has to be above zero
@@ -147,7 +145,7 @@ fn numbers_are_checked() {
 }
 
 #[test]
-fn what_opens_is_checked() {
+fn scene_reader_checks_doors_and_drawers() {
     let travel =
         |travel: &str| said(&room(&format!(r#"{{"id": "a", "kind": "Container", "travel": {travel}}}"#)));
     assert_snapshot!(travel(r#"{"slide": {"axis": [0, 0, 0], "distance": 0}}"#), @r#"
@@ -161,7 +159,7 @@ fn what_opens_is_checked() {
 }
 
 #[test]
-fn relations_are_checked() {
+fn scene_reader_checks_relations() {
     let two =
         r#"{"id": "table", "kind": "Surface"}, {"id": "mug", "kind": "Object", "on": "tabel", "in": "box"}"#;
     assert_snapshot!(said(&room(two)), @r#"
@@ -186,7 +184,7 @@ fn relations_are_checked() {
 }
 
 #[test]
-fn nothing_carries_itself() {
+fn scene_reader_reports_support_cycles() {
     assert_snapshot!(said(&room(r#"{"id": "a", "kind": "Object", "on": "a"}"#)), @r#"
     M0438 "a": `a` is on or in itself (say for at least one of them that it stands on something else, or nothing)
     "#);
@@ -203,7 +201,7 @@ fn nothing_carries_itself() {
 }
 
 #[test]
-fn there_is_an_end_to_entities() {
+fn scene_reader_limits_the_number_of_entities() {
     let entities = |count: usize| {
         let all: Vec<_> = (0..count).map(|n| format!(r#"{{"id": "e{n}", "kind": "Object"}}"#)).collect();
         room(&all.join(", "))
@@ -215,7 +213,7 @@ fn there_is_an_end_to_entities() {
 }
 
 #[test]
-fn a_long_stack_is_no_trouble() {
+fn scene_reader_reads_a_long_stack() {
     let thing = |n: usize, on: usize| format!(r#"{{"id": "e{n}", "kind": "Object", "on": "e{on}"}}"#);
     let stack = |last: &str| {
         // From the top, so that the first walk goes all the way down.
@@ -227,7 +225,7 @@ fn a_long_stack_is_no_trouble() {
 }
 
 #[test]
-fn holding_is_nothing_or_not_said() {
+fn scene_holding_distinguishes_null_from_missing() {
     let holding = |robot: &str| {
         right(&format!(
             r#"{{"motet_scene": 1, "robot": {robot}, "entities": [{{"id": "m", "kind": "Object"}}]}}"#
@@ -241,7 +239,7 @@ fn holding_is_nothing_or_not_said() {
 }
 
 #[test]
-fn axes_have_length_one() {
+fn scene_axes_are_unit_vectors() {
     let scene = right(&room(
         r#"{"id": "a", "kind": "Container", "travel": {"slide": {"axis": [-3, 0, 4], "distance": 0.3}}}"#,
     ));
@@ -250,7 +248,7 @@ fn axes_have_length_one() {
 }
 
 #[test]
-fn descriptions_fit_by_any_name() {
+fn scene_matches_descriptions_by_any_name() {
     let scene = right(&room(
         r#"{"id": "mug_1", "kind": "Object", "class": "mug", "names": ["Red Mug"], "categories": ["drinkware"]},
            {"id": "mug_2", "kind": "Object", "class": "mug", "names": ["blue-mug"]},
@@ -273,7 +271,7 @@ fn descriptions_fit_by_any_name() {
 }
 
 #[test]
-fn a_thing_is_as_wide_as_its_shape() {
+fn entity_width_follows_its_shape() {
     let check = |shape: &str, expected: Option<f64>| {
         let scene = right(&room(&format!(r#"{{"id": "a", "kind": "Object"{shape}}}"#)));
         assert_eq!(scene.entities["a"].width(), expected, "{shape}");
@@ -290,21 +288,21 @@ fn a_thing_is_as_wide_as_its_shape() {
 }
 
 #[test]
-fn built_in_scenes_are_right() {
-    for (_, text) in scene::embedded() {
-        right(text);
+fn builtin_scenes_have_no_diagnostics() {
+    for scene in builtin::SCENES {
+        right(scene.json);
     }
 }
 
 proptest! {
     #[test]
-    fn no_text_makes_it_panic(text in ".{0,200}") {
+    fn scene_reader_never_panics(text in ".{0,200}") {
         said(&text);
     }
 
     #[test]
-    fn no_damage_makes_it_panic(which in 0..3_usize, at in 0.0..1.0_f64, cut in 0..40_usize, put in ".{0,8}") {
-        let text: Vec<char> = scene::embedded()[which].1.chars().collect();
+    fn scene_reader_never_panics_on_damaged_scenes(which in 0..3_usize, at in 0.0..1.0_f64, cut in 0..40_usize, put in ".{0,8}") {
+        let text: Vec<char> = builtin::SCENES[which].json.chars().collect();
         let start = (at * text.len() as f64) as usize;
         let rest = text.iter().skip(start + cut);
         let damaged: String = text.iter().take(start).copied().chain(put.chars()).chain(rest.copied()).collect();
@@ -312,7 +310,7 @@ proptest! {
     }
 
     #[test]
-    fn no_ring_makes_it_hang(supports in prop::collection::vec((0..12_usize, 0..12_usize), 1..12)) {
+    fn scene_reader_ends_on_any_supports(supports in prop::collection::vec((0..12_usize, 0..12_usize), 1..12)) {
         let things: Vec<_> = supports
             .iter()
             .enumerate()

@@ -1,7 +1,6 @@
 //! The rooms that are built in: nothing stands in anything else, and what stands on something does so.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
+use motet_robots::builtin::{BuiltinScene, SCENES};
 use motet_robots::scene::{self, Entity, EntityShape, Scene};
 use motet_syntax::{FileId, Source};
 
@@ -12,10 +11,10 @@ const SLACK: f64 = 0.002;
 type Bounds = [[f64; 3]; 2];
 
 fn rooms() -> impl Iterator<Item = (&'static str, Scene)> {
-    scene::embedded().iter().map(|(name, text)| {
-        let (scene, diagnostics) = scene::read(&Source::new(*name, *text), FileId(0));
+    SCENES.into_iter().map(|BuiltinScene { name, json }| {
+        let (scene, diagnostics) = scene::read(&Source::new(name, json), FileId(0));
         assert_eq!(diagnostics, [], "{name}");
-        (*name, scene.unwrap())
+        (name, scene.unwrap())
     })
 }
 
@@ -46,7 +45,7 @@ fn bounds_of(scene: &Scene, id: &str) -> Bounds {
 }
 
 #[test]
-fn nothing_stands_in_anything_else() {
+fn builtin_scene_entities_do_not_overlap() {
     for (room, scene) in rooms() {
         let solid: Vec<_> = scene.entities.values().filter_map(|it| Some((it, bounds(it)?))).collect();
         for (index, (a, [a_least, a_most])) in solid.iter().enumerate() {
@@ -61,7 +60,7 @@ fn nothing_stands_in_anything_else() {
 }
 
 #[test]
-fn what_stands_on_something_touches_it() {
+fn builtin_scene_entities_touch_their_support() {
     for (room, scene) in rooms() {
         for entity in scene.entities.values() {
             let Some(support) = &entity.on else { continue };
@@ -75,7 +74,7 @@ fn what_stands_on_something_touches_it() {
 }
 
 #[test]
-fn what_lies_in_something_is_in_it() {
+fn builtin_scene_contents_are_inside_their_container() {
     for (room, scene) in rooms() {
         for entity in scene.entities.values() {
             let Some(container) = &entity.inside else { continue };
@@ -95,7 +94,7 @@ fn what_lies_in_something_is_in_it() {
 }
 
 #[test]
-fn the_robot_has_room_to_stand() {
+fn builtin_scene_start_pose_is_free() {
     for (room, scene) in rooms() {
         let [x, y, _] = scene.robot.base;
         for entity in scene.entities.values() {
@@ -107,7 +106,7 @@ fn the_robot_has_room_to_stand() {
 }
 
 #[test]
-fn places_can_be_stood_at() {
+fn builtin_scene_places_are_free() {
     for (room, scene) in rooms() {
         for place in scene.entities.values().filter(|entity| entity.kind == "Place") {
             let [x, y, _] = place.pose.unwrap().xyz;

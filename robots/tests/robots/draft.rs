@@ -1,5 +1,4 @@
 //! First cards: what is told from a URDF and an SRDF, and that a card is TOML whatever things are called.
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use motet_robots::card::{self, Drive};
 use motet_robots::srdf;
@@ -44,7 +43,7 @@ fn guessed(urdf: &Urdf, beside: &card::DraftInputs<'_>) -> (String, Drive, Optio
 }
 
 #[test]
-fn a_first_card_tells_the_base_from_what_carries_it() {
+fn draft_distinguishes_the_base_from_its_carriers() {
     const ARM: [&str; 3] = ["revolute BODY A 0 0 1", "revolute A B 0 1 0", "revolute B TOOL 0 1 0"];
     const LINKS: [&str; 5] = ["BODY", "A", "B", "TOOL", "body_imu_frame"];
     let check = |links: &[&str], joints: &[&str], base: &str, drive: Drive| {
@@ -79,7 +78,7 @@ fn a_first_card_tells_the_base_from_what_carries_it() {
 }
 
 #[test]
-fn a_first_card_takes_the_hand_that_a_srdf_describes() {
+fn draft_takes_the_hand_of_the_srdf() {
     // Two arms, of which the left one is longer, and each has a link that is called a tip.
     let links = ["base", "l1", "l2", "l3", "l4", "l_tool0", "r1", "r2", "r3", "r_mount", "r_tcp", "r_pad"];
     let arms = [
@@ -119,7 +118,7 @@ fn a_first_card_takes_the_hand_that_a_srdf_describes() {
 }
 
 #[test]
-fn a_first_card_is_toml_whatever_things_are_called() {
+fn draft_is_valid_toml_for_any_names() {
     // What cannot be seen, turns the direction of writing, colours a terminal, combines, or ends a line.
     for odd in ["\u{200b}", "\u{202e}", "&#9;", "e\u{301}", "&quot;\\&apos;", "&#10;x", "\u{7f}", "\u{e0001}"]
     {
@@ -147,7 +146,7 @@ fn a_first_card_is_toml_whatever_things_are_called() {
 }
 
 #[test]
-fn a_first_card_stands_as_it_is_told_to() {
+fn draft_takes_the_given_stance() {
     let urdf = made(
         &["BODY", "A", "B", "TOOL"],
         &["revolute BODY A", "revolute A B 0 1 0", "revolute B TOOL 0 1 0"],

@@ -1,7 +1,6 @@
 //! Robot cards: the built-in ones are right, every mistake is told at its place, and no text makes the reader panic.
 
-#![allow(clippy::unwrap_used, clippy::string_slice, reason = "a test fails by panicking")]
-
+use motet_robots::builtin::{BuiltinRobot, ROBOTS};
 use motet_robots::card::{self, Robot};
 use motet_syntax::{Diagnostic, FileId, Source};
 use proptest::prelude::*;
@@ -65,7 +64,7 @@ fn told(found: &Diagnostic, source: &Source) -> String {
 }
 
 #[test]
-fn a_good_card_is_read() {
+fn card_reader_reads_a_complete_card() {
     let (robot, found, _) = read(GOOD);
     assert_eq!(found, []);
     let robot = robot.unwrap();
@@ -79,22 +78,22 @@ fn a_good_card_is_read() {
 }
 
 #[test]
-fn built_in_cards_are_right() {
-    for (name, toml, declarations) in card::embedded() {
-        let (robot, found) = card::read(&Source::new(*name, *toml), FileId(0), *declarations);
+fn builtin_cards_have_no_diagnostics() {
+    for BuiltinRobot { name, card: toml, declarations, .. } in ROBOTS {
+        let (robot, found) = card::read(&Source::new(name, toml), FileId(0), declarations);
         assert_eq!(found, [], "{name}");
-        assert_eq!(robot.unwrap().name, *name);
+        assert_eq!(robot.unwrap().name, name);
     }
 }
 
 #[test]
-fn built_in_declarations_can_be_read() {
-    for (name, toml, declarations) in card::embedded() {
-        let (robot, _) = card::read(&Source::new(*name, *toml), FileId(0), *declarations);
+fn builtin_declarations_have_no_diagnostics() {
+    for BuiltinRobot { name, card: toml, declarations, .. } in ROBOTS {
+        let (robot, _) = card::read(&Source::new(name, toml), FileId(0), declarations);
         let robot = robot.unwrap();
         // An empty document is a mistake of its own; a card without declarations has an empty text.
         if !robot.declarations.is_empty() {
-            let file = motet_syntax::read(&Source::new(*name, robot.declarations), FileId(0));
+            let file = motet_syntax::read(&Source::new(name, robot.declarations), FileId(0));
             assert_eq!(file.diagnostics, [], "{name}");
         }
         for fact in &robot.initially {
@@ -104,7 +103,7 @@ fn built_in_declarations_can_be_read() {
 }
 
 #[test]
-fn what_is_no_toml_is_told() {
+fn card_reader_reports_other_text() {
     check(
         "turn = 1.0",
         "turn = = 1.0",
@@ -122,7 +121,7 @@ fn what_is_no_toml_is_told() {
 }
 
 #[test]
-fn wrong_keys_are_told_all_at_once() {
+fn card_reader_reports_all_wrong_keys_at_once() {
     check(
         "turn = 1.0",
         "trun = 1.0",
@@ -142,7 +141,7 @@ fn wrong_keys_are_told_all_at_once() {
 }
 
 #[test]
-fn wrong_types_are_told() {
+fn card_reader_reports_wrong_types() {
     check("turn = 1.0", "turn = \"fast\"", &["M0414 [\"fast\"] `base.turn` is a text, and must be a number"]);
     check(
         "arm = [\"hand\", \"eye\"]",
@@ -158,7 +157,7 @@ fn wrong_types_are_told() {
 }
 
 #[test]
-fn impossible_numbers_are_told() {
+fn card_reader_reports_impossible_numbers() {
     check("turn = 1.0", "turn = nan", &["M0416 [nan] `base.turn` is NaN, and must be a finite number"]);
     check("range = 3", "range = 0", &["M0416 [0] `cameras.eye.range` is 0, and must be above zero"]);
     check(
@@ -174,7 +173,7 @@ fn impossible_numbers_are_told() {
 }
 
 #[test]
-fn wrong_units_are_told() {
+fn card_reader_reports_wrong_units() {
     let help = "write a number and one of `m`, `cm`, `mm` or `km`, such as \"2 m\"";
     check(
         "\"60 cm\"",
@@ -200,7 +199,7 @@ fn wrong_units_are_told() {
 }
 
 #[test]
-fn wrong_resources_are_told() {
+fn card_reader_reports_wrong_resources() {
     check(
         "[\"hand\", \"eye\"]",
         "[\"hnad\"]",
@@ -223,7 +222,7 @@ fn wrong_resources_are_told() {
 }
 
 #[test]
-fn wrong_names_and_ranges_are_told() {
+fn card_reader_reports_wrong_names_and_ranges() {
     check(
         "greatest = \"40 cm\"",
         "greatest = -1",
@@ -253,13 +252,13 @@ fn wrong_names_and_ranges_are_told() {
 
 proptest! {
     #[test]
-    fn no_text_makes_it_panic(text in "\\PC*") {
+    fn card_reader_never_panics(text in "\\PC*") {
         let _ = read(&text);
     }
 
     /// A card with a piece replaced by noise: most of it is still a card.
     #[test]
-    fn no_damage_makes_it_panic(at in 0usize..900, length in 0usize..40, noise in "[\\[\\]{}=\"a-z0-9.\\- \n]{0,12}") {
+    fn card_reader_never_panics_on_damaged_cards(at in 0usize..900, length in 0usize..40, noise in "[\\[\\]{}=\"a-z0-9.\\- \n]{0,12}") {
         let start = at.min(GOOD.len());
         let end = (start + length).min(GOOD.len());
         let text = format!("{}{noise}{}", &GOOD[..start], &GOOD[end..]);
@@ -272,12 +271,11 @@ proptest! {
 }
 
 #[test]
-fn built_in_cards_fit_their_urdfs() {
-    for (name, toml, _) in card::embedded() {
-        let urdf = card::embedded_urdf(name).unwrap();
+fn builtin_cards_fit_their_urdfs() {
+    for BuiltinRobot { name, card: toml, urdf, .. } in ROBOTS {
         let (urdf, found) = motet_robots::urdf::read(&Source::new("robot.urdf", urdf), FileId(0));
         assert_eq!(found, [], "{name}");
-        assert_eq!(card::fit(&Source::new(*name, *toml), FileId(0), &urdf.unwrap()), [], "{name}");
+        assert_eq!(card::fit(&Source::new(name, toml), FileId(0), &urdf.unwrap()), [], "{name}");
     }
 }
 
@@ -303,7 +301,7 @@ fn check_fit(hand: &str, camera: &str, rest: &str, expected: &[&str]) {
 }
 
 #[test]
-fn a_card_and_its_urdf_agree() {
+fn card_fit_reports_differences_from_the_urdf() {
     let model = "[model]\nurdf = 'robot.urdf'\nbase = 'base'\n[postures.home]\nlift = '20 cm'";
     check_fit("tip = 'palm'", "frame = 'eye_frame'", model, &[]);
     check_fit(

@@ -1,14 +1,4 @@
-//! Forward kinematics against reference poses, where they lie beside the repository, and its laws.
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "a test fails by panicking"
-)]
-
-use std::path::Path;
+//! Forward kinematics: reference poses, and its laws.
 
 use motet_geometry::kinematics::{KinematicChain, KinematicTree, planar};
 use motet_robots::urdf;
@@ -34,10 +24,6 @@ fn numbers(value: &Value) -> Vec<f64> {
 /// for a URDF that leaves the motion of the base to its card.
 fn check(poses: &str, urdf: &str, standing: Option<(&str, f64)>) {
     let path = format!("{DATA}/fk/{poses}.jsonl");
-    if !Path::new(&path).exists() {
-        println!("skipped: {path} is not there");
-        return;
-    }
     let tree = tree(urdf);
     let mut rows = 0;
     for line in std::fs::read_to_string(path).unwrap().lines() {
@@ -80,7 +66,8 @@ fn difference(one: &Isometry3<f64>, other: &Isometry3<f64>) -> (f64, f64) {
 }
 
 #[test]
-fn published_urdfs_give_the_reference_poses() {
+#[ignore = "needs the reference data in ../shared/data"]
+fn forward_kinematics_matches_reference_poses_of_published_urdfs() {
     let urdf = |name: &str| format!("{DATA}/urdf/{name}.urdf");
     check("hsr", &urdf("hsr/hsrb4s"), None);
     check("hsr", &urdf("hsr/hsrb4s_ros2_expanded"), None);
@@ -93,7 +80,8 @@ fn published_urdfs_give_the_reference_poses() {
 }
 
 #[test]
-fn our_own_urdfs_give_the_reference_poses() {
+#[ignore = "needs the reference data in ../shared/data"]
+fn forward_kinematics_matches_reference_poses_of_builtin_robots() {
     let urdf = |name: &str| format!("{MODELS}/{name}/robot.urdf");
     check("hsr", &urdf("hsr"), None);
     check("hsr_planar", &urdf("hsr"), Some(("base_footprint", 0.0)));
@@ -104,7 +92,7 @@ fn our_own_urdfs_give_the_reference_poses() {
 }
 
 #[test]
-fn a_pose_is_the_same_by_every_way() {
+fn forward_kinematics_agrees_with_itself() {
     let tree = tree(&format!("{MODELS}/hsr/robot.urdf"));
     let configuration: Vec<f64> = (0..tree.dofs().len()).map(|n| 0.1 * (n as f64) - 0.3).collect();
     let all = tree.root_from_links(&configuration);
@@ -119,7 +107,7 @@ fn a_pose_is_the_same_by_every_way() {
 }
 
 #[test]
-fn followers_follow_and_planes_turn() {
+fn forward_kinematics_moves_mimic_and_planar_joints() {
     let text = "<robot><link name='a'/><link name='b'/><link name='c'/><link name='d'/>
         <joint name='drive' type='planar'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>
         <joint name='one' type='prismatic'><parent link='b'/><child link='c'/><axis xyz='1 0 0'/>

@@ -1,18 +1,9 @@
 //! Distances against parry3d, and what touches what on the built-in robots.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    clippy::print_stderr,
-    reason = "a test fails by panicking"
-)]
-
 use glamx::{DPose3, DVec3};
 use motet_geometry::KinematicTree;
 use motet_geometry::collision::{CollisionModel, Shape, Solid};
-use motet_robots::{card, urdf};
-use motet_syntax::{FileId, Source};
+use motet_robots::builtin;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::query;
 use parry3d_f64::shape;
@@ -63,7 +54,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
-    fn distances_are_those_of_the_oracle(
+    fn distance_agrees_with_parry3d(
         (one, other) in (any_shape(), any_shape()), (here, there) in (pose(), pose()),
     ) {
         prop_assume!(one != Shape::HalfSpace || other != Shape::HalfSpace);
@@ -82,15 +73,14 @@ proptest! {
 }
 
 fn robot(name: &str) -> (KinematicTree, CollisionModel) {
-    let text = card::embedded_urdf(name).unwrap();
-    let urdf = urdf::read(&Source::new(name, text), FileId(0)).0.unwrap();
+    let urdf = builtin::robot(name).unwrap().urdf;
     let tree = KinematicTree::new(&urdf);
     let body = CollisionModel::new(&urdf, &tree, &[]);
     (tree, body)
 }
 
 #[test]
-fn an_arm_against_the_body_is_seen() {
+fn collision_model_finds_self_collision() {
     let (tree, body) = robot("hsr");
     let mut configuration = tree.neutral();
     // The arm hangs straight down with its hand turned back against the base.
@@ -101,16 +91,13 @@ fn an_arm_against_the_body_is_seen() {
     assert!(near.metres <= 0.0, "{near:?}");
 }
 
-/// What is published of the meshes of the gripper of the Z1: the box around each.
+/// The bounding boxes of the meshes of the Z1 gripper are published.
 #[test]
-fn the_jaws_of_the_z1_enclose_their_meshes() {
+#[ignore = "needs the reference data in ../shared/data"]
+fn z1_jaw_solids_enclose_their_meshes() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/robots/mesh_aabb.csv");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        eprintln!("no {path}");
-        return;
-    };
-    let urdf = urdf::read(&Source::new("anymal_z1", card::embedded_urdf("anymal_z1").unwrap()), FileId(0)).0;
-    let urdf = urdf.unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    let urdf = builtin::robot("anymal_z1").unwrap().urdf;
     let tree = KinematicTree::new(&urdf);
     let body = CollisionModel::new(&urdf, &tree, &[]);
     let mut seen = 0;

@@ -1,17 +1,13 @@
 //! What has to hold of the answers to `reach` whatever the room and the robot: they go with a room that is moved, with an obstacle less and
 //! with a larger budget.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, missing_docs, reason = "a test fails by panicking")]
-
 use std::sync::LazyLock;
 
 use motet_geometry::planning::{
     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
-use motet_robots::card;
+use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
-use motet_robots::urdf;
-use motet_syntax::{FileId, Source};
 use proptest::prelude::*;
 
 const BUDGET: SearchBudget = SearchBudget { candidates: 48, paths: 12, cells: 3_072 };
@@ -19,10 +15,8 @@ const BUDGET: SearchBudget = SearchBudget { candidates: 48, paths: 12, cells: 3_
 static ROBOTS: LazyLock<[RobotModel; 3]> = LazyLock::new(|| ["hsr", "anymal_z1", "panda"].map(machine));
 
 fn machine(name: &str) -> RobotModel {
-    let (_, toml, own) = card::embedded().iter().find(|(known, ..)| *known == name).unwrap();
-    let card = card::read(&Source::new(name, *toml), FileId(0), *own).0.unwrap();
-    let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    RobotModel::new(&card, &urdf)
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
+    RobotModel::new(&robot, &urdf)
 }
 
 fn entity(id: &str, kind: &str, xyz: [f64; 3], yaw: f64, shape: EntityShape) -> Entity {
@@ -98,7 +92,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(72))]
 
     #[test]
-    fn a_room_that_is_moved_with_the_robot_has_the_same_answers(
+    fn reach_is_invariant_under_motion_of_the_room(
         (scene, which) in rooms(), x in -5.0..5.0_f64, y in -5.0..5.0_f64, yaw in -3.0..3.0_f64,
     ) {
         let mut moved = scene.clone();
@@ -116,7 +110,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_feasible_stays_so_with_an_obstacle_less((scene, which) in rooms(), gone in 0..8_usize) {
+    fn reach_stays_feasible_without_an_obstacle((scene, which) in rooms(), gone in 0..8_usize) {
         let less: Vec<_> = scene.entities.keys().filter(|id| !matches!(id.as_str(), "can" | "table")).collect();
         let mut open = scene.clone();
         if let Some(id) = less.get(gone % less.len().max(1)) {
@@ -128,7 +122,7 @@ proptest! {
     }
 
     #[test]
-    fn a_larger_budget_contradicts_nothing((scene, which) in rooms()) {
+    fn reach_with_a_larger_budget_agrees((scene, which) in rooms()) {
         let answers = [1, 4].map(|factor| ask(&ROBOTS[which], &scene, BUDGET.times(factor)));
         prop_assert!(!contradict(&answers[0], &answers[1]));
         if let MotionAnswer::Feasible(_) = answers[0] {

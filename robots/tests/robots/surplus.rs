@@ -1,5 +1,4 @@
 //! What of a URDF is not read: told where somebody may have meant something by it, and passed over where another tool does.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Diagnostic, FileId, Source};
@@ -29,7 +28,7 @@ fn check(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn what_may_be_there_once_is_told_where_it_is_there_twice() {
+fn surplus_check_reports_repeated_elements() {
     let twice = |part: &str, element: &str| {
         let under = part.split(' ').next().unwrap();
         let message = format!("M0473 [{under}] joint `j` has two `{under}>` / leave one out");
@@ -54,7 +53,7 @@ fn what_may_be_there_once_is_told_where_it_is_there_twice() {
 }
 
 #[test]
-fn what_is_misspelt_is_told() {
+fn surplus_check_reports_misspelt_names() {
     let passed = |name: &str, near: &str| {
         format!("M0474 [<{name}] `<{name}>` is not known here, and is passed over / did you mean `<{near}>`?")
     };
@@ -84,7 +83,7 @@ fn what_is_misspelt_is_told() {
 }
 
 #[test]
-fn what_other_tools_read_is_passed_over() {
+fn surplus_check_skips_parts_of_other_tools() {
     for foreign in [
         "<transmission name='t'><joint name='j'><orgin/></joint></transmission>",
         "<gazebo reference='a'><selfCollide>true</selfCollide></gazebo>",
@@ -110,7 +109,7 @@ fn what_other_tools_read_is_passed_over() {
 }
 
 #[test]
-fn a_joint_without_one_position_follows_none() {
+fn surplus_check_reports_mimic_of_joint_without_one_position() {
     for (kind, more) in [("fixed", &[][..]), ("planar", &[]), ("floating", &["M0468"])] {
         let joint = format!("type='{kind}'><mimic joint='other'/>");
         let text = format!(

@@ -1,12 +1,5 @@
 //! Inverse kinematics: what is found is where it was asked for and within limits, and what is there is found.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test fails by panicking"
-)]
-
 use std::f64::consts::PI;
 
 use motet_geometry::inverse::batch::BatchSolver;
@@ -71,7 +64,7 @@ fn spread(chain: &KinematicChain, parts: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn closed_forms_are_seen_in_the_axes() {
+fn closed_forms_are_detected_by_the_axes() {
     assert!(LiftArm::detect(&hsr()).is_some() && ParallelArm::detect(&hsr()).is_none());
     assert!(ParallelArm::detect(&z1()).is_some() && LiftArm::detect(&z1()).is_none());
     assert!(ParallelArm::detect(&ur()).is_some());
@@ -99,7 +92,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn the_panda_reaches_what_it_reaches(parts in prop::array::uniform7(0.0..=1.0_f64)) {
+    fn seven_arm_solves_poses_of_the_panda(parts in prop::array::uniform7(0.0..=1.0_f64)) {
         let arm = SevenArm::detect(&panda()).unwrap();
         let values = spread(arm.chain(), &parts);
         let wanted = arm.chain().base_from_tip(&values);
@@ -114,7 +107,7 @@ proptest! {
     }
 
     #[test]
-    fn the_hsr_reaches_what_it_reaches(
+    fn lift_arm_solves_poses_of_the_hsr(
         parts in prop::array::uniform5(0.0..=1.0_f64), x in -3.0..3.0_f64, y in -3.0..3.0_f64, yaw in -PI..PI,
     ) {
         let arm = LiftArm::detect(&hsr()).unwrap();
@@ -135,7 +128,7 @@ proptest! {
     }
 
     #[test]
-    fn the_z1_finds_every_way_back(parts in prop::array::uniform6(0.0..=1.0_f64)) {
+    fn parallel_arm_finds_all_solutions_of_the_z1(parts in prop::array::uniform6(0.0..=1.0_f64)) {
         let arm = ParallelArm::detect(&z1()).unwrap();
         let values = spread(arm.chain(), &parts);
         // At the singularity, where the last axis is parallel to the inner three, a family is stood for by one.
@@ -144,7 +137,7 @@ proptest! {
     }
 
     #[test]
-    fn a_ur_finds_every_way_back(parts in prop::array::uniform6(0.0..=1.0_f64)) {
+    fn parallel_arm_finds_all_solutions_of_a_ur(parts in prop::array::uniform6(0.0..=1.0_f64)) {
         let arm = ParallelArm::detect(&ur()).unwrap();
         let values = spread(arm.chain(), &parts);
         prop_assume!(values[4].sin().abs() > 1e-3);
@@ -154,7 +147,7 @@ proptest! {
 
 /// With room for many turns a joint has one value for each place, the nearest to what it is near to, and within its limits.
 #[test]
-fn of_full_turns_the_nearest_counts() {
+fn solutions_are_nearest_among_full_turns() {
     let mut chain = ur();
     for dof in &mut chain.dofs {
         dof.limits = Some((-40.0, 60.0));
@@ -175,7 +168,7 @@ fn of_full_turns_the_nearest_counts() {
 
 /// Limits count unless both ends are as good as none.
 #[test]
-fn limits_on_one_side_stay() {
+fn dof_keeps_limits_on_one_side() {
     let limits = |limit: &str| {
         let joint = format!(
             "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
@@ -191,7 +184,7 @@ fn limits_on_one_side_stay() {
 
 /// The heights of a wrist are the same some turns further.
 #[test]
-fn heights_do_not_depend_on_full_turns() {
+fn lift_arm_heights_are_independent_of_full_turns() {
     let chain = hsr();
     let mut turned = chain.clone();
     let far = 8.0 * PI;
@@ -201,7 +194,7 @@ fn heights_do_not_depend_on_full_turns() {
 }
 
 #[test]
-fn a_joint_that_turns_is_looked_for_within_one_turn() {
+fn dof_sampling_range_is_at_most_one_turn() {
     let limited = |limits: Option<(f64, f64)>, slides: bool| {
         let is_continuous = limits.is_none() && !slides;
         Dof { name: "it".into(), limits, is_continuous, is_prismatic: slides }.sampling_range()
@@ -217,7 +210,7 @@ fn a_joint_that_turns_is_looked_for_within_one_turn() {
 
 /// What is found is right, and nearly everything is: the numeric search may miss what is at the edge of the limits.
 #[test]
-fn any_arm_is_solved_by_steps() {
+fn numeric_solver_solves_any_arm() {
     let chain = panda();
     let middle = spread(&chain, &[0.5; 7]);
     let poses = 300;
@@ -237,7 +230,7 @@ fn any_arm_is_solved_by_steps() {
 }
 
 #[test]
-fn what_is_out_of_reach_is_not_found() {
+fn numeric_solver_finds_nothing_out_of_reach() {
     let chain = panda();
     let far = nalgebra::Isometry3::translation(3.0, 0.0, 0.0);
     assert_eq!(
@@ -251,7 +244,7 @@ fn what_is_out_of_reach_is_not_found() {
 
 /// Every candidate of the fast path is a solution of the exact one, to what `f32` can tell, and the other way round.
 #[test]
-fn the_fast_path_finds_what_the_exact_one_finds() {
+fn batch_solver_agrees_with_the_exact_one() {
     let arm = LiftArm::detect(&hsr()).unwrap();
     let manifold = BatchSolver::new(&arm);
     let origin = [1.5, -0.5];

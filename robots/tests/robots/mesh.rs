@@ -1,5 +1,4 @@
 //! Meshes: what is read of STL and OBJ files, and that the pieces of a mesh hold all of it and little more.
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use std::f64::consts::TAU;
 
@@ -24,7 +23,7 @@ fn binary(triangles: &[Triangle]) -> Vec<u8> {
 }
 
 #[test]
-fn stl_and_obj_are_read() {
+fn mesh_reader_reads_stl_and_obj() {
     let read = |file: &str, bytes: &[u8]| mesh::read(file, bytes);
     assert_eq!(read("a.stl", &binary(&[CORNER])), Ok(vec![CORNER]));
     let text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2e0 0\nendloop\nendfacet\nendsolid a\n";
@@ -42,7 +41,7 @@ fn stl_and_obj_are_read() {
 }
 
 #[test]
-fn what_is_no_mesh_says_why() {
+fn mesh_reader_explains_mistakes() {
     let why = |file: &str, bytes: &[u8]| mesh::read(file, bytes).unwrap_err();
     let mut cut = binary(&[CORNER, CORNER]);
     cut.truncate(150);
@@ -111,7 +110,7 @@ fn volume(piece: &LinkShape) -> f64 {
 proptest! {
     /// Whatever is within a closed surface is within a piece, however it is turned, stretched or mirrored.
     #[test]
-    fn pieces_hold_what_a_mesh_encloses(
+    fn cover_contains_what_the_mesh_encloses(
         (wide, share) in (0.1..2.0, 0.05..0.9), turn in prop::array::uniform4(-1.0..1.0),
         scale in prop::array::uniform3(prop_oneof![0.01..3.0, -2.0..-0.01]),
         inside in prop::collection::vec((0.0..TAU, 0.0..TAU, 0.0..0.9), 64),
@@ -137,7 +136,7 @@ proptest! {
 }
 
 #[test]
-fn a_shape_is_found_again_and_a_bend_is_cut() {
+fn cover_finds_simple_shapes_and_cuts_bends() {
     let one = |mesh: &[Triangle]| mesh::cover(mesh, [1.0; 3]);
     let tube: Vec<Triangle> = (0..32)
         .flat_map(|step| {
@@ -193,7 +192,7 @@ fn attached(find: impl FnMut(&str) -> MeshFile) -> (Vec<LinkShape>, Vec<String>)
 }
 
 #[test]
-fn meshes_of_a_urdf_become_pieces() {
+fn attach_replaces_meshes_by_solids() {
     let text = "v -1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
     let mut asked = Vec::new();
     let (solids, told) = attached(|name| {
@@ -207,7 +206,7 @@ fn meshes_of_a_urdf_become_pieces() {
 }
 
 #[test]
-fn what_is_wrong_with_meshes_is_told_where_they_are_named() {
+fn attach_reports_mistakes_at_the_name_of_the_mesh() {
     let (solids, told) = attached(|name| match name {
         "a.obj" => MeshFile::Missing(vec!["/r/a.obj".to_owned()]),
         _ => MeshFile::Outside,

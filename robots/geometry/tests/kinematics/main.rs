@@ -1,0 +1,17 @@
+//! Tests of kinematics, collision checking, and laws of `reach`.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs,
+    reason = "a test fails by panicking"
+)]
+
+mod collision;
+mod forward;
+mod inverse;
+mod properties;
