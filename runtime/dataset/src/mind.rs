@@ -25,7 +25,7 @@ pub(crate) struct Turn {
     pub(crate) scene: Scene,
     pub(crate) system: String,
     pub(crate) user: String,
-    /// What the camera sees then.
+    /// Camera image at that moment.
     pub(crate) picture: Option<Picture>,
     pub(crate) request: String,
     pub(crate) history: String,
@@ -162,7 +162,7 @@ fn stance(ask: &Ask<'_>, now: &Scene) -> String {
     text
 }
 
-/// What is known of a thing, in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
+/// Knowledge of a thing in the words of the dialect: `coke: not seen, in fridge_1 (closed)`.
 fn sight(now: &Scene, id: &str) -> Option<String> {
     let entity = now.entities.get(id)?;
     let word = match entity.visible {

@@ -12,7 +12,7 @@ use motet_runtime::{
     Time, Verification, Verifier,
 };
 
-/// How long the engine waits for a verdict: longer than any search within its budget.
+/// Time that the engine waits for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
 
 /// Checks motions along the way that a run takes.
@@ -37,7 +37,7 @@ pub enum Verifies {
     Beside,
 }
 
-/// What a guard hears of.
+/// Message to a guard's thread.
 #[derive(Debug)]
 enum Told {
     Reported(DriverEvent),

@@ -17,42 +17,40 @@ pub struct Planned {
     pub text: String,
     /// The same, read.
     pub parsed: Parsed,
-    /// What the compiler made of it and says of it: a graph, and no error.
+    /// Result of compiling the policy: a graph, and no error.
     pub compiled: Compiled,
-    /// How many states the search looked at.
+    /// Number of states that the search expanded.
     pub looked_at: usize,
 }
 
 /// A request that was understood, and the policy for it.
 #[derive(Clone, Debug)]
 pub struct Answered {
-    /// What it was taken to mean.
+    /// Intent that the request was read as.
     pub understood: Intent,
-    /// The policy.
     pub planned: Planned,
 }
 
-/// Why there is no policy.
+/// Reasons for which a request gets no policy.
 #[derive(Error, Clone, Debug)]
 pub enum Unplanned {
-    /// What was asked for is not clear.
+    /// The request is unclear.
     #[error(transparent)]
     RequestError(#[from] RequestError),
     /// The search found nothing.
     #[error(transparent)]
     NoPlan(#[from] NoPlan),
-    /// What it found does not pass the check: the contracts ask for more than a plan can give.
+    /// The plan does not pass the check: a contract needs more than the planner can establish.
     #[error("the plan does not pass the check: {}", first(diagnostics))]
     Refused {
-        /// The policy.
         text: String,
-        /// What the compiler says.
+        /// Diagnostics of the compiler.
         diagnostics: Vec<Diagnostic>,
     },
     /// The model that is asked gives no reply, and asking somebody else will not change that.
     #[error("{why}")]
     NoModel {
-        /// Which model, and why.
+        /// Name of the model, and the reason.
         why: String,
     },
     /// A person stopped it.
@@ -60,7 +58,7 @@ pub enum Unplanned {
     Stopped,
 }
 
-/// How many times as many states are looked at where the first search came to the end of its budget.
+/// Factor on the state budget of a second search, after the first one used up its budget.
 const LAST_RESORT: usize = 6;
 
 /// Plans for aims, one after the other, and has the policy checked. The same session and aims give the same policy.

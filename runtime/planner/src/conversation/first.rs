@@ -10,16 +10,16 @@ use motet_requests::Intent;
 
 /// The first step of a policy that is still being written.
 pub(super) struct First {
-    /// What became of the rest, where that is known: the whole policy, which could not take over at once, or none.
+    /// Fate of the remaining steps, once it is known: a whole policy that could not take over at once, or
+    /// none.
     pub(super) rest: Option<Rest>,
-    /// What the names of the first step were bound to.
+    /// Bindings of the first step.
     pub(super) bound: Vec<(SmolStr, Value)>,
     pub(super) understood: Intent,
 }
 
-/// What follows such a first step.
+/// Continuation after a first step.
 pub(super) enum After {
-    /// Nothing.
     Done,
     /// A person stopped it.
     Stopped,
@@ -36,7 +36,7 @@ impl First {
 }
 
 impl Conversation<'_> {
-    /// What follows the first step of a policy, which is done.
+    /// Chooses the continuation after the first step of a policy has ended.
     pub(super) fn after_first(
         &self,
         first: First,

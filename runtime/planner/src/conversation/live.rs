@@ -20,7 +20,7 @@ use crate::guard::Guard;
 use crate::model::{Judged, judge};
 use motet_requests::{Intent, ReportedLocation, RequestContext};
 
-/// Why a run is stopped before its end.
+/// Reason to stop a run before its end.
 pub(super) enum Pending {
     /// A new request, which cannot take over as it stands.
     Request(String),
@@ -38,9 +38,9 @@ pub(super) struct Live<'r, 'a> {
     meant: Vec<(String, SmolStr)>,
     /// The latest time.
     pub(super) now: Time,
-    /// What the run is stopped for.
+    /// Reason for which the run is being stopped.
     pub(super) pending: Option<Pending>,
-    /// What the run is for.
+    /// Request that the run carries out.
     task: String,
     /// The request that took over.
     pub(super) request: Option<String>,
@@ -48,24 +48,24 @@ pub(super) struct Live<'r, 'a> {
     awaited: Option<String>,
     /// A policy that waits to take over, with its request.
     next: Option<(Answered, Option<String>)>,
-    /// Where what runs is only the first step of a policy that is still being written.
+    /// State of an early start, while the rest of the policy is still being written.
     pub(super) first: Option<First>,
     /// The steps of the running policy that were started.
     started: Vec<NodeId>,
-    /// Who checks motions that were left to the run.
+    /// Checker of motions that the compiler deferred.
     guard: Option<Guard>,
 }
 
-/// How a run ended.
+/// Ending of a run.
 pub(super) struct Ran {
     pub(super) end: RunEnd,
-    /// What ran last.
+    /// Graph that ran last.
     pub(super) graph: Arc<Graph>,
-    /// What its names were bound to.
+    /// Bindings of that graph at the end.
     pub(super) bound: Vec<(SmolStr, Value)>,
-    /// Whether it ended at a guard: the step was not even begun, since something was not as it was believed to be.
+    /// The run ended at a guard: a belief was wrong, and the step never started.
     pub(super) was_refused: bool,
-    /// Whether the first thing that was tried could not be reached from where the robot happened to stand.
+    /// The first step failed because the robot stood in the wrong place.
     pub(super) stood_wrong: bool,
 }
 
@@ -178,8 +178,8 @@ impl<'r, 'a> Live<'r, 'a> {
 }
 
 impl Live<'_, '_> {
-    /// What has been written meanwhile, ready to take over: the policy for a new request, or that of which the first step
-    /// runs.
+    /// Returns a policy that has been written meanwhile and can take over: for a new request, or the rest of
+    /// an early start.
     fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
             let prepared = match self.planner.rest(Wait::Not) {
@@ -247,7 +247,7 @@ fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
     graph.primitives.get(call.primitive.index()).is_some_and(|primitive| primitive.name == name)
 }
 
-/// What a line says of where things are, where it asks for nothing.
+/// Reads locations from a line that states them and requests nothing.
 fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
     let understood = motet_requests::understand(said, situation).ok()?;
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)

@@ -1,4 +1,4 @@
-//! Who makes policies of requests, and what they are asked.
+//! The planner trait: requests in, policies out.
 
 use motet_compiler::Session;
 use motet_robots::card::Robot;
@@ -17,7 +17,8 @@ pub trait Planner {
     /// Why there is none.
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned>;
 
-    /// Whether it makes something of any answer. Else an answer that was not understood is asked for again.
+    /// Returns `true` if the planner can use any answer. Otherwise the dialogue repeats a question whose
+    /// answer it could not read.
     fn reads_answers(&self) -> bool {
         false
     }
@@ -34,7 +35,7 @@ pub trait Planner {
     }
 }
 
-/// Whether something is waited for.
+/// Decision to wait for more, or not.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Wait {
     /// No: what has come has come.
@@ -58,20 +59,19 @@ pub enum Rest {
     Stopped,
 }
 
-/// What a planner is asked.
+/// Input of a planner.
 #[derive(Clone, Copy, Debug)]
 pub struct Ask<'a> {
-    /// What the policy is checked against.
+    /// Session that checks the policy.
     pub session: &'a Session,
-    /// The robot.
     pub robot: &'a Robot,
     /// The request, as it stands after the answers that changed it.
     pub request: &'a str,
-    /// What is known.
+    /// Context in which the request is read: scene, knowledge, and recent mentions.
     pub situation: &'a RequestContext<'a>,
-    /// What was asked and done.
+    /// Earlier requests and their endings.
     pub memory: &'a Memory,
-    /// What the robot sees at the moment, where it has eyes.
+    /// Current camera image, if the robot has a camera.
     pub image: Option<&'a CameraImage>,
 }
 

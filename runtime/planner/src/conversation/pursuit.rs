@@ -19,17 +19,17 @@ use motet_requests::{ReportedLocation, RequestError};
 const MAX_ROUNDS: usize = 12;
 /// The most questions for one request.
 const MAX_QUESTIONS: usize = 6;
-/// How often a step that failed is tried again, with a new plan, before somebody is asked.
+/// Number of new plans for a failed step before the robot asks a person.
 const TRIES: usize = 2;
 
-/// What one request has come to.
+/// Progress of one request.
 struct Task {
     request: String,
     /// The request that it took the place of, which may not be done.
     before: Option<String>,
-    /// What was meant by words that could mean several things.
+    /// Resolved meanings of ambiguous words.
     meant: Vec<(String, SmolStr)>,
-    /// Where else a thing may be, the next place first.
+    /// Further places to look for a thing, the next one first.
     elsewhere: Vec<ReportedLocation>,
     questions: usize,
     tries: usize,
@@ -44,13 +44,11 @@ impl Task {
     }
 }
 
-/// What follows from a round.
+/// Result of a round.
 enum Next {
-    /// Another round.
     Round,
-    /// Nothing.
     Over(Outcome),
-    /// What stands in the way; whether a guard or the place where the robot stood was the reason, which another plan may mend.
+    /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
     Problem(Problem, bool),
 }
 
@@ -183,7 +181,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         others
     }
 
-    /// Who names two places has a thing looked for in both: takes in the next one, where there is one.
+    /// Moves on to the next place where a person said the thing might be. Returns `false` if there is none.
     fn looks_elsewhere(&mut self, problem: &Problem) -> bool {
         let elsewhere = &mut self.task.elsewhere;
         let next = elsewhere.iter().position(|next| Some(&next.thing) == problem.about.as_ref());

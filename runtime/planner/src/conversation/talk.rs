@@ -27,9 +27,8 @@ use motet_requests::RequestContext;
 /// In which world requests are carried out.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The robot.
     pub robot: Robot,
-    /// What is known of the room at the start.
+    /// Scene at the start.
     pub scene: Scene,
     /// Declarations on top of the library.
     pub domains: Vec<File>,
@@ -39,10 +38,10 @@ pub struct Setting {
     pub options: Options,
 }
 
-/// How a conversation about one request ended.
+/// Ending of a conversation about one request.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Outcome {
-    /// What was asked for is done.
+    /// The request is done.
     Done,
     /// A person gave it up.
     GivenUp,
@@ -55,9 +54,9 @@ pub enum Outcome {
 /// Carries out requests, one after the other, in a world that lasts.
 pub struct Conversation<'a> {
     pub(super) setting: &'a Setting,
-    /// What is known beside the setting.
+    /// Knowledge beyond the given scene.
     pub known: Known,
-    /// What was asked and done.
+    /// Earlier requests and their endings.
     pub memory: Memory,
     /// The library, read once.
     base: OnceCell<Session>,

@@ -1,4 +1,4 @@
-//! Who is there beside the robot: somebody who answers, and somebody who looks on.
+//! People and observers beside the robot: an operator who answers, and observers who record.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::problem::Problem;
 use crate::builtin::Answered;
 use crate::guard::Verifies;
 
-/// Answers questions.
+/// A person who answers the robot's questions.
 pub trait Person {
     /// Asks a question. None where nobody answers.
     fn ask(&mut self, problem: &Problem) -> Option<String>;
@@ -29,7 +29,7 @@ impl Person for Nobody {
 
 /// Looks on, and brings new requests.
 pub trait Watcher {
-    /// Who writes down the run that is about to begin, where somebody does. The engine has not taken in anything yet.
+    /// Recorder of the run that is about to begin, if there is one. The engine has handled no event yet.
     fn scribe(&mut self, _engine: &Engine, _start: &StartState) -> Option<Box<dyn Scribe>> {
         None
     }
@@ -55,7 +55,7 @@ pub trait Watcher {
     fn request(&mut self, _now: Time) -> Option<String> {
         None
     }
-    /// Whether a person stops it all, at a question too.
+    /// Returns `true` once a person wants everything to stop, also during a question.
     fn is_stopped(&self) -> bool {
         false
     }

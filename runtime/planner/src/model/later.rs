@@ -23,17 +23,15 @@ pub(super) struct Later {
     pub(super) round: u32,
 }
 
-/// What has come of it.
+/// Progress of the remaining policy.
 pub(super) enum Came {
     /// Something, and not yet all.
     Some(String),
-    /// Nothing yet.
     Nothing,
     /// The whole policy.
     Whole(String),
     /// Nothing that can be used.
     Wrong(Vec<motet_syntax::Diagnostic>),
-    /// No more.
     Failed(ModelError),
 }
 
@@ -74,7 +72,7 @@ pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>
     }
 }
 
-/// Whether it does something, and nothing that it does is left to be found out.
+/// Returns `true` if the graph acts, and no guard or motion is deferred.
 fn is_certain(graph: &Graph) -> bool {
     let mut calls = 0;
     let certain = graph.nodes.iter().all(|node| match &node.kind {

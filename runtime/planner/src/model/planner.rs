@@ -20,7 +20,7 @@ use crate::conversation::{Ask, Planner, Rest, Wait};
 use crate::prompt::{self, Lasting, Prompt};
 use motet_requests::Intent;
 
-/// How long a piece of a reply is waited for until somebody is asked whether to stop.
+/// Waiting time for a piece of a reply between two looks at the stop request.
 const SLICE: Duration = Duration::from_millis(50);
 /// The most bytes of a policy for which room is kept by the acceptor.
 const POLICY_BYTES: usize = 16 << 10;
@@ -37,14 +37,14 @@ pub enum Start {
     FirstStep,
 }
 
-/// How a model is asked.
+/// Settings of the exchange with a model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Settings {
-    /// How often a reply that is wrong goes back to the model with the reason.
+    /// Number of times that a wrong reply goes back to the model with the reason.
     pub repairs: u32,
     /// The most tokens of a prompt, as far as bytes tell.
     pub tokens: usize,
-    /// What the model is held to.
+    /// Canonical subset that constrains the model.
     pub surface: Subset,
     /// When a policy begins to run.
     pub start: Start,
@@ -66,7 +66,7 @@ pub struct ModelPlanner<'m> {
     ready: Option<Ready>,
 }
 
-/// What depends on the robot and the room alone, kept from one request to the next.
+/// Parts that depend on robot and room only, kept between requests.
 #[derive(Clone)]
 struct Ready {
     signatures: Arc<Signatures>,
@@ -75,7 +75,7 @@ struct Ready {
     acceptors: AcceptorFactory,
 }
 
-/// How far a reply was read.
+/// Reading position in a reply.
 enum Read {
     /// To its end, or to where this ends it.
     Ended(Verdict),
@@ -83,7 +83,7 @@ enum Read {
     First(Box<Planned>),
 }
 
-/// What one round came to.
+/// Result of one round.
 enum Round {
     Good(Box<Planned>),
     /// The reply as far as it was read, and what is wrong with it.
@@ -99,7 +99,7 @@ impl<'m> ModelPlanner<'m> {
         Self { model: Box::new(model), listener: Box::new(listener), settings, later: None, ready: None }
     }
 
-    /// What is kept, for the session of a request: made anew where robot or things are others.
+    /// Returns the kept parts for a request's session, and rebuilds them after a change of robot or things.
     fn ready(&mut self, ask: &Ask<'_>) -> Ready {
         let signatures = ask.session.signatures();
         let kept = self.ready.take().filter(|kept| Arc::ptr_eq(&kept.signatures, &signatures));
@@ -313,8 +313,8 @@ impl Planner for ModelPlanner<'_> {
     }
 }
 
-/// What a model is told and asked first, in at most so many tokens as far as bytes tell. No motion is looked for, so that the same
-/// question gives the same chat.
+/// First messages to a model, within `tokens` as estimated from bytes. No motion is searched, so that the
+/// same question gives the same chat.
 #[must_use]
 pub fn chat(ask: &Ask<'_>, tokens: usize) -> Vec<Message> {
     let lasting = Lasting::new(ask.session, ask.robot, ask.situation.scene);
@@ -348,7 +348,7 @@ fn asked(ask: &Ask<'_>) -> String {
     request
 }
 
-/// What the model is told of a reply that is wrong.
+/// Message to the model about a wrong reply.
 fn again(findings: &str) -> String {
     format!(
         "That policy cannot be carried out:\n{findings}\nAnswer the request again with one whole policy that mends this, \

@@ -28,27 +28,27 @@ pub struct Reading<'s> {
     acceptor: Option<Acceptor>,
     scan: Scan,
     reply: String,
-    /// Where it left the surface, as long as it is not known why.
+    /// Place where the reply left the canonical subset, until the reason is known.
     suspect: Option<Suspect>,
     steps: usize,
-    /// Where the step begins, in the scanned text, that is being written.
+    /// Offset of the current step in the scanned text.
     step_from: usize,
-    /// Where the first step ends.
+    /// Offset of the first step's end.
     first_to: Option<usize>,
 }
 
-/// Where a reply left the model surface.
+/// Place where a reply left the canonical subset.
 #[derive(Clone, Copy, Debug)]
 struct Suspect {
     /// Byte of the reply.
     at: usize,
-    /// Where the string begins in which that was, in the scanned text.
+    /// Offset of the surrounding string in the scanned text, if there is one.
     string: Option<usize>,
-    /// Where the innermost object or array begins in which that was.
+    /// Offset of the innermost surrounding object or array.
     object: usize,
 }
 
-/// What is known of a reply after a piece of it.
+/// State of a reply after one more piece.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
     /// Nothing speaks against it so far.
@@ -61,12 +61,12 @@ pub enum Verdict {
     Wrong(Wrong),
 }
 
-/// Why a reply was stopped.
+/// Reason to stop a reply.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Wrong {
     /// The first byte of the reply that is wrong.
     pub at: usize,
-    /// What is wrong: errors only.
+    /// Errors that stopped the reply.
     pub findings: Vec<Diagnostic>,
 }
 
@@ -102,7 +102,7 @@ impl<'s> Reading<'s> {
         Some(format!("{written}]}}"))
     }
 
-    /// What has come, with all that surrounds the policy.
+    /// Text so far, including everything around the policy.
     #[must_use]
     pub fn reply(&self) -> &str {
         &self.reply

@@ -1,6 +1,6 @@
-//! What a model sees: the robot's primitives, the room in words, what is known, what was asked and done, two examples, and
-//! the request. The same inputs give the same text, within a budget of tokens; only where looking for motions takes longer
-//! than it may is less said of them.
+//! The prompt: primitives of the robot, the room in words, knowledge, earlier requests, two examples, and
+//! the request. The same inputs give the same text within a token budget; only a motion search that takes
+//! too long leaves something out.
 
 mod lasting;
 mod seen;
@@ -22,26 +22,24 @@ use motet_requests::RequestContext;
 const BYTES_PER_TOKEN: usize = 4;
 /// The budget where nothing else is said, in tokens.
 pub const TOKENS: usize = 6_000;
-/// How long motions are looked for where nothing else is said, where that was not done before.
+/// Default time limit for motion searches whose answers are not cached.
 pub const TIME: Duration = Duration::from_millis(500);
 
 /// The most entries of the memory.
 const LATEST: usize = 24;
 
-/// What a prompt is made from.
+/// Input of a prompt.
 #[derive(Clone, Copy, Debug)]
 pub struct Prompt<'a> {
-    /// What policies are checked against.
+    /// Session that checks the policies.
     pub session: &'a Session,
-    /// The robot.
     pub robot: &'a Robot,
-    /// The room.
     pub scene: &'a Scene,
-    /// What is known of it.
+    /// Context in which the request is read.
     pub situation: &'a RequestContext<'a>,
-    /// What was asked and done.
+    /// Earlier requests and their endings.
     pub memory: &'a Memory,
-    /// What does not change from one prompt to the next.
+    /// Parts that all prompts of a robot in a room share.
     pub lasting: &'a Lasting,
     /// The most tokens, as far as bytes tell.
     pub tokens: usize,
@@ -58,7 +56,7 @@ pub struct Written {
     pub user: String,
     /// About how many tokens both are.
     pub tokens: usize,
-    /// What was left out to stay within the budget.
+    /// Sections that the budget left out.
     pub left_out: Vec<&'static str>,
 }
 

@@ -1,4 +1,4 @@
-//! What is seen of the things that a request names, and whether the robot can get at them, in words.
+//! Visibility and reachability of the things that a request names, in words.
 
 use std::time::{Duration, Instant};
 
@@ -7,18 +7,17 @@ use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
 use smol_str::SmolStr;
 
-/// What is seen of a thing that a request names, and whether it can be got at.
+/// Visibility and reachability of one thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Seen {
-    /// The thing.
     pub id: SmolStr,
-    /// Whether a camera sees it, where the scene says.
+    /// Visibility to a camera, if the scene states it.
     pub seen: Option<bool>,
-    /// Whether the robot can get at it.
+    /// Reachability for the robot.
     pub feasible: Feasible,
 }
 
-/// Whether the robot can get at a thing.
+/// Reachability of a thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Feasible {
     /// As far as masses and widths tell; no motion was looked for.
@@ -33,8 +32,8 @@ pub enum Feasible {
     Unknown(String),
 }
 
-/// What is seen of the things that a request names. Motions are looked for one thing after the other, and no more of them
-/// once the time is over; answers that are known take none.
+/// Visibility and reachability of the named things. Motion searches run one after the other until `time` is
+/// over; cached answers cost nothing.
 #[must_use]
 pub fn seen(session: &Session, robot: &Robot, scene: &Scene, named: &[SmolStr], time: Duration) -> Vec<Seen> {
     let begun = Instant::now();

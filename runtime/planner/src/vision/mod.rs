@@ -1,4 +1,4 @@
-//! What is seen, for who plans: detections taken into the scene, and points of an image that a model gives lifted into it.
+//! Perception for the planner: detections in the scene, and image points of a model lifted into it.
 
 mod ground;
 mod pointing;

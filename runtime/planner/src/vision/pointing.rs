@@ -17,17 +17,16 @@ use smol_str::SmolStr;
 use super::ground::{NoPoint, Pointer, ground};
 use crate::conversation::called;
 
-/// What is answered here and not by the driver.
+/// Primitive that is answered here and not by the driver.
 const GROUND: &str = "ground";
-/// How long an answer is waited for until the world goes on.
+/// Waiting time for an answer before the world advances.
 const SLICE: Duration = Duration::from_millis(5);
 
 /// A question for a point that was answered, or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Pointed<'a> {
-    /// The entity.
     pub object: &'a SmolStr,
-    /// What it is to be used for.
+    /// Purpose of the point.
     pub used_for: &'a SmolStr,
     /// The pose, or why there is none.
     pub found: &'a Result<Pose, NoPoint>,
@@ -42,11 +41,11 @@ pub struct Pointing<'d> {
     listener: Box<dyn FnMut(Pointed<'_>) + 'd>,
     questions: Sender<Question>,
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
-    /// By goal.
+    /// Open questions by goal.
     asked: BTreeMap<GoalId, Asked>,
     /// The goals that were never the driver's.
     own: BTreeSet<GoalId>,
-    /// How many questions there were.
+    /// Number of questions so far.
     count: u64,
     outbox: VecDeque<(Time, DriverEvent)>,
     now: Time,
@@ -167,7 +166,7 @@ impl<'d> Pointing<'d> {
         self.end(at, goal, outcome);
     }
 
-    /// What is to be reported by a time.
+    /// Next report that is due by a time.
     fn due(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
         let (at, event) = self.outbox.pop_front()?;
         // The clock is ahead of the world by the length of a slice at most.
@@ -187,7 +186,7 @@ impl<'d> Pointing<'d> {
 }
 
 impl Asked {
-    /// Where the world may be by now: as much later than the question as the clock is.
+    /// Time that the world may have reached: as much later than the question as the clock is.
     fn due(&self) -> Time {
         Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
     }

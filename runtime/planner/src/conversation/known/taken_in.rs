@@ -1,4 +1,5 @@
-//! What is learnt beside runs: what the robot feels, what people say, and what is presumed until somebody has looked.
+//! Knowledge from outside of runs: proprioception, statements of people, and assumptions that hold until
+//! somebody has looked.
 
 use motet_graph::Value;
 use motet_runtime::{Pattern, Query, Truth};
@@ -61,7 +62,7 @@ impl Known {
         }
     }
 
-    /// Where the robot stands no longer counts: from there something could not be reached.
+    /// Forgets the robot's place at an entity, since something could not be reached from there.
     pub fn doubt_standing(&mut self) {
         let robot = Pattern::Is(Value::Entity(SmolStr::new_static("robot")));
         let args = vec![robot, Pattern::Any];
