@@ -1,6 +1,6 @@
 //! Cases: a request in words for something in a room, what shall come of it, and what goes wrong on the way.
 
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
 use motet_sim::{CallFault, CallFaultKind, Faults};

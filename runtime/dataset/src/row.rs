@@ -1,6 +1,6 @@
 //! A row: what a model is shown, and what it shall answer.
 
-use motet_planner::conversation::Kind;
+use motet_planner::dialogue::Kind;
 use smol_str::SmolStr;
 
 use crate::wordings::Task;

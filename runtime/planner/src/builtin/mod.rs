@@ -25,7 +25,7 @@ pub struct Planned {
 
 /// A request that was understood, and the policy for it.
 #[derive(Clone, Debug)]
-pub struct Answered {
+pub struct PlannedRequest {
     /// Intent that the request was read as.
     pub understood: Intent,
     pub planned: Planned,
@@ -33,7 +33,7 @@ pub struct Answered {
 
 /// Reasons for which a request gets no policy.
 #[derive(Error, Clone, Debug)]
-pub enum Unplanned {
+pub enum PlanError {
     /// The request is unclear.
     #[error(transparent)]
     RequestError(#[from] RequestError),
@@ -71,7 +71,7 @@ pub fn plan(
     robot: Option<&Robot>,
     name: &str,
     aims: &[Aim],
-) -> Result<Planned, Unplanned> {
+) -> Result<Planned, PlanError> {
     let goals: Vec<Goal> = aims.iter().map(|aim| aim.goal.clone()).collect();
     let plan = match session.plan(&goals, PLAN_BUDGET) {
         Err(NoPlan::Budget { .. }) => session.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
@@ -83,7 +83,7 @@ pub fn plan(
     let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
     let compiled = session.compile(&parsed, None);
     if compiled.graph.is_none() {
-        return Err(Unplanned::Refused { text, diagnostics: compiled.diagnostics });
+        return Err(PlanError::Refused { text, diagnostics: compiled.diagnostics });
     }
     Ok(Planned { text, parsed, compiled, looked_at: plan.looked_at })
 }
@@ -98,7 +98,7 @@ pub fn answer(
     robot: Option<&Robot>,
     request: &str,
     situation: &RequestContext<'_>,
-) -> Result<Answered, Unplanned> {
+) -> Result<PlannedRequest, PlanError> {
     let understood = motet_requests::understand(request, situation)?;
     if understood.aims.is_empty() {
         let question = "I take note of that. What shall I do?".to_owned();
@@ -106,7 +106,7 @@ pub fn answer(
     }
     let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
     let planned = plan(session, robot, name, &understood.aims)?;
-    Ok(Answered { understood, planned })
+    Ok(PlannedRequest { understood, planned })
 }
 
 fn first(diagnostics: &[Diagnostic]) -> &str {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use thiserror::Error;
 
-use crate::prompt::{Feasible, Seen};
+use crate::prompt::{Reachability, Sighting};
 
 /// One exchange between a person and a robot. Each part is what stands behind its tag, without blanks around it; empty where
 /// the tag is missing.
@@ -133,7 +133,7 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
 
 /// Texts of `<vision>` and `<feasibility>` for the things that a request names.
 #[must_use]
-pub fn sight(seen: &[Seen]) -> (String, String) {
+pub fn sight(seen: &[Sighting]) -> (String, String) {
     let vision = seen.iter().map(|one| {
         let word = match one.seen {
             Some(true) => "seen",
@@ -143,9 +143,9 @@ pub fn sight(seen: &[Seen]) -> (String, String) {
         format!("{}: {word}", one.id)
     });
     let feasibility = seen.iter().map(|one| match &one.feasible {
-        Feasible::Yes | Feasible::AsFarAsNumbersTell => format!("{}: feasible", one.id),
-        Feasible::No(why) | Feasible::Hardly(why) => format!("{}: infeasible ({why})", one.id),
-        Feasible::Unknown(why) => format!("{}: unknown ({why})", one.id),
+        Reachability::Yes | Reachability::AsFarAsNumbersTell => format!("{}: feasible", one.id),
+        Reachability::No(why) | Reachability::Hardly(why) => format!("{}: infeasible ({why})", one.id),
+        Reachability::Unknown(why) => format!("{}: unknown ({why})", one.id),
     });
     (vision.collect::<Vec<_>>().join(", "), feasibility.collect::<Vec<_>>().join(", "))
 }
@@ -163,7 +163,7 @@ impl Exchange {
         self.robot.ends_with('?')
     }
 
-    /// As a text, a line a part. An empty history, vision or feasibility is left out. Reading it gives the same exchange
+    /// As a text, a line a part. An empty history, vision or feasibility is left out. StreamReader it gives the same exchange
     /// where no part has a tag of its own in it.
     #[must_use]
     pub fn write(&self) -> String {

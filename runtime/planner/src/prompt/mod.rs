@@ -2,8 +2,8 @@
 //! the request. The same inputs give the same text within a token budget; only a motion search that takes
 //! too long leaves something out.
 
-mod lasting;
-mod seen;
+mod sighting;
+mod static_prompt;
 
 use std::time::Duration;
 
@@ -13,8 +13,8 @@ use motet_robots::scene::Scene;
 use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
-pub use lasting::Lasting;
-pub use seen::{Feasible, Seen, seen};
+pub use sighting::{Reachability, Sighting, seen};
+pub use static_prompt::StaticPrompt;
 
 use motet_requests::RequestContext;
 
@@ -40,7 +40,7 @@ pub struct Prompt<'a> {
     /// Earlier requests and their endings.
     pub memory: &'a Memory,
     /// Parts that all prompts of a robot in a room share.
-    pub lasting: &'a Lasting,
+    pub lasting: &'a StaticPrompt,
     /// The most tokens, as far as bytes tell.
     pub tokens: usize,
     /// After how long no further motion is looked for.
@@ -81,7 +81,7 @@ impl Prompt<'_> {
         let fixed = [
             self.lasting.rules.clone(),
             room(&|id| named.contains(id)),
-            seen::told(&seen(self.session, self.robot, self.scene, &named, self.time)),
+            sighting::told(&seen(self.session, self.robot, self.scene, &named, self.time)),
             format!("# Request\n{}\n", request.trim()),
         ];
         let fixed_bytes: usize = fixed.iter().map(String::len).sum();

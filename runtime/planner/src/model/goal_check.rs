@@ -6,11 +6,11 @@ use motet_compiler::plan::Lasts;
 use motet_syntax::ast::{Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Source, Span, print};
 
-use super::judge::errors;
+use super::reply_verdict::errors;
 use crate::builtin::Planned;
 use motet_requests::RequestContext;
 
-/// Lasting goal of a request. `None` if the request cannot be read or depends on a condition.
+/// StaticPrompt goal of a request. `None` if the request cannot be read or depends on a condition.
 pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr> {
     let understood = motet_requests::understand(request, situation).ok()?;
     if understood.aims.iter().any(|aim| aim.only_if.is_some()) {

@@ -1,8 +1,8 @@
 //! Knowledge between two policies: the beliefs at the end of a run, and statements of people. The scene and
 //! the state of the next check, and the start of the next run, come from it.
 
-mod taken_in;
-mod world;
+mod locations;
+mod statements;
 
 use motet_compiler::{Given, Session};
 use motet_graph::Graph;
@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 /// Knowledge beyond a scene.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct Knowledge {
     /// In order: a later fact wins, and one with `any` is meant of every entity.
     facts: Vec<(Query, Truth)>,
     some: Vec<Query>,
@@ -21,7 +21,7 @@ pub struct Known {
     came_from: Vec<(SmolStr, SmolStr)>,
 }
 
-impl Known {
+impl Knowledge {
     /// Returns `true` if nothing is known beyond the scene.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -9,17 +9,17 @@ use smol_str::SmolStr;
 
 /// Visibility and reachability of one thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Seen {
+pub struct Sighting {
     pub id: SmolStr,
     /// Visibility to a camera, if the scene states it.
     pub seen: Option<bool>,
     /// Reachability for the robot.
-    pub feasible: Feasible,
+    pub feasible: Reachability,
 }
 
 /// Reachability of a thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Feasible {
+pub enum Reachability {
     /// As far as masses and widths tell; no motion was looked for.
     AsFarAsNumbersTell,
     /// A motion was found.
@@ -35,41 +35,51 @@ pub enum Feasible {
 /// Visibility and reachability of the named things. Motion searches run one after the other until `time` is
 /// over; cached answers cost nothing.
 #[must_use]
-pub fn seen(session: &Session, robot: &Robot, scene: &Scene, named: &[SmolStr], time: Duration) -> Vec<Seen> {
+pub fn seen(
+    session: &Session,
+    robot: &Robot,
+    scene: &Scene,
+    named: &[SmolStr],
+    time: Duration,
+) -> Vec<Sighting> {
     let begun = Instant::now();
     let seen = named.iter().filter_map(|id| {
         let entity = scene.entities.get(id)?;
         let left = time.saturating_sub(begun.elapsed());
-        Some(Seen { id: id.clone(), seen: entity.visible, feasible: feasible(session, robot, entity, left) })
+        Some(Sighting {
+            id: id.clone(),
+            seen: entity.visible,
+            feasible: feasible(session, robot, entity, left),
+        })
     });
     seen.collect()
 }
 
-fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Feasible {
+fn feasible(session: &Session, robot: &Robot, entity: &Entity, left: Duration) -> Reachability {
     if let Some(hand) = robot.hands.values().next()
         && entity.kind == "Object"
     {
         if let Some(mass) = entity.mass_kg.filter(|mass| *mass > hand.payload_kg) {
-            return Feasible::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));
+            return Reachability::No(format!("too heavy: {mass} kg, payload is {} kg", hand.payload_kg));
         }
         if let Some(width) = entity.width().filter(|width| *width > hand.opening_m) {
-            return Feasible::No(format!("too wide: {width} m, opening is {} m", hand.opening_m));
+            return Reachability::No(format!("too wide: {width} m, opening is {} m", hand.opening_m));
         }
     }
     if left.is_zero() {
-        return Feasible::AsFarAsNumbersTell;
+        return Reachability::AsFarAsNumbersTell;
     }
     match session.access(&entity.id) {
-        None => Feasible::AsFarAsNumbersTell,
-        Some(Access::Feasible) => Feasible::Yes,
-        Some(Access::Infeasible { why, is_certified: true }) => Feasible::No(why.to_string()),
-        Some(Access::Infeasible { why, is_certified: false }) => Feasible::Hardly(why.to_string()),
-        Some(Access::Unknown(why)) => Feasible::Unknown(why.to_string()),
+        None => Reachability::AsFarAsNumbersTell,
+        Some(Access::Feasible) => Reachability::Yes,
+        Some(Access::Infeasible { why, is_certified: true }) => Reachability::No(why.to_string()),
+        Some(Access::Infeasible { why, is_certified: false }) => Reachability::Hardly(why.to_string()),
+        Some(Access::Unknown(why)) => Reachability::Unknown(why.to_string()),
     }
 }
 
 /// A line a thing.
-pub(super) fn told(seen: &[Seen]) -> String {
+pub(super) fn told(seen: &[Sighting]) -> String {
     if seen.is_empty() {
         return String::new();
     }
@@ -80,11 +90,11 @@ pub(super) fn told(seen: &[Seen]) -> String {
             None => "not known whether seen",
         };
         let reach = match &one.feasible {
-            Feasible::AsFarAsNumbersTell => "feasible".to_owned(),
-            Feasible::Yes => "feasible: there is a way to it and a motion there".to_owned(),
-            Feasible::No(why) => format!("not feasible: {why}"),
-            Feasible::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
-            Feasible::Unknown(why) => format!("not known whether feasible: {why}"),
+            Reachability::AsFarAsNumbersTell => "feasible".to_owned(),
+            Reachability::Yes => "feasible: there is a way to it and a motion there".to_owned(),
+            Reachability::No(why) => format!("not feasible: {why}"),
+            Reachability::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
+            Reachability::Unknown(why) => format!("not known whether feasible: {why}"),
         };
         format!("- {}: {sight}, {reach}\n", one.id)
     });

@@ -6,7 +6,7 @@ use super::chat::{Message, ModelError};
 
 /// Something that happens while a model is asked.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Happening<'a> {
+pub enum ModelEvent<'a> {
     /// A chat is sent; round 0 is the first.
     Asked { round: u32, model: &'a str, chat: &'a [Message] },
     /// The server is asked again after a while.
@@ -22,7 +22,7 @@ pub enum Happening<'a> {
         /// At which byte of the reply.
         at: usize,
     },
-    /// Known fixes were made to the reply.
+    /// Knowledge fixes were made to the reply.
     Mended { titles: &'a [String] },
     /// A round came to nothing, and the findings go back to the model, or to a person after the last round.
     Refused {
@@ -49,9 +49,9 @@ pub enum Happening<'a> {
 }
 
 /// Looks on while a model is asked, and may stop it.
-pub trait Listener {
+pub trait ModelObserver {
     /// Receives each event of the exchange.
-    fn hear(&mut self, _happening: &Happening<'_>) {}
+    fn hear(&mut self, _happening: &ModelEvent<'_>) {}
     /// Returns `true` once a person wants the exchange to stop. The planner calls it often.
     fn is_stopped(&self) -> bool {
         false
@@ -59,4 +59,4 @@ pub trait Listener {
 }
 
 /// Looks on without a word.
-impl Listener for () {}
+impl ModelObserver for () {}

@@ -12,7 +12,7 @@ use motet_requests::RequestContext;
 
 /// The parts of a prompt that do not change.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Lasting {
+pub struct StaticPrompt {
     /// Rules of writing a policy.
     pub(super) rules: String,
     /// The robot's primitives with what they need and make.
@@ -23,7 +23,7 @@ pub struct Lasting {
     pub(super) examples: Vec<String>,
 }
 
-impl Lasting {
+impl StaticPrompt {
     /// Writes them; the examples are planned in the session.
     #[must_use]
     pub fn new(session: &Session, robot: &Robot, scene: &Scene) -> Self {

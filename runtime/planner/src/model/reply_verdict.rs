@@ -10,9 +10,9 @@ use crate::builtin::Planned;
 /// The most fixes to one reply.
 const MOST_FIXES: usize = 8;
 
-/// Verdict on a reply.
+/// StreamVerdict on a reply.
 #[derive(Clone, Debug)]
-pub enum Judged {
+pub enum ReplyVerdict {
     /// The reply holds a policy that passes the check.
     Good {
         /// The policy, with its graph.
@@ -32,7 +32,7 @@ pub enum Judged {
 /// Judges a reply. It may have prose, thoughts or a fence around the policy, which may be in either form. What else it
 /// declares is left out, or a reply could say of its own steps what they need.
 #[must_use]
-pub fn judge(session: &Session, reply: &str) -> Judged {
+pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
     let document = without_thoughts(reply);
     let mut parsed = read(document);
     if parsed.file.items.iter().any(|item| !matches!(item, Item::Policy(_))) {
@@ -42,7 +42,7 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
     let findings = errors(session.compile(&parsed, None).diagnostics);
     let (mut mended, mut changed) = (Vec::new(), Vec::new());
     if !findings.is_empty() {
-        let Some((text, fixes)) = mend(session, &parsed.text) else { return Judged::Bad { findings } };
+        let Some((text, fixes)) = mend(session, &parsed.text) else { return ReplyVerdict::Bad { findings } };
         if !fixes.iter().all(is_spelling) {
             changed = findings;
         }
@@ -59,9 +59,13 @@ pub fn judge(session: &Session, reply: &str) -> Judged {
     let compiled = session.compile(&parsed, None);
     if compiled.graph.is_none() {
         // Motions are looked at only where nothing else is wrong, and no fix is known for them.
-        return Judged::Bad { findings: errors(compiled.diagnostics) };
+        return ReplyVerdict::Bad { findings: errors(compiled.diagnostics) };
     }
-    Judged::Good { planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }), mended, changed }
+    ReplyVerdict::Good {
+        planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }),
+        mended,
+        changed,
+    }
 }
 
 /// Returns `true` if a fix keeps the steps: fixes of syntax, names and types.

@@ -8,11 +8,11 @@ use motet_runtime::{Pattern, Query, StartState, Truth};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
-use super::{Known, query};
+use super::{Knowledge, query};
 use motet_requests::{ReportedLocation, RequestContext};
 
-impl Known {
-    /// Known locations of objects.
+impl Knowledge {
+    /// Knowledge locations of objects.
     #[must_use]
     pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
         let told = self.situation(scene).supports;

@@ -7,7 +7,7 @@ use motet_runtime::RunEnd;
 use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
-use crate::builtin::Unplanned;
+use crate::builtin::PlanError;
 use motet_requests::RequestError;
 
 /// The kinds of failure.
@@ -56,27 +56,27 @@ impl Kind {
 impl Problem {
     /// Problem behind a request that got no policy.
     #[must_use]
-    pub fn of_planning(why: &Unplanned, scene: &Scene) -> Self {
+    pub fn of_planning(why: &PlanError, scene: &Scene) -> Self {
         let bare =
             |kind, question: String| Self { kind, question, options: Vec::new(), about: None, said: None };
         match why {
-            Unplanned::RequestError(RequestError::NotUnderstood { part }) => Self {
+            PlanError::RequestError(RequestError::NotUnderstood { part }) => Self {
                 said: Some(part.clone()),
                 ..bare(Kind::AmbiguousTask, format!("I do not understand \"{part}\". What shall I do?"))
             },
-            Unplanned::RequestError(RequestError::NotFound { what }) => Self {
+            PlanError::RequestError(RequestError::NotFound { what }) => Self {
                 said: Some(what.clone()),
                 ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
             },
-            Unplanned::RequestError(RequestError::Unfit { why }) => {
+            PlanError::RequestError(RequestError::Unfit { why }) => {
                 bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capital(why)))
             }
-            Unplanned::RequestError(RequestError::Elsewhere { why, thing }) => Self {
+            PlanError::RequestError(RequestError::Elsewhere { why, thing }) => Self {
                 options: holders(scene),
                 about: Some(thing.clone()),
                 ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capital(why)))
             },
-            Unplanned::RequestError(RequestError::AmbiguousReference { what, options }) => {
+            PlanError::RequestError(RequestError::AmbiguousReference { what, options }) => {
                 let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
                 let noun = bare_noun(what);
                 let question = format!(
@@ -90,11 +90,11 @@ impl Problem {
                     ..bare(Kind::AmbiguousReference, question)
                 }
             }
-            Unplanned::RequestError(RequestError::AmbiguousTask { question, options }) => {
+            PlanError::RequestError(RequestError::AmbiguousTask { question, options }) => {
                 Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
             }
-            Unplanned::NoModel { .. } | Unplanned::Stopped => bare(Kind::ActionFailed, why.to_string()),
-            Unplanned::NoPlan(_) | Unplanned::Refused { .. } => {
+            PlanError::NoModel { .. } | PlanError::Stopped => bare(Kind::ActionFailed, why.to_string()),
+            PlanError::NoPlan(_) | PlanError::Refused { .. } => {
                 bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
             }
         }

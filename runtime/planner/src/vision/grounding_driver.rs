@@ -15,7 +15,7 @@ use motet_runtime::{
 use smol_str::SmolStr;
 
 use super::ground::{NoPoint, Pointer, ground};
-use crate::conversation::called;
+use crate::dialogue::called;
 
 /// Primitive that is answered here and not by the driver.
 const GROUND: &str = "ground";
@@ -24,7 +24,7 @@ const SLICE: Duration = Duration::from_millis(5);
 
 /// A question for a point that was answered, or not.
 #[derive(Clone, Copy, Debug)]
-pub struct Pointed<'a> {
+pub struct GroundedPoint<'a> {
     pub object: &'a SmolStr,
     /// Purpose of the point.
     pub used_for: &'a SmolStr,
@@ -34,11 +34,11 @@ pub struct Pointed<'a> {
 
 /// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this exception to the
 /// sixth: when an answer comes only its giver knows.
-pub struct Pointing<'d> {
+pub struct GroundingDriver<'d> {
     driver: &'d mut dyn Driver,
     eyes: &'d mut dyn Perception,
     scene: &'d Scene,
-    listener: Box<dyn FnMut(Pointed<'_>) + 'd>,
+    listener: Box<dyn FnMut(GroundedPoint<'_>) + 'd>,
     questions: Sender<Question>,
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
     /// Open questions by goal.
@@ -77,7 +77,7 @@ impl Drop for Asked {
     }
 }
 
-impl<'d> Pointing<'d> {
+impl<'d> GroundingDriver<'d> {
     /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once its last question
     /// is answered.
     #[must_use]
@@ -118,7 +118,7 @@ impl<'d> Pointing<'d> {
 
     /// Tells somebody what becomes of each question that was waited for.
     #[must_use]
-    pub fn with_listener(self, listener: impl FnMut(Pointed<'_>) + 'd) -> Self {
+    pub fn with_listener(self, listener: impl FnMut(GroundedPoint<'_>) + 'd) -> Self {
         Self { listener: Box::new(listener), ..self }
     }
 
@@ -130,7 +130,7 @@ impl<'d> Pointing<'d> {
             return false;
         };
         let Some(view) = self.eyes.view(now, object) else {
-            (self.listener)(Pointed { object, used_for, found: &Err(NoPoint::Unseen) });
+            (self.listener)(GroundedPoint { object, used_for, found: &Err(NoPoint::Unseen) });
             return false;
         };
         self.count += 1;
@@ -158,7 +158,7 @@ impl<'d> Pointing<'d> {
         let waiting = self.asked.iter().find(|(_, asked)| asked.number == number);
         let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, asked)) else { return };
         let at = self.now.max(asked.due());
-        (self.listener)(Pointed { object: &asked.object, used_for: &asked.used_for, found: &found });
+        (self.listener)(GroundedPoint { object: &asked.object, used_for: &asked.used_for, found: &found });
         let outcome = match found {
             Ok(pose) => Outcome::Success(Some(Value::Pose(pose))),
             Err(why) => Outcome::Failure(SmolStr::new_static(why.failure())),
@@ -192,7 +192,7 @@ impl Asked {
     }
 }
 
-impl Driver for Pointing<'_> {
+impl Driver for GroundingDriver<'_> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         if command.primitive != GROUND {
             return self.driver.start(now, goal, command);

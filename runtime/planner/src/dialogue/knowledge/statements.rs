@@ -5,10 +5,10 @@ use motet_graph::Value;
 use motet_runtime::{Pattern, Query, Truth};
 use smol_str::SmolStr;
 
-use super::Known;
+use super::Knowledge;
 use motet_requests::ReportedLocation;
 
-impl Known {
+impl Knowledge {
     /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
     /// where it was: a hand that slipped left it there. The next plan looks before it takes.
     pub fn presume(&mut self, before: &[ReportedLocation]) {
@@ -70,7 +70,7 @@ impl Known {
     }
 
     /// Keeps where things were that are not there any more, so that they can be put back.
-    pub(in crate::conversation) fn remember_moved(
+    pub(in crate::dialogue) fn remember_moved(
         &mut self,
         before: &[ReportedLocation],
         after: &[ReportedLocation],

@@ -5,14 +5,14 @@ use motet_runtime::{Driver, RunEnd, Time};
 use smol_str::SmolStr;
 
 use super::answer::{self, Answer};
-use super::first::After;
-use super::live::{Live, Pending, Ran};
-use super::planner::Planner;
+use super::conversation::{Conversation, Outcome};
+use super::early_start::After;
+use super::live_run::{Live, Pending, Ran};
+use super::observer::{DialogueObserver, Person};
 use super::polarity::{Polarity, polarity};
 use super::problem::{Kind, Problem};
-use super::talk::{Conversation, Outcome};
-use super::watcher::{Person, Watcher};
-use crate::builtin::{Answered, Unplanned};
+use crate::Planner;
+use crate::builtin::{PlanError, PlannedRequest};
 use motet_requests::{ReportedLocation, RequestError};
 
 /// The most policies for one request.
@@ -57,18 +57,18 @@ pub(super) struct Pursuit<'r, 'a> {
     talk: &'r mut Conversation<'a>,
     planner: &'r mut dyn Planner,
     person: &'r mut dyn Person,
-    watcher: &'r mut dyn Watcher,
+    watcher: &'r mut dyn DialogueObserver,
     task: Task,
     /// The latest time.
     pub(super) now: Time,
     /// The rest of a policy of which the first step was run.
-    ready: Option<Answered>,
+    ready: Option<PlannedRequest>,
 }
 
 impl<'r, 'a> Pursuit<'r, 'a> {
     pub(super) fn new(
         talk: &'r mut Conversation<'a>,
-        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn Watcher),
+        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn DialogueObserver),
         request: &str,
         now: Time,
     ) -> Self {
@@ -111,7 +111,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
         Outcome::Failed(latest.unwrap_or_else(nothing))
     }
 
-    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<Answered, Unplanned> {
+    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<PlannedRequest, PlanError> {
         let session = self.talk.session(scene, &self.talk.known, base);
         let image = self.talk.look(self.now);
         let world = (&session, scene, &self.talk.known);
@@ -119,7 +119,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// Runs a policy, and sees what became of it.
-    fn run(&mut self, answered: Answered, driver: &mut dyn Driver, scene: &Scene) -> Next {
+    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> Next {
         let told = (self.task.request.clone(), self.task.meant.clone());
         let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
         let ran = live.run(answered, driver, scene);
@@ -140,7 +140,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
                 self.task = Task::new(request, Some(before));
                 return Next::Round;
             }
-            (Some(Pending::Told(located)), _) => {
+            (Some(Pending::Statement(located)), _) => {
                 located.iter().for_each(|one| self.talk.known.hear(one));
                 return Next::Round;
             }
@@ -197,14 +197,14 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// There is no policy.
-    fn unplanned(&mut self, why: &Unplanned, scene: &Scene) -> Next {
+    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> Next {
         let problem = Problem::of_planning(why, scene);
         match (why, self.task.before.clone()) {
-            (Unplanned::Stopped, _) => Next::Over(Outcome::Stopped),
+            (PlanError::Stopped, _) => Next::Over(Outcome::Stopped),
             // No answer of a person brings a model back.
-            (Unplanned::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            (PlanError::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
             // Something that is not understood was said in between.
-            (Unplanned::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
+            (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }

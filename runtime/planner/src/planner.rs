@@ -5,7 +5,7 @@ use motet_robots::card::Robot;
 use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 
-use crate::builtin::{self, Answered, Unplanned};
+use crate::builtin::{self, PlanError, PlannedRequest};
 use motet_requests::RequestContext;
 
 /// Makes policies of requests.
@@ -15,7 +15,7 @@ pub trait Planner {
     /// # Errors
     ///
     /// Why there is none.
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned>;
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError>;
 
     /// Returns `true` if the planner can use any answer. Otherwise the dialogue repeats a question whose
     /// answer it could not read.
@@ -25,13 +25,13 @@ pub trait Planner {
 
     /// Begins to plan for a request while something runs, which nobody must keep waiting; [`Planner::rest`] gives what comes
     /// of it. False where [`Planner::plan`] answers at once.
-    fn begin(&mut self, _ask: &Ask<'_>) -> bool {
+    fn begin(&mut self, _ask: &PlanRequest<'_>) -> bool {
         false
     }
 
     /// The rest of the policy that was given last, where that was only its first step, or what was begun.
-    fn rest(&mut self, _wait: Wait) -> Rest {
-        Rest::Nothing
+    fn rest(&mut self, _wait: Wait) -> RemainingSteps {
+        RemainingSteps::Nothing
     }
 }
 
@@ -46,7 +46,7 @@ pub enum Wait {
 
 /// The rest of a policy that is still being written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Rest {
+pub enum RemainingSteps {
     /// There is none: what was given was the whole.
     Nothing,
     /// It has not come yet.
@@ -61,7 +61,7 @@ pub enum Rest {
 
 /// Input of a planner.
 #[derive(Clone, Copy, Debug)]
-pub struct Ask<'a> {
+pub struct PlanRequest<'a> {
     /// Session that checks the policy.
     pub session: &'a Session,
     pub robot: &'a Robot,
@@ -80,7 +80,7 @@ pub struct Ask<'a> {
 pub struct Builtin;
 
 impl Planner for Builtin {
-    fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
+    fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         builtin::answer(ask.session, Some(ask.robot), ask.request, ask.situation)
     }
 }
