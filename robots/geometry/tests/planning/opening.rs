@@ -6,7 +6,7 @@ use motet_geometry::collision::{Shape, Solid};
 use motet_geometry::planning::{
     Articulation, InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget,
 };
-use motet_robots::builtin::SCENES;
+use motet_robots::builtin::{BuiltinScene, SCENES};
 use motet_robots::scene;
 
 use super::{embedded, machine, verify};
@@ -21,8 +21,8 @@ fn smaller(solid: &Solid, less: f64) -> Solid {
 fn doors_and_drawers_of_the_rooms_open_into_the_open() {
     let (machine, _) = machine("hsr");
     let mut count = 0;
-    for room in SCENES {
-        let scene = embedded(room.name);
+    for BuiltinScene { name: room, .. } in SCENES {
+        let scene = embedded(room);
         let world = SceneState::new(&machine, &scene);
         for (id, entity) in scene.entities.iter().filter(|(_, entity)| entity.travel.is_some()) {
             let opening = Articulation::new(entity, &world).unwrap();
