@@ -1,0 +1,150 @@
+//! Meaning of an answer to a question, for the task at hand.
+
+use smol_str::SmolStr;
+
+use super::polarity::{Polarity, is_done, polarity};
+use super::problem::{Kind, Problem, called};
+use motet_requests::{ReportedLocation, RequestContext, RequestError};
+
+/// Meaning of an answer.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Answer {
+    Again,
+    GiveUp,
+    /// These words mean this thing, or all of these.
+    Means {
+        said: String,
+        /// The thing, or the things.
+        ids: Vec<SmolStr>,
+    },
+    /// Something is somewhere else than was thought.
+    ReportedLocation(Vec<ReportedLocation>),
+    Request(String),
+    /// Nothing that helps: the question is asked again.
+    NotUnderstood,
+}
+
+/// Reads an answer to a problem with a request.
+pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &RequestContext<'_>) -> Answer {
+    let meaning = |said: &str| {
+        if is_done(said) { Answer::NotUnderstood } else { meaning(said, problem, request, situation) }
+    };
+    let retries = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
+    let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
+    if retries
+        && motet_requests::encourages(answer)
+            .is_some_and(|beside| motet_requests::named(&beside, situation).is_empty())
+        && motet_requests::told(answer, &about).is_empty()
+    {
+        return Answer::Again;
+    }
+    match polarity(answer) {
+        Polarity::Stop => Answer::GiveUp,
+        // Who says no, and more that is not understood, still said no.
+        Polarity::No(rest) => match meaning(rest) {
+            Answer::NotUnderstood => Answer::GiveUp,
+            instead => instead,
+        },
+        Polarity::Yes(rest) if is_done(rest) => match problem.kind {
+            // "Shall I bring you something to drink?" "Yes."
+            Kind::AmbiguousTask => offered(&problem.question).map_or(Answer::NotUnderstood, Answer::Request),
+            Kind::NotFound | Kind::NotReachable | Kind::ActionFailed => Answer::Again,
+            Kind::AmbiguousReference => Answer::NotUnderstood,
+        },
+        Polarity::Yes(rest) => meaning(rest),
+        // Where nobody knows more, looking once more is all that is left.
+        Polarity::Ignorant if problem.kind == Kind::NotFound => Answer::Again,
+        Polarity::Ignorant => Answer::NotUnderstood,
+        Polarity::Neither => meaning(answer),
+    }
+}
+
+/// Reads what stands behind yes and no.
+fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestContext<'_>) -> Answer {
+    // A thing or a place among those that were offered, or any that fits the words in question.
+    if let Some(said) = &problem.said
+        && problem.kind != Kind::AmbiguousTask
+    {
+        let ids = match problem.kind {
+            Kind::AmbiguousReference => motet_requests::choose(answer, &problem.options, situation),
+            _ => motet_requests::pick(answer, &problem.options, situation).into_iter().collect(),
+        };
+        if !ids.is_empty() {
+            return Answer::Means { said: said.clone(), ids };
+        }
+    }
+    if problem.kind == Kind::AmbiguousTask
+        && motet_requests::is_bare(answer)
+        && let Some(request) = completed(request, answer, situation)
+    {
+        return Answer::Request(request);
+    }
+    // "Where else shall I put the plate?" "On the counter."
+    if problem.kind == Kind::NotReachable
+        && motet_requests::is_bare(answer)
+        && let Some(held) = &situation.holding
+        && problem.options.iter().any(|option| situation.scene.entities.contains_key(option))
+        && let Some(request) =
+            completed(&format!("put the {}", called(situation.scene, held)), answer, situation)
+    {
+        return Answer::Request(format!("{} instead", request.trim_end_matches(['.', '!', '?', ' '])));
+    }
+    let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
+    if problem.kind == Kind::NotFound {
+        let told = motet_requests::told(answer, &about);
+        if !told.is_empty() {
+            return Answer::ReportedLocation(told);
+        }
+    }
+    match motet_requests::understand(answer, &about) {
+        Ok(understood) if understood.aims.is_empty() => Answer::ReportedLocation(understood.located),
+        Ok(_) => Answer::Request(answer.to_owned()),
+        Err(RequestError::AmbiguousReference { .. } | RequestError::NotFound { .. })
+            if problem.kind != Kind::AmbiguousTask =>
+        {
+            place(answer, problem, situation)
+        }
+        Err(_) => match problem.kind {
+            // "Where shall I put the plate?" "In the cupboard."
+            Kind::AmbiguousTask => {
+                completed(request, answer, situation).map_or(Answer::NotUnderstood, Answer::Request)
+            }
+            Kind::NotFound | Kind::NotReachable | Kind::ActionFailed | Kind::AmbiguousReference => {
+                place(answer, problem, situation)
+            }
+        },
+    }
+}
+
+/// Names of the problem's subject, as antecedents of `it`.
+fn spoken(problem: &Problem, situation: &RequestContext<'_>) -> Vec<SmolStr> {
+    situation.spoken_of.iter().cloned().chain(problem.about.clone()).collect()
+}
+
+/// `the cupboard`, `kitchen counter`: a place, asked for where a thing is.
+fn place(answer: &str, problem: &Problem, situation: &RequestContext<'_>) -> Answer {
+    let (Some(thing), Kind::NotFound) = (&problem.about, problem.kind) else { return Answer::NotUnderstood };
+    let Some(place) = motet_requests::pick(answer, &problem.options, situation) else {
+        return Answer::NotUnderstood;
+    };
+    let holds = situation.scene.entities.get(&place).is_some_and(|entity| entity.kind == "Container");
+    let relation = if holds { "in" } else { "on" };
+    Answer::ReportedLocation(vec![ReportedLocation { thing: thing.clone(), relation, place }])
+}
+
+/// The request with what was missing behind it, where it then is understood.
+fn completed(request: &str, answer: &str, situation: &RequestContext<'_>) -> Option<String> {
+    let request = request.trim_end_matches(['.', '!', '?', ' ']);
+    let mut tries = vec![format!("{request} {answer}")];
+    for preposition in ["in", "on", "to"] {
+        tries.push(format!("{request} {preposition} {answer}"));
+        tries.push(format!("{request} {preposition} the {answer}"));
+    }
+    tries.into_iter().find(|request| motet_requests::understand(request, situation).is_ok())
+}
+
+/// Request that a question offers: "Shall I bring you something to drink?" is "bring me something to drink".
+fn offered(question: &str) -> Option<String> {
+    let offer = question.strip_prefix("Shall I ")?.strip_suffix('?')?;
+    Some(offer.replace(" you ", " me "))
+}

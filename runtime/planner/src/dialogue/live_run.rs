@@ -1,0 +1,366 @@
+//! A run with somebody beside it: what happens is remembered, and a new request takes over in the middle of it.
+
+use std::sync::Arc;
+
+use motet_graph::{Graph, NodeId, NodeKind, Value};
+use motet_robots::scene::Scene;
+use motet_runtime::{
+    Driver, Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, RunEnd, SwapRefusal,
+    Time, Verifier,
+};
+use smol_str::SmolStr;
+
+use super::early_start::First;
+use super::polarity;
+use super::problem::named_entity;
+use super::proprioception::sense;
+use super::{Conversation, DialogueObserver, Problem};
+use crate::builtin::PlannedRequest;
+use crate::model::{ReplyVerdict, judge};
+use crate::runtime_check::Guard;
+use crate::{PlanRequest, Planner, RemainingSteps, Wait};
+use motet_requests::{Intent, ReportedLocation, RequestContext};
+
+/// Reason to stop a run before its end.
+pub(super) enum Pending {
+    /// A new request, which cannot take over as it stands.
+    Request(String),
+    /// Something is elsewhere than was thought, so that the same has to be planned anew.
+    Statement(Vec<ReportedLocation>),
+    /// A person says so.
+    Stop,
+}
+
+/// The eyes and ears of a run.
+pub(super) struct Live<'r, 'a> {
+    talk: &'r mut Conversation<'a>,
+    planner: &'r mut dyn Planner,
+    watcher: &'r mut dyn DialogueObserver,
+    meant: Vec<(String, SmolStr)>,
+    /// The latest time.
+    pub(super) now: Time,
+    /// Reason for which the run is being stopped.
+    pub(super) pending: Option<Pending>,
+    /// Request that the run carries out.
+    task: String,
+    /// The request that took over.
+    pub(super) request: Option<String>,
+    /// A request for which a policy is being written.
+    awaited: Option<String>,
+    /// A policy that waits to take over, with its request.
+    next: Option<(PlannedRequest, Option<String>)>,
+    /// State of an early start, while the rest of the policy is still being written.
+    pub(super) first: Option<First>,
+    /// The steps of the running policy that were started.
+    started: Vec<NodeId>,
+    /// Checker of motions that the compiler deferred.
+    guard: Option<Guard>,
+}
+
+/// Ending of a run.
+pub(super) struct Ran {
+    pub(super) end: RunEnd,
+    /// Graph that ran last.
+    pub(super) graph: Arc<Graph>,
+    /// Bindings of that graph at the end.
+    pub(super) bound: Vec<(SmolStr, Value)>,
+    /// The run ended at a guard: a belief was wrong, and the step never started.
+    pub(super) was_refused: bool,
+    /// The first step failed because the robot stood in the wrong place.
+    pub(super) stood_wrong: bool,
+}
+
+impl<'r, 'a> Live<'r, 'a> {
+    pub(super) fn new(
+        talk: &'r mut Conversation<'a>,
+        planner: &'r mut dyn Planner,
+        watcher: &'r mut dyn DialogueObserver,
+        (task, meant): (String, Vec<(String, SmolStr)>),
+        now: Time,
+    ) -> Self {
+        Self {
+            talk,
+            planner,
+            watcher,
+            meant,
+            now,
+            pending: None,
+            task,
+            request: None,
+            awaited: None,
+            next: None,
+            first: None,
+            started: Vec::new(),
+            guard: None,
+        }
+    }
+
+    fn was_refused(&self, end: &RunEnd) -> bool {
+        matches!(end, RunEnd::Failed { node, .. } if !self.started.contains(node))
+    }
+
+    fn stood_wrong(&self, end: &RunEnd, graph: &Graph, bound: &[(SmolStr, Value)]) -> bool {
+        let RunEnd::Failed { kind, node, .. } = end else { return false };
+        let is_first = self.started.is_empty() || self.started.as_slice() == [*node];
+        match kind.as_str() {
+            // What is picked up was driven to with the rest of what is there in view.
+            "unreachable" if is_call(graph, *node, "pick") => is_first,
+            // From where it stands by chance there may be no room or no way: who drove there knows.
+            "unreachable" | "blocked" => {
+                let target = leads_to(graph, *node, bound);
+                let drove = |started: &NodeId| {
+                    started != node
+                        && leads_to(graph, *started, bound) == target
+                        && is_call(graph, *started, "go")
+                };
+                is_first || (target.is_some() && !self.started.iter().any(drove))
+            }
+            _ => false,
+        }
+    }
+
+    /// Runs a policy to its end, and learns from it.
+    pub(super) fn run(
+        &mut self,
+        answered: PlannedRequest,
+        driver: &mut dyn Driver,
+        scene: &Scene,
+    ) -> Result<Ran, Problem> {
+        let Some(graph) = answered.planned.compiled.graph.clone() else {
+            return Err(Problem::nothing("there is no graph to run"));
+        };
+        let shared = Arc::new(graph.clone());
+        self.talk.known.spoken_of.clone_from(&answered.understood.spoken_of);
+        self.watcher.planned(&answered, &shared);
+        let before = self.talk.known.places(scene);
+        let session = self.talk.session(scene, &self.talk.known, driver.base());
+        let verifies = self.watcher.verifies();
+        self.guard = session.course().map(|course| Guard::new(course, verifies));
+        let (mut engine, start) =
+            self.talk.engine(graph, scene, driver.capabilities(), self.guard.is_some())?;
+        self.talk.memory.policy(self.now, 0, shared);
+        self.first = match self.planner.rest(Wait::Not) {
+            RemainingSteps::Nothing => None,
+            RemainingSteps::Coming => Some(First::new(None, &answered)),
+            rest @ (RemainingSteps::Whole(_) | RemainingSteps::Broken | RemainingSteps::Stopped) => {
+                Some(First::new(Some(rest), &answered))
+            }
+        };
+        let from = self.now;
+        let end = match self.watcher.scribe(&engine, &start) {
+            Some(scribe) => scribe.run(&mut engine, driver, self, from),
+            None => motet_runtime::run(&mut engine, driver, self, from),
+        };
+        self.pending = self.pending.take().or(self.awaited.take().map(Pending::Request));
+        // Behind its first step, a policy that is still being written goes on.
+        if self.first.is_none() || self.pending.is_some() || !matches!(end, RunEnd::Done { .. }) {
+            self.watcher.ended(self.now, &end);
+        }
+        let mut known = std::mem::take(&mut self.talk.known);
+        known.learn(&engine, self.talk.base());
+        self.talk.known = known;
+        // What was not found is not where it was thought to be.
+        if !matches!(&end, RunEnd::Failed { kind, .. } if kind == "not_found") {
+            self.talk.known.presume(&before);
+        }
+        let after = self.talk.known.places(&self.talk.setting.scene);
+        self.talk.known.remember_moved(&before, &after);
+        if !matches!(end, RunEnd::Done { .. }) {
+            let (felt, now) = sense(driver, &self.talk.setting.robot, &self.talk.setting.scene, self.now);
+            self.talk.known.notice(&felt);
+            self.now = self.now.max(now);
+        }
+        let bound = engine.snapshot().bindings;
+        if let Some(first) = &mut self.first {
+            first.bound.clone_from(&bound);
+        }
+        let (was_refused, stood_wrong) =
+            (self.was_refused(&end), self.stood_wrong(&end, engine.graph(), &bound));
+        Ok(Ran { end, graph: Arc::new(engine.graph().clone()), bound, was_refused, stood_wrong })
+    }
+}
+
+impl Live<'_, '_> {
+    /// Returns a policy that has been written meanwhile and can take over: for a new request, or the rest of
+    /// an early start.
+    fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
+        if let Some(request) = self.awaited.take() {
+            let prepared = match self.planner.rest(Wait::Not) {
+                RemainingSteps::Coming => {
+                    self.awaited = Some(request);
+                    return None;
+                }
+                RemainingSteps::Whole(policy) => {
+                    let understood =
+                        Intent { spoken_of: self.talk.known.spoken_of.clone(), ..Intent::default() };
+                    self.prepared(&policy, understood, Some(request.clone()), engine)
+                }
+                RemainingSteps::Nothing | RemainingSteps::Broken | RemainingSteps::Stopped => None,
+            };
+            if prepared.is_none() {
+                self.pending = Some(Pending::Request(request));
+            }
+            return prepared;
+        }
+        let first = self.first.as_mut().filter(|first| first.rest.is_none())?;
+        let rest = self.planner.rest(Wait::Not);
+        if rest == RemainingSteps::Coming {
+            return None;
+        }
+        first.rest = Some(rest.clone());
+        let understood = first.understood.clone();
+        let RemainingSteps::Whole(policy) = rest else { return None };
+        self.prepared(&policy, understood, None, engine)
+    }
+
+    /// A policy that was written, ready to take over in what is believed now.
+    fn prepared(
+        &mut self,
+        policy: &str,
+        understood: Intent,
+        request: Option<String>,
+        engine: &Engine,
+    ) -> Option<PreparedSwap> {
+        let mut known = self.talk.known.clone();
+        known.learn_midway(engine, self.talk.base());
+        let scene = known.scene(&self.talk.setting.scene);
+        // Where the base is while it moves nobody knows beforehand.
+        let judged = judge(&self.talk.session(&scene, &known, None), policy);
+        // Other steps than were written are not slipped in: the request is planned anew.
+        let ReplyVerdict::Good { planned, changed, .. } = judged else { return None };
+        if !changed.is_empty() {
+            return None;
+        }
+        let prepared = PreparedSwap::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
+        self.next = Some((PlannedRequest { understood, planned: *planned }, request));
+        Some(prepared)
+    }
+}
+
+/// The last thing that a call names: where it leads.
+fn leads_to(graph: &Graph, node: NodeId, bound: &[(SmolStr, Value)]) -> Option<SmolStr> {
+    let NodeKind::Call(call) = &graph.nodes.get(node.index())?.kind else { return None };
+    call.args.iter().filter_map(|arg| named_entity(graph, bound, arg)).next_back()
+}
+
+fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
+    let Some(NodeKind::Call(call)) = graph.nodes.get(node.index()).map(|node| &node.kind) else {
+        return false;
+    };
+    graph.primitives.get(call.primitive.index()).is_some_and(|primitive| primitive.name == name)
+}
+
+/// Reads locations from a line that states them and requests nothing.
+fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
+    let understood = motet_requests::understand(said, situation).ok()?;
+    (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
+}
+
+impl Observer for Live<'_, '_> {
+    fn event(&mut self, now: Time, event: &Event) {
+        self.now = self.now.max(now);
+        self.talk.memory.event(now, event);
+        self.watcher.event(now, event);
+    }
+
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        self.now = self.now.max(now);
+        self.talk.memory.effect(now, effect);
+        if let Effect::Start { node, .. } = effect {
+            self.started.push(*node);
+        }
+        self.watcher.effect(now, effect);
+    }
+
+    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
+        let guard: &mut dyn Verifier = self.guard.as_mut()?;
+        Some(guard)
+    }
+
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.now = self.now.max(now);
+        let control = self.watcher.reached(now);
+        if self.pending.is_some() { RunControl::Stop } else { control }
+    }
+
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
+        if self.pending.is_some() || engine.is_over() {
+            return None;
+        }
+        let Some(said) = self.watcher.request(now) else { return self.written(engine) };
+        self.talk.memory.instruct(now, &said);
+        if polarity::stops(&said) {
+            self.pending = Some(Pending::Stop);
+            return None;
+        }
+        let request = match polarity::added(&said) {
+            Some(more) => format!("{} and {more}", self.task),
+            None => said,
+        };
+        let mut known = self.talk.known.clone();
+        let before = known.places(&self.talk.setting.scene);
+        known.learn_midway(engine, self.talk.base());
+        known.presume(&before);
+        let scene = known.scene(&self.talk.setting.scene);
+        if !self.planner.reads_answers()
+            && let Some(told) = statement(&request, &known.situation(&scene))
+        {
+            self.pending = Some(Pending::Statement(told));
+            return None;
+        }
+        let meant = std::mem::take(&mut self.meant);
+        let session = self.talk.session(&scene, &known, None);
+        let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
+        let image = self.talk.look(now);
+        let ask = PlanRequest { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
+        if self.planner.begin(&ask) {
+            (self.awaited, self.first) = (Some(request), None);
+            return None;
+        }
+        let planned =
+            self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
+        let prepared = planned.ok().and_then(|answered| {
+            let graph = answered.planned.compiled.graph.clone()?;
+            Some((PreparedSwap::new(graph, &engine.running()).ok()?, answered))
+        });
+        match prepared {
+            Some((prepared, answered)) => {
+                self.next = Some((answered, Some(request)));
+                Some(prepared)
+            }
+            // It needs a question, or another start: the robot stops, and it is the next request.
+            None => {
+                self.pending = Some(Pending::Request(request));
+                None
+            }
+        }
+    }
+
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
+        let next = self.next.take();
+        match (result, next) {
+            (Ok(retired), Some((answered, request))) => {
+                self.started.clear();
+                self.talk.memory.policy(now, retired.revision() + 1, graph.clone());
+                self.watcher.swapped(now, None);
+                self.watcher.planned(&answered, graph);
+                self.first = None;
+                if let Some(request) = request {
+                    self.task.clone_from(&request);
+                    self.request = Some(request);
+                }
+            }
+            (Err(refusal), Some((_, request))) => {
+                self.watcher.swapped(now, Some(&refusal));
+                if let Some(request) = request {
+                    self.pending = Some(Pending::Request(request));
+                }
+            }
+            (_, None) => {}
+        }
+    }
+
+    fn at_least_every(&self) -> Time {
+        self.watcher.at_least_every()
+    }
+}

@@ -1,0 +1,273 @@
+//! One request, pursued to its end: planned, run, tried again, asked about, and planned anew with the answer.
+
+use motet_robots::scene::Scene;
+use motet_runtime::{Driver, RunEnd, Time};
+use smol_str::SmolStr;
+
+use super::answer::{self, Answer};
+use super::conversation::{Conversation, Outcome};
+use super::early_start::After;
+use super::live_run::{Live, Pending, Ran};
+use super::observer::{DialogueObserver, Person};
+use super::polarity::{Polarity, polarity};
+use super::problem::{Kind, Problem};
+use crate::Planner;
+use crate::builtin::{PlanError, PlannedRequest};
+use motet_requests::{ReportedLocation, RequestError};
+
+/// The most policies for one request.
+const MAX_ROUNDS: usize = 12;
+/// The most questions for one request.
+const MAX_QUESTIONS: usize = 6;
+/// Number of new plans for a failed step before the robot asks a person.
+const TRIES: usize = 2;
+
+/// Progress of one request.
+struct Task {
+    request: String,
+    /// The request that it took the place of, which may not be done.
+    before: Option<String>,
+    /// Resolved meanings of ambiguous words.
+    meant: Vec<(String, SmolStr)>,
+    /// Further places to look for a thing, the next one first.
+    elsewhere: Vec<ReportedLocation>,
+    questions: usize,
+    tries: usize,
+}
+
+impl Task {
+    fn new(request: String, before: Option<String>) -> Self {
+        // Who says so replaces what was asked for before.
+        let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
+        let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
+        Self { request, before, meant: Vec::new(), elsewhere: Vec::new(), questions: 0, tries: 0 }
+    }
+}
+
+/// Result of a round.
+enum Next {
+    Round,
+    Over(Outcome),
+    /// A problem. The flag is set if a guard or the robot's place caused it, which another plan may avoid.
+    Problem(Problem, bool),
+}
+
+/// A request with all who have to do with it.
+pub(super) struct Pursuit<'r, 'a> {
+    talk: &'r mut Conversation<'a>,
+    planner: &'r mut dyn Planner,
+    person: &'r mut dyn Person,
+    watcher: &'r mut dyn DialogueObserver,
+    task: Task,
+    /// The latest time.
+    pub(super) now: Time,
+    /// The rest of a policy of which the first step was run.
+    ready: Option<PlannedRequest>,
+}
+
+impl<'r, 'a> Pursuit<'r, 'a> {
+    pub(super) fn new(
+        talk: &'r mut Conversation<'a>,
+        (planner, person, watcher): (&'r mut dyn Planner, &'r mut dyn Person, &'r mut dyn DialogueObserver),
+        request: &str,
+        now: Time,
+    ) -> Self {
+        let task = Task::new(request.to_owned(), None);
+        Self { talk, planner, person, watcher, task, now, ready: None }
+    }
+
+    /// To its end.
+    pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
+        let mut latest = None;
+        for _ in 0..MAX_ROUNDS {
+            let scene = self.talk.known.scene(&self.talk.setting.scene);
+            let proposed = match self.ready.take() {
+                Some(answered) => Ok(answered),
+                None => self.propose(&scene, driver.base()),
+            };
+            let next = match proposed {
+                Ok(answered) => self.run(answered, driver, &scene),
+                Err(why) => self.unplanned(&why, &scene),
+            };
+            let (problem, was_refused) = match next {
+                Next::Round => continue,
+                Next::Over(outcome) => return outcome,
+                Next::Problem(problem, was_refused) => (problem, was_refused),
+            };
+            // What merely did not work, or was not as it was believed, is tried again before somebody is troubled.
+            if (problem.kind == Kind::ActionFailed || was_refused) && self.task.tries < TRIES {
+                self.task.tries += 1;
+                continue;
+            }
+            if self.looks_elsewhere(&problem) {
+                continue;
+            }
+            latest = Some(problem.clone());
+            if let Some(outcome) = self.ask(problem, &scene) {
+                return outcome;
+            }
+        }
+        let nothing = || Problem::nothing("I have tried as often as I may. What shall I do?");
+        Outcome::Failed(latest.unwrap_or_else(nothing))
+    }
+
+    fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<PlannedRequest, PlanError> {
+        let session = self.talk.session(scene, &self.talk.known, base);
+        let image = self.talk.look(self.now);
+        let world = (&session, scene, &self.talk.known);
+        self.talk.plan_for((&self.task.request, image.as_ref()), &self.task.meant, self.planner, world)
+    }
+
+    /// Runs a policy, and sees what became of it.
+    fn run(&mut self, answered: PlannedRequest, driver: &mut dyn Driver, scene: &Scene) -> Next {
+        let told = (self.task.request.clone(), self.task.meant.clone());
+        let mut live = Live::new(self.talk, &mut *self.planner, &mut *self.watcher, told, self.now);
+        let ran = live.run(answered, driver, scene);
+        self.now = live.now;
+        let (pending, first, request) = (live.pending.take(), live.first.take(), live.request.take());
+        if let Some(request) = request {
+            let before = std::mem::take(&mut self.task.request);
+            self.task = Task { tries: self.task.tries, ..Task::new(request, Some(before)) };
+        }
+        let Ran { end, graph, bound, was_refused, stood_wrong } = match ran {
+            Ok(ran) => ran,
+            Err(problem) => return Next::Over(Outcome::Failed(problem)),
+        };
+        match (pending, &end) {
+            (Some(Pending::Request(request)), _) => {
+                self.talk.hear(&request);
+                let before = std::mem::take(&mut self.task.request);
+                self.task = Task::new(request, Some(before));
+                return Next::Round;
+            }
+            (Some(Pending::Statement(located)), _) => {
+                located.iter().for_each(|one| self.talk.known.hear(one));
+                return Next::Round;
+            }
+            (Some(Pending::Stop), _) => return Next::Over(Outcome::GivenUp),
+            (None, RunEnd::Interrupted) => return Next::Over(Outcome::Stopped),
+            (None, _) => {}
+        }
+        if let (Some(first), RunEnd::Done { .. }) = (first, &end) {
+            match self.talk.after_first(first, self.planner, driver.base()) {
+                After::Done => return Next::Over(Outcome::Done),
+                After::Stopped => return Next::Over(Outcome::Stopped),
+                After::Runs(answered) => self.ready = Some(*answered),
+                After::PlansAnew => {}
+            }
+            return Next::Round;
+        }
+        if stood_wrong {
+            self.talk.known.doubt_standing();
+        }
+        match Problem::of_run(&end, (&graph, &bound), scene) {
+            Some(problem) => Next::Problem(problem, was_refused || stood_wrong),
+            None => self.done(),
+        }
+    }
+
+    /// Takes in the first place of each thing; gives the others, in order.
+    fn hear_first(&mut self, located: Vec<ReportedLocation>) -> Vec<ReportedLocation> {
+        let mut heard: Vec<SmolStr> = Vec::new();
+        let mut others = Vec::new();
+        for one in located {
+            if heard.contains(&one.thing) {
+                others.push(one);
+            } else {
+                self.talk.known.hear(&one);
+                heard.push(one.thing);
+            }
+        }
+        others
+    }
+
+    /// Moves on to the next place where a person said the thing might be. Returns `false` if there is none.
+    fn looks_elsewhere(&mut self, problem: &Problem) -> bool {
+        let elsewhere = &mut self.task.elsewhere;
+        let next = elsewhere.iter().position(|next| Some(&next.thing) == problem.about.as_ref());
+        let Some(next) = next.filter(|_| problem.kind == Kind::NotFound) else { return false };
+        self.talk.known.hear(&elsewhere.remove(next));
+        true
+    }
+
+    /// A request is done. What it took the place of may not be.
+    fn done(&mut self) -> Next {
+        let Some(before) = self.task.before.take() else { return Next::Over(Outcome::Done) };
+        self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
+    }
+
+    /// There is no policy.
+    fn unplanned(&mut self, why: &PlanError, scene: &Scene) -> Next {
+        let problem = Problem::of_planning(why, scene);
+        match (why, self.task.before.clone()) {
+            (PlanError::Stopped, _) => Next::Over(Outcome::Stopped),
+            // No answer of a person brings a model back.
+            (PlanError::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
+            // Something that is not understood was said in between.
+            (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
+                let question = Problem::interrupted(&self.task.request, &before);
+                self.goes_on(&question, before, Outcome::GivenUp)
+            }
+            (_, _) => Next::Problem(problem, false),
+        }
+    }
+
+    /// Goes on with what was asked for before, where a person says yes.
+    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> Next {
+        let answer = self.person.ask(question);
+        self.watcher.asked(question, answer.as_deref());
+        if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
+            return Next::Over(or);
+        }
+        self.task = Task::new(before, None);
+        Next::Round
+    }
+
+    /// Asks a person what to do about a problem, until the answer is understood; the outcome, where that ends it.
+    fn ask(&mut self, problem: Problem, scene: &Scene) -> Option<Outcome> {
+        // What an answer says beside what is understood of it is for who plans.
+        let is_told = self.planner.reads_answers();
+        let mut question = problem.clone();
+        let (answer, meaning) = loop {
+            if self.task.questions >= MAX_QUESTIONS {
+                return Some(Outcome::Failed(problem));
+            }
+            self.task.questions += 1;
+            let answer = self.person.ask(&question);
+            self.watcher.asked(&question, answer.as_deref());
+            let Some(answer) = answer else {
+                let stopped = self.watcher.is_stopped();
+                return Some(if stopped { Outcome::Stopped } else { Outcome::Failed(problem) });
+            };
+            let situation = self.talk.known.situation(scene);
+            let meaning = answer::read(&answer, &problem, &self.task.request, &situation);
+            if meaning != Answer::NotUnderstood || is_told {
+                break (answer, meaning);
+            }
+            question.question = format!("I did not understand that. {}", problem.question);
+        };
+        match meaning {
+            Answer::GiveUp => return Some(Outcome::GivenUp),
+            Answer::Request(request) => {
+                self.talk.memory.instruct(self.now, &request);
+                self.talk.hear(&request);
+                // What is asked for where something could not be done may be a help to it.
+                let helps = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
+                let earlier = std::mem::take(&mut self.task.request);
+                let before = helps.then_some(earlier).or(self.task.before.take());
+                self.task = Task { questions: self.task.questions, ..Task::new(request, before) };
+                return None;
+            }
+            Answer::Again => self.task.tries = 0,
+            Answer::Means { said, ids } => {
+                self.task.meant.extend(ids.into_iter().map(|id| (said.clone(), id)));
+            }
+            Answer::ReportedLocation(located) => self.task.elsewhere = self.hear_first(located),
+            Answer::NotUnderstood => {}
+        }
+        if is_told {
+            self.talk.memory.instruct(self.now, &answer);
+        }
+        None
+    }
+}

@@ -1,0 +1,298 @@
+//! Obstacles to a request, by the kinds of InteLiPlan's table of failures, and the one question that each
+//! leads to.
+
+use motet_graph::{Graph, NodeKind, Term, Value};
+use motet_robots::scene::Scene;
+use motet_runtime::RunEnd;
+use motet_syntax::render::capital;
+use smol_str::SmolStr;
+
+use crate::builtin::PlanError;
+use motet_requests::RequestError;
+
+/// The kinds of failure.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Kind {
+    /// The requested thing is missing, or not where it was believed to be.
+    NotFound,
+    /// No motion leads there, or something is in the way.
+    NotReachable,
+    /// More than one thing is called so.
+    AmbiguousReference,
+    /// It is not clear what to do.
+    AmbiguousTask,
+    /// A step was tried and did not work.
+    ActionFailed,
+}
+
+/// A problem with its question.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Problem {
+    pub kind: Kind,
+    /// Description of the problem, and a question about the next step.
+    pub question: String,
+    /// Possible answers; empty if any answer is possible.
+    pub options: Vec<SmolStr>,
+    /// The thing that it is about.
+    pub about: Option<SmolStr>,
+    /// As it was said, where words are the problem.
+    pub said: Option<String>,
+}
+
+impl Kind {
+    /// As it is written in records and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NotFound => "not_found",
+            Self::NotReachable => "not_reachable",
+            Self::AmbiguousReference => "ambiguous_reference",
+            Self::AmbiguousTask => "ambiguous_task",
+            Self::ActionFailed => "action_failed",
+        }
+    }
+}
+
+impl Problem {
+    /// Problem behind a request that got no policy.
+    #[must_use]
+    pub fn of_planning(why: &PlanError, scene: &Scene) -> Self {
+        let bare =
+            |kind, question: String| Self { kind, question, options: Vec::new(), about: None, said: None };
+        match why {
+            PlanError::RequestError(RequestError::NotUnderstood { part }) => Self {
+                said: Some(part.clone()),
+                ..bare(Kind::AmbiguousTask, format!("I do not understand \"{part}\". What shall I do?"))
+            },
+            PlanError::RequestError(RequestError::NotFound { what }) => Self {
+                said: Some(what.clone()),
+                ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
+            },
+            PlanError::RequestError(RequestError::Unfit { why }) => {
+                bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capital(why)))
+            }
+            PlanError::RequestError(RequestError::Elsewhere { why, thing }) => Self {
+                options: holders(scene),
+                about: Some(thing.clone()),
+                ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capital(why)))
+            },
+            PlanError::RequestError(RequestError::AmbiguousReference { what, options }) => {
+                let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
+                let noun = bare_noun(what);
+                let question = format!(
+                    "I know {} that could be the {noun}: {}. Which one?",
+                    number(options.len()),
+                    join(&seen)
+                );
+                Self {
+                    options: options.clone(),
+                    said: Some(what.clone()),
+                    ..bare(Kind::AmbiguousReference, question)
+                }
+            }
+            PlanError::RequestError(RequestError::AmbiguousTask { question, options }) => {
+                Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
+            }
+            PlanError::NoModel { .. } | PlanError::Stopped => bare(Kind::ActionFailed, why.to_string()),
+            PlanError::NoPlan(_) | PlanError::Refused { .. } => {
+                bare(Kind::NotReachable, format!("I cannot do that: {why}. What shall I do instead?"))
+            }
+        }
+    }
+
+    /// Problem behind the ending of a run, named with its bindings. `None` if the run is done or a person
+    /// stopped it.
+    #[must_use]
+    pub fn of_run(
+        end: &RunEnd,
+        (graph, bound): (&Graph, &[(SmolStr, Value)]),
+        scene: &Scene,
+    ) -> Option<Self> {
+        match end {
+            RunEnd::Done { .. } | RunEnd::Interrupted => None,
+            RunEnd::Failed { kind, why, node } => {
+                Some(failed((kind, why.as_deref()), *node, (graph, bound), scene))
+            }
+            RunEnd::Replan { why } => Some(Self {
+                kind: Kind::ActionFailed,
+                question: format!(
+                    "I had to stop: {}. Shall I try again?",
+                    why.as_deref().unwrap_or("the plan no longer fits")
+                ),
+                options: vec!["yes".into(), "no".into()],
+                about: None,
+                said: None,
+            }),
+            RunEnd::Fault(fault) => Some(Self {
+                kind: Kind::ActionFailed,
+                question: format!("I could not go on: {fault}. Shall I try again?"),
+                options: vec!["yes".into(), "no".into()],
+                about: None,
+                said: None,
+            }),
+        }
+    }
+}
+
+fn failed(
+    (kind, why): (&str, Option<&str>),
+    node: motet_graph::NodeId,
+    (graph, bound): (&Graph, &[(SmolStr, Value)]),
+    scene: &Scene,
+) -> Problem {
+    let call = graph.nodes.get(node.index()).and_then(|node| match &node.kind {
+        NodeKind::Call(call) => Some(call),
+        _ => None,
+    });
+    let primitive = call.and_then(|call| graph.primitives.get(call.primitive.index()));
+    let args = || call.into_iter().flat_map(|call| &call.args);
+    let entity = |arg: &Term| named_entity(graph, bound, arg);
+    // What cannot be got at is where the step leads last: of what is put somewhere the place, since the thing is in the hand.
+    let about = match (kind, args().next()) {
+        ("unreachable" | "blocked", _) => args().filter_map(entity).next_back(),
+        // Who looks for a thing by words names it first.
+        (_, Some(Term::Literal(Value::Text(text)))) => Some(SmolStr::from(text.as_str())),
+        (_, _) => args().find_map(entity),
+    };
+    let thing =
+        about.as_ref().map_or_else(|| "what I need".to_owned(), |id| format!("the {}", called(scene, id)));
+    let doing =
+        primitive.map_or_else(|| "a step".to_owned(), |primitive| format!("{}({thing})", primitive.name));
+    let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
+        "not_found" => (
+            Kind::NotFound,
+            format!("I cannot find {thing}{}. Where is it?", believed(scene, about.as_ref())),
+            holders(scene),
+        ),
+        "ambiguous" => (
+            Kind::AmbiguousReference,
+            format!("More than one thing could be {thing}. Which one?"),
+            Vec::new(),
+        ),
+        "blocked" if primitive.is_some_and(|primitive| primitive.name == "place") => {
+            let held = args().find_map(entity).filter(|held| Some(held) != about.as_ref());
+            let held = held.map_or_else(|| "it".to_owned(), |id| format!("the {}", called(scene, &id)));
+            let others = holders(scene).into_iter().filter(|id| Some(id) != about.as_ref()).collect();
+            let question = format!(
+                "I find no room on {thing} from where I can reach it. Where else shall I put {held}?"
+            );
+            (Kind::NotReachable, question, others)
+        }
+        "unreachable" | "blocked" => (
+            Kind::NotReachable,
+            format!("I cannot reach {thing}: {doing} is {kind}. What shall I do?"),
+            vec!["try again".into(), "leave it".into()],
+        ),
+        "too_heavy" => (
+            Kind::NotReachable,
+            format!("I cannot lift {thing}, it is too heavy. What shall I do?"),
+            vec!["leave it".into()],
+        ),
+        _ => (
+            Kind::ActionFailed,
+            format!(
+                "{doing} did not work: {}. Shall I try again?",
+                why.map_or_else(|| kind.replace('_', " "), ToOwned::to_owned)
+            ),
+            vec!["yes".into(), "no".into()],
+        ),
+    };
+    Problem { kind, question, options, about, said: None }
+}
+
+/// Surfaces and containers that can hold a thing.
+fn holders(scene: &Scene) -> Vec<SmolStr> {
+    let holds =
+        scene.entities.values().filter(|entity| matches!(entity.kind.as_str(), "Surface" | "Container"));
+    holds.map(|entity| entity.id.clone()).collect()
+}
+
+/// ` on the counter`, where a thing was thought to be.
+fn believed(scene: &Scene, id: Option<&SmolStr>) -> String {
+    let entity = id.and_then(|id| scene.entities.get(id));
+    match entity.map(|entity| (&entity.on, &entity.inside)) {
+        Some((Some(support), _)) => format!(" on the {}", called(scene, support)),
+        Some((None, Some(container))) => format!(" in the {}", called(scene, container)),
+        Some((None, None)) | None => String::new(),
+    }
+}
+
+/// Name of a thing in speech: its first other name, or its id in words.
+#[must_use]
+pub(crate) fn called(scene: &Scene, id: &str) -> String {
+    let entity = scene.entities.get(id);
+    let name = entity.and_then(|entity| entity.names.first());
+    name.map_or_else(|| id.replace(['_', '-'], " "), ToString::to_string)
+}
+
+/// `the red mug on the table`
+fn described(scene: &Scene, id: &SmolStr) -> String {
+    format!("the {}{}", called(scene, id), believed(scene, Some(id)))
+}
+
+fn bare_noun(said: &str) -> &str {
+    let articles = ["the ", "a ", "an ", "some ", "my ", "that ", "this "];
+    articles.iter().find_map(|article| said.strip_prefix(article)).unwrap_or(said)
+}
+
+fn number(count: usize) -> String {
+    match count {
+        2 => "two things".to_owned(),
+        3 => "three things".to_owned(),
+        more => format!("{more} things"),
+    }
+}
+
+fn join(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [only] => only.clone(),
+        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+impl Problem {
+    /// The request made in between is done; the earlier request may not be.
+    pub(super) fn half_done(before: &str) -> Self {
+        Self::whether(format!("That is done. Shall I go on with \"{before}\"?"))
+    }
+
+    /// Words spoken in between could not be read.
+    pub(super) fn interrupted(said: &str, before: &str) -> Self {
+        Self::whether(format!(
+            "I do not understand \"{said}\", so I have stopped. Shall I go on with \"{before}\"?"
+        ))
+    }
+
+    fn whether(question: String) -> Self {
+        let options = vec!["yes".into(), "no".into()];
+        Self { kind: Kind::AmbiguousTask, question, options, about: None, said: None }
+    }
+
+    /// Something that no answer mends.
+    pub(super) fn nothing(what: &str) -> Self {
+        Self {
+            kind: Kind::ActionFailed,
+            question: what.to_owned(),
+            options: Vec::new(),
+            about: None,
+            said: None,
+        }
+    }
+}
+
+/// The entity that an argument names, by itself or by what it is bound to.
+pub(super) fn named_entity(graph: &Graph, bound: &[(SmolStr, Value)], arg: &Term) -> Option<SmolStr> {
+    let value = match arg {
+        Term::Literal(value) => value,
+        Term::Binding(id) => {
+            let name = &graph.bindings.get(id.index())?.name;
+            bound.iter().find(|(known, _)| known == name).map(|(_, value)| value)?
+        }
+        _ => return None,
+    };
+    match value {
+        Value::Entity(id) => Some(id.clone()),
+        _ => None,
+    }
+}

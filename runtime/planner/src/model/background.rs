@@ -1,0 +1,137 @@
+//! A policy whose first step begins while the rest is still being written.
+//!
+//! The first step is a policy of its own once it is complete, provided that nothing behind it can speak against it: all that
+//! it needs is proven and its motions have witnesses, where motions are computed. What follows can still turn out to be
+//! wrong; then it is planned anew from where that step has led.
+
+use std::time::Duration;
+
+use motet_compiler::Session;
+use motet_graph::{Graph, NodeKind, Value, Verdict as Proof};
+use serde_json::{Map, Value as Json};
+use smol_str::SmolStr;
+
+use super::chat::{Finish, ModelError, News, Reply};
+use super::reply_verdict::{ReplyVerdict, judge};
+use super::stream_reader::{StreamReader, StreamVerdict};
+use crate::builtin::Planned;
+
+/// The rest of a policy whose first step was given out.
+pub(super) struct Later {
+    pub(super) reply: Box<dyn Reply>,
+    pub(super) reading: StreamReader<'static>,
+    pub(super) round: u32,
+}
+
+/// Progress of the remaining policy.
+pub(super) enum Came {
+    /// Something, and not yet all.
+    Some(String),
+    Nothing,
+    /// The whole policy.
+    Whole(String),
+    /// Nothing that can be used.
+    Wrong(Vec<motet_syntax::Diagnostic>),
+    Failed(ModelError),
+}
+
+impl Later {
+    /// Reads on, waiting at most so long.
+    pub(super) fn next(&mut self, wait: Duration) -> Came {
+        match self.reply.next(wait) {
+            News::Nothing | News::Retrying { .. } => Came::Nothing,
+            News::Piece(piece) => match self.reading.push(&piece) {
+                StreamVerdict::GoOn | StreamVerdict::Steps(_) => Came::Some(piece),
+                StreamVerdict::Whole => Came::Whole(self.reading.policy().to_owned()),
+                StreamVerdict::Wrong(wrong) => Came::Wrong(wrong.findings),
+            },
+            // A reply in the text form is no object that could be followed.
+            News::End(Finish::Stop) if self.reading.policy().is_empty() => {
+                Came::Whole(self.reading.reply().to_owned())
+            }
+            News::End(Finish::Stop) => Came::Whole(self.reading.policy().to_owned()),
+            News::End(Finish::Length) => {
+                Came::Failed(ModelError::CutOff { why: "it had written as much as it may".to_owned() })
+            }
+            News::Failed(why) => Came::Failed(why),
+        }
+    }
+}
+
+/// The first step of a policy that is being written, as a policy of its own, where it may begin.
+pub(super) fn first_step(session: &Session, policy: &str) -> Option<Box<Planned>> {
+    let mut policy: Map<String, Json> = serde_json::from_str(policy).ok()?;
+    // What the whole policy reaches, one step need not.
+    policy.remove("achieves");
+    match judge(session, &Json::Object(policy).to_string()) {
+        ReplyVerdict::Good { planned, mended, .. } if mended.is_empty() => {
+            let graph = planned.compiled.graph.as_ref()?;
+            is_certain(graph).then_some(planned)
+        }
+        ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => None,
+    }
+}
+
+/// Returns `true` if the graph acts, and no guard or motion is deferred.
+fn is_certain(graph: &Graph) -> bool {
+    let mut calls = 0;
+    let certain = graph.nodes.iter().all(|node| match &node.kind {
+        NodeKind::Call(call) => {
+            calls += 1;
+            let is_deferred =
+                |motion: &motet_graph::Motion| motion.verdict == Proof::Deferred && motion.why.is_some();
+            call.needs.iter().all(|need| need.verdict == Proof::Proven)
+                && !call.motion.as_ref().is_some_and(is_deferred)
+        }
+        NodeKind::End { .. } => false,
+        _ => true,
+    });
+    certain && calls > 0
+}
+
+/// A policy without its first step, in which names of that step stand for what they were bound to; none where nothing is
+/// left of it.
+///
+/// # Errors
+///
+/// It is no policy as a whole.
+pub fn without_first_step(
+    policy: &str,
+    bound: &[(SmolStr, Value)],
+) -> Result<Option<String>, serde_json::Error> {
+    let mut policy: Map<String, Json> = serde_json::from_str(policy)?;
+    let Some(Json::Array(steps)) = policy.get_mut("steps") else { return Ok(None) };
+    if steps.len() < 2 {
+        return Ok(None);
+    }
+    steps.remove(0);
+    steps.iter_mut().for_each(|step| fill_in(step, bound));
+    Ok(Some(Json::Object(policy).to_string()))
+}
+
+fn fill_in(json: &mut Json, bound: &[(SmolStr, Value)]) {
+    match json {
+        Json::String(text) => {
+            let value = text.strip_prefix('$').and_then(|name| bound.iter().find(|(known, _)| known == name));
+            if let Some(value) = value.and_then(|(_, value)| written(value)) {
+                *json = value;
+            }
+        }
+        Json::Array(items) => items.iter_mut().for_each(|item| fill_in(item, bound)),
+        Json::Object(keys) => keys.values_mut().for_each(|value| fill_in(value, bound)),
+        Json::Null | Json::Bool(_) | Json::Number(_) => {}
+    }
+}
+
+/// A value as a policy has it; none of a pose, which has no name.
+fn written(value: &Value) -> Option<Json> {
+    Some(match value {
+        Value::Entity(name) | Value::Case(name) => Json::String(name.to_string()),
+        Value::Text(text) => Json::String(text.to_string()),
+        Value::List(items) => Json::Array(items.iter().map(written).collect::<Option<_>>()?),
+        Value::Bool(value) => Json::Bool(*value),
+        Value::Int(value) => Json::from(*value),
+        Value::Number(value) => Json::from(*value),
+        Value::Pose(_) => return None,
+    })
+}

@@ -1,0 +1,197 @@
+//! Motions that the compiler left to the run, checked in the room as the run has left it, by the geometry that the compiler
+//! itself uses.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
+
+use motet_compiler::{Course, Prospect};
+use motet_graph::Value;
+use motet_runtime::{
+    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
+    Time, Verification, Verifier,
+};
+
+/// Time that the engine waits for a verdict: longer than any search within its budget.
+pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
+
+/// Checks motions along the way that a run takes.
+#[derive(Debug)]
+pub struct Guard(How);
+
+#[derive(Debug)]
+enum How {
+    /// In the calls themselves.
+    AtOnce { way: SearchPath, verdicts: VecDeque<(CheckId, Verification)> },
+    /// On a thread of its own, which is told everything in order and ends once nobody tells it any more.
+    Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
+}
+
+/// When motions are searched for that were left to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CheckMode {
+    /// When they are asked for, which takes no time where time is virtual: a run is the same each time.
+    AtOnce,
+    /// On a thread of its own: who runs a robot is not kept waiting, neither by a search for a motion nor by what follows from a
+    /// step for the next.
+    Beside,
+}
+
+/// Message to a guard's thread.
+#[derive(Debug)]
+enum GuardMessage {
+    Reported(DriverEvent),
+    Began(GoalId, Arc<Command>),
+    Asked(CheckId, Arc<DeferredMotion>),
+}
+
+impl Guard {
+    /// For a run that begins where a course does.
+    #[must_use]
+    pub fn new(course: Course, verifies: CheckMode) -> Self {
+        match verifies {
+            CheckMode::AtOnce => {
+                let way = SearchPath { course, live: BTreeMap::new() };
+                Self(How::AtOnce { way, verdicts: VecDeque::new() })
+            }
+            CheckMode::Beside => Self::beside(course),
+        }
+    }
+
+    fn beside(course: Course) -> Self {
+        let (thread, told) = mpsc::channel();
+        let (answers, verdicts) = mpsc::channel();
+        std::thread::spawn(move || {
+            let mut way = SearchPath { course, live: BTreeMap::new() };
+            for one in told {
+                if let Some(verdict) = way.hear(one)
+                    && answers.send(verdict).is_err()
+                {
+                    return;
+                }
+            }
+        });
+        Self(How::Beside { thread, verdicts, awaited: 0 })
+    }
+
+    fn tell(&mut self, told: GuardMessage) {
+        match &mut self.0 {
+            How::AtOnce { way, verdicts } => verdicts.extend(way.hear(told)),
+            How::Beside { thread, awaited, .. } => {
+                *awaited += usize::from(matches!(told, GuardMessage::Asked(..)));
+                // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
+                let _ = thread.send(told);
+            }
+        }
+    }
+}
+
+impl Verifier for Guard {
+    fn event(&mut self, event: &Event) {
+        if let Event::Driver(event) = event {
+            self.tell(GuardMessage::Reported(event.clone()));
+        }
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        if let Effect::Start { goal, command, .. } | Effect::Update { goal, command, .. } = effect {
+            self.tell(GuardMessage::Began(*goal, Arc::clone(command)));
+        }
+    }
+
+    fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>) {
+        self.tell(GuardMessage::Asked(check, Arc::clone(motion)));
+    }
+
+    fn verdict(&mut self) -> Option<(CheckId, Verification)> {
+        match &mut self.0 {
+            How::AtOnce { verdicts, .. } => verdicts.pop_front(),
+            How::Beside { verdicts, awaited, .. } => {
+                let verdict = verdicts.try_recv();
+                match verdict {
+                    Ok(_) => *awaited = awaited.saturating_sub(1),
+                    Err(TryRecvError::Empty) => {}
+                    Err(TryRecvError::Disconnected) => *awaited = 0,
+                }
+                verdict.ok()
+            }
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        match &self.0 {
+            How::AtOnce { .. } => false,
+            How::Beside { awaited, .. } => *awaited > 0,
+        }
+    }
+}
+
+/// The way of a run, followed from what is told of it.
+#[derive(Debug)]
+struct SearchPath {
+    course: Course,
+    live: BTreeMap<GoalId, Arc<Command>>,
+}
+
+impl SearchPath {
+    /// Takes something in; gives the verdict where that is a question.
+    fn hear(&mut self, told: GuardMessage) -> Option<(CheckId, Verification)> {
+        match told {
+            GuardMessage::Reported(event) => self.report(&event),
+            GuardMessage::Began(goal, command) => self.began(goal, command),
+            GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),
+        }
+        None
+    }
+
+    fn report(&mut self, event: &DriverEvent) {
+        match event {
+            DriverEvent::Ended { goal, outcome } => {
+                let Some(command) = self.live.remove(goal) else { return };
+                match outcome {
+                    Outcome::Success(value) => {
+                        self.course.succeeded(&command.primitive, &command.args, value.as_ref());
+                    }
+                    Outcome::Failure(_) | Outcome::Interrupted => self.course.stopped(&command.primitive),
+                }
+            }
+            DriverEvent::Refused { goal, .. } => {
+                if let Some(command) = self.live.remove(goal) {
+                    self.course.refused(&command.primitive);
+                }
+            }
+            DriverEvent::Stopped { goal } => {
+                if let Some(command) = self.live.remove(goal) {
+                    self.course.stopped(&command.primitive);
+                }
+            }
+            DriverEvent::Observed { query: Query::Fact { fluent, args }, answer: Answer::Truth(holds) } => {
+                if let [Pattern::Is(Value::Entity(entity))] = args.as_slice() {
+                    self.course.observed(fluent, entity, *holds);
+                }
+            }
+            DriverEvent::Observed { .. }
+            | DriverEvent::Acknowledged { .. }
+            | DriverEvent::Feedback { .. } => {}
+            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+        }
+    }
+
+    fn began(&mut self, goal: GoalId, command: Arc<Command>) {
+        let name = command.primitive.clone();
+        // What an updated goal did before was interrupted.
+        if let Some(before) = self.live.insert(goal, command) {
+            self.course.stopped(&before.primitive);
+        }
+        self.course.began(&name);
+    }
+
+    fn motion(&self, motion: &DeferredMotion) -> Verification {
+        let Command { primitive, args, .. } = &*motion.command;
+        match self.course.motion(primitive, args, &motion.query, &motion.args) {
+            Prospect::Feasible => Verification::Feasible,
+            Prospect::Infeasible { failure, why } => Verification::Infeasible { failure, why: why.into() },
+            Prospect::Unknown { why } => Verification::Unknown { why: why.into() },
+        }
+    }
+}

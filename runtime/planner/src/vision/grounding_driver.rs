@@ -1,0 +1,303 @@
+//! A driver whose `ground` asks a model. The question goes out on a thread of its own: engine and world go on meanwhile,
+//! and the world's time runs no faster than the clock as long as an answer is awaited.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::time::{Duration, Instant};
+
+use motet_graph::{Pose, Value};
+use motet_robots::scene::Scene;
+use motet_runtime::{
+    Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Perception, Query, RgbdView, Time,
+};
+use smol_str::SmolStr;
+
+use super::ground::{NoPoint, Pointer, ground};
+use crate::dialogue::called;
+
+/// Primitive that is answered here and not by the driver.
+const GROUND: &str = "ground";
+/// Waiting time for an answer before the world advances.
+const SLICE: Duration = Duration::from_millis(5);
+
+/// A question for a point that was answered, or not.
+#[derive(Clone, Copy, Debug)]
+pub struct GroundedPoint<'a> {
+    pub object: &'a SmolStr,
+    /// Purpose of the point.
+    pub used_for: &'a SmolStr,
+    /// The pose, or why there is none.
+    pub found: &'a Result<Pose, NoPoint>,
+}
+
+/// A driver beside somebody who is asked for points. It keeps the laws of the driver within, with this exception to the
+/// sixth: when an answer comes only its giver knows.
+pub struct GroundingDriver<'d> {
+    driver: &'d mut dyn Driver,
+    eyes: &'d mut dyn Perception,
+    scene: &'d Scene,
+    listener: Box<dyn FnMut(GroundedPoint<'_>) + 'd>,
+    questions: Sender<Question>,
+    answers: Receiver<(u64, Result<Pose, NoPoint>)>,
+    /// Open questions by goal.
+    asked: BTreeMap<GoalId, Asked>,
+    /// The goals that were never the driver's.
+    own: BTreeSet<GoalId>,
+    /// Number of questions so far.
+    count: u64,
+    outbox: VecDeque<(Time, DriverEvent)>,
+    now: Time,
+}
+
+/// A question on its way.
+struct Question {
+    number: u64,
+    view: RgbdView,
+    object: String,
+    used_for: String,
+    is_wanted: Arc<AtomicBool>,
+}
+
+/// A goal that waits for an answer.
+struct Asked {
+    number: u64,
+    object: SmolStr,
+    used_for: SmolStr,
+    /// When it was asked, by the world and by the clock.
+    at: Time,
+    clock: Instant,
+    is_wanted: Arc<AtomicBool>,
+}
+
+impl Drop for Asked {
+    fn drop(&mut self) {
+        self.is_wanted.store(false, Ordering::Relaxed);
+    }
+}
+
+impl<'d> GroundingDriver<'d> {
+    /// Puts somebody who points beside a driver. The thread on which they are asked ends after this, once its last question
+    /// is answered.
+    #[must_use]
+    pub fn new(
+        driver: &'d mut dyn Driver,
+        eyes: &'d mut dyn Perception,
+        scene: &'d Scene,
+        mut pointer: Box<dyn Pointer + Send>,
+    ) -> Self {
+        let (questions, inbox) = mpsc::channel::<Question>();
+        let (replies, answers) = mpsc::channel();
+        std::thread::spawn(move || {
+            for Question { number, view, object, used_for, is_wanted } in inbox {
+                // It was cancelled before its turn came.
+                if !is_wanted.load(Ordering::Relaxed) {
+                    continue;
+                }
+                let found = ground(&mut *pointer, &view, &object, &used_for);
+                if replies.send((number, found)).is_err() {
+                    return;
+                }
+            }
+        });
+        Self {
+            driver,
+            eyes,
+            scene,
+            listener: Box::new(|_| {}),
+            questions,
+            answers,
+            asked: BTreeMap::new(),
+            own: BTreeSet::new(),
+            count: 0,
+            outbox: VecDeque::new(),
+            now: Time::ZERO,
+        }
+    }
+
+    /// Tells somebody what becomes of each question that was waited for.
+    #[must_use]
+    pub fn with_listener(self, listener: impl FnMut(GroundedPoint<'_>) + 'd) -> Self {
+        Self { listener: Box::new(listener), ..self }
+    }
+
+    /// Sends a question out; false where there is nothing to ask about.
+    fn ask(&mut self, now: Time, goal: GoalId, command: &Command) -> bool {
+        let (Some(Value::Entity(object)), Some(Value::Text(used_for))) =
+            (command.arg("object"), command.arg("use"))
+        else {
+            return false;
+        };
+        let Some(view) = self.eyes.view(now, object) else {
+            (self.listener)(GroundedPoint { object, used_for, found: &Err(NoPoint::Unseen) });
+            return false;
+        };
+        self.count += 1;
+        let is_wanted = Arc::new(AtomicBool::new(true));
+        let question = Question {
+            number: self.count,
+            view,
+            object: called(self.scene, object),
+            used_for: used_for.to_string(),
+            is_wanted: Arc::clone(&is_wanted),
+        };
+        let (object, used_for) = (object.clone(), used_for.clone());
+        let (number, clock) = (self.count, Instant::now());
+        self.asked.insert(goal, Asked { number, object, used_for, at: now, clock, is_wanted });
+        self.questions.send(question).is_ok()
+    }
+
+    fn end(&mut self, at: Time, goal: GoalId, outcome: Outcome) {
+        self.asked.remove(&goal);
+        self.outbox.push_back((at, DriverEvent::Ended { goal, outcome }));
+    }
+
+    /// Takes an answer in. One that nobody waits for any more is dropped.
+    fn take(&mut self, number: u64, found: Result<Pose, NoPoint>) {
+        let waiting = self.asked.iter().find(|(_, asked)| asked.number == number);
+        let Some((goal, asked)) = waiting.map(|(goal, asked)| (*goal, asked)) else { return };
+        let at = self.now.max(asked.due());
+        (self.listener)(GroundedPoint { object: &asked.object, used_for: &asked.used_for, found: &found });
+        let outcome = match found {
+            Ok(pose) => Outcome::Success(Some(Value::Pose(pose))),
+            Err(why) => Outcome::Failure(SmolStr::new_static(why.failure())),
+        };
+        self.end(at, goal, outcome);
+    }
+
+    /// Next report that is due by a time.
+    fn due(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        let (at, event) = self.outbox.pop_front()?;
+        // The clock is ahead of the world by the length of a slice at most.
+        self.now = self.now.max(at.min(until));
+        Some((self.now, event))
+    }
+
+    /// Lets the driver go on.
+    fn forward(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        let event = self.driver.advance(until);
+        let reached = event.as_ref().map_or(until, |(at, _)| *at);
+        if reached != Time::NEVER {
+            self.now = self.now.max(reached);
+        }
+        event
+    }
+}
+
+impl Asked {
+    /// Time that the world may have reached: as much later than the question as the clock is.
+    fn due(&self) -> Time {
+        Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
+    }
+}
+
+impl Driver for GroundingDriver<'_> {
+    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
+        if command.primitive != GROUND {
+            return self.driver.start(now, goal, command);
+        }
+        self.now = self.now.max(now);
+        self.own.insert(goal);
+        self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
+        if !self.ask(now, goal, command) {
+            self.end(now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+        }
+    }
+
+    fn cancel(&mut self, now: Time, goal: GoalId) {
+        if self.asked.contains_key(&goal) {
+            self.end(now, goal, Outcome::Interrupted);
+        } else if !self.own.contains(&goal) {
+            self.driver.cancel(now, goal);
+        }
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.driver.capabilities()
+    }
+
+    fn base(&self) -> Option<[f64; 3]> {
+        self.driver.base()
+    }
+
+    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
+        if !self.own.contains(&goal) {
+            return self.driver.update(now, goal, command);
+        }
+        // The old answer is no longer wanted.
+        if self.asked.remove(&goal).is_some() && !self.ask(now, goal, command) {
+            self.end(now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+        }
+    }
+
+    fn hold(&mut self, now: Time, goal: GoalId) {
+        if !self.own.contains(&goal) {
+            return self.driver.hold(now, goal);
+        }
+        // An answer that has come already and was not reported yet does not wait either, and this is said before it.
+        let is_end =
+            |event: &DriverEvent| matches!(event, DriverEvent::Ended { goal: of, .. } if *of == goal);
+        let end = self.outbox.iter().position(|(_, event)| is_end(event));
+        if end.is_some() || self.asked.contains_key(&goal) {
+            let place = end.unwrap_or(self.outbox.len());
+            self.outbox.insert(place, (now, DriverEvent::NotHeld { goal }));
+        }
+    }
+
+    fn proceed(&mut self, now: Time, goal: GoalId) {
+        if !self.own.contains(&goal) {
+            self.driver.proceed(now, goal);
+        }
+    }
+
+    fn safe_stop(&mut self, now: Time, goal: GoalId) {
+        if !self.own.contains(&goal) {
+            return self.driver.safe_stop(now, goal);
+        }
+        self.asked.remove(&goal);
+        self.outbox.push_back((now, DriverEvent::Stopped { goal }));
+    }
+
+    fn observe(&mut self, now: Time, query: &Query) {
+        self.driver.observe(now, query);
+    }
+
+    fn watch(&mut self, now: Time, query: &Query) {
+        self.driver.watch(now, query);
+    }
+
+    fn unwatch(&mut self, now: Time, query: &Query) {
+        self.driver.unwatch(now, query);
+    }
+
+    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
+        loop {
+            if let Some(event) = self.due(until) {
+                return Some(event);
+            }
+            while let Ok((number, found)) = self.answers.try_recv() {
+                self.take(number, found);
+            }
+            if let Some(event) = self.due(until) {
+                return Some(event);
+            }
+            let clocks = self.asked.values().map(Asked::due);
+            let Some(limit) = clocks.min().filter(|limit| *limit < until) else { return self.forward(until) };
+            if let Some(event) = self.forward(limit) {
+                return Some(event);
+            }
+            match self.answers.recv_timeout(SLICE) {
+                Ok((number, found)) => self.take(number, found),
+                Err(RecvTimeoutError::Timeout) => {}
+                // Whoever points is gone, and no answer will come.
+                Err(RecvTimeoutError::Disconnected) => {
+                    let goals: Vec<GoalId> = self.asked.keys().copied().collect();
+                    for goal in goals {
+                        self.end(self.now, goal, Outcome::Failure(SmolStr::new_static("not_found")));
+                    }
+                }
+            }
+        }
+    }
+}
