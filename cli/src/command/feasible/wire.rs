@@ -1,9 +1,9 @@
-//! An answer as a line of JSON. Lengths in m, angles in rad, masses in kg; keys in a fixed order.
+//! Answers as lines of JSON. Lengths are in m, angles in rad, masses in kg; keys have a fixed order.
 
 use motet_geometry::query::{Answer, Machine, Query, Side, State, Unknown, Witness, components};
 use serde_json::{Map, Value, json};
 
-/// One answer.
+/// Answer as a line of JSON.
 pub(super) fn line(machine: &Machine, query: &Query, answer: &Answer) -> String {
     let mut object = Map::new();
     object.insert("query".into(), query.to_string().into());
@@ -25,7 +25,7 @@ pub(super) fn line(machine: &Machine, query: &Query, answer: &Answer) -> String 
         Answer::Unknown(unknown) => {
             object.insert("answer".into(), "unknown".into());
             let why = match unknown {
-                Unknown::Budget => "the search was cut short",
+                Unknown::Budget => "the search ran out of its budget",
                 Unknown::Because(why) => why.as_str(),
             };
             object.insert("says".into(), why.into());
