@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use motet_host::journal::{JournalError, Recorder, Writer};
+use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
 use motet_planner::guard::Guard;
-use motet_runtime::{Control, Driver, Effect, Engine, Event, Onlooker, RunEnd, Time, Verifier, go_on};
+use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
 
 use crate::error::{CliError, Exit};
 use crate::flags::Speed;
@@ -92,7 +92,7 @@ impl PacedView {
     }
 }
 
-impl Onlooker for PacedView {
+impl Observer for PacedView {
     fn event(&mut self, _now: Time, event: &Event) {
         self.view.event(event);
     }
@@ -105,12 +105,12 @@ impl Onlooker for PacedView {
         self.view.effect(now, effect);
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.now = now;
         self.wait(now);
         self.view.reached(now);
         // A run stops once nobody watches it.
-        if is_interrupted() || self.view.is_closed() { Control::Stop } else { Control::GoOn }
+        if is_interrupted() || self.view.is_closed() { RunControl::Stop } else { RunControl::Continue }
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
@@ -130,7 +130,7 @@ impl Onlooker for PacedView {
 pub(crate) struct Runner<'a> {
     pub(crate) engine: Engine,
     pub(crate) driver: &'a mut dyn Driver,
-    pub(crate) journal: Option<Writer>,
+    pub(crate) journal: Option<JournalWriter>,
     /// Present time of the driver.
     pub(crate) from: Time,
     /// First events of the engine.
@@ -146,10 +146,10 @@ impl Runner<'_> {
     pub(crate) fn run(mut self, mut paced: PacedView) -> Result<Exit, CliError> {
         catch_interrupts()?;
         let end = match self.journal {
-            None => go_on(&mut self.engine, self.driver, &mut paced, self.from, self.events),
+            None => resume(&mut self.engine, self.driver, &mut paced, self.from, self.events),
             Some(writer) => {
-                let mut recorder = Recorder::new(writer, &mut paced);
-                let end = go_on(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
+                let mut recorder = RunRecorder::new(writer, &mut paced);
+                let end = resume(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
                 recorder.finish().map_err(journal_error)?;
                 end
             }

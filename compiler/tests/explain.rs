@@ -260,7 +260,7 @@ impl Case {
             (Some(robot), Some(text), Some(scene)) => {
                 let urdf =
                     urdf::read(&Source::new("robot.urdf", text), FileId(0)).0.ok_or("a broken URDF")?;
-                let budget = motet_geometry::query::Budget::default();
+                let budget = motet_geometry::planning::SearchBudget::default();
                 session.with_geometry(Geometry::new(robot, &urdf, scene, state, budget).into())
             }
             _ => session,

@@ -6,7 +6,7 @@ use motet_planner::builtin;
 use motet_planner::guard::{Guard, Verifies};
 use motet_project::{DOCUMENT, Project, ProjectBuilder, ProjectSession, SimulationInputs};
 use motet_robots::scene::Scene;
-use motet_runtime::{Driver, Onlooker, RunEnd, Settings, Time};
+use motet_runtime::{Driver, EngineSettings, Observer, RunEnd, Time};
 use motet_sim::Sim;
 use motet_syntax::ast::File;
 use motet_syntax::{Diagnostic, Parsed, Source};
@@ -156,7 +156,7 @@ impl Motet {
     /// [`Error::Plan`]: the request is not clear, or no plan reaches its goals.
     pub fn plan(&self, request: &str) -> Result<Plan, Error> {
         let empty = Scene::default();
-        let situation = motet_planner::request::Situation::new(self.opened.scene.as_ref().unwrap_or(&empty));
+        let situation = motet_requests::RequestContext::new(self.opened.scene.as_ref().unwrap_or(&empty));
         let robot = self.opened.robot.as_ref();
         let answered = builtin::answer(&self.opened.session, robot, request, &situation)?;
         let planned = answered.planned;
@@ -197,13 +197,13 @@ impl Motet {
         &self,
         policy: &CheckedPolicy,
         driver: &mut dyn Driver,
-        observer: &mut dyn Onlooker,
+        observer: &mut dyn Observer,
     ) -> Result<RunEnd, Error> {
         let guard = self.opened.session.course().map(|course| Guard::new(course, Verifies::AtOnce));
         let start = run::start_state(self.opened.scene.as_ref());
         let capabilities = driver.capabilities();
         let graph = policy.graph.clone();
-        let mut engine = run::engine(graph, &start, capabilities, guard.as_ref(), Settings::default())?;
+        let mut engine = run::engine(graph, &start, capabilities, guard.as_ref(), EngineSettings::default())?;
         let mut observer = run::Guarded::new(observer, guard);
         Ok(motet_runtime::run(&mut engine, driver, &mut observer, Time::ZERO))
     }

@@ -11,7 +11,7 @@ pub use motet_graph::Graph;
 pub use motet_project::{DiagnosticSink, Project, ProjectBuilder, ProjectError, ProjectSession};
 pub use motet_robots::card::Robot;
 pub use motet_robots::scene::Scene;
-pub use motet_runtime::{Driver, Engine, Onlooker, RunEnd};
+pub use motet_runtime::{Driver, Engine, Observer, RunEnd};
 pub use motet_sim::Sim;
 pub use motet_syntax::{Diagnostic, Severity, Sources};
 

@@ -7,13 +7,13 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
-use motet_host::journal::Writer;
+use motet_host::journal::JournalWriter;
 use motet_planner::guard::{Guard, WITHIN};
 use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
-use motet_runtime::journal::Head;
+use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Capabilities, Control, Effect, Engine, Event, Onlooker, Settings, StartState, Time, Verifier,
+    Capabilities, Effect, Engine, EngineSettings, Event, Observer, RunControl, StartState, Time, Verifier,
 };
 
 use crate::Error;
@@ -39,10 +39,10 @@ pub fn engine(
     start: &StartState,
     capabilities: Capabilities,
     guard: Option<&Guard>,
-    settings: Settings,
+    settings: EngineSettings,
 ) -> Result<Engine, Error> {
     let engine = Engine::new(graph, start).map_err(Error::Graph)?;
-    let settings = Settings { verify_within: guard.map(|_| WITHIN), ..settings };
+    let settings = EngineSettings { verify_within: guard.map(|_| WITHIN), ..settings };
     Ok(engine.with_capabilities(capabilities).with_settings(settings))
 }
 
@@ -56,20 +56,20 @@ pub fn create_journal(
     engine: &Engine,
     start: &StartState,
     driver: &SavedDriver,
-) -> Result<Writer, Error> {
-    let head = Head { driver: driver.to_json()?, ..journal_head(engine, start) };
-    Ok(Writer::create(folder, head)?)
+) -> Result<JournalWriter, Error> {
+    let head = JournalHead { driver: driver.to_json()?, ..journal_head(engine, start) };
+    Ok(JournalWriter::create(folder, head)?)
 }
 
-/// Head of the journal of a run that begins now, at time 0, without a description of the driver.
+/// JournalHead of the journal of a run that begins now, at time 0, without a description of the driver.
 #[must_use]
-pub fn journal_head(engine: &Engine, start: &StartState) -> Head {
-    Head {
+pub fn journal_head(engine: &Engine, start: &StartState) -> JournalHead {
+    JournalHead {
         began_unix_ns: unix_ns(),
         start: start.into(),
         settings: (*engine.settings()).into(),
         capabilities: engine.capabilities().into(),
-        ..Head::new(engine.graph())
+        ..JournalHead::new(engine.graph())
     }
 }
 
@@ -82,23 +82,23 @@ pub fn unix_ns() -> u64 {
 
 /// Observer that adds a guard to another observer.
 pub struct Guarded<'a> {
-    observer: &'a mut dyn Onlooker,
+    observer: &'a mut dyn Observer,
     guard: Option<Guard>,
 }
 
 impl<'a> Guarded<'a> {
     /// Observer with a guard; without one, deferred motions are left to the driver.
-    pub fn new(observer: &'a mut dyn Onlooker, guard: Option<Guard>) -> Self {
+    pub fn new(observer: &'a mut dyn Observer, guard: Option<Guard>) -> Self {
         Self { observer, guard }
     }
 }
 
-impl Onlooker for Guarded<'_> {
+impl Observer for Guarded<'_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.observer.event(now, event);
     }
 
-    fn commit(&mut self, now: Time, effects: &[Effect]) -> Control {
+    fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
         self.observer.commit(now, effects)
     }
 
@@ -106,7 +106,7 @@ impl Onlooker for Guarded<'_> {
         self.observer.effect(now, effect);
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.observer.reached(now)
     }
 

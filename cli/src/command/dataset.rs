@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use motet_dataset::Body;
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_project::open_robot;
 use motet_syntax::Sources;
 
@@ -141,6 +141,6 @@ fn body(name: &str, report: &mut Report) -> Result<Body, CliError> {
     Ok(Body { robot, urdf })
 }
 
-fn effort(args: &MotionArgs) -> Option<Budget> {
-    (!args.no_geometry).then(|| Budget::default().times(args.effort.into()))
+fn effort(args: &MotionArgs) -> Option<SearchBudget> {
+    (!args.no_geometry).then(|| SearchBudget::default().times(args.effort.into()))
 }

@@ -9,9 +9,9 @@ use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
 use motet_planner::prompt;
-use motet_planner::request::{self, Situation};
 use motet_project::files::read_small;
 use motet_project::{DOCUMENT, ProjectSession};
+use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source};
 
@@ -101,7 +101,7 @@ fn plan(
     report: &mut Report,
 ) -> Exit {
     let empty = Scene::default();
-    let situation = Situation::new(opened.scene.as_ref().unwrap_or(&empty));
+    let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
     let loose = match actions::read(list, name, &opened.session, opened.robot.as_ref(), &situation) {
         Ok(loose) => loose,
         Err(why) => return refuse(place, &why),
@@ -130,8 +130,8 @@ fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<
         return Err(CliError::Message("a plan needs a robot: give --robot NAME".to_owned()));
     };
     let scene = opened.scene.clone().unwrap_or_default();
-    let situation = Situation::new(&scene);
-    let named = request::named(request, &situation);
+    let situation = RequestContext::new(&scene);
+    let named = motet_requests::named(request, &situation);
     // The texts of the dialect express exactly what the numbers do.
     let seen = prompt::seen(&opened.session, robot, &scene, &named, Duration::ZERO);
     let (vision, feasibility) = exchange::sight(&seen);

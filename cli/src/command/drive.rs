@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use motet::run::{create_journal, engine, start_state};
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{Address, Patience, RemoteDriver};
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::guard::{Guard, Verifies};
 use motet_project::{SavedDriver, SavedProject};
-use motet_runtime::{Driver, Event, Settings, Time};
+use motet_runtime::{Driver, EngineSettings, Event, Time};
 
 use super::run::compile;
 use crate::error::{CliError, Exit};
@@ -34,7 +34,7 @@ pub(crate) struct DriveArgs {
     session: SessionArgs,
     /// Driver: a command that speaks the driver protocol on its stdin and stdout, or tcp://127.0.0.1:PORT
     #[arg(long, value_name = "COMMAND|ADDRESS")]
-    driver: Address,
+    driver: DriverAddress,
     /// Write a journal of the run into this folder; `motet run --resume` continues it
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
@@ -79,10 +79,10 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     Runner { engine, driver: &mut driver, journal, from: Time::ZERO, events }.run(paced)
 }
 
-/// Settings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
-fn settings() -> Settings {
-    let recovery = u64::try_from(Patience::default().recovery().as_nanos()).unwrap_or(u64::MAX);
-    Settings { safe_stop_within: Time::from_nanos(recovery), ..Settings::default() }
+/// EngineSettings of the engine: a safe stop may take as long as it takes to reach a silent driver again.
+fn settings() -> EngineSettings {
+    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }
 }
 
 /// Starts a driver process, or connects to it.
@@ -90,8 +90,8 @@ fn settings() -> Settings {
 /// # Errors
 ///
 /// The driver cannot be reached, or does not speak the protocol.
-pub(super) fn connect(address: &Address, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
+pub(super) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
     let log = |text: &str| note(&format!("driver: {}", escape(text)));
-    RemoteDriver::connect(address.clone(), hello, Patience::default(), from, Box::new(log))
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
         .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

@@ -5,10 +5,10 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motet_host::mcap::{Body, Exporter, Picture, Solid};
+use motet_host::mcap::{McapBody, McapExporter, McapScene, McapSolid};
 use motet_project::SavedDriver;
 use motet_robots::scene::{Scene, Shape};
-use motet_runtime::journal::{Entry, Retrace};
+use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
 
 use crate::error::{CliError, Exit};
@@ -68,14 +68,14 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
 fn write(folder: &Path, path: &Path) -> Result<u64, CliError> {
     let file = File::create(path).map_err(|source| CliError::Write { path: path.to_owned(), source })?;
     let wrong = |error: motet_host::mcap::ExportError| CliError::Message(error.to_string());
-    let mut exporter = Exporter::new(BufWriter::new(file)).map_err(wrong)?;
+    let mut exporter = McapExporter::new(BufWriter::new(file)).map_err(wrong)?;
     let mut replay = None;
     let (mut result, mut entries) = (Ok(()), 0);
     let read = motet_host::journal::read(folder, &mut |seq, entry| {
         if result.is_err() {
             return;
         }
-        if let Entry::Head(head) = &entry {
+        if let JournalEntry::Head(head) = &entry {
             replay = SceneReplay::of(&head.driver);
         }
         let picture = replay.as_mut().and_then(|replay: &mut SceneReplay| replay.after(&entry));
@@ -91,44 +91,46 @@ fn write(folder: &Path, path: &Path) -> Result<u64, CliError> {
 struct SceneReplay {
     sim: Sim,
     scene: Scene,
-    retrace: Retrace,
+    retrace: DriverReplay,
 }
 
 impl SceneReplay {
-    /// Replay from the head of a journal; `None` if the run was not a simulation.
+    /// EngineReplay from the head of a journal; `None` if the run was not a simulation.
     fn of(driver: &serde_json::Value) -> Option<Self> {
         match SavedDriver::from_json(driver).ok()? {
             SavedDriver::Simulator(saved) => {
                 let (sim, scene) = (saved.open().ok()?, saved.scene().ok()?);
-                Some(Self { sim, scene, retrace: Retrace::default() })
+                Some(Self { sim, scene, retrace: DriverReplay::default() })
             }
             SavedDriver::Process { .. } => None,
         }
     }
 
     /// Scene after an entry; `None` once the replay differs from the journal.
-    fn after(&mut self, entry: &Entry) -> Option<Picture> {
+    fn after(&mut self, entry: &JournalEntry) -> Option<McapScene> {
         self.retrace.take(&mut self.sim, entry).ok()?;
         let base = self.sim.base();
         let bodies = self.scene.entities.values().filter_map(|entity| {
             let pose = entity.pose?;
             let solid = match entity.shape.as_ref()? {
-                Shape::Box(size) => Solid::Box(*size),
-                Shape::Cylinder { radius, height } => Solid::Cylinder { radius: *radius, height: *height },
-                Shape::Capsule { radius, height } => {
-                    Solid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                Shape::Box(size) => McapSolid::Box(*size),
+                Shape::Cylinder { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: *height }
                 }
-                Shape::Sphere { radius } => Solid::Sphere { radius: *radius },
+                Shape::Capsule { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                }
+                Shape::Sphere { radius } => McapSolid::Sphere { radius: *radius },
                 Shape::Mesh { .. } => return None,
             };
             let mut xyz = self.sim.position(&entity.id)?;
-            if let (true, Solid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
+            if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
                 // A person's pose is that of the feet.
                 xyz[2] = 0.5 * height;
             }
             let heading = pose.rpy[2];
-            Some(Body { id: entity.id.to_string(), xyz, heading, solid })
+            Some(McapBody { id: entity.id.to_string(), xyz, heading, solid })
         });
-        Some(Picture { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
+        Some(McapScene { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
     }
 }

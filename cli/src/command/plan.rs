@@ -2,8 +2,8 @@
 
 use clap::Args;
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Aim, Unplanned};
-use motet_planner::request::Situation;
+use motet_planner::builtin::{self, Unplanned};
+use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::Source;
 
@@ -51,7 +51,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
     let planned = match &args.request {
         Some(request) => {
             let empty = Scene::default();
-            let situation = Situation::new(opened.scene.as_ref().unwrap_or(&empty));
+            let situation = RequestContext::new(opened.scene.as_ref().unwrap_or(&empty));
             builtin::answer(&opened.session, robot, request, &situation).map(|answered| {
                 answered.understood.notes.iter().for_each(|text| note(text));
                 answered.planned

@@ -2,9 +2,9 @@
 
 use clap::Args;
 use motet_planner::prompt::{self, Lasting, Prompt};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::Time;
-use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::memory::{Memory, MemoryLimits};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, SessionArgs};
@@ -44,8 +44,8 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Err(CliError::Message("a prompt needs a robot: give --robot NAME".to_owned()));
     };
     let scene = opened.scene.clone().unwrap_or_default();
-    let situation = Situation::new(&scene);
-    let mut memory = Memory::new(Limits::default());
+    let situation = RequestContext::new(&scene);
+    let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {
         session: &opened.session,

@@ -12,7 +12,7 @@ use motet_planner::guard::Guard;
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, SimulationInputs, named_robot};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Driver, Event, Settings, Time};
+use motet_runtime::{Driver, EngineSettings, Event, Time};
 use motet_sim::Sim;
 use motet_syntax::{Parsed, Severity};
 
@@ -98,7 +98,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let scene = opened.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
     let guard = opened.session.course().map(|course| Guard::new(course, simulation.speed.verifies()));
-    let engine = engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
+    let engine = engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
     let journal = match &args.record {
         Some(folder) => {
             let scene_text = opened.scene_text.clone();

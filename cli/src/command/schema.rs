@@ -46,7 +46,7 @@ pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
         FileFormat::Robot => motet_robots::card::schema(),
         FileFormat::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
         FileFormat::Driver => motet_host::remote::protocol::schema(),
-        FileFormat::Journal => schemars::schema_for!(motet_runtime::journal::Entry),
+        FileFormat::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
         FileFormat::Faults => schemars::schema_for!(motet_sim::Faults),
     };
     let text = serde_json::to_string_pretty(&schema)

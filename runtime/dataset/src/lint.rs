@@ -2,9 +2,9 @@
 //! same input, the same row twice, rooms that are in more than one file, and pictures that are not there.
 
 use indexmap::IndexMap;
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_planner::dialect::actions;
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
@@ -81,7 +81,7 @@ pub struct Worlds {
     /// The room of rows that name none.
     pub scene: Option<SmolStr>,
     /// How long motions are looked for; not at all where there is none.
-    pub effort: Option<Budget>,
+    pub effort: Option<SearchBudget>,
 }
 
 /// Looks after the pictures that rows refer to.
@@ -220,7 +220,7 @@ pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
         Target::Policy(policy) => stage.fault(policy),
         Target::Question(_) => None,
         Target::Actions(list) => {
-            let situation = Situation::new(&stage.scene);
+            let situation = RequestContext::new(&stage.scene);
             match actions::read(list, "plan", &stage.session, Some(&stage.robot), &situation) {
                 Ok(loose) => stage.fault(&loose.policy),
                 Err(why) => Some(why.to_string()),

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Options as CheckOptions, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_graph::NodeKind;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_runtime::{Driver, Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
 
@@ -41,7 +41,7 @@ impl Stage {
     /// # Errors
     ///
     /// What keeps the robot from being in that room.
-    pub fn new(body: &Body, scene: &Scene, effort: Option<Budget>) -> Result<Self, String> {
+    pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
         let (mut session, said) = Session::new(
             Some(robot),
@@ -83,7 +83,7 @@ impl Stage {
             let primitive = graph.primitives.get(call.primitive.index());
             primitive.is_some_and(|primitive| matches!(primitive.name.as_str(), "ask" | "choose"))
         });
-        let mut sim = Sim::new(&self.robot, &self.scene, Options::default());
+        let mut sim = Sim::new(&self.robot, &self.scene, SimOptions::default());
         let entities = self.scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
         let start = StartState { entities: entities.collect(), ..StartState::default() };
         let mut engine = match Engine::new(graph, &start) {

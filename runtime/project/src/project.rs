@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 use motet_compiler::{Geometry, Options, Session, State};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_robots::card::Robot;
 use motet_robots::scene::{self, Scene};
 use motet_robots::urdf::Urdf;
@@ -243,7 +243,7 @@ impl Project {
             && let Some(urdf) = files.body(robot, &mut sources, sink)?
         {
             require("scene", &scene::fit(scene, &urdf), &sources, sink)?;
-            let budget = Budget::default().times(effort.into());
+            let budget = SearchBudget::default().times(effort.into());
             let shared = Arc::new(Geometry::new(robot, &urdf, scene, state, budget));
             session = session.with_geometry(Arc::clone(&shared));
             geometry = Some(shared);

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 use motet_compiler::Course;
-use motet_host::remote::Address;
+use motet_host::remote::DriverAddress;
 use motet_robots::{card, scene};
-use motet_sim::{Faults, Options, Script, Sim};
+use motet_sim::{Faults, PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -33,7 +33,7 @@ pub enum SavedDriver {
     },
 }
 
-/// Address of a driver process.
+/// DriverAddress of a driver process.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SavedAddress {
@@ -69,11 +69,11 @@ impl SavedDriver {
     pub fn simulator(
         robot: &RobotFiles,
         scene: Option<String>,
-        options: &Options,
+        options: &SimOptions,
         project: Option<SavedProject>,
     ) -> Self {
         let (card, declarations) = robot.texts();
-        let told = options.told.iter();
+        let told = options.initial_facts.iter();
         Self::Simulator(Box::new(SavedSimulator {
             card,
             declarations,
@@ -90,10 +90,10 @@ impl SavedDriver {
 
     /// Description of a driver process.
     #[must_use]
-    pub fn process(address: &Address, instance: &str, project: Option<SavedProject>) -> Self {
+    pub fn process(address: &DriverAddress, instance: &str, project: Option<SavedProject>) -> Self {
         let address = match address {
-            Address::Command(words) => SavedAddress::Command(words.clone()),
-            Address::Tcp(socket) => SavedAddress::Tcp(*socket),
+            DriverAddress::Command(words) => SavedAddress::Command(words.clone()),
+            DriverAddress::Tcp(socket) => SavedAddress::Tcp(*socket),
         };
         Self::Process { address, instance: instance.to_owned(), guard: project.map(Box::new) }
     }
@@ -161,20 +161,20 @@ impl SavedSimulator {
         let robot = robot.ok_or_else(|| unreadable("robot card"))?;
         let scene = self.scene()?;
         let told = self.told.iter();
-        let options = Options {
+        let options = SimOptions {
             seed: self.seed,
             faults: self.faults.clone(),
-            script: Script { answers: self.answers.clone() },
+            script: PersonScript { answers: self.answers.clone() },
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
-            told: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
+            initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
             eye: None,
         };
         Ok(Sim::new(&robot, &scene, options))
     }
 }
 
-impl From<SavedAddress> for Address {
+impl From<SavedAddress> for DriverAddress {
     fn from(address: SavedAddress) -> Self {
         match address {
             SavedAddress::Command(words) => Self::Command(words),

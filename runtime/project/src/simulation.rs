@@ -1,10 +1,10 @@
-//! Options of a simulated run: seed, faults and answers from files, and the entities and facts of a compiled policy.
+//! SimOptions of a simulated run: seed, faults and answers from files, and the entities and facts of a compiled policy.
 
 use std::path::Path;
 
 use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
-use motet_sim::{Faults, Options, Script};
+use motet_sim::{Faults, PersonScript, SimOptions};
 use motet_syntax::Source;
 use motet_syntax::ast::{File, Item};
 use smol_str::SmolStr;
@@ -71,30 +71,30 @@ impl SimulationInputs {
         }
     }
 
-    /// Options without a policy. `eye` is the camera's position in the base's frame, in m.
+    /// SimOptions without a policy. `eye` is the camera's position in the base's frame, in m.
     #[must_use]
-    pub fn without_policy(self, eye: Option<[f64; 3]>) -> Options {
-        Options {
+    pub fn without_policy(self, eye: Option<[f64; 3]>) -> SimOptions {
+        SimOptions {
             seed: self.seed,
             faults: self.faults,
-            script: Script { answers: self.answers },
+            script: PersonScript { answers: self.answers },
             eye,
-            ..Options::default()
+            ..SimOptions::default()
         }
     }
 
-    /// Options for a compiled policy. The entities of `files`, the document and its domains, get a place in the
+    /// SimOptions for a compiled policy. The entities of `files`, the document and its domains, get a place in the
     /// simulated scene too.
     #[must_use]
-    pub fn for_policy(self, graph: &Graph, files: &[&File]) -> Options {
+    pub fn for_policy(self, graph: &Graph, files: &[&File]) -> SimOptions {
         let parent = |kind: &motet_graph::Kind| {
             let parent = graph.kinds.get(kind.parent?.index())?;
             Some((kind.name.clone(), parent.name.clone()))
         };
-        Options {
+        SimOptions {
             kinds: graph.kinds.iter().filter_map(parent).collect(),
             entities: files.iter().flat_map(|file| entities(file)).collect(),
-            told: graph
+            initial_facts: graph
                 .initial
                 .iter()
                 .filter_map(|(fact, value)| Some((initial_fact(graph, fact)?, *value)))

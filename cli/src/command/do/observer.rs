@@ -8,7 +8,7 @@ use motet_graph::Graph;
 use motet_planner::builtin::Answered;
 use motet_planner::conversation::{Outcome, Problem, Scribe, Watcher};
 use motet_planner::guard::Verifies;
-use motet_runtime::{Control, Effect, Engine, Onlooker as _, Refusal, RunEnd, StartState, Time};
+use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
 use serde_json::json;
 
 use super::operator::OperatorInput;
@@ -140,8 +140,8 @@ impl Watcher for RunObserver<'_> {
         }
     }
 
-    fn reached(&mut self, now: Time) -> Control {
-        self.view.as_mut().map_or(Control::GoOn, |view| view.reached(now))
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now))
     }
 
     fn at_least_every(&self) -> Time {
@@ -164,7 +164,7 @@ impl Watcher for RunObserver<'_> {
         Some(line)
     }
 
-    fn swapped(&mut self, _now: Time, refusal: Option<&Refusal>) {
+    fn swapped(&mut self, _now: Time, refusal: Option<&SwapRefusal>) {
         match refusal {
             None => {
                 self.is_swapping = true;

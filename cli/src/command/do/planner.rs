@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write as _};
 use std::time::Duration;
 
-use motet_client::{Address, Client, Image, Notation, Settings};
+use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
 use motet_decode::export::Dialect;
 use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{Ask, Builtin, Planner, Rest, Wait};
@@ -77,7 +77,7 @@ pub(super) fn client(flags: &ModelArgs) -> Result<Client, CliError> {
     Client::new(settings).map_err(|why| CliError::Message(format!("cannot ask `{name}`: {why}")))
 }
 
-fn settings(args: &ModelArgs) -> Result<Settings, CliError> {
+fn settings(args: &ModelArgs) -> Result<ClientSettings, CliError> {
     let dialect = match args.dialect {
         GrammarDialect::None => None,
         GrammarDialect::Vllm => Some(Dialect::Vllm),
@@ -92,18 +92,18 @@ fn settings(args: &ModelArgs) -> Result<Settings, CliError> {
         return Err(CliError::Message(why.to_owned()));
     }
     let notation = if args.lark { Notation::Lark } else { Notation::Usual };
-    let address = Address::new(&args.planner, dialect).map_err(CliError::Message)?;
+    let address = ServerUrl::new(&args.planner, dialect).map_err(CliError::Message)?;
     let mut images = Vec::new();
     for path in &args.image {
-        let image = Image::new(&read_small(path)?).map_err(|why| {
+        let image = EncodedImage::new(&read_small(path)?).map_err(|why| {
             CliError::Message(format!("`{}` is not an image for a model: {why}", path.display()))
         })?;
         images.push(image);
     }
     let key = args.key_from.as_deref().map(grammar::key).transpose()?;
     let timeout = Duration::from_secs(args.timeout);
-    let new = Settings::new(address, &args.model);
-    Ok(Settings {
+    let new = ClientSettings::new(address, &args.model);
+    Ok(ClientSettings {
         dialect,
         notation,
         key,

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use motet::run::journal_head;
-use motet_host::journal::{Recorder, Writer};
+use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_planner::conversation::Scribe;
-use motet_runtime::journal::Head;
-use motet_runtime::{Control, Driver, Effect, Engine, Onlooker, RunEnd, StartState, Time};
+use motet_runtime::journal::JournalHead;
+use motet_runtime::{Driver, Effect, Engine, Observer, RunControl, RunEnd, StartState, Time};
 use serde_json::{Value, json};
 
 use crate::error::CliError;
@@ -102,7 +102,7 @@ impl RecordFiles {
 /// Journal of one run, which `motet replay` reads.
 pub(super) struct RunJournal {
     record: ConversationRecord,
-    head: Head,
+    head: JournalHead,
 }
 
 impl RunJournal {
@@ -112,7 +112,7 @@ impl RunJournal {
         start: &StartState,
         request: &str,
     ) -> Self {
-        let head = Head { instruction: Some(request.to_owned()), ..journal_head(engine, start) };
+        let head = JournalHead { instruction: Some(request.to_owned()), ..journal_head(engine, start) };
         Self { record, head }
     }
 }
@@ -122,19 +122,19 @@ impl Scribe for RunJournal {
         self: Box<Self>,
         engine: &mut Engine,
         driver: &mut dyn Driver,
-        onlooker: &mut dyn Onlooker,
+        onlooker: &mut dyn Observer,
         from: Time,
     ) -> RunEnd {
         let Self { record, head } = *self;
-        let head = Head { from: from.nanos(), ..head };
-        let writer = match Writer::create(&record.run(), head) {
+        let head = JournalHead { from: from.nanos(), ..head };
+        let writer = match JournalWriter::create(&record.run(), head) {
             Ok(writer) => writer,
             Err(error) => {
                 record.keep_error(journal_error(error));
                 return motet_runtime::run(engine, driver, &mut Stopped, from);
             }
         };
-        let mut writing = Recorder::new(writer, onlooker);
+        let mut writing = RunRecorder::new(writer, onlooker);
         let end = motet_runtime::run(engine, driver, &mut writing, from);
         if let Err(error) = writing.finish() {
             record.keep_error(journal_error(error));
@@ -146,8 +146,8 @@ impl Scribe for RunJournal {
 /// Observer that stops a run at once: without its journal nothing starts.
 struct Stopped;
 
-impl Onlooker for Stopped {
-    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> Control {
-        Control::Stop
+impl Observer for Stopped {
+    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> RunControl {
+        RunControl::Stop
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use motet_client::{Address, Client, Key, Settings, content};
+use motet_client::{ApiKey, Client, ClientSettings, ServerUrl, content};
 use motet_decode::export::probe_body;
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ const SHOWN_CHARS: usize = 80;
 /// The server cannot be reached, refuses the request, or does not answer with a chat message.
 pub(super) fn run(args: &ProbeArgs) -> Result<Exit, CliError> {
     let dialect = dialect(args.dialect);
-    let url = Address::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
+    let url = ServerUrl::new(&args.url, Some(dialect)).map_err(CliError::Message)?;
     let (body, demanded) = probe_body(dialect, &args.model);
     let answer = ask(args, url.clone(), &body)?;
     let said = content(&answer)
@@ -52,12 +52,16 @@ fn is_cut(said: &str, demanded: &Value) -> bool {
     bare(&demanded.to_string()).starts_with(&bare(said))
 }
 
-fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, CliError> {
+fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliError> {
     let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
     let key = args.key_from.as_deref().map(key).transpose()?;
-    let settings =
-        Settings { key, timeout, idle_timeout: timeout, ..Settings::new(address.clone(), &args.model) };
+    let settings = ClientSettings {
+        key,
+        timeout,
+        idle_timeout: timeout,
+        ..ClientSettings::new(address.clone(), &args.model)
+    };
     let answer = Client::new(settings).and_then(|client| client.once(body));
     answer.map_err(|why| failed(why.to_string()))
 }
@@ -67,7 +71,7 @@ fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, CliErr
 /// # Errors
 ///
 /// The variable is not set.
-pub(in crate::command) fn key(variable: &str) -> Result<Key, CliError> {
-    Key::from_variable(variable)
+pub(in crate::command) fn key(variable: &str) -> Result<ApiKey, CliError> {
+    ApiKey::from_variable(variable)
         .ok_or_else(|| CliError::Message(format!("the environment variable `{variable}` holds no key")))
 }

@@ -3,7 +3,7 @@
 
 use motet_compiler::{Options, Session};
 use motet_geometry::kinematics::Chain;
-use motet_geometry::query::{Allowed, Machine, Room, Solver, Touch, World};
+use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
 use motet_project::{ProjectError, RobotFiles, require};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -67,7 +67,7 @@ impl BodyReport {
 }
 
 fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
-    let machine = Machine::new(robot, urdf);
+    let machine = RobotModel::new(robot, urdf);
     let tree = machine.tree();
     let solids: usize = urdf.links.iter().map(|link| link.collisions.len()).sum();
     let mut lines = vec![format!(
@@ -89,7 +89,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
             continue;
         };
         // The height of the base does not change the solver.
-        let found = Solver::of(&chain, robot.base.drive, 0.0);
+        let found = IkSolver::of(&chain, robot.base.drive, 0.0);
         lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(&found)));
     }
     lines.extend(machine.body().unseen().iter().filter_map(|link| {
@@ -107,20 +107,20 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
 const FLOOR_TOLERANCE: f64 = 0.01;
 
 /// Describes contacts and parts below the floor in each posture.
-fn postures(machine: &Machine, described: &mut BodyReport) {
+fn postures(machine: &RobotModel, described: &mut BodyReport) {
     let scene = Scene::default();
-    let mut world = World::new(machine, &scene);
+    let mut world = SceneState::new(machine, &scene);
     for posture in machine.card().postures.keys() {
         let Some(joints) = machine.posture(posture, machine.rest()) else { continue };
         world.robot.joints = joints;
-        let room = Room::new(machine, &scene, &world);
+        let room = QueryContext::new(machine, &scene, &world);
         let name = posture.escape_debug().to_string();
-        let touch = room.touch(&world.robot, Allowed::default());
+        let touch = room.contact(&world.robot, AllowedCollisions::default());
         let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -FLOOR_TOLERANCE);
         if touch.is_none() && sunk.is_none() {
             described.lines.push(format!("{name:8}  touches neither itself nor the floor"));
         }
-        if let Some(Touch { link, other, is_own }) = touch {
+        if let Some(Contact { link, other, is_own }) = touch {
             let (link, other) = (link.escape_debug(), other.escape_debug());
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
@@ -145,11 +145,11 @@ fn postures(machine: &Machine, described: &mut BodyReport) {
 }
 
 /// Name of the inverse kinematics of a hand.
-fn solver(solver: &Solver) -> &'static str {
+fn solver(solver: &IkSolver) -> &'static str {
     match solver {
-        Solver::Lift(_) => "closed form: a lift and a wrist with intersecting axes",
-        Solver::Parallel(_) => "closed form: six joints, three of them parallel",
-        Solver::Seven(_) => "closed form: seven joints with shoulder, elbow and wrist",
-        Solver::Steps(_) => "numeric",
+        IkSolver::Lift(_) => "closed form: a lift and a wrist with intersecting axes",
+        IkSolver::Parallel(_) => "closed form: six joints, three of them parallel",
+        IkSolver::Seven(_) => "closed form: seven joints with shoulder, elbow and wrist",
+        IkSolver::Steps(_) => "numeric",
     }
 }

@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use motet::run::unix_ns;
-use motet_host::journal::Writer;
+use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
 use motet_planner::guard::{Guard, Verifies};
 use motet_project::{SavedDriver, SavedProject};
-use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace, Step};
+use motet_runtime::journal::{
+    DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
+};
 use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
 
 use super::RunArgs;
@@ -31,11 +33,11 @@ pub(super) fn resume(
 ) -> Result<Exit, CliError> {
     let mut entries = Vec::new();
     let (mut writer, tail) =
-        Writer::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_error)?;
-    let Some(Entry::Head(head)) = entries.first() else {
+        JournalWriter::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_error)?;
+    let Some(JournalEntry::Head(head)) = entries.first() else {
         return Err(CliError::Message("the journal has no head".to_owned()));
     };
-    let mut replay = Replay::new(head).map_err(|error| CliError::Message(error.to_string()))?;
+    let mut replay = EngineReplay::new(head).map_err(|error| CliError::Message(error.to_string()))?;
     let saved = SavedDriver::from_json(&head.driver)?;
     let mut simulator = match &saved {
         SavedDriver::Simulator(saved) => Some(saved.open()?),
@@ -47,7 +49,7 @@ pub(super) fn resume(
     };
     let view = view(args.format, replay.engine().graph(), colors, clock);
     let mut paced = PacedView::new(view, args.simulation.speed);
-    let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
+    let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let verifies = match &saved {
         SavedDriver::Simulator(_) => args.simulation.speed.verifies(),
         SavedDriver::Process { .. } => Verifies::Beside,
@@ -71,14 +73,14 @@ pub(super) fn resume(
             retrace.take(simulator, entry).map_err(|astray| differs(astray.to_string()))?;
         }
         if let Some(guard) = &mut guard {
-            if let Entry::Step(Step { event: Some(event), .. }) = entry {
+            if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
                 guard.event(&event.clone().into());
             }
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
         paced.past(replay.now(), replay.effects());
-        begun |= matches!(entry, Entry::Step(step) if step.event == Some(wire::Event::Begin));
+        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(wire::Event::Begin));
     }
     if ledger.is_over {
         note("the run is over; nothing is left to do");
@@ -91,7 +93,7 @@ pub(super) fn resume(
     let from = now(head, &saved, replay.now());
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
     let unix_ns = unix_ns();
-    let resumed = Entry::Resumed(Resumed { unix_ns, cut_bytes: tail.torn_bytes });
+    let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
     writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_error)?;
     let cut = match tail.torn_bytes {
         0 => String::new(),
@@ -117,7 +119,7 @@ pub(super) fn resume(
 }
 
 /// Time at which the run continues. Simulated time has stood still since the crash; the time of a robot has not.
-fn now(head: &Head, saved: &SavedDriver, last: Time) -> Time {
+fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
     match saved {
         SavedDriver::Simulator(_) => last,
         SavedDriver::Process { .. } => {

@@ -5,16 +5,16 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Duration;
 
-use motet_client::{Address, Client, Settings};
+use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{Geometry, Options as CheckOptions, Session};
 use motet_decode::{Surface, canonical};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_planner::builtin;
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
 use motet_planner::model::{self, Happening, Listener, ModelPlanner};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::Time;
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Source, Sources};
 
 use super::server::Server;
@@ -47,21 +47,21 @@ pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
     let source = Source::new("hsr.urdf", text);
     let id = sources.add(source.clone());
     let urdf = motet_robots::urdf::read(&source, id).0.unwrap();
-    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, Budget::default()))
+    Arc::new(Geometry::new(&setting.robot, &urdf, &setting.scene, None, SearchBudget::default()))
 }
 
 /// What a model that knows the right policy would write for a request.
 pub(crate) fn right(setting: &Setting, request: &str) -> String {
     let session = session(setting);
-    let situation = Situation::new(&setting.scene);
+    let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
     let policy = answered.planned.parsed.file.policies().next().unwrap();
     canonical(policy, &session.signatures(), Surface::default()).unwrap()
 }
 
 /// Settings with short times.
-pub(crate) fn brisk(server: &Server) -> Settings {
-    Settings {
+pub(crate) fn brisk(server: &Server) -> ClientSettings {
+    ClientSettings {
         connect_timeout: Duration::from_secs(2),
         // Longer than a loaded machine lets a thread of the server wait.
         idle_timeout: Duration::from_secs(1),
@@ -70,7 +70,7 @@ pub(crate) fn brisk(server: &Server) -> Settings {
         back_off: Duration::from_millis(1),
         longest_back_off: Duration::from_millis(20),
         max_bytes: 1 << 20,
-        ..Settings::new(Address::new(&server.url, None).unwrap(), "scripted")
+        ..ClientSettings::new(ServerUrl::new(&server.url, None).unwrap(), "scripted")
     }
 }
 
@@ -96,7 +96,7 @@ impl Listener for Heard {
 }
 
 /// A planner that asks a server.
-pub(crate) fn planner(settings: Settings, heard: &Heard) -> ModelPlanner<'static> {
+pub(crate) fn planner(settings: ClientSettings, heard: &Heard) -> ModelPlanner<'static> {
     ModelPlanner::new(Client::new(settings).unwrap(), heard.clone(), model::Settings::default())
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn carry_out_with(
     person: &mut dyn Person,
     request: &str,
 ) -> (Outcome, Sim) {
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(setting);
     let (outcome, _) = talk.carry_out(request, planner, &mut sim, person, &mut (), Time::ZERO);
     (outcome, sim)

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use motet_graph::{Graph, NodeId, NodeKind, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
+    Driver, Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, RunEnd, SwapRefusal,
+    Time, Verifier,
 };
 use smol_str::SmolStr;
 
@@ -17,14 +18,14 @@ use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::guard::Guard;
 use crate::model::{Judged, judge};
-use crate::request::{self, Located, Situation, Understood};
+use motet_requests::{Intent, ReportedLocation, RequestContext};
 
 /// Why a run is stopped before its end.
 pub(super) enum Pending {
     /// A new request, which cannot take over as it stands.
     Request(String),
     /// Something is elsewhere than was thought, so that the same has to be planned anew.
-    Told(Vec<Located>),
+    Told(Vec<ReportedLocation>),
     /// A person says so.
     Stop,
 }
@@ -179,7 +180,7 @@ impl<'r, 'a> Live<'r, 'a> {
 impl Live<'_, '_> {
     /// What has been written meanwhile, ready to take over: the policy for a new request, or that of which the first step
     /// runs.
-    fn written(&mut self, engine: &Engine) -> Option<Prepared> {
+    fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
             let prepared = match self.planner.rest(Wait::Not) {
                 Rest::Coming => {
@@ -188,7 +189,7 @@ impl Live<'_, '_> {
                 }
                 Rest::Whole(policy) => {
                     let understood =
-                        Understood { spoken_of: self.talk.known.spoken_of.clone(), ..Understood::default() };
+                        Intent { spoken_of: self.talk.known.spoken_of.clone(), ..Intent::default() };
                     self.prepared(&policy, understood, Some(request.clone()), engine)
                 }
                 Rest::Nothing | Rest::Broken | Rest::Stopped => None,
@@ -213,10 +214,10 @@ impl Live<'_, '_> {
     fn prepared(
         &mut self,
         policy: &str,
-        understood: Understood,
+        understood: Intent,
         request: Option<String>,
         engine: &Engine,
-    ) -> Option<Prepared> {
+    ) -> Option<PreparedSwap> {
         let mut known = self.talk.known.clone();
         known.learn_midway(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
@@ -227,7 +228,7 @@ impl Live<'_, '_> {
         if !changed.is_empty() {
             return None;
         }
-        let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
+        let prepared = PreparedSwap::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)
     }
@@ -247,12 +248,12 @@ fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
 }
 
 /// What a line says of where things are, where it asks for nothing.
-fn statement(said: &str, situation: &Situation<'_>) -> Option<Vec<Located>> {
-    let understood = request::understand(said, situation).ok()?;
+fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
+    let understood = motet_requests::understand(said, situation).ok()?;
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
 }
 
-impl Onlooker for Live<'_, '_> {
+impl Observer for Live<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
         self.talk.memory.event(now, event);
@@ -273,13 +274,13 @@ impl Onlooker for Live<'_, '_> {
         Some(guard)
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.now = self.now.max(now);
         let control = self.watcher.reached(now);
-        if self.pending.is_some() { Control::Stop } else { control }
+        if self.pending.is_some() { RunControl::Stop } else { control }
     }
 
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<Prepared> {
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
@@ -306,7 +307,7 @@ impl Onlooker for Live<'_, '_> {
         }
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
-        let situation = Situation { meant: meant.clone(), ..known.situation(&scene) };
+        let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
         let image = self.talk.look(now);
         let ask = Ask { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
         if self.planner.begin(&ask) {
@@ -317,7 +318,7 @@ impl Onlooker for Live<'_, '_> {
             self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
         let prepared = planned.ok().and_then(|answered| {
             let graph = answered.planned.compiled.graph.clone()?;
-            Some((Prepared::new(graph, &engine.running()).ok()?, answered))
+            Some((PreparedSwap::new(graph, &engine.running()).ok()?, answered))
         });
         match prepared {
             Some((prepared, answered)) => {
@@ -332,7 +333,7 @@ impl Onlooker for Live<'_, '_> {
         }
     }
 
-    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         let next = self.next.take();
         match (result, next) {
             (Ok(retired), Some((answered, request))) => {

@@ -2,11 +2,11 @@
 
 use motet_compiler::Session;
 use motet_robots::card::Robot;
-use motet_runtime::Image;
+use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 
 use crate::builtin::{self, Answered, Unplanned};
-use crate::request::Situation;
+use motet_requests::RequestContext;
 
 /// Makes policies of requests.
 pub trait Planner {
@@ -68,11 +68,11 @@ pub struct Ask<'a> {
     /// The request, as it stands after the answers that changed it.
     pub request: &'a str,
     /// What is known.
-    pub situation: &'a Situation<'a>,
+    pub situation: &'a RequestContext<'a>,
     /// What was asked and done.
     pub memory: &'a Memory,
     /// What the robot sees at the moment, where it has eyes.
-    pub image: Option<&'a Image>,
+    pub image: Option<&'a CameraImage>,
 }
 
 /// The planner that needs no model.

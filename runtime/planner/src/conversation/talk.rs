@@ -7,8 +7,10 @@ use motet_compiler::{Geometry, Options, Session};
 use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Capabilities, Driver, Engine, Image, Perception, Settings, StartState, Time};
+use motet_runtime::memory::{Memory, MemoryLimits};
+use motet_runtime::{
+    CameraImage, Capabilities, Driver, Engine, EngineSettings, Perception, StartState, Time,
+};
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
@@ -20,7 +22,7 @@ use super::pursuit::Pursuit;
 use super::watcher::{Person, Watcher};
 use crate::builtin::{Answered, Unplanned};
 use crate::guard::WITHIN;
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// In which world requests are carried out.
 #[derive(Clone, Debug)]
@@ -66,7 +68,7 @@ impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
     pub fn new(setting: &'a Setting) -> Self {
-        let (known, memory) = (Known::default(), Memory::new(Limits::default()));
+        let (known, memory) = (Known::default(), Memory::new(MemoryLimits::default()));
         Self { setting, known, memory, base: OnceCell::new(), eyes: None }
     }
 
@@ -96,7 +98,7 @@ impl<'a> Conversation<'a> {
     /// Takes in what a request says of where things are.
     pub(super) fn hear(&mut self, request: &str) {
         let scene = self.known.scene(&self.setting.scene);
-        if let Ok(understood) = request::understand(request, &self.known.situation(&scene)) {
+        if let Ok(understood) = motet_requests::understand(request, &self.known.situation(&scene)) {
             understood.located.iter().for_each(|one| self.known.hear(one));
             if understood.aims.is_empty() {
                 self.known.spoken_of = understood.spoken_of;
@@ -105,7 +107,7 @@ impl<'a> Conversation<'a> {
     }
 
     /// A fresh image, where there are eyes.
-    pub(super) fn look(&mut self, now: Time) -> Option<Image> {
+    pub(super) fn look(&mut self, now: Time) -> Option<CameraImage> {
         self.eyes.as_mut()?.image(now)
     }
 
@@ -132,12 +134,12 @@ impl<'a> Conversation<'a> {
 
     pub(super) fn plan_for(
         &self,
-        (request, image): (&str, Option<&Image>),
+        (request, image): (&str, Option<&CameraImage>),
         meant: &[(String, SmolStr)],
         planner: &mut dyn Planner,
         (session, scene, known): (&Session, &Scene, &Known),
     ) -> Result<Answered, Unplanned> {
-        let situation = Situation { meant: meant.to_vec(), ..known.situation(scene) };
+        let situation = RequestContext { meant: meant.to_vec(), ..known.situation(scene) };
         planner.plan(&Ask { image, ..self.ask(session, request, &situation) })
     }
 
@@ -145,7 +147,7 @@ impl<'a> Conversation<'a> {
         &'s self,
         session: &'s Session,
         request: &'s str,
-        situation: &'s Situation<'s>,
+        situation: &'s RequestContext<'s>,
     ) -> Ask<'s> {
         Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory, image: None }
     }
@@ -159,7 +161,8 @@ impl<'a> Conversation<'a> {
         verifies: bool,
     ) -> Result<(Engine, StartState), Problem> {
         let session = self.session(scene, &self.known, None);
-        let settings = Settings { verify_within: verifies.then_some(WITHIN), ..Settings::default() };
+        let settings =
+            EngineSettings { verify_within: verifies.then_some(WITHIN), ..EngineSettings::default() };
         let start = self.known.start(scene, &session);
         let engine = Engine::new(graph, &start);
         let ready = |engine: Engine| (engine.with_settings(settings).with_capabilities(can), start);

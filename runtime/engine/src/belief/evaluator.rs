@@ -1,0 +1,266 @@
+//! Conditions and terms, judged against what is believed.
+
+use super::cells::{Beliefs, CellId};
+use crate::query::{Answer, Pattern, Query};
+use crate::time::Time;
+use crate::truth::Truth;
+use crate::verifier::derived;
+use motet_graph::{Arithmetic, Comparison, Condition, Fact, FactArg, Graph, Term, Value};
+
+/// How fresh a belief must be to count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Freshness {
+    /// Facts last; a reading counts if it is watched or was taken at or after this time.
+    Readings(Time),
+    /// Also a fact that can be observed counts only if it was seen after the observation of this number.
+    Facts(Time, u64),
+}
+
+/// The fluent that is derived from a motion. No effect says when it changes, so what was seen of it does not last.
+const DERIVED: &str = "reachable";
+
+/// Judges conditions. Cheap to make.
+pub(crate) struct Evaluator<'a> {
+    pub(crate) graph: &'a Graph,
+    pub(crate) beliefs: &'a mut Beliefs,
+    pub(crate) bindings: &'a [Option<Value>],
+    /// What [`Term::Each`] stands for.
+    pub(crate) each: Option<Value>,
+    pub(crate) fresh: Freshness,
+    /// Collects the queries that are unknown and can be observed.
+    pub(crate) missing: Option<&'a mut Vec<CellId>>,
+}
+
+impl Evaluator<'_> {
+    /// Whether a condition holds.
+    pub(crate) fn condition(&mut self, condition: &Condition) -> Truth {
+        match condition {
+            Condition::Literal(value) => Truth::from(*value),
+            Condition::Fact(fact) => self.fact(fact),
+            Condition::Compare(comparison, left, right) => self.compare(*comparison, left, right),
+            Condition::Not(inner) => self.condition(inner).negated(),
+            Condition::All(parts) => {
+                let mut truth = Truth::True;
+                for part in parts {
+                    truth = truth.and(self.condition(part));
+                    if truth == Truth::False {
+                        return truth;
+                    }
+                }
+                truth
+            }
+            Condition::AnyOf(parts) => {
+                let mut truth = Truth::False;
+                for part in parts {
+                    truth = truth.or(self.condition(part));
+                    if truth == Truth::True {
+                        return truth;
+                    }
+                }
+                truth
+            }
+        }
+    }
+
+    /// A term's value; none where it is not known.
+    pub(crate) fn term(&mut self, term: &Term) -> Option<Value> {
+        match term {
+            Term::Literal(value) => Some(value.clone()),
+            Term::Binding(binding) => self.bindings.get(binding.index())?.clone(),
+            Term::Each => self.each.clone(),
+            Term::Field(..) | Term::Measure(..) => {
+                let query = self.query_of(term)?;
+                self.reading(query)
+            }
+            Term::List(items) => {
+                items.iter().map(|item| self.term(item)).collect::<Option<Vec<_>>>().map(Value::List)
+            }
+            Term::Arith(operation, left, right) => {
+                let (left, right) = (self.term(left), self.term(right));
+                arithmetic(*operation, &left?, &right?)
+            }
+        }
+    }
+
+    /// The arguments of a fact; none where one is not known.
+    pub(crate) fn patterns(&mut self, fact: &Fact) -> Option<Vec<Pattern>> {
+        let args = fact.args.iter().map(|arg| match arg {
+            FactArg::Term(term) => self.term(term).map(Pattern::Is),
+            FactArg::Any => Some(Pattern::Any),
+        });
+        args.collect()
+    }
+
+    /// Calls `found` with each query that a condition depends on.
+    pub(crate) fn queries(&mut self, condition: &Condition, found: &mut Vec<CellId>) {
+        match condition {
+            Condition::Literal(_) => {}
+            Condition::Fact(fact) => {
+                if let (Some(args), Some(fluent)) =
+                    (self.patterns(fact), self.graph.fluents.get(fact.fluent.index()))
+                {
+                    found.push(self.beliefs.intern(Query::Fact { fluent: fluent.name.clone(), args }));
+                }
+            }
+            Condition::Compare(_, left, right) => {
+                self.term_queries(left, found);
+                self.term_queries(right, found);
+            }
+            Condition::Not(inner) => self.queries(inner, found),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                parts.iter().for_each(|part| self.queries(part, found));
+            }
+        }
+    }
+
+    fn term_queries(&mut self, term: &Term, found: &mut Vec<CellId>) {
+        match term {
+            Term::Literal(_) | Term::Binding(_) | Term::Each => {}
+            Term::Field(..) | Term::Measure(..) => {
+                if let Some(query) = self.query_of(term) {
+                    found.push(self.beliefs.intern(query));
+                }
+            }
+            Term::List(items) => items.iter().for_each(|item| self.term_queries(item, found)),
+            Term::Arith(_, left, right) => {
+                self.term_queries(left, found);
+                self.term_queries(right, found);
+            }
+        }
+    }
+
+    fn fact(&mut self, fact: &Fact) -> Truth {
+        let Some(fluent) = self.graph.fluents.get(fact.fluent.index()) else { return Truth::Unknown };
+        let Some(args) = self.patterns(fact) else { return Truth::Unknown };
+        let (mut truth, seen) = self.beliefs.fact(&fluent.name, &args);
+        if fluent.name == DERIVED && !self.is_current(&fluent.name, &args) {
+            truth = Truth::Unknown;
+        }
+        if let Freshness::Facts(_, since) = self.fresh
+            && fluent.observable
+            && seen <= since
+        {
+            truth = Truth::Unknown;
+        }
+        if truth != Truth::Unknown {
+            return truth;
+        }
+        let query = Query::Fact { fluent: fluent.name.clone(), args };
+        if fluent.observable {
+            self.miss(query);
+            return Truth::Unknown;
+        }
+        derived(&query)
+    }
+
+    /// Whether a fact was seen since what counts began, or is watched.
+    fn is_current(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
+        let cell = self.beliefs.find_fact(fluent, args).and_then(|id| self.beliefs.cell(id));
+        cell.is_some_and(|cell| cell.live || cell.at >= since)
+    }
+
+    fn reading(&mut self, query: Query) -> Option<Value> {
+        let lasting = matches!(query, Query::Field { .. });
+        let (Freshness::Readings(since) | Freshness::Facts(since, _)) = self.fresh;
+        let cell = self.beliefs.find_query(&query).and_then(|id| self.beliefs.cell(id));
+        let value = cell.filter(|cell| lasting || cell.live || cell.at >= since).and_then(|cell| match &cell
+            .answer
+        {
+            Answer::Value(value) if is_finite(value) => Some(value.clone()),
+            Answer::Value(_) | Answer::Unknown | Answer::Truth(_) => None,
+        });
+        if value.is_none() {
+            self.miss(query);
+        }
+        value
+    }
+
+    fn miss(&mut self, query: Query) {
+        if self.missing.is_none() {
+            return;
+        }
+        let id = self.beliefs.intern(query);
+        if let Some(missing) = &mut self.missing
+            && !missing.contains(&id)
+        {
+            missing.push(id);
+        }
+    }
+
+    fn query_of(&mut self, term: &Term) -> Option<Query> {
+        match term {
+            Term::Field(of, field) => match self.term(of)? {
+                Value::Entity(entity) => Some(Query::Field { entity, field: field.clone() }),
+                Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+                Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+            },
+            Term::Measure(measure, args) => {
+                let measure = self.graph.measures.get(measure.index())?.name.clone();
+                let args = args.iter().map(|arg| self.term(arg)).collect::<Option<_>>()?;
+                Some(Query::Measure { measure, args })
+            }
+            Term::Literal(_) | Term::Binding(_) | Term::Each | Term::List(_) | Term::Arith(..) => None,
+        }
+    }
+
+    fn compare(&mut self, comparison: Comparison, left: &Term, right: &Term) -> Truth {
+        let (left, right) = (self.term(left), self.term(right));
+        let (Some(left), Some(right)) = (left, right) else { return Truth::Unknown };
+        let order = match (number(&left), number(&right)) {
+            (Some(left), Some(right)) => left.partial_cmp(&right),
+            (None | Some(_), None | Some(_)) => None,
+        };
+        let equal = order.map_or_else(|| left == right, std::cmp::Ordering::is_eq);
+        let truth = match comparison {
+            Comparison::Equal => Some(equal),
+            Comparison::Unequal => Some(!equal),
+            Comparison::Less => order.map(std::cmp::Ordering::is_lt),
+            Comparison::AtMost => order.map(std::cmp::Ordering::is_le),
+            Comparison::More => order.map(std::cmp::Ordering::is_gt),
+            Comparison::AtLeast => order.map(std::cmp::Ordering::is_ge),
+        };
+        truth.map_or(Truth::Unknown, Truth::from)
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Int(value) => Some(*value as f64),
+        Value::Number(value) => Some(*value),
+        Value::Bool(_)
+        | Value::Text(_)
+        | Value::Entity(_)
+        | Value::Case(_)
+        | Value::Pose(_)
+        | Value::List(_) => None,
+    }
+}
+
+fn is_finite(value: &Value) -> bool {
+    number(value).is_none_or(f64::is_finite)
+}
+
+fn arithmetic(operation: Arithmetic, left: &Value, right: &Value) -> Option<Value> {
+    if let (Value::Int(left), Value::Int(right)) = (left, right) {
+        let whole = match operation {
+            Arithmetic::Add => left.checked_add(*right),
+            Arithmetic::Subtract => left.checked_sub(*right),
+            Arithmetic::Multiply => left.checked_mul(*right),
+            // A quotient is a number, also of whole numbers.
+            Arithmetic::Divide => return finite(*left as f64 / *right as f64),
+        };
+        return whole.map(Value::Int);
+    }
+    let (left, right) = (number(left)?, number(right)?);
+    finite(match operation {
+        Arithmetic::Add => left + right,
+        Arithmetic::Subtract => left - right,
+        Arithmetic::Multiply => left * right,
+        Arithmetic::Divide => left / right,
+    })
+}
+
+fn finite(value: f64) -> Option<Value> {
+    value.is_finite().then_some(Value::Number(value))
+}

@@ -1,0 +1,217 @@
+//! The scenes that a driver is run through.
+
+use super::driver_bench::{DriverBench, ends, matters};
+use super::law::{Law, LawViolation};
+use crate::driver::Driver;
+use crate::effect::Command;
+use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::query::Query;
+use crate::time::Time;
+use std::collections::BTreeSet;
+
+/// A driver to be checked, and what to check it with.
+pub struct ConformanceSubject<'a> {
+    /// Makes a driver at time 0 that has done nothing.
+    pub fresh: &'a mut dyn FnMut() -> Box<dyn Driver>,
+    /// Something that it accepts, and that takes less than `patience` from its acknowledgement.
+    pub command: Command,
+    /// Something that it can observe.
+    pub query: Query,
+    /// A short span: within it a driver answers questions, and nothing changes of its own accord.
+    pub moment: Time,
+    /// The longest span that is waited for something.
+    pub patience: Time,
+    /// Whether its time is virtual, so that the same calls have to give the same reports.
+    pub is_virtual: bool,
+}
+
+/// Runs a driver through all scenes, each with a fresh one, and tells every law that it breaks, each breach once.
+///
+/// What a driver does to a robot, such as whether a goal still uses a resource after its end, cannot be seen from here.
+#[must_use]
+pub fn check(subject: &mut ConformanceSubject<'_>) -> Vec<LawViolation> {
+    type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
+    let scenes: [Scene; 10] = [
+        to_the_end,
+        cancelled,
+        stopped,
+        stopped_unheard_of,
+        held,
+        cancelled_while_held,
+        stopped_while_held,
+        updated,
+        observed,
+        watched,
+    ];
+    let mut breaches = BTreeSet::new();
+    for scene in scenes {
+        let mut bench = DriverBench::new((subject.fresh)());
+        scene(&mut bench, subject);
+        breaches.extend(bench.breaches);
+        if subject.is_virtual {
+            let mut again = DriverBench::new((subject.fresh)());
+            scene(&mut again, subject);
+            if again.log != bench.log {
+                let told = first_difference(&bench.log, &again.log);
+                breaches.insert(LawViolation { law: Law::Repeatable, told });
+            }
+        }
+    }
+    breaches.into_iter().collect()
+}
+
+/// Started, it is answered, ends once, and is never heard of again; a cancel then changes nothing.
+fn to_the_end(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.start(&subject.command);
+    bench.runs(goal, subject.patience);
+    end(bench, goal, subject.patience, Law::EndsOnce);
+    bench.until(subject.patience, |_| false);
+    bench.driver.cancel(bench.now, goal);
+    bench.until(subject.moment, |_| false);
+}
+
+/// Cancelled, it ends.
+fn cancelled(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.start(&subject.command);
+    if bench.runs(goal, subject.patience) {
+        bench.driver.cancel(bench.now, goal);
+        end(bench, goal, subject.patience, Law::Cancelled);
+        bench.until(subject.patience, |_| false);
+    }
+}
+
+/// Stopped safely, it is said to be; and again where it has ended.
+fn stopped(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.start(&subject.command);
+    bench.runs(goal, subject.patience);
+    for when in ["while it runs", "after its end"] {
+        stop(bench, goal, subject, when);
+    }
+    bench.until(subject.patience, |_| false);
+}
+
+fn stop(bench: &mut DriverBench, goal: GoalId, subject: &ConformanceSubject<'_>, when: &str) {
+    bench.safe_stop(goal);
+    let is_answer = |event: &DriverEvent| *event == DriverEvent::Stopped { goal };
+    if bench.until(subject.patience, is_answer).is_none() {
+        bench.breach(Law::SafeStop, format!("that of goal {goal} is not, {when}"));
+    }
+}
+
+/// Held, it keeps still, and then goes on.
+fn held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return;
+    }
+    bench.driver.hold(bench.now, goal);
+    match bench.until(subject.patience, |event| matters(event, goal)) {
+        Some(DriverEvent::NotHeld { .. }) => {}
+        Some(other) => bench.breach(Law::Held, format!("`{other}` while it is held")),
+        None => bench.driver.proceed(bench.now, goal),
+    }
+    end(bench, goal, subject.patience, Law::Held);
+}
+
+/// A safe stop is answered also of a goal that was never started.
+fn stopped_unheard_of(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let goal = bench.unheard_of();
+    stop(bench, goal, subject, "of which it has never heard");
+}
+
+/// Cancelled while it is held, it ends.
+fn cancelled_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    if let Some(goal) = hold(bench, subject) {
+        bench.driver.cancel(bench.now, goal);
+        end(bench, goal, subject.patience, Law::Cancelled);
+    }
+}
+
+/// Stopped safely while it is held, it is said to be.
+fn stopped_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    if let Some(goal) = hold(bench, subject) {
+        stop(bench, goal, subject, "while it is held");
+        bench.until(subject.patience, |_| false);
+    }
+}
+
+/// Starts a goal and holds it for a moment. None where it does not run.
+fn hold(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> Option<GoalId> {
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return None;
+    }
+    bench.driver.hold(bench.now, goal);
+    bench.until(subject.moment, |_| false);
+    Some(goal)
+}
+
+/// Given its arguments again, it goes on under its number and ends once, by itself.
+fn updated(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    if !bench.driver.capabilities().update.contains(&subject.command.primitive) {
+        return;
+    }
+    let goal = bench.start(&subject.command);
+    if !bench.runs(goal, subject.patience) {
+        return;
+    }
+    bench.driver.update(bench.now, goal, &subject.command);
+    match bench.until(subject.patience, |event| ends(event, goal)) {
+        Some(DriverEvent::Ended { outcome: Outcome::Success(_) | Outcome::Failure(_), .. }) => {}
+        Some(other) => bench.breach(Law::Updated, format!("`{other}` after an update")),
+        None => {
+            bench.breach(Law::Updated, format!("goal {goal} has not ended {} after it", subject.patience));
+        }
+    }
+    bench.until(subject.moment, |_| false);
+}
+
+/// Observed, it is answered once.
+fn observed(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    bench.driver.observe(bench.now, &subject.query);
+    let answers = answers(bench, subject);
+    if answers != 1 {
+        bench.breach(Law::Observed, format!("`{}` is answered {answers} times", subject.query));
+    }
+}
+
+/// Watched, it is answered at once; watched again, not again.
+fn watched(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    for (time, expected) in [("first", 1), ("second", 0)] {
+        bench.driver.watch(bench.now, &subject.query);
+        let answers = answers(bench, subject);
+        if answers != expected {
+            let query = &subject.query;
+            bench.breach(Law::Watched, format!("`{query}` is answered {answers} times at the {time} watch"));
+        }
+    }
+    bench.driver.unwatch(bench.now, &subject.query);
+    bench.driver.unwatch(bench.now, &subject.query);
+    bench.until(subject.moment, |_| false);
+}
+
+/// How often the question is answered within a moment.
+fn answers(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> usize {
+    let before = bench.log.len();
+    bench.until(subject.moment, |_| false);
+    let is_answer =
+        |event: &DriverEvent| matches!(event, DriverEvent::Observed { query, .. } if *query == subject.query);
+    bench.log.iter().skip(before).filter(|(_, event)| is_answer(event)).count()
+}
+
+/// A goal ends within a span.
+fn end(bench: &mut DriverBench, goal: GoalId, span: Time, law: Law) {
+    if !bench.has_ended(goal) && bench.until(span, |event| ends(event, goal)).is_none() {
+        bench.breach(law, format!("goal {goal} has not ended after {span}"));
+    }
+}
+
+fn first_difference(one: &[(Time, DriverEvent)], two: &[(Time, DriverEvent)]) -> String {
+    let length = one.len().max(two.len());
+    let place = (0..length).find(|index| one.get(*index) != two.get(*index)).unwrap_or(0);
+    let side = |log: &[(Time, DriverEvent)]| match log.get(place) {
+        Some((at, event)) => format!("`{event}` at {at}"),
+        None => "nothing".to_owned(),
+    };
+    format!("report {place} was {}, then {}", side(one), side(two))
+}

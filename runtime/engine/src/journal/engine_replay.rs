@@ -1,0 +1,133 @@
+//! Steps an engine through a journal again, and tells where what it does differs.
+
+use super::entry::{JournalEntry, JournalHead, StepEntry, SwapEntry};
+use crate::effect::Effect;
+use crate::engine::Engine;
+use crate::event::Event;
+use crate::swap::PreparedSwap;
+use crate::time::Time;
+use crate::wire;
+use thiserror::Error;
+
+/// An engine on its way through a journal.
+#[derive(Clone, Debug)]
+pub struct EngineReplay {
+    engine: Engine,
+    now: Time,
+    out: Vec<Effect>,
+}
+
+/// Why a replay cannot begin or go on.
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
+pub enum ReplayError {
+    /// The graph in the journal was changed, or is of another version.
+    #[error("the graph in the journal cannot be read: {0}")]
+    Graph(String),
+    /// The graph is not valid.
+    #[error("the graph in the journal is not valid: {0}")]
+    Invalid(String),
+    /// A swap that was accepted then is refused now.
+    #[error("the engine refuses the policy that took over: {0}")]
+    Refused(String),
+}
+
+/// Where a replay differs from the journal.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EffectMismatch {
+    /// The place of the first effect that differs, from 0.
+    pub index: usize,
+    /// The effect in the journal, as JSON; none where the replay has more.
+    pub journal: Option<String>,
+    /// The effect of the replay; none where the journal has more.
+    pub replay: Option<String>,
+}
+
+impl EngineReplay {
+    /// An engine made from a head.
+    ///
+    /// # Errors
+    ///
+    /// The graph cannot be used.
+    pub fn new(head: &JournalHead) -> Result<Self, ReplayError> {
+        let graph = graph(&head.graph)?;
+        let engine = Engine::new(graph, &head.start.clone().into()).map_err(|wrong| {
+            ReplayError::Invalid(wrong.first().map_or_else(String::new, ToString::to_string))
+        })?;
+        let engine =
+            engine.with_settings(head.settings.into()).with_capabilities(head.capabilities.clone().into());
+        Ok(Self { engine, now: Time::from_nanos(head.from), out: Vec::new() })
+    }
+
+    /// Takes an entry in. Gives the first difference between the effects in it and those of the engine, as bytes.
+    ///
+    /// # Errors
+    ///
+    /// It is a swap that the engine refuses.
+    pub fn take(&mut self, entry: &JournalEntry) -> Result<Option<EffectMismatch>, ReplayError> {
+        self.out.clear();
+        match entry {
+            JournalEntry::Head(_) | JournalEntry::Resumed(_) => Ok(None),
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => {
+                self.step(step);
+                Ok(self.compare(&step.effects))
+            }
+            JournalEntry::Swap(swap) => {
+                self.swap(swap)?;
+                Ok(self.compare(&swap.effects))
+            }
+        }
+    }
+
+    /// The engine as it is now.
+    #[must_use]
+    pub const fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// The time of the last entry.
+    #[must_use]
+    pub const fn now(&self) -> Time {
+        self.now
+    }
+
+    /// The effects of the last entry.
+    #[must_use]
+    pub fn effects(&self) -> &[Effect] {
+        &self.out
+    }
+
+    /// The engine, to go on with.
+    #[must_use]
+    pub fn into_engine(self) -> Engine {
+        self.engine
+    }
+
+    fn step(&mut self, step: &StepEntry) {
+        self.now = Time::from_nanos(step.at);
+        match &step.event {
+            Some(event) => self.engine.handle(self.now, Event::from(event.clone()), &mut self.out),
+            None => self.engine.give_up(&mut self.out),
+        }
+    }
+
+    fn swap(&mut self, swap: &SwapEntry) -> Result<(), ReplayError> {
+        self.now = Time::from_nanos(swap.at);
+        let prepared = PreparedSwap::new(graph(&swap.graph)?, &self.engine.running());
+        let result = prepared.and_then(|prepared| self.engine.swap(self.now, prepared, &mut self.out));
+        result.map(drop).map_err(|refusal| ReplayError::Refused(refusal.to_string()))
+    }
+
+    fn compare(&self, journal: &[wire::Effect]) -> Option<EffectMismatch> {
+        let length = journal.len().max(self.out.len());
+        (0..length).find_map(|index| {
+            let was = journal.get(index).map(wire::json);
+            let is = self.out.get(index).map(|effect| wire::json(&wire::Effect::from(effect)));
+            (was != is).then_some(EffectMismatch { index, journal: was, replay: is })
+        })
+    }
+}
+
+fn graph(document: &wire::Document) -> Result<motet_graph::Graph, ReplayError> {
+    motet_graph::encode::from_document(document.clone())
+        .map_err(|error| ReplayError::Graph(error.to_string()))
+}

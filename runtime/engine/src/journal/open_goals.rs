@@ -1,0 +1,99 @@
+//! What a driver was asked for and has not answered yet, at the end of a journal: what to ask it about after a crash.
+
+use super::entry::JournalEntry;
+use crate::wire::{DriverEvent, Effect, Event, Query, Start};
+use std::collections::BTreeMap;
+
+/// What is open between the engine and its driver.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct OpenGoals {
+    /// Goals that have not ended, by number.
+    pub goals: BTreeMap<u64, OpenGoal>,
+    /// What is watched, in order.
+    pub watches: Vec<Query>,
+    /// Observations that were not answered, in order.
+    pub observations: Vec<Query>,
+    /// Commands of the last entry. Whether they reached the driver, the journal cannot know.
+    pub uncertain: Vec<Effect>,
+    /// Whether the run is over.
+    pub is_over: bool,
+}
+
+/// A goal that has not ended.
+#[derive(Clone, PartialEq, Debug)]
+pub struct OpenGoal {
+    /// What it does.
+    pub start: Start,
+    /// Whether it was given new arguments since.
+    pub updated: bool,
+    /// What was said last of its going on: to hold, to proceed, to end early, to stop safely.
+    pub told: Option<Effect>,
+}
+
+impl OpenGoals {
+    /// Takes an entry in.
+    pub fn take(&mut self, entry: &JournalEntry) {
+        match entry {
+            JournalEntry::Head(_) | JournalEntry::Resumed(_) => {}
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => {
+                if let Some(Event::Driver(event)) = &step.event {
+                    self.event(event);
+                }
+                self.uncertain.clear();
+                step.effects.iter().for_each(|effect| self.effect(effect));
+            }
+            JournalEntry::Swap(swap) => {
+                self.uncertain.clear();
+                swap.effects.iter().for_each(|effect| self.effect(effect));
+            }
+        }
+    }
+
+    fn event(&mut self, event: &DriverEvent) {
+        match event {
+            DriverEvent::Refused { goal, .. }
+            | DriverEvent::Ended { goal, .. }
+            | DriverEvent::Stopped { goal } => {
+                self.goals.remove(goal);
+            }
+            DriverEvent::NotHeld { goal } => self.with(*goal, |open| open.told = None),
+            DriverEvent::Observed { query, .. } => self.observations.retain(|asked| asked != query),
+            DriverEvent::Acknowledged { .. } | DriverEvent::Feedback { .. } => {}
+            DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+        }
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        match effect {
+            Effect::Start(start) => {
+                let open = OpenGoal { start: start.clone(), updated: false, told: None };
+                self.goals.insert(start.goal, open);
+            }
+            Effect::Update(start) => {
+                self.with(start.goal, |open| (open.start, open.updated) = (start.clone(), true));
+            }
+            Effect::Cancel { goal }
+            | Effect::Hold { goal }
+            | Effect::Proceed { goal }
+            | Effect::SafeStop { goal } => self.with(*goal, |open| open.told = Some(effect.clone())),
+            Effect::Observe { query } => self.observations.push(query.clone()),
+            Effect::Watch { query } => {
+                if !self.watches.contains(query) {
+                    self.watches.push(query.clone());
+                }
+            }
+            Effect::Unwatch { query } => self.watches.retain(|watched| watched != query),
+            Effect::Finished(_) => self.is_over = true,
+            Effect::Verify(_) | Effect::Report(_) => return,
+        }
+        if !self.is_over {
+            self.uncertain.push(effect.clone());
+        }
+    }
+
+    fn with(&mut self, goal: u64, change: impl FnOnce(&mut OpenGoal)) {
+        if let Some(open) = self.goals.get_mut(&goal) {
+            change(open);
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! What a memory shows. Each view is data for a program and, by `Display`, lines for a prompt.
+
+use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
+use super::store::{DroppedCounts, Memory};
+use crate::snapshot::Snapshot;
+use crate::wire;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The short history: the first request and the latest failure.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ShortHistory {
+    /// What was asked for first.
+    pub request: Option<String>,
+    /// What went wrong last.
+    pub failure: Option<MemoryEntry>,
+}
+
+/// The working memory: the state, and what was done so far.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct WorkingMemory {
+    /// What was asked for last.
+    pub request: Option<String>,
+    /// What holds (`true`), does not hold (`false`) or is unknown though something else of its kind is known (`null`).
+    pub state: Vec<(String, Option<bool>)>,
+    /// Names that are bound, with their values as the language writes them.
+    pub bindings: Vec<(String, String)>,
+    /// Steps that are over, questions and new policies, oldest first.
+    pub done: Vec<MemoryEntry>,
+    /// How many of them were dropped before the first.
+    pub dropped: u64,
+    /// What runs.
+    pub doing: Vec<RunningStep>,
+}
+
+/// Everything that is remembered.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FullMemory {
+    /// What was asked for first.
+    pub first_instruction: Option<MemoryEntry>,
+    /// What went wrong last.
+    pub latest_failure: Option<MemoryEntry>,
+    /// All entries that are kept, oldest first.
+    pub entries: Vec<MemoryEntry>,
+    /// How many were dropped.
+    pub dropped: DroppedCounts,
+    /// What runs.
+    pub doing: Vec<RunningStep>,
+    /// The engine's state.
+    pub state: wire::Snapshot,
+}
+
+impl Memory {
+    /// The first request and the latest failure.
+    #[must_use]
+    pub fn short(&self) -> ShortHistory {
+        ShortHistory {
+            request: self.first.as_ref().and_then(instruction),
+            failure: self.latest_failure.clone(),
+        }
+    }
+
+    /// The state and the executed steps. The state is the engine's ([`crate::Engine::snapshot`]).
+    #[must_use]
+    pub fn working(&self, state: &Snapshot) -> WorkingMemory {
+        let is_done = |entry: &&MemoryEntry| !matches!(entry.what, MemoryEvent::Instruction { .. });
+        let latest = self.entries.iter().rev().find_map(instruction);
+        let DroppedCounts { instructions: _, steps, failures, questions, swaps, endings } = self.dropped;
+        WorkingMemory {
+            request: latest.or_else(|| self.first.as_ref().and_then(instruction)),
+            state: state.state(),
+            bindings: state
+                .bindings
+                .iter()
+                .map(|(name, value)| (name.to_string(), self.cut(&value.to_string())))
+                .collect(),
+            done: self.entries.iter().filter(is_done).cloned().collect(),
+            dropped: steps + failures + questions + swaps + endings,
+            doing: self.running().collect(),
+        }
+    }
+
+    /// Everything, with the engine's state.
+    #[must_use]
+    pub fn whole(&self, state: &Snapshot) -> FullMemory {
+        FullMemory {
+            first_instruction: self.first.clone(),
+            latest_failure: self.latest_failure.clone(),
+            entries: self.entries.iter().cloned().collect(),
+            dropped: self.dropped,
+            doing: self.running().collect(),
+            state: state.into(),
+        }
+    }
+}
+
+fn instruction(entry: &MemoryEntry) -> Option<String> {
+    match &entry.what {
+        MemoryEvent::Instruction { text } => Some(text.clone()),
+        MemoryEvent::Step { .. } | MemoryEvent::Stuck { .. } | MemoryEvent::Question { .. } => None,
+        MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => None,
+    }
+}
+
+impl fmt::Display for ShortHistory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(request) = &self.request {
+            writeln!(f, "request: {request}")?;
+        }
+        if let Some(failure) = &self.failure {
+            writeln!(f, "latest failure: {failure}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for WorkingMemory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(request) = &self.request {
+            writeln!(f, "request: {request}")?;
+        }
+        for (fact, holds) in &self.state {
+            let word = match holds {
+                Some(true) => "true",
+                Some(false) => "false",
+                None => "unknown",
+            };
+            writeln!(f, "state: {fact} is {word}")?;
+        }
+        for (name, value) in &self.bindings {
+            writeln!(f, "bound: {name} = {value}")?;
+        }
+        if self.dropped > 0 {
+            writeln!(f, "done: {} earlier entries are left out", self.dropped)?;
+        }
+        for entry in &self.done {
+            writeln!(f, "done: {entry}")?;
+        }
+        for doing in &self.doing {
+            writeln!(f, "doing: {}", doing.call)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,135 @@
+//! A command as the simulator understands it: the standard primitives, and everything else.
+
+use crate::world::SimWorld;
+use motet_graph::Value;
+use motet_runtime::Command;
+use smol_str::SmolStr;
+
+/// What to do.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum SimCommand {
+    Go(SmolStr),
+    Turn(f64),
+    Home,
+    StartPose,
+    WakeUp,
+    Pick(SmolStr),
+    Grasp(SmolStr),
+    Lift,
+    Place(SmolStr, SmolStr),
+    Handover(SmolStr, SmolStr),
+    Open(SmolStr),
+    Close(SmolStr),
+    Push(SmolStr),
+    Detect(SmolStr),
+    DetectAll(SmolStr),
+    Search(SmolStr, SmolStr),
+    Locate(SmolStr),
+    Ground(SmolStr),
+    Inspect(SmolStr),
+    Say(SmolStr),
+    Ask(SmolStr),
+    Choose(Vec<SmolStr>),
+    /// Not one of the standard primitives, or not with their arguments.
+    Unknown,
+}
+
+impl SimCommand {
+    /// Parses a driver command. A robot's own primitive with the name of a standard one but other parameters is
+    /// [`Self::Unknown`].
+    pub(crate) fn of(command: &Command) -> Self {
+        Self::parse(command).unwrap_or(Self::Unknown)
+    }
+
+    fn parse(command: &Command) -> Option<Self> {
+        let entity = |name: &str| match command.arg(name)? {
+            Value::Entity(id) => Some(id.clone()),
+            Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+            Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+        };
+        let text = |name: &str| match command.arg(name)? {
+            Value::Text(text) => Some(text.clone()),
+            Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Entity(_) => None,
+            Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+        };
+        Some(match command.primitive.as_str() {
+            "go" => Self::Go(entity("to")?),
+            "turn" => Self::Turn(number(command.arg("by")?)?),
+            "home" => Self::Home,
+            "start_pose" => Self::StartPose,
+            "wake_up" => Self::WakeUp,
+            "pick" => Self::Pick(entity("object")?),
+            "grasp" => Self::Grasp(entity("object")?),
+            "lift" => Self::Lift,
+            "place" => Self::Place(entity("object")?, entity("on")?),
+            "handover" => Self::Handover(entity("object")?, entity("to")?),
+            "open" => Self::Open(entity("what")?),
+            "close" => Self::Close(entity("what")?),
+            "push" => Self::Push(entity("what")?),
+            "detect" => Self::Detect(text("what")?),
+            "detect_all" => Self::DetectAll(text("what")?),
+            "search" => Self::Search(text("what")?, entity("around")?),
+            "locate" => Self::Locate(entity("object")?),
+            "ground" => Self::Ground(entity("object")?),
+            "inspect" => Self::Inspect(entity("what")?),
+            "say" => Self::Say(text("text")?),
+            "ask" => Self::Ask(text("question")?),
+            "choose" => Self::Choose(ids(command.arg("among")?)?),
+            _ => return None,
+        })
+    }
+
+    /// How much of the deadline it takes when nothing has to be driven.
+    pub(crate) const fn share(&self) -> f64 {
+        match self {
+            Self::Go(_) | Self::Turn(_) => 0.0,
+            Self::Search(_, _) => 0.01,
+            Self::Ask(_) | Self::Choose(_) => 0.05,
+            Self::Say(_) => 0.08,
+            Self::Home | Self::StartPose | Self::WakeUp | Self::Handover(_, _) => 0.25,
+            Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
+                0.3
+            }
+            Self::Pick(_) | Self::Grasp(_) | Self::Lift | Self::Place(_, _) => 0.4,
+            Self::Open(_) | Self::Close(_) | Self::Push(_) => 0.4,
+            Self::Unknown => 0.5,
+        }
+    }
+
+    /// What the arm is like afterwards.
+    pub(crate) fn leave_arm(&self, world: &mut SimWorld) {
+        use crate::world::ArmPose;
+        let arm = match self {
+            Self::Home => ArmPose::Home,
+            Self::StartPose | Self::Search(_, _) => ArmPose::Ready,
+            Self::Lift => ArmPose::Carry,
+            Self::Pick(_) | Self::Grasp(_) | Self::Place(_, _) | Self::Handover(_, _) => ArmPose::Out,
+            Self::Open(_) | Self::Close(_) | Self::Push(_) => ArmPose::Out,
+            Self::Go(_) | Self::Turn(_) | Self::WakeUp | Self::Unknown => return,
+            Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
+                return;
+            }
+            Self::Say(_) | Self::Ask(_) | Self::Choose(_) => return,
+        };
+        world.arm = arm;
+    }
+}
+
+pub(crate) const fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => Some(*number),
+        Value::Int(number) => Some(*number as f64),
+        Value::Bool(_) | Value::Text(_) | Value::Entity(_) | Value::Case(_) => None,
+        Value::Pose(_) | Value::List(_) => None,
+    }
+}
+
+fn ids(value: &Value) -> Option<Vec<SmolStr>> {
+    let Value::List(items) = value else { return None };
+    let id = |item: &Value| match item {
+        Value::Entity(id) => Some(id.clone()),
+        Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,
+        Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
+    };
+    items.iter().map(id).collect()
+}

@@ -1,0 +1,235 @@
+//! The world at the start, from a card and a scene. What they leave open is filled in: a thing without a place stands in a
+//! row beside the room, an object without mass or width is light and slim.
+
+use crate::body::{BasePose, UprightBody};
+use crate::options::SimOptions;
+use crate::thing::{Door, Rest, Role, Thing};
+use crate::world::{ArmPose, HandState, SimWorld};
+use indexmap::IndexMap;
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_runtime::Time;
+use smol_str::SmolStr;
+use std::collections::BTreeSet;
+
+/// Metres between things that are filled in.
+const ROW_M: f64 = 2.5;
+/// What an object weighs of which nothing is said.
+const MASS_KG: f64 = 0.2;
+/// How wide an object is of which nothing is said.
+const WIDTH_M: f64 = 0.06;
+
+impl SimWorld {
+    pub(crate) fn new(robot: &Robot, scene: &Scene, options: &SimOptions) -> Self {
+        let [x, y, heading] = scene.robot.base;
+        let grip = |hand| HandState { hand, holds: None, lifted: false };
+        let mut world = Self {
+            now: Time::ZERO,
+            base: BasePose { x, y, heading },
+            motion: None,
+            drive: robot.base.clone(),
+            hands: robot.hands.iter().map(|(name, hand)| (name.clone(), grip(hand.clone()))).collect(),
+            cameras: robot.cameras.values().cloned().collect(),
+            things: IndexMap::new(),
+            arm: ArmPose::Home,
+            standing: !robot.initially.iter().any(|fact| fact.trim() == "not standing(robot)"),
+            battery: 1.0,
+            unmoved: true,
+            served_at_start: scene.robot.at.clone(),
+            visited: scene.robot.at.clone().into_iter().collect::<BTreeSet<_>>(),
+        };
+        if robot.initially.iter().any(|fact| fact.trim() == "arm_ready(robot)") {
+            world.arm = ArmPose::Ready;
+        }
+        let entities = entities(scene, options);
+        let mut row = Row::beside(scene);
+        for entity in &entities {
+            let thing = thing(entity, options, &mut row);
+            world.things.insert(entity.id.clone(), thing);
+        }
+        world.settle(&entities);
+        if let Some(Some(held)) = &scene.robot.holding {
+            world.hold_at_start(held);
+        }
+        world.believe(&options.initial_facts);
+        world.carry();
+        for thing in world.things.values_mut() {
+            thing.moved = false;
+            thing.seen_at = thing.visible_at_start.unwrap_or(false).then_some(thing.body.xyz);
+        }
+        world
+    }
+
+    /// Gives things a spot of which only the support is known, supports first.
+    fn settle(&mut self, entities: &[Entity]) {
+        let mut open: Vec<&Entity> = entities.iter().filter(|entity| entity.pose.is_none()).collect();
+        while !open.is_empty() {
+            let waits = |entity: &Entity| {
+                let support = entity.on.as_ref().or(entity.inside.as_ref());
+                support.is_some_and(|support| open.iter().any(|other| other.id == *support))
+            };
+            let (later, ready): (Vec<_>, Vec<_>) = open.iter().copied().partition(|entity| waits(entity));
+            if ready.is_empty() {
+                return;
+            }
+            for entity in ready {
+                let Some(rest) = self.thing(&entity.id).map(|thing| thing.rest.clone()) else { continue };
+                let Some(support) = rest.support().cloned() else { continue };
+                self.lay(&entity.id, &support, rest);
+            }
+            open = later;
+        }
+    }
+
+    /// Puts a thing on or in another without a hand: a free spot, or the middle where there is none.
+    pub(crate) fn lay(&mut self, id: &str, support: &str, rest: Rest) {
+        let Some(target) = self.thing(support).map(|thing| thing.body) else { return };
+        let middle = [target.x(), target.y()];
+        let spot = self.free_spot(id, support, middle, |_, _| true).unwrap_or(middle);
+        let bottom = if matches!(rest, Rest::In(_)) { target.bottom() + 0.01 } else { target.top() };
+        self.put(id, spot, bottom, rest);
+    }
+
+    pub(crate) fn hold_at_start(&mut self, held: &SmolStr) {
+        if let Some(thing) = self.things.get_mut(held) {
+            thing.rest = Rest::Free;
+            if let Some(grip) = self.hands.values_mut().next() {
+                grip.holds = Some(held.clone());
+                grip.lifted = true;
+            }
+        }
+    }
+}
+
+/// What there is: the scene's entities, those that always exist, and those that the options add.
+fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
+    let mut entities: Vec<Entity> = scene.entities.values().cloned().collect();
+    let [x, y, heading] = scene.robot.base;
+    let mut add = |id: &str, kind: &str, pose| {
+        if id != "robot" && !entities.iter().any(|entity| entity.id == id) {
+            entities.push(bare(id, kind, pose));
+        }
+    };
+    add("start", "Place", Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
+    add("user", "Person", None);
+    for (id, kind) in &options.entities {
+        add(id, kind, None);
+    }
+    entities
+}
+
+/// An entity of which only the kind is known.
+fn bare(id: &str, kind: &str, pose: Option<Placement>) -> Entity {
+    Entity {
+        id: id.into(),
+        kind: kind.into(),
+        class: SmolStr::default(),
+        names: Vec::new(),
+        categories: Vec::new(),
+        pose,
+        shape: None,
+        mass_kg: None,
+        fixed: false,
+        on: None,
+        inside: None,
+        visible: None,
+        open: None,
+        locked: None,
+        travel: None,
+        fields: IndexMap::new(),
+        written: Default::default(),
+    }
+}
+
+fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
+    let role = role(entity, options);
+    let rest = match (&entity.on, &entity.inside) {
+        (_, Some(container)) => Rest::In(container.clone()),
+        (Some(support), None) => Rest::On(support.clone()),
+        (None, None) => Rest::Free,
+    };
+    let usual = usual_shape(role);
+    let shape = entity.shape.as_ref().or(usual.as_ref());
+    let stands_on_pose = matches!(role, Role::Person | Role::Place);
+    let is_lost = entity.pose.is_none();
+    let mut body = UprightBody::new(entity.pose.unwrap_or_default(), shape, stands_on_pose);
+    if is_lost {
+        let [x, y] = row.next_spot();
+        body.put(x, y, 0.0);
+    }
+    let has_door = entity.travel.is_some() || entity.open.is_some() || entity.locked.is_some();
+    let door = Door {
+        open: entity.open.unwrap_or(false),
+        locked: entity.locked.unwrap_or(false),
+        travel: entity.travel,
+    };
+    Thing {
+        role,
+        seen_at: None,
+        body,
+        rest,
+        fixed: entity.fixed,
+        door: has_door.then_some(door),
+        visible_at_start: entity.visible,
+        walk: None,
+        moved: false,
+        mass_kg: entity.mass_kg.unwrap_or(MASS_KG),
+        width_m: entity.width().unwrap_or(WIDTH_M),
+        fields: entity.fields.clone(),
+    }
+}
+
+/// The standard kind that an entity's kind descends from. Of a kind that nobody declared, the entity itself tells.
+fn role(entity: &Entity, options: &SimOptions) -> Role {
+    let mut kind = &entity.kind;
+    for _ in 0..=options.kinds.len() {
+        match kind.as_str() {
+            "Place" => return Role::Place,
+            "Surface" => return Role::Surface,
+            "Container" => return Role::Container,
+            "Object" => return Role::Object,
+            "Person" => return Role::Person,
+            _ => {}
+        }
+        match options.kinds.get(kind) {
+            Some(parent) => kind = parent,
+            None => break,
+        }
+    }
+    match (entity.open.is_some() || entity.travel.is_some(), entity.fixed) {
+        (true, _) => Role::Container,
+        (false, true) => Role::Surface,
+        (false, false) => Role::Object,
+    }
+}
+
+/// The shape of a thing of which none is given.
+const fn usual_shape(role: Role) -> Option<Shape> {
+    match role {
+        Role::Place => Some(Shape::Cylinder { radius: 0.01, height: 0.0 }),
+        Role::Surface => Some(Shape::Box([0.8, 1.2, 0.72])),
+        Role::Container => Some(Shape::Box([0.5, 0.5, 0.7])),
+        Role::Person => Some(Shape::Cylinder { radius: 0.3, height: 1.7 }),
+        Role::Object => None,
+    }
+}
+
+/// A row of spots beside everything that has a place.
+struct Row {
+    x: f64,
+    y: f64,
+}
+
+impl Row {
+    fn beside(scene: &Scene) -> Self {
+        let [x, y, _] = scene.robot.base;
+        let placed = scene.entities.values().filter_map(|entity| entity.pose);
+        let far = placed.map(|pose| pose.xyz[0]).fold(x, f64::max);
+        Self { x: far, y }
+    }
+
+    fn next_spot(&mut self) -> [f64; 2] {
+        self.x += ROW_M;
+        [self.x, self.y]
+    }
+}
