@@ -1,6 +1,6 @@
 //! The one error of the facade.
 
-use motet_graph::Invalid;
+use motet_graph::InvalidGraph;
 use motet_host::journal::JournalError;
 use motet_planner::builtin::Unplanned;
 use motet_project::ProjectError;
@@ -25,7 +25,7 @@ pub enum Error {
     NoRobot,
     /// The graph was not made by the compiler and is not valid.
     #[error("the graph is not valid{}", .0.first().map_or_else(String::new, |error| format!(": {error}")))]
-    Graph(Vec<Invalid>),
+    Graph(Vec<InvalidGraph>),
     /// A journal cannot be read or written.
     #[error(transparent)]
     Journal(#[from] JournalError),

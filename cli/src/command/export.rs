@@ -61,7 +61,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Exit, CliError> {
         let _ = fs::remove_file(&partial);
     }
     note(&format!("wrote {} entries to {}", renamed?, args.output.display()));
-    Ok(Exit::Clean)
+    Ok(Exit::Success)
 }
 
 /// Writes a journal as MCAP. Returns the number of its entries.

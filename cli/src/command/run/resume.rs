@@ -13,7 +13,7 @@ use motet_runtime::journal::{
 use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
 
 use super::RunArgs;
-use crate::command::connect;
+use crate::command::drive::connect;
 use crate::error::{CliError, Exit};
 use crate::output::{Colors, count, note};
 use crate::report::Report;
