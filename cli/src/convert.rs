@@ -2,7 +2,7 @@
 
 use motet_compiler::{Library, settle};
 use motet_syntax::ast::{Item, Policy};
-use motet_syntax::{Form, Parsed, print};
+use motet_syntax::{Parsed, Syntax, print};
 
 /// Writes a document, or one policy of it, in a syntax.
 ///
@@ -13,7 +13,7 @@ pub(crate) fn write(
     parsed: &Parsed,
     policy: Option<&str>,
     library: &Library,
-    form: Form,
+    syntax: Syntax,
 ) -> Result<String, String> {
     let mut file = parsed.file.clone();
     if let Some(name) = policy {
@@ -24,12 +24,12 @@ pub(crate) fn write(
     }
     for item in &mut file.items {
         if let Item::Policy(policy) = item {
-            settle(policy, library, form);
+            settle(policy, library, syntax);
         }
     }
-    match form {
-        Form::Text => Ok(print::text(&file)),
-        Form::Json => Ok(print::policy_json(only(&file.items)?)),
+    match syntax {
+        Syntax::Text => Ok(print::text(&file)),
+        Syntax::Json => Ok(print::policy_json(only(&file.items)?)),
     }
 }
 

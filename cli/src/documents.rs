@@ -10,8 +10,8 @@ use ignore::WalkBuilder;
 use motet_project::files::{Bytes, decode, read_bounded, read_file};
 use motet_project::{DOCUMENT, ProjectError};
 use motet_syntax::ast::{self, MAX_BYTES};
-use motet_syntax::errors::TooLarge;
-use motet_syntax::{Diagnostic, Form, Parsed, Source, Span};
+use motet_syntax::errors::too_large;
+use motet_syntax::{Diagnostic, Parsed, Source, Span, Syntax};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
@@ -169,8 +169,8 @@ impl Document {
                 (source, parsed)
             }
             Bytes::TooMany(bytes) => {
-                let mistake = TooLarge { span: Span::new(DOCUMENT, 0, 0), bytes: *bytes };
-                (self.with_line(Source::new(self.name.as_str(), "")), unparsed(vec![mistake.into()]))
+                let mistake = too_large(Span::new(DOCUMENT, 0, 0), *bytes);
+                (self.with_line(Source::new(self.name.as_str(), "")), unparsed(vec![mistake]))
             }
         }
     }
@@ -185,7 +185,7 @@ impl Document {
 
 /// Result of parsing a document that is not text.
 fn unparsed(diagnostics: Vec<Diagnostic>) -> Parsed {
-    Parsed { file: ast::File::default(), form: Form::Text, text: Default::default(), diagnostics }
+    Parsed { file: ast::File::default(), syntax: Syntax::Text, text: Default::default(), diagnostics }
 }
 
 /// Is `true` for a reply with prose around its policy, which a rewritten document would lose.

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::{Args, ValueEnum};
 use motet_planner::guard::Verifies;
 use motet_project::{Project, ProjectBuilder};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
 
 /// Documents to read.
@@ -138,7 +138,7 @@ pub(crate) enum SyntaxArg {
     Json,
 }
 
-impl From<SyntaxArg> for Form {
+impl From<SyntaxArg> for Syntax {
     fn from(syntax: SyntaxArg) -> Self {
         match syntax {
             SyntaxArg::Text => Self::Text,

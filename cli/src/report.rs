@@ -73,7 +73,7 @@ impl Report {
         let is_colored = if goes_to_stderr { self.colors.stderr } else { self.colors.stdout };
         match self.format {
             DiagnosticFormat::Human => {
-                let color = if is_colored { render::Color::On } else { render::Color::Off };
+                let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
                 render::human(diagnostics, sources, color, width())
             }
             DiagnosticFormat::Github => render::github(diagnostics, sources),
@@ -143,11 +143,11 @@ pub(crate) fn close(out: &mut Output, result: Result<Exit, CliError>) -> Result<
 }
 
 /// Title and text of the page of a diagnostic code.
-fn help(code: &str) -> Option<render::Help<'static>> {
+fn help(code: &str) -> Option<render::CodePage<'static>> {
     let page = motet_compiler::codes::page(code)?;
     let title =
         page.text.lines().next().and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
-    Some(render::Help { title, markdown: page.text })
+    Some(render::CodePage { title, markdown: page.text })
 }
 
 /// Diagnostics of many documents under one set of sources. Each document comes with sources in which it is the first

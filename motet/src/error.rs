@@ -49,7 +49,7 @@ impl Error {
         match self {
             Self::Refused { diagnostics, sources }
             | Self::Project(ProjectError::Invalid { diagnostics, sources, .. }) => {
-                render::human(diagnostics, sources, render::Color::Off, width)
+                render::human(diagnostics, sources, render::ColorChoice::Off, width)
             }
             other => format!("{other}\n"),
         }

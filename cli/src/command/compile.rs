@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motet_graph::draw;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use crate::convert;
 use crate::documents::one_document;
@@ -86,8 +86,8 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
         Emit::Tree => Ok(draw::text(&graph)),
         Emit::Mermaid => Ok(draw::mermaid(&graph)),
         Emit::Dot => Ok(draw::dot(&graph)),
-        Emit::Json => convert::write(&parsed, policy, library, Form::Json),
-        Emit::Text => convert::write(&parsed, policy, library, Form::Text),
+        Emit::Json => convert::write(&parsed, policy, library, Syntax::Json),
+        Emit::Text => convert::write(&parsed, policy, library, Syntax::Text),
     };
     let mut text = match written {
         Ok(text) => text,

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motet_compiler::Session;
-use motet_decode::{Acceptor, Modifiers, Prepared, Surface};
+use motet_decode::{Acceptor, AcceptorFactory, Modifiers, Subset};
 use motet_project::files::{Bytes, read_small};
 use motet_syntax::ast::MAX_BYTES;
-use motet_syntax::{Form, Sources, render};
+use motet_syntax::{Sources, Syntax, render};
 
 use crate::documents::read_stdin;
 use crate::error::{CliError, Exit};
@@ -70,9 +70,9 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.environment.without_motions().open_with(report)?;
     let session = project.session(report)?.session.clone();
     let mut prefix = read(&args.path)?;
-    let form = args.surface.into();
+    let syntax = args.surface.into();
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
-    let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+    let prepared = AcceptorFactory::new(&session, Subset { syntax, modifiers, ..Subset::default() });
     let mut acceptor = prepared
         .acceptor(args.budget)
         .ok_or_else(|| CliError::Message(format!("no policy fits into {} bytes", args.budget)))?;
@@ -84,20 +84,20 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let taken = acceptor.accept(&prefix);
     let rest = prefix.split_off(taken);
     if !rest.is_empty() {
-        report.out.text(&refusal(&mut acceptor, (&session, form), &rest));
+        report.out.text(&refusal(&mut acceptor, (&session, syntax), &rest));
         return Ok(Exit::Findings);
     }
     let tokens = args.tokenizer.as_ref().map(|name| {
         let vocabulary = tokens::vocabulary(name, args.end.as_deref())?;
         tokens::describe(&prepared, &vocabulary, &prefix, args.budget)
     });
-    report.out.text(&continuations(&mut acceptor, (&session, form), args.explain));
+    report.out.text(&continuations(&mut acceptor, (&session, syntax), args.explain));
     report.out.text(&tokens.transpose()?.unwrap_or_default());
     Ok(Exit::Success)
 }
 
 /// Describes the continuations.
-fn continuations(acceptor: &mut Acceptor, (session, form): (&Session, Form), explain: bool) -> String {
+fn continuations(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), explain: bool) -> String {
     let mut text = format!("accepted: {}\n", crate::output::count(acceptor.bytes().len(), "byte"));
     let forced = acceptor.forced();
     if !forced.is_empty() {
@@ -107,10 +107,10 @@ fn continuations(acceptor: &mut Acceptor, (session, form): (&Session, Form), exp
     if acceptor.is_accepting() {
         text.push_str("the policy is complete: only the end may follow\n");
     } else if explain {
-        let next = next::next(acceptor, form);
+        let next = next::next(acceptor, syntax);
         text.push_str(&next.describe(&session.signatures(), acceptor));
         // The text syntax has no list of the words that names and types alone would allow.
-        if form == Form::Json {
+        if syntax == Syntax::Json {
             text.push_str(&refused::refused(acceptor, &session.signatures(), &next));
         }
     } else {
@@ -120,7 +120,7 @@ fn continuations(acceptor: &mut Acceptor, (session, form): (&Session, Form), exp
 }
 
 /// Where what was prefix is refused, and why.
-fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Form), rest: &[u8]) -> String {
+fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest: &[u8]) -> String {
     let before = acceptor.bytes();
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
     let from = before.len().saturating_sub(40);
@@ -143,7 +143,7 @@ fn refusal(acceptor: &mut Acceptor, (session, form): (&Session, Form), rest: &[u
             text.push_str(&format!("why: {line}\n"));
         }
     }
-    let next = next::next(acceptor, form);
+    let next = next::next(acceptor, syntax);
     text.push_str(&next.describe(&session.signatures(), acceptor));
     text
 }

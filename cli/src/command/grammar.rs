@@ -6,7 +6,7 @@ pub(super) use probe::key;
 
 use clap::{Args, Subcommand, ValueEnum};
 use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Prompt, request_body};
-use motet_decode::{Modifiers, Surface};
+use motet_decode::{Modifiers, Subset};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
@@ -40,7 +40,7 @@ pub(crate) struct GrammarArgs {
     #[arg(long)]
     modifiers: bool,
     /// Maximum nesting of blocks inside the policy's own block
-    #[arg(long, default_value_t = motet_decode::surface::DEFAULT_DEPTH, value_name = "N",
+    #[arg(long, default_value_t = motet_decode::subset::DEFAULT_DEPTH, value_name = "N",
           value_parser = depth)]
     depth: usize,
     /// Start a Lark grammar with the header line of llguidance
@@ -142,8 +142,8 @@ pub(crate) fn run(args: &GrammarArgs, colors: Colors) -> Result<Exit, CliError> 
 fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut project = args.environment.without_motions().open_with(report)?;
     let signatures = project.session(report)?.session.signatures();
-    let surface = Surface {
-        form: args.surface.into(),
+    let surface = Subset {
+        syntax: args.surface.into(),
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,
     };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motet_pddl::Input;
+use motet_pddl::PddlSource;
 use motet_project::files::{add_source, read_small};
 use motet_syntax::{Diagnostic, FileId, Source, Sources};
 
@@ -72,9 +72,9 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, CliError> {
     let plan = args.plan.as_ref().map(|path| read(path, &mut sources, &mut diagnostics)).transpose()?;
     let mut imported = None;
     if diagnostics.is_empty() {
-        let domain = Input { source: &domain, file: first };
-        let problem = Input { source: &problem, file: second };
-        let plan = plan.as_ref().map(|(source, file)| Input { source, file: *file });
+        let domain = PddlSource { source: &domain, file: first };
+        let problem = PddlSource { source: &problem, file: second };
+        let plan = plan.as_ref().map(|(source, file)| PddlSource { source, file: *file });
         (imported, diagnostics) = motet_pddl::import(domain, problem, plan);
     }
     report.print(&diagnostics, &sources);

@@ -41,10 +41,10 @@ enum FileFormat {
 /// Stdout cannot be written.
 pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
     let schema = match args.of {
-        FileFormat::Policy => schemars::schema_for!(motet_syntax::json::wire::Document),
+        FileFormat::Policy => motet_syntax::json::policy_schema(),
         FileFormat::Scene => motet_robots::scene::schema(),
         FileFormat::Robot => motet_robots::card::schema(),
-        FileFormat::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
+        FileFormat::Diagnostic => schemars::schema_for!(motet_syntax::render::DiagnosticRecord),
         FileFormat::Driver => motet_host::remote::protocol::schema(),
         FileFormat::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
         FileFormat::Faults => schemars::schema_for!(motet_sim::Faults),

@@ -4,21 +4,21 @@
 use motet_compiler::signature::Signatures;
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{FileId, Source, suggest};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use smol_str::SmolStr;
 
 /// Names of a file of faults with their spans. Its other values are read with the faults themselves.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 struct FaultFile {
     calls: Vec<CallFault>,
     world: Vec<WorldChange>,
     #[serde(rename = "answers")]
-    _answers: Option<IgnoredAny>,
+    _answers: Option<serde_json::Value>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 struct CallFault {
     primitive: Spanned<SmolStr>,
     #[serde(default, rename = "nth")]
@@ -26,7 +26,7 @@ struct CallFault {
     then: CallEnd,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum CallEnd {
@@ -36,14 +36,14 @@ enum CallEnd {
     Hangs,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 struct WorldChange {
     #[serde(rename = "at")]
     _at: f64,
     what: Change,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum Change {
@@ -68,7 +68,7 @@ enum Change {
     Battery(f64),
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[allow(dead_code, reason = "numbers are read with the faults themselves")]
 enum Destination {

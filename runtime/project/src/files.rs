@@ -7,6 +7,7 @@ use std::path::Path;
 use motet_syntax::ast::MAX_BYTES;
 use motet_syntax::json;
 use motet_syntax::{Diagnostic, FileId, Source, Sources};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::error::{DiagnosticSink, ProjectError, invalid, require};
@@ -92,7 +93,7 @@ pub fn add_source(name: &str, bytes: &[u8], sources: &mut Sources) -> (Source, F
 /// # Errors
 ///
 /// The file cannot be read, or does not have the shape of `T`.
-pub fn read_json<T: DeserializeOwned>(
+pub fn read_json<T: DeserializeOwned + JsonSchema>(
     path: &Path,
     subject: &'static str,
     sink: &mut dyn DiagnosticSink,

@@ -2,7 +2,7 @@
 
 use motet_compiler::Signatures;
 use motet_decode::Acceptor;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use super::place::{PrefixEnd, describe, describe_text};
 use super::quoted;
@@ -21,17 +21,17 @@ pub(super) struct Next {
     free: Vec<&'static str>,
     /// Is `true` if some words are missing.
     is_cut: bool,
-    form: Form,
+    syntax: Syntax,
 }
 
 /// Continuations of the bytes of an acceptor, which stays as it is.
-pub(super) fn next(acceptor: &mut Acceptor, form: Form) -> Next {
+pub(super) fn next(acceptor: &mut Acceptor, syntax: Syntax) -> Next {
     let first = acceptor.next_bytes();
-    let mut next = Next { words: Vec::new(), free: Vec::new(), is_cut: false, form };
+    let mut next = Next { words: Vec::new(), free: Vec::new(), is_cut: false, syntax };
     if first.len() > FREE {
         let is_text =
-            acceptor.bytes().iter().filter(|byte| **byte == b'"').count() % 2 == 1 && form == Form::Text;
-        let is_text = is_text || (form == Form::Json && first.contains(&b' '));
+            acceptor.bytes().iter().filter(|byte| **byte == b'"').count() % 2 == 1 && syntax == Syntax::Text;
+        let is_text = is_text || (syntax == Syntax::Json && first.contains(&b' '));
         next.free.push(if is_text { "a text" } else { "a name" });
         next.words.extend(first.contains(&b'"').then(|| "\"".to_owned()));
         return next;
@@ -68,7 +68,7 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
     {
         // The quote closes the string before it.
         next.words.push(text(word));
-    } else if is_mark(byte, next.form) && !opens {
+    } else if is_mark(byte, next.syntax) && !opens {
         next.words.push(text(word));
     } else {
         let follow = acceptor.next_bytes();
@@ -77,7 +77,7 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
         } else {
             let (marks, rest): (Vec<u8>, Vec<u8>) = follow
                 .into_iter()
-                .partition(|byte| is_mark(*byte, next.form) && !(opens && b"{[\"".contains(byte)));
+                .partition(|byte| is_mark(*byte, next.syntax) && !(opens && b"{[\"".contains(byte)));
             if !marks.is_empty() {
                 next.words.push(text(word));
             }
@@ -91,10 +91,10 @@ fn grow(acceptor: &mut Acceptor, byte: u8, word: &mut Vec<u8>, next: &mut Next, 
 }
 
 /// Is `true` for bytes between words.
-fn is_mark(byte: u8, form: Form) -> bool {
-    match form {
-        Form::Json => b"{}[],:\"".contains(&byte),
-        Form::Text => b"{}[](), \"".contains(&byte),
+fn is_mark(byte: u8, syntax: Syntax) -> bool {
+    match syntax {
+        Syntax::Json => b"{}[],:\"".contains(&byte),
+        Syntax::Text => b"{}[](), \"".contains(&byte),
     }
 }
 
@@ -112,9 +112,9 @@ impl Next {
         }
         let width = self.words.iter().map(|word| word.chars().count()).max().unwrap_or_default().min(24);
         for word in &self.words {
-            let description = match self.form {
-                Form::Json => describe(signatures, &place, word),
-                Form::Text => describe_text(signatures, word),
+            let description = match self.syntax {
+                Syntax::Json => describe(signatures, &place, word),
+                Syntax::Text => describe_text(signatures, word),
             };
             let line = format!("  {word:width$}  {description}");
             text.push_str(line.trim_end());

@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use motet_decode::vocabulary::{Encoding, MAX_FILE_BYTES};
-use motet_decode::{End, Prepared, Vocabulary};
+use motet_decode::{AcceptorFactory, EndToken, Vocabulary};
 
 use super::quoted;
 use crate::error::CliError;
@@ -26,8 +26,8 @@ pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Cl
         return Vocabulary::of_encoding(encoding).map_err(wrong);
     }
     let end = match end {
-        None => End::Known,
-        Some(end) => end.parse().map_or(End::Named(end), End::Number),
+        None => EndToken::Known,
+        Some(end) => end.parse().map_or(EndToken::Named(end), EndToken::Number),
     };
     let path = Path::new(name);
     let unread = |source| CliError::read(path, source);
@@ -44,7 +44,7 @@ pub(super) fn vocabulary(name: &str, end: Option<&str>) -> Result<Vocabulary, Cl
 ///
 /// No policy fits into the budget.
 pub(super) fn describe(
-    prepared: &Prepared,
+    prepared: &AcceptorFactory,
     vocabulary: &Vocabulary,
     prefix: &[u8],
     budget: usize,
