@@ -1,4 +1,5 @@
-//! Subcommands, one file each: flags, help and implementation; a folder of the same name holds the parts of a large one.
+//! Subcommands, one file each: flags, help and implementation; a folder of the same name holds the parts of
+//! a large one.
 
 pub(crate) mod check;
 pub(crate) mod compile;

@@ -1,4 +1,5 @@
-//! Conversion of a document between text and JSON. Types are filled in first where one syntax leaves them open.
+//! Conversion of a document between text and JSON. Types are filled in first where one syntax leaves them
+//! open.
 
 use motet_compiler::{Library, settle};
 use motet_syntax::ast::{Item, Policy};

@@ -1,5 +1,5 @@
-//! Documents on the command line: files, folders, stdin, and `.jsonl` files with one policy per line. The front ends of the
-//! language decide what the bytes mean.
+//! Documents on the command line: files, folders, stdin, and `.jsonl` files with one policy per line. The
+//! front ends of the language decide what the bytes mean.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fs::File;
@@ -257,8 +257,8 @@ fn add_folder(path: &Path, found: &mut Inputs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Is `true` if a JSON file in a folder may be a policy: scenes, states and other data are there too. Broken JSON counts as
-/// one, so that its errors are reported.
+/// Is `true` if a JSON file in a folder may be a policy: scenes, states and other data are there too. Broken
+/// JSON counts as one, so that its errors are reported.
 fn may_be_policy(path: &Path) -> Result<bool, CliError> {
     let Bytes::All(bytes) = read_file(path)? else { return Ok(true) };
     let has = |members: &Members, keys: &[&str]| keys.iter().any(|key| members.contains_key(*key));

@@ -1,10 +1,10 @@
-//! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, runs in simulation.
-//! The flags of one subcommand are in its own file in `command`.
+//! Flags that several subcommands share: documents, the robot and its scene, the format of diagnostics, runs
+//! in simulation. The flags of one subcommand are in its own file in `command`.
 
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, value_parser};
 use motet_planner::guard::Verifies;
 use motet_project::{Project, ProjectBuilder};
 use motet_syntax::Syntax;
@@ -13,7 +13,8 @@ use motet_syntax::unit::{Dimension, Unit};
 /// Documents to read.
 #[derive(Args, Debug)]
 pub(crate) struct DocumentArgs {
-    /// Files, folders (all .motet and .json files in them), .jsonl files with one policy per line, or `-` for stdin
+    /// Files, folders (all .motet and .json files in them), .jsonl files with one policy per line, or `-`
+    /// for stdin
     #[arg(value_name = "PATH", required = true)]
     pub(crate) paths: Vec<PathBuf>,
 }
@@ -21,13 +22,15 @@ pub(crate) struct DocumentArgs {
 /// Robot, scene, state and domains.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct EnvironmentArgs {
-    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: the policy's `for NAME`]
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: the policy's
+    /// `for NAME`]
     #[arg(long, value_name = "NAME|FOLDER")]
     pub(crate) robot: Option<String>,
     /// Scene: a built-in name, or a JSON file
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) scene: Option<String>,
-    /// Facts at the start: a JSON object such as '{"holding(mug_1)": true, "free(hand)": false}', or a file with one
+    /// Facts at the start: a JSON object such as '{"holding(mug_1)": true, "free(hand)": false}', or a file
+    /// with one
     #[arg(long, value_name = "FACTS|FILE")]
     pub(crate) state: Option<PathBuf>,
     /// File with further declarations; repeatable
@@ -82,7 +85,7 @@ pub(crate) struct MotionArgs {
     #[arg(long)]
     pub(crate) no_geometry: bool,
     /// Search budget of a motion: 4 tries four times as often before the motion is deferred to the run
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
     pub(crate) effort: u16,
 }
 
@@ -180,7 +183,8 @@ pub(crate) enum Speed {
 }
 
 impl Speed {
-    /// Schedule of the checks of deferred motions. A run at full speed checks them in place and so is reproducible.
+    /// Schedule of the checks of deferred motions. A run at full speed checks them in place and so is
+    /// reproducible.
     pub(crate) const fn verifies(self) -> Verifies {
         match self {
             Self::Max => Verifies::AtOnce,

@@ -25,18 +25,18 @@ use output::{Colors, note};
     version,
     propagate_version = true,
     disable_help_subcommand = true,
-    after_help = "Exit codes: 0 success, 1 errors found (or a file would be reformatted), 2 the command could not run.\n\
+    after_help = "Exit codes: 0 success, 1 errors found (or a file would be reformatted), 2 could not run.\n\
                   `motet run`: 0 done, 1 refused by the check, 3 failed, 130 interrupted."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// When to use colours; `auto` means in a terminal, unless NO_COLOR is set
+    /// Colours; `auto` uses them in a terminal, unless NO_COLOR is set
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: ColorChoice,
 }
 
-/// When to colour the output.
+/// Colours of the output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
 pub(crate) enum ColorChoice {
     #[default]

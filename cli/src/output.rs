@@ -78,8 +78,8 @@ pub(crate) fn note(text: &str) {
 /// Maximum length of a shown text from another process, in characters.
 const MAX_SHOWN_CHARS: usize = 500;
 
-/// Text from another process as one line for a terminal. Control and bidirectional characters are escaped (`\u{1b}`), and a
-/// long text is cut.
+/// Text from another process as one line for a terminal. Control and bidirectional characters are escaped
+/// (`\u{1b}`), and a long text is cut.
 pub(crate) fn escape(text: &str) -> String {
     let is_unsafe = |letter: char| {
         letter.is_control()

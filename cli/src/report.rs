@@ -43,8 +43,8 @@ impl Report {
         self.warnings += count;
     }
 
-    /// Holds the diagnostics back until the end. They go to stdout, or to stderr if the command has written a result to
-    /// stdout.
+    /// Holds the diagnostics back until the end. They go to stdout, or to stderr if the command has written
+    /// a result to stdout.
     pub(crate) fn hold(&mut self) {
         self.is_held = true;
     }
@@ -150,8 +150,8 @@ fn help(code: &str) -> Option<render::CodePage<'static>> {
     Some(render::CodePage { title, markdown: page.text })
 }
 
-/// Diagnostics of many documents under one set of sources. Each document comes with sources in which it is the first
-/// file; here files are told apart by name.
+/// Diagnostics of many documents under one set of sources. Each document comes with sources in which it is
+/// the first file; here files are told apart by name.
 #[derive(Debug, Default)]
 struct Collected {
     diagnostics: Vec<Diagnostic>,

@@ -129,7 +129,8 @@ fn summary(
     text
 }
 
-/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the events of the driver.
+/// Names of the failure kinds that a driver invented: neither the graph nor the trace has them, but the
+/// events of the driver.
 #[derive(Debug, Default)]
 struct FailureNames {
     last: Option<String>,

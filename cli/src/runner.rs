@@ -1,4 +1,5 @@
-//! Runs an engine on a driver: paced by the wall clock, shown by a view, recorded in a journal, stopped by Ctrl-C.
+//! Runs an engine on a driver: paced by the wall clock, shown by a view, recorded in a journal, stopped by
+//! Ctrl-C.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;

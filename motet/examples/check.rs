@@ -1,4 +1,5 @@
-//! Checks a policy file against a robot in a scene: `cargo run -p motet --example check -- examples/fetch_mug.motet`.
+//! Checks a policy file against a robot in a scene: `cargo run -p motet --example check --
+//! examples/fetch_mug.motet`.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 
 use std::process::ExitCode;

@@ -1,4 +1,5 @@
-//! Plans a policy for a request and runs it in simulation: `cargo run -p motet --example plan_and_run -- 'bring me the mug'`.
+//! Plans a policy for a request and runs it in simulation: `cargo run -p motet --example plan_and_run --
+//! 'bring me the mug'`.
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use motet::Motet;

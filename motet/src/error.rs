@@ -43,7 +43,8 @@ impl Error {
         }
     }
 
-    /// The error for people, in up to `width` columns without colours: diagnostics with the source around each span.
+    /// The error for people, in up to `width` columns without colours: diagnostics with the source around
+    /// each span.
     #[must_use]
     pub fn render(&self, width: usize) -> String {
         match self {

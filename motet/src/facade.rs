@@ -15,8 +15,8 @@ use crate::{Error, run};
 
 /// A robot in a scene with a compiler session: checks, compiles, plans and runs policies.
 ///
-/// Opening is expensive, since it reads the library, the robot's body and the scene; checks and compilations share the
-/// result. The value is `Send` and can be shared between threads.
+/// Opening is expensive, since it reads the library, the robot's body and the scene; checks and compilations
+/// share the result. The value is `Send` and can be shared between threads.
 ///
 /// ```
 /// let motet = motet::Motet::open("hsr", "kitchen")?;
@@ -64,7 +64,8 @@ pub struct Plan {
 }
 
 impl Motet {
-    /// Opens a robot in a scene. Either is a built-in name, or a path: a folder with a `robot.toml`, a scene in JSON.
+    /// Opens a robot in a scene. Either is a built-in name, or a path: a folder with a `robot.toml`, a scene
+    /// in JSON.
     ///
     /// # Errors
     ///
@@ -112,7 +113,8 @@ impl Motet {
         &self.opened
     }
 
-    /// Checks a document in the text or the JSON syntax. Returns all errors and warnings in the order of the document.
+    /// Checks a document in the text or the JSON syntax. Returns all errors and warnings in the order of the
+    /// document.
     ///
     /// ```
     /// let motet = motet::Motet::open("hsr", "kitchen")?;
@@ -166,7 +168,8 @@ impl Motet {
         Ok(Plan { text: planned.text, notes: answered.understood.notes, policy })
     }
 
-    /// Simulator of the robot in the scene, in the state that the policy starts from. The same seed gives the same run.
+    /// Simulator of the robot in the scene, in the state that the policy starts from. The same seed gives
+    /// the same run.
     ///
     /// # Errors
     ///
@@ -179,7 +182,8 @@ impl Motet {
         Ok(Sim::new(robot, &scene, options))
     }
 
-    /// Runs a policy on a driver to its end. Motions that the compiler deferred are checked just before they start.
+    /// Runs a policy on a driver to its end. Motions that the compiler deferred are checked just before they
+    /// start.
     ///
     /// # Errors
     ///

@@ -21,3 +21,8 @@ pub use {
     motet_project as project, motet_robots as robots, motet_runtime as runtime, motet_sim as sim,
     motet_syntax as syntax,
 };
+
+// The page of the book compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/embedding.md")]
+mod embedding_page {}

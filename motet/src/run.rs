@@ -1,7 +1,7 @@
 //! Runs of checked policies: the engine, the journal, and the checks of deferred motions.
 //!
-//! [`Motet::run`](crate::Motet::run) covers most embedders. These parts serve hosts that pace a run, show it, write a
-//! journal or resume one, as the `motet` command does.
+//! [`Motet::run`](crate::Motet::run) covers most embedders. These parts serve hosts that pace a run, show
+//! it, write a journal or resume one, as the `motet` command does.
 
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -28,8 +28,8 @@ pub fn start_state(scene: Option<&Scene>) -> StartState {
     }
 }
 
-/// Engine for a compiled graph and a driver with these capabilities. With a guard, the engine asks for a verdict on every
-/// motion that the compiler deferred.
+/// Engine for a compiled graph and a driver with these capabilities. With a guard, the engine asks for a
+/// verdict on every motion that the compiler deferred.
 ///
 /// # Errors
 ///

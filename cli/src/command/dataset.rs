@@ -6,7 +6,7 @@ mod make;
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum, value_parser};
 use motet_dataset::Body;
 use motet_geometry::planning::SearchBudget;
 use motet_project::open_robot;
@@ -25,7 +25,7 @@ use crate::report::Report;
     subcommand_help_heading = "Subcommands",
     after_help = "Examples:\n  \
     motet dataset --out data --form trl --scenes 100\n  \
-    motet dataset --out data --form inteliplan --robot hsr --room kitchen --wordings wordings.txt --seed 7\n  \
+    motet dataset --out data --form inteliplan --robot hsr --room kitchen --seed 7\n  \
     motet dataset lint data/train.jsonl data/test.jsonl"
 )]
 pub(crate) struct DatasetArgs {
@@ -38,7 +38,8 @@ pub(crate) struct DatasetArgs {
 /// Subcommands of `motet dataset`.
 #[derive(Subcommand, Debug)]
 enum DatasetCommand {
-    /// Find rows whose plan cannot run, contradictory or duplicate rows, rooms in several files, and missing or unused images
+    /// Find rows whose plan cannot run, contradictory or duplicate rows, rooms in several files, and missing
+    /// or unused images
     Lint(LintArgs),
 }
 
@@ -67,10 +68,10 @@ struct MakeArgs {
     #[arg(long, value_name = "FILE")]
     things: Option<String>,
     /// Number of varied rooms
-    #[arg(long, default_value_t = 30, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 30, value_name = "N", value_parser = value_parser!(u32).range(1..=100_000))]
     scenes: u32,
     /// Number of conversations per robot and room
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000))]
     cases: u32,
     /// Share of the rooms for test.jsonl
     #[arg(long, default_value_t = 0.2, value_name = "SHARE", value_parser = share)]

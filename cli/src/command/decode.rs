@@ -37,7 +37,8 @@ pub(crate) struct DecodeArgs {
     /// Describe the possible words, and why other words are refused
     #[arg(long)]
     explain: bool,
-    /// Show the possible tokens of a vocabulary: `cl100k`, `o200k`, or a file (tokenizer.json, a JSON list, or base64 lines)
+    /// Show the possible tokens of a vocabulary: `cl100k`, `o200k`, or a file (tokenizer.json, a JSON list,
+    /// or base64 lines)
     #[arg(long, value_name = "NAME|FILE")]
     tokenizer: Option<String>,
     /// Token that ends a sequence, by name or number; required if the file does not define it
@@ -119,7 +120,7 @@ fn continuations(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax),
     text
 }
 
-/// Where what was prefix is refused, and why.
+/// Describes the place where the prefix is refused, and the reason.
 fn refusal(acceptor: &mut Acceptor, (session, syntax): (&Session, Syntax), rest: &[u8]) -> String {
     let before = acceptor.bytes();
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;

@@ -124,7 +124,8 @@ fn plan(
     if is_wrong { Exit::Findings } else { Exit::Success }
 }
 
-/// Writes the exchange for a request: the visible and the feasible of the objects that it names, and the plan or a question.
+/// Writes the exchange for a request: the visible and the feasible of the objects that it names, and the
+/// plan or a question.
 fn write(request: &str, opened: &ProjectSession, report: &mut Report) -> Result<Exit, CliError> {
     let Some(robot) = &opened.robot else {
         return Err(CliError::Message("a plan needs a robot: give --robot NAME".to_owned()));

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, value_parser};
 use motet_compiler::Options;
 use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
 use motet_project::read_scene;
@@ -34,9 +34,9 @@ use record::ConversationRecord;
 #[command(after_help = "Examples:\n  \
     motet do 'bring me the coke' --robot hsr --scene kitchen\n  \
     motet do 'bring me the mug' --robot hsr --scene kitchen --ask script answers.txt --speed max\n  \
-    motet do 'bring me the coke' --robot hsr --scene kitchen --planner http://localhost:8000 --model NAME --dialect vllm\n\n\
-    A line typed while the robot moves is a new request and takes over at once. `--say '12s: bring me the apple instead'`\n\
-    types one after 12 s of the run.")]
+    motet do 'bring me the coke' --robot hsr --scene kitchen --planner http://localhost:8000 --model NAME\n\n\
+    A line typed while the robot moves is a new request and takes over at once.\n\
+    `--say '12s: bring me the apple instead'` types one after 12 s of the run.")]
 pub(crate) struct DoArgs {
     /// Request in English
     #[arg(value_name = "REQUEST")]
@@ -56,10 +56,11 @@ pub(crate) struct DoArgs {
     record: Option<PathBuf>,
     #[command(flatten)]
     simulation: SimulationArgs,
-    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON file
+    /// Scene of the simulation if it differs from the one that the robot knows: a built-in name, or a JSON
+    /// file
     #[arg(long = "real", value_name = "NAME|FILE")]
     real: Option<String>,
-    /// How to show the run: as a tree of steps, or as JSON events
+    /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
 }
@@ -90,10 +91,10 @@ struct ModelArgs {
     #[arg(long, value_name = "VARIABLE")]
     key_from: Option<String>,
     /// Maximum time to wait for a reply, in seconds
-    #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 120, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..))]
     timeout: u64,
     /// Number of times a refused reply goes back to the model with the diagnostics
-    #[arg(long, default_value_t = 3, value_name = "N", value_parser = clap::value_parser!(u32).range(..=9))]
+    #[arg(long, default_value_t = 3, value_name = "N", value_parser = value_parser!(u32).range(..=9))]
     repair: u32,
     /// Start the first step as soon as it is complete and no later step can refute it
     #[arg(long)]

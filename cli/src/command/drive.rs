@@ -38,7 +38,7 @@ pub(crate) struct DriveArgs {
     /// Write a journal of the run into this folder; `motet run --resume` continues it
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
-    /// How to show the run: as a tree of steps, or as JSON events
+    /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
 }

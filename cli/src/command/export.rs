@@ -1,4 +1,5 @@
-//! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a simulation.
+//! `motet export`: the journal of a run as an MCAP file, with the simulated scene if the run was a
+//! simulation.
 
 use std::fs::{self, File};
 use std::io::BufWriter;

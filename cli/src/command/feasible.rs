@@ -5,7 +5,7 @@ mod wire;
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, value_parser};
 use motet_compiler::{Options, Session};
 use motet_geometry::planning::{
     InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
@@ -27,10 +27,10 @@ use crate::report::Report;
     motet feasible --robot hsr --scene kitchen --for 'reach(mug_1)'\n  \
     motet feasible --robot hsr --scene kitchen --for 'reach(coke, top)' --svg coke.svg\n  \
     motet feasible --robot hsr --scene kitchen --all --format json\n\n\
-    A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON),\n\
-    pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME). The scene defines the object in the hand:\n\
+    A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY),\n\
+    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME). The scene defines the object in the hand:\n\
     \"robot\": {\"holding\": …}.\n\
-    Exit codes: 0 all motions of --for are feasible, 1 one is infeasible or unknown, 2 the command could not run.")]
+    Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {
     /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml
     #[arg(long, value_name = "NAME|FOLDER")]
@@ -41,12 +41,12 @@ pub(crate) struct FeasibleArgs {
     /// Motion to decide; repeatable
     #[arg(long = "for", value_name = "MOTION", required_unless_present = "all")]
     motions: Vec<String>,
-    /// Decide go_to for all entities, reach for all objects, pull or push for all doors, and all postures, each from the
-    /// start; the exit code is 0
+    /// Decide go_to for all entities, reach for all objects, pull or push for all doors, and all postures,
+    /// each from the start; the exit code is 0
     #[arg(long, conflicts_with = "motions")]
     all: bool,
     /// Search budget of a motion: 4 tries four times as often
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1000))]
     effort: u16,
     /// Format of the answers
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
@@ -122,7 +122,8 @@ fn parse_motions(
         let query = MotionQuery::parse(motion).ok_or_else(|| CliError::Unknown {
             what: "motion",
             name: motion.clone(),
-            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
+            help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
+                   put(OBJECT, ENTITY), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) or posture(NAME)"
                 .to_owned(),
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
@@ -131,7 +132,11 @@ fn parse_motions(
                 require_known("entity", object, entities)?;
                 require_known("entity", other, entities)?;
             }
-            MotionQuery::GoTo(id) | MotionQuery::Reach(id, _) | MotionQuery::Look(id) | MotionQuery::Pull(id) | MotionQuery::Push(id) => {
+            MotionQuery::GoTo(id)
+            | MotionQuery::Reach(id, _)
+            | MotionQuery::Look(id)
+            | MotionQuery::Pull(id)
+            | MotionQuery::Push(id) => {
                 require_known("entity", id, entities)?;
             }
             MotionQuery::Posture(name) => {
@@ -218,7 +223,8 @@ fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
             format!("{query}: {}, {} ({proof})\n{help}", why.reason.name(), why.reason)
         }
         MotionAnswer::Unknown(UnknownReason::Budget) => format!(
-            "{query}: unknown, the search ran out of its budget\n  help: `--effort 4` tries four times as often\n"
+            "{query}: unknown, the search ran out of its budget\n  \
+             help: `--effort 4` tries four times as often\n"
         ),
         MotionAnswer::Unknown(UnknownReason::Because(why)) => format!("{query}: unknown, {why}\n"),
     }

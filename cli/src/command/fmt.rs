@@ -1,4 +1,5 @@
-//! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments of a text stay.
+//! `motet fmt`: formats policies in the canonical layout, or converts them between text and JSON. Comments
+//! of a text stay.
 
 use std::path::{Path, PathBuf};
 
@@ -178,7 +179,7 @@ impl Tally {
     fn print(&self, args: &FmtArgs) {
         if self.lines > 0 {
             note(
-                "note: skipped the .jsonl files: fmt rewrites whole files only (--to text|json prints their policies)",
+                "note: skipped the .jsonl files: fmt rewrites whole files only (--to prints their policies)",
             );
         }
         if args.to.is_none() {

@@ -21,7 +21,7 @@ use crate::report::Report;
     after_help = "Examples:\n  \
     motet grammar --robot hsr --scene kitchen > policy.schema.json\n  \
     motet grammar --robot hsr --scene kitchen --format gbnf --surface text > policy.gbnf\n  \
-    motet grammar --robot hsr --scene kitchen --request vllm --model NAME --ask \"Bring me the red mug.\" |\n    \
+    motet grammar --robot hsr --scene kitchen --request vllm --model NAME |\n    \
     curl -H 'Content-Type: application/json' -d @- http://localhost:8000/v1/chat/completions\n  \
     motet grammar probe http://localhost:8000 --dialect vllm --model NAME"
 )]
@@ -115,14 +115,16 @@ enum Server {
     Openai,
 }
 
-/// Reads a nesting depth. A document nests at most 64 deep, and each block with its conditions takes several levels.
+/// Reads a nesting depth. A document nests at most 64 deep, and each block with its conditions takes several
+/// levels.
 fn depth(text: &str) -> Result<usize, String> {
     let depth: usize = text.parse().map_err(|_| "write a whole number".to_owned())?;
     if depth <= 8 { Ok(depth) } else { Err("write a number from 0 to 8".to_owned()) }
 }
 
 /// System message of a printed request.
-const SYSTEM: &str = "You write a policy for a robot: the steps that do what you are asked. Write the policy and nothing else.";
+const SYSTEM: &str = "You write a policy for a robot: the steps that do what you are asked. \
+                      Write the policy and nothing else.";
 
 /// Runs the command.
 ///

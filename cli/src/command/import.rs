@@ -39,8 +39,8 @@ struct PddlArgs {
     /// PDDL problem
     #[arg(value_name = "PROBLEM")]
     problem: PathBuf,
-    /// Plan with one `(action argument …)` per line. It becomes a policy with the goal of the problem; check it with the
-    /// declarations as `--domain`
+    /// Plan with one `(action argument …)` per line. It becomes a policy with the goal of the problem; check
+    /// it with the declarations as `--domain`
     #[arg(long, value_name = "FILE")]
     plan: Option<PathBuf>,
     /// File to write [default: stdout]

@@ -52,10 +52,12 @@ pub(crate) struct RunArgs {
     #[arg(
         long,
         value_name = "FOLDER",
-        conflicts_with_all = ["file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain"]
+        conflicts_with_all = [
+            "file", "policy", "record", "seed", "faults", "answers", "robot", "scene", "state", "domain",
+        ]
     )]
     resume: Option<PathBuf>,
-    /// How to show the run: as a tree of steps, or as JSON events
+    /// View of the run: a tree of steps, or JSON events
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     format: OutputFormat,
 }
@@ -164,7 +166,8 @@ pub(super) fn paced_view(
 ///
 /// # Errors
 ///
-/// The file of faults cannot be read, has errors, or names something that the robot or the scene does not have.
+/// The file of faults cannot be read, has errors, or names something that the robot or the scene does not
+/// have.
 pub(super) fn simulator(
     (robot, session): (&Robot, &Session),
     scene: &Scene,

@@ -1,4 +1,5 @@
-//! Steps of a policy as rows of a tree, each with its status. The trace of the engine updates them; views draw them.
+//! Steps of a policy as rows of a tree, each with its status. The trace of the engine updates them; views
+//! draw them.
 
 use std::sync::Arc;
 

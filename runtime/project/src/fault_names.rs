@@ -1,5 +1,5 @@
-//! Names in a file of faults. Each is looked up before the run: a fault with an unknown name would never happen, and nobody
-//! would notice.
+//! Names in a file of faults. Each is looked up before the run: a fault with an unknown name would never
+//! happen, and nobody would notice.
 
 use motet_compiler::signature::Signatures;
 use motet_syntax::json::{self, Spanned};

@@ -47,8 +47,8 @@ impl Default for ProjectBuilder {
 }
 
 impl ProjectBuilder {
-    /// Sets the robot: a built-in name, or a folder with a `robot.toml`. Without one, the `for NAME` of each document
-    /// names a built-in robot.
+    /// Sets the robot: a built-in name, or a folder with a `robot.toml`. Without one, the `for NAME` of each
+    /// document names a built-in robot.
     #[must_use]
     pub fn robot(mut self, robot: impl Into<String>) -> Self {
         self.robot = Some(robot.into());
@@ -62,8 +62,8 @@ impl ProjectBuilder {
         self
     }
 
-    /// Sets the facts at the start: a JSON object such as `{"holding(mug_1)": true}`, or a file with one. `null` marks
-    /// a fact as unknown.
+    /// Sets the facts at the start: a JSON object such as `{"holding(mug_1)": true}`, or a file with one.
+    /// `null` marks a fact as unknown.
     #[must_use]
     pub fn state(mut self, state: impl Into<PathBuf>) -> Self {
         self.state = Some(state.into());
@@ -143,7 +143,8 @@ impl ProjectBuilder {
     }
 }
 
-/// Inputs shared by all documents, read once. A compiler session is built for each robot that documents ask for.
+/// Inputs shared by all documents, read once. A compiler session is built for each robot that documents ask
+/// for.
 #[derive(Debug)]
 pub struct Project {
     inputs: Arc<ProjectBuilder>,
@@ -184,7 +185,8 @@ impl Project {
         self.build(&name, sink)
     }
 
-    /// Session for a document: with the project's own robot, or else with the built-in robot that the document names.
+    /// Session for a document: with the project's own robot, or else with the built-in robot that the
+    /// document names.
     ///
     /// # Errors
     ///

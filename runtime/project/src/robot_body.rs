@@ -15,8 +15,8 @@ use crate::files::{add_source, read_optional};
 use crate::robot::{Home, RobotFiles};
 
 impl RobotFiles {
-    /// Reads the URDF that the card names, with solids for its meshes and with the pairs of links that the SRDF
-    /// allows to touch. `None` if the card names no URDF.
+    /// Reads the URDF that the card names, with solids for its meshes and with the pairs of links that the
+    /// SRDF allows to touch. `None` if the card names no URDF.
     ///
     /// # Errors
     ///

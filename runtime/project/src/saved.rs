@@ -1,5 +1,5 @@
-//! Description of a run's driver in the head of its journal: enough to open the run again, without the files it was opened
-//! from where they are small.
+//! Description of a run's driver in the head of its journal: enough to open the run again, without the files
+//! it was opened from where they are small.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -121,10 +121,12 @@ impl SavedDriver {
     ///
     /// # Errors
     ///
-    /// [`ProjectError::Journal`] if the run was part of a conversation, or the journal was written by another host.
+    /// [`ProjectError::Journal`] if the run was part of a conversation, or the journal was written by
+    /// another host.
     pub fn from_json(json: &serde_json::Value) -> Result<Self, ProjectError> {
         if json.is_null() {
-            let why = "the run was part of a conversation and started in a scene that earlier runs had changed: it can \
+            let why = "the run was part of a conversation and started in a scene that earlier runs had changed: it \
+                       can \
                        be replayed but not resumed";
             return Err(ProjectError::Journal(why.to_owned()));
         }
@@ -183,8 +185,8 @@ impl From<SavedAddress> for DriverAddress {
     }
 }
 
-/// Names and paths from which the geometry of a run was opened. A robot's body is too large for every journal, so its files
-/// are read again; the text of the scene tells whether it has changed since.
+/// Names and paths from which the geometry of a run was opened. A robot's body is too large for every
+/// journal, so its files are read again; the text of the scene tells whether it has changed since.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedProject {

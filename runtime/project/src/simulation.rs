@@ -1,4 +1,5 @@
-//! SimOptions of a simulated run: seed, faults and answers from files, and the entities and facts of a compiled policy.
+//! SimOptions of a simulated run: seed, faults and answers from files, and the entities and facts of a
+//! compiled policy.
 
 use std::path::Path;
 
@@ -83,8 +84,8 @@ impl SimulationInputs {
         }
     }
 
-    /// SimOptions for a compiled policy. The entities of `files`, the document and its domains, get a place in the
-    /// simulated scene too.
+    /// SimOptions for a compiled policy. The entities of `files`, the document and its domains, get a place
+    /// in the simulated scene too.
     #[must_use]
     pub fn for_policy(self, graph: &Graph, files: &[&File]) -> SimOptions {
         let parent = |kind: &motet_graph::Kind| {

@@ -1,5 +1,5 @@
-//! Stance of a robot with a first card: the height of its base above the floor, and a posture free of contacts. `motet
-//! robots add` writes it into the card.
+//! Stance of a robot with a first card: the height of its base above the floor, and a posture free of
+//! contacts. `motet robots add` writes it into the card.
 
 use motet_geometry::kinematics::{Variable, spread};
 use motet_geometry::planning::{
@@ -24,7 +24,8 @@ pub fn find_stance(robot: &Robot, urdf: &Urdf) -> Stance {
         return posture(raised.as_ref().unwrap_or(&machine), height).0;
     }
     let (stance, against) = posture(&machine, 0.0);
-    // What is bolted down is on the floor, unless a shape of the arm then is below it wherever its joints are.
+    // What is bolted down is on the floor, unless a shape of the arm then is below it wherever its joints
+    // are.
     let height =
         if against == Some(Against::Floor) { above(&machine, |_| true, MIN_CLEARANCE + 1e-3) } else { 0.0 };
     let above = (height > 0.0).then(|| posture(&raised(robot, urdf, height), height).0);
@@ -47,8 +48,8 @@ enum Against {
     Floor,
 }
 
-/// The first posture of the arm in which nothing touches, at a height; where there is none, what the robot touches in the first
-/// that was tried.
+/// The first posture of the arm in which nothing touches, at a height; where there is none, what the robot
+/// touches in the first that was tried.
 fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
     let scene = Scene::default();
     let world = SceneState::new(machine, &scene);
@@ -81,8 +82,8 @@ fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
     (Stance { height_m, joints: joints.collect(), touch }, against)
 }
 
-/// How high the base's link has to be for these links to be so far above the floor, in m, to the next millimetre; 0 where it
-/// may be on the floor itself.
+/// Height of the base link above the floor, in m and rounded up to a millimetre, with which the chosen links clear
+/// the floor by `gap`; 0 if the base link may be on the floor.
 fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 {
     let state = Configuration { base: [0.0; 3], joints: machine.rest().to_vec() };
     let below = machine.lowest(&state, counts).map_or(0.0, |(_, height)| gap - height);
@@ -90,7 +91,8 @@ fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 
     if below > 1e-5 { ((below - 1e-5) * 1e3).ceil() / 1e3 } else { 0.0 }
 }
 
-/// A posture as a card writes it: the middle of the limits, then others all over them, to three digits.
+/// Posture number `index`, rounded to three digits as in a card: the middle of the limits, then a Halton sequence
+/// over them.
 fn written(variables: &[Variable], index: usize) -> Vec<f64> {
     let values = spread(variables, index).into_iter().zip(variables).map(|(value, variable)| {
         let value = (value * 1e3).round() / 1e3;

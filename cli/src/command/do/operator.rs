@@ -1,5 +1,5 @@
-//! Operator of a conversation: a person at the terminal, a script, or nobody. Answers questions of the dialogue manager and of
-//! `ask` steps.
+//! Operator of a conversation: a person at the terminal, a script, or nobody. Answers questions of the
+//! dialogue manager and of `ask` steps.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;

@@ -1,5 +1,5 @@
-//! Record of a conversation in a folder: `talk.jsonl` with one event per line, a file for each policy, and a folder with the
-//! journal of each run.
+//! Record of a conversation in a folder: `talk.jsonl` with one event per line, a file for each policy, and a
+//! folder with the journal of each run.
 
 use std::cell::RefCell;
 use std::fs::{self, File};

@@ -1,5 +1,5 @@
-//! Drawing of a scene from above: its entities, the robot at the start and at the end of each path, the path of its base, the
-//! doors that it moves, and a legend of all answers.
+//! Drawing of a scene from above: its entities, the robot at the start and at the end of each path, the path
+//! of its base, the doors that it moves, and a legend of all answers.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -51,7 +51,8 @@ impl Ink {
     }
 }
 
-/// Draws the scene as SVG: 120 pixels per metre, x to the right, y up, answers numbered from 1 in their order.
+/// Draws the scene as SVG: 120 pixels per metre, x to the right, y up, answers numbered from 1 in their
+/// order.
 pub(super) fn top_view(
     room: &QueryContext<'_>,
     scene: &Scene,

@@ -65,7 +65,8 @@ pub(super) fn run(
     if let Some([one, other]) = touch {
         let (one, other) = (one.escape_debug(), other.escape_debug());
         report.out.line(&format!(
-            "warning: `{one}` touches `{other}`, and no posture without contact was found: no motion can start"
+            "warning: `{one}` touches `{other}`, and no posture without contact was found: \
+             no motion can start"
         ));
     }
     report.out.line(&format!("next: motet robots check {}", folder.display()));

@@ -1,5 +1,5 @@
-//! `motet robots check`: checks that a card, its declarations and its URDF are correct and fit each other, and describes the
-//! body.
+//! `motet robots check`: checks that a card, its declarations and its URDF are correct and fit each other,
+//! and describes the body.
 
 use motet_compiler::{Options, Session};
 use motet_geometry::kinematics::Chain;
@@ -125,7 +125,8 @@ fn postures(machine: &RobotModel, described: &mut BodyReport) {
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
                 format!(
-                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
+                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: \
+                     `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
                 )
             } else {
                 format!("{instead}, or a greater `height` in `[model]`")
@@ -136,7 +137,8 @@ fn postures(machine: &RobotModel, described: &mut BodyReport) {
             let base = machine.card().model.as_ref().map_or(0.0, |model| model.height_m);
             let what = format!("`{}` is {:.2} m below the floor", link.escape_debug(), -height);
             let help = format!(
-                "`height` in `[model]` is the height of the base link above the floor; {:.3} m puts this part on the floor",
+                "`height` in `[model]` is the height of the base link above the floor; \
+                 {:.3} m puts this part on the floor",
                 base - height
             );
             described.warn(&name, &what, &help);

@@ -118,7 +118,8 @@ pub(super) fn resume(
     Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced)
 }
 
-/// Time at which the run continues. Simulated time has stood still since the crash; the time of a robot has not.
+/// Time at which the run continues. Simulated time has stood still since the crash; the time of a robot has
+/// not.
 fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
     match saved {
         SavedDriver::Simulator(_) => last,
@@ -129,7 +130,8 @@ fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
     }
 }
 
-/// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or have changed.
+/// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or
+/// have changed.
 fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::Course> {
     match saved.open(report) {
         Ok(Some(course)) => Some(course),
