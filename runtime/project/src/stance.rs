@@ -82,8 +82,8 @@ fn posture(machine: &RobotModel, height_m: f64) -> (Stance, Option<Against>) {
     (Stance { height_m, joints: joints.collect(), touch }, against)
 }
 
-/// Height of the base link above the floor, in m and rounded up to a millimetre, with which the chosen links clear
-/// the floor by `gap`; 0 if the base link may be on the floor.
+/// Height of the base link above the floor, in m and rounded up to a millimetre, with which the chosen links
+/// clear the floor by `gap`; 0 if the base link may be on the floor.
 fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 {
     let state = Configuration { base: [0.0; 3], joints: machine.rest().to_vec() };
     let below = machine.lowest(&state, counts).map_or(0.0, |(_, height)| gap - height);
@@ -91,8 +91,8 @@ fn above(machine: &RobotModel, counts: impl Fn(usize) -> bool, gap: f64) -> f64 
     if below > 1e-5 { ((below - 1e-5) * 1e3).ceil() / 1e3 } else { 0.0 }
 }
 
-/// Posture number `index`, rounded to three digits as in a card: the middle of the limits, then a Halton sequence
-/// over them.
+/// Posture number `index`, rounded to three digits as in a card: the middle of the limits, then a Halton
+/// sequence over them.
 fn written(variables: &[Variable], index: usize) -> Vec<f64> {
     let values = spread(variables, index).into_iter().zip(variables).map(|(value, variable)| {
         let value = (value * 1e3).round() / 1e3;
