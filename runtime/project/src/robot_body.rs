@@ -4,8 +4,8 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::PathBuf;
 
-use motet_robots::card::{self, Model, ModelFile, Robot};
-use motet_robots::mesh::{self, Found};
+use motet_robots::card::{self, ModelFile, ModelSpec, Robot};
+use motet_robots::mesh::{self, MeshFile};
 use motet_robots::srdf;
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::Sources;
@@ -61,7 +61,7 @@ impl RobotFiles {
     }
 
     /// Name and content of the URDF; `None` if it does not exist.
-    fn urdf(&self, model: &Model) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
+    fn urdf(&self, model: &ModelSpec) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
         match &self.home {
             Home::BuiltIn(name) => {
                 let text = card::embedded_urdf(name).unwrap_or_default();
@@ -71,13 +71,13 @@ impl RobotFiles {
         }
     }
 
-    fn srdf(&self, model: &Model) -> Result<Srdf, ProjectError> {
+    fn srdf(&self, model: &ModelSpec) -> Result<Srdf, ProjectError> {
         let (Home::Folder(folder), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
         Ok(read_optional(&folder.join(file))?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
     }
 
     /// Passes the index of each package folder that does not exist.
-    fn missing_packages(&self, model: &Model, mut each: impl FnMut(usize)) {
+    fn missing_packages(&self, model: &ModelSpec, mut each: impl FnMut(usize)) {
         let Home::Folder(folder) = &self.home else { return };
         for (package, at) in model.packages.iter().zip(0..) {
             if !folder.join(package).is_dir() {
@@ -86,7 +86,7 @@ impl RobotFiles {
         }
     }
 
-    fn mesh_folders(&self, model: &Model) -> MeshFolders {
+    fn mesh_folders(&self, model: &ModelSpec) -> MeshFolders {
         let Home::Folder(folder) = &self.home else { return MeshFolders::default() };
         let urdf = folder.join(&model.urdf);
         let own = urdf.parent().unwrap_or(folder).to_owned();
@@ -116,7 +116,7 @@ struct MeshFolders {
 }
 
 impl MeshFolders {
-    fn find(&self, name: &str) -> Found {
+    fn find(&self, name: &str) -> MeshFile {
         let looked = mesh::locate(name, &self.own, &self.packages);
         let mut there: Vec<PathBuf> = looked.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
         // Files first.
@@ -124,21 +124,21 @@ impl MeshFolders {
         let Some(path) = there.first() else {
             // `locate` gives no candidate for a name that leaves its package.
             let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
-            return if leaves { Found::Outside } else { Found::Missing(looked) };
+            return if leaves { MeshFile::Outside } else { MeshFile::Missing(looked) };
         };
         if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
-            return Found::Outside;
+            return MeshFile::Outside;
         }
         if !path.is_file() {
-            return Found::NoFile;
+            return MeshFile::NotAFile;
         }
         let mut bytes = Vec::new();
         // One byte above the limit shows that the file is too large.
         let read = File::open(path).and_then(|file| file.take(mesh::MAX_BYTES + 1).read_to_end(&mut bytes));
         match read {
-            Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => Found::TooLarge,
-            Ok(_) => Found::Bytes(bytes),
-            Err(_) => Found::Missing(looked),
+            Ok(_) if bytes.len() as u64 > mesh::MAX_BYTES => MeshFile::TooLarge,
+            Ok(_) => MeshFile::Bytes(bytes),
+            Err(_) => MeshFile::Missing(looked),
         }
     }
 }

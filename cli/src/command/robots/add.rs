@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use motet_project::files::{add_source, read_small};
 use motet_project::{Discard, RobotFiles, find_stance, require};
-use motet_robots::card::{Beside, Stance};
+use motet_robots::card::{DraftInputs, DraftStance};
 use motet_robots::srdf::{self, Srdf};
 use motet_robots::urdf::Urdf;
 use motet_robots::{card, urdf};
@@ -49,7 +49,7 @@ pub(super) fn run(
     };
     let file = relative_to(path, folder)?;
     let mut beside =
-        Beside { srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
+        DraftInputs { srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
     let stance = stance_of(folder, &card::draft(&robot, &file, &beside));
     let touch = stance.as_ref().and_then(|stance| stance.touch.clone());
     beside.stance = stance;
@@ -88,8 +88,8 @@ fn read_srdf(
     Ok(srdf.filter(|_| is_sound))
 }
 
-/// Stance of the robot of a card; `None` if its body has errors, which `motet robots check` reports.
-fn stance_of(folder: &Path, card: &str) -> Option<Stance> {
+/// DraftStance of the robot of a card; `None` if its body has errors, which `motet robots check` reports.
+fn stance_of(folder: &Path, card: &str) -> Option<DraftStance> {
     let mut sources = Sources::default();
     let files = RobotFiles::draft(folder, card);
     let robot = files.card(&mut sources, &mut Discard).ok()?;

@@ -2,7 +2,7 @@
 //! and describes the body.
 
 use motet_compiler::{Options, Session};
-use motet_geometry::kinematics::Chain;
+use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
 use motet_project::{ProjectError, RobotFiles, require};
 use motet_robots::card::Robot;
@@ -74,7 +74,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
         "body      {}, {} ({} independently), {} for collision",
         count(urdf.links.len(), "link"),
         count(urdf.joints.len(), "joint"),
-        match tree.variables().len() {
+        match tree.dofs().len() {
             1 => "1 moves".to_owned(),
             moving => format!("{moving} move"),
         },
@@ -84,15 +84,15 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
     let base = base.and_then(|base| tree.link(base).ok()).unwrap_or(tree.root());
     for (name, hand) in &robot.hands {
         let tip = hand.tip.as_deref().and_then(|tip| tree.link(tip).ok());
-        let Some(chain) = tip.and_then(|tip| Chain::new(tree, base, tip)) else {
+        let Some(chain) = tip.and_then(|tip| KinematicChain::new(tree, base, tip)) else {
             lines.push(format!("{name:8}  not connected to the base link"));
             continue;
         };
         // The height of the base does not change the solver.
         let found = IkSolver::of(&chain, robot.base.drive, 0.0);
-        lines.push(format!("{name:8}  {}: {}", count(chain.variables.len(), "joint"), solver(&found)));
+        lines.push(format!("{name:8}  {}: {}", count(chain.dofs.len(), "joint"), solver(&found)));
     }
-    lines.extend(machine.body().unseen().iter().filter_map(|link| {
+    lines.extend(machine.body().uncovered_links().iter().filter_map(|link| {
         Some(format!(
             "the mesh of `{}` was not read, so no motion is computed",
             tree.links().get(*link)?.escape_debug()
