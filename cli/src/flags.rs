@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_planner::guard::Verifies;
+use motet_planner::runtime_check::CheckMode;
 use motet_project::{Project, ProjectBuilder};
 use motet_syntax::Syntax;
 use motet_syntax::unit::{Dimension, Unit};
@@ -185,10 +185,10 @@ pub(crate) enum Speed {
 impl Speed {
     /// Schedule of the checks of deferred motions. A run at full speed checks them in place and so is
     /// reproducible.
-    pub(crate) const fn verifies(self) -> Verifies {
+    pub(crate) const fn verifies(self) -> CheckMode {
         match self {
-            Self::Max => Verifies::AtOnce,
-            Self::Times(_) => Verifies::Beside,
+            Self::Max => CheckMode::AtOnce,
+            Self::Times(_) => CheckMode::Beside,
         }
     }
 }

@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
-use motet_planner::guard::Guard;
+use motet_planner::runtime_check::Guard;
 use motet_runtime::{Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, Time, Verifier, resume};
 
 use crate::error::{CliError, Exit};

@@ -2,7 +2,7 @@
 
 use motet_graph::InvalidGraph;
 use motet_host::journal::JournalError;
-use motet_planner::builtin::Unplanned;
+use motet_planner::builtin::PlanError;
 use motet_project::ProjectError;
 use motet_syntax::{Diagnostic, Severity, Sources, render};
 use thiserror::Error as ThisError;
@@ -19,7 +19,7 @@ pub enum Error {
     Refused { diagnostics: Vec<Diagnostic>, sources: Box<Sources> },
     /// The planner finds no policy for a request.
     #[error("no plan: {0}")]
-    Plan(#[from] Unplanned),
+    Plan(#[from] PlanError),
     /// The operation needs a robot, and the project has none.
     #[error("the project has no robot")]
     NoRobot,
@@ -38,7 +38,7 @@ impl Error {
         match self {
             Self::Refused { diagnostics, .. } => diagnostics,
             Self::Project(error) => error.diagnostics(),
-            Self::Plan(Unplanned::Refused { diagnostics, .. }) => diagnostics,
+            Self::Plan(PlanError::Refused { diagnostics, .. }) => diagnostics,
             Self::Plan(_) | Self::NoRobot | Self::Graph(_) | Self::Journal(_) => &[],
         }
     }

@@ -3,7 +3,7 @@
 use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::builtin;
-use motet_planner::guard::{Guard, Verifies};
+use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{DOCUMENT, Project, ProjectBuilder, ProjectSession, SimulationInputs};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, EngineSettings, Observer, RunEnd, Time};
@@ -203,7 +203,7 @@ impl Motet {
         driver: &mut dyn Driver,
         observer: &mut dyn Observer,
     ) -> Result<RunEnd, Error> {
-        let guard = self.opened.session.course().map(|course| Guard::new(course, Verifies::AtOnce));
+        let guard = self.opened.session.course().map(|course| Guard::new(course, CheckMode::AtOnce));
         let start = run::start_state(self.opened.scene.as_ref());
         let capabilities = driver.capabilities();
         let graph = policy.graph.clone();

@@ -8,7 +8,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
-use motet_planner::guard::{Guard, WITHIN};
+use motet_planner::runtime_check::{Guard, WITHIN};
 use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;

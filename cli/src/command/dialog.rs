@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use clap::Args;
 use motet_planner::builtin;
-use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
+use motet_planner::dialogue::Problem;
 use motet_planner::prompt;
 use motet_project::files::read_small;
 use motet_project::{DOCUMENT, ProjectSession};

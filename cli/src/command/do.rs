@@ -13,7 +13,8 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
 use motet_compiler::Options;
-use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
+use motet_planner::Planner;
+use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
 use motet_project::read_scene;
 use motet_runtime::{Driver, Time};
 use motet_sim::Sim;
@@ -169,7 +170,7 @@ fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Ex
     let simulator = run::simulator((&robot, &opened.session), &real, eye, &args.simulation, report)?;
     let operator = Rc::new(OperatorInput::read(&args.ask)?);
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
-    let setting = Setting {
+    let setting = DialogueSetup {
         robot,
         scene,
         domains,
@@ -196,7 +197,7 @@ fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Ex
 fn carry_out(
     args: &DoArgs,
     colors: Colors,
-    setting: &Setting,
+    setting: &DialogueSetup,
     planner: &mut dyn Planner,
     simulator: Sim,
     operator: &Rc<OperatorInput>,

@@ -6,7 +6,7 @@ use clap::Args;
 use motet::run::{create_journal, engine, start_state};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
-use motet_planner::guard::{Guard, Verifies};
+use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::{Driver, EngineSettings, Event, Time};
 
@@ -62,7 +62,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     };
     let start = start_state(opened.scene.as_ref());
     let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
-    let guard = opened.session.course().map(|course| Guard::new(course, Verifies::Beside));
+    let guard = opened.session.course().map(|course| Guard::new(course, CheckMode::Beside));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings())?;
     let journal = match &args.record {
         Some(folder) => {

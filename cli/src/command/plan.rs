@@ -2,7 +2,7 @@
 
 use clap::Args;
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Unplanned};
+use motet_planner::builtin::{self, PlanError};
 use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::Source;
@@ -58,7 +58,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
             })
         }
         None => goals(&args.goal)
-            .map_err(Unplanned::from)
+            .map_err(PlanError::from)
             .and_then(|aims| builtin::plan(&opened.session, robot, "plan", &aims)),
     };
     match planned {
@@ -71,7 +71,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
             }
             Ok(Exit::Success)
         }
-        Err(Unplanned::NoPlan(NoPlan::Wrong { diagnostics })) => {
+        Err(PlanError::NoPlan(NoPlan::Wrong { diagnostics })) => {
             for found in &diagnostics {
                 note(&format!("{}: {}", found.code, found.message));
             }

@@ -1,7 +1,7 @@
 //! `motet prompt`: the prompt that a model would get for a request.
 
 use clap::Args;
-use motet_planner::prompt::{self, Lasting, Prompt};
+use motet_planner::prompt::{self, Prompt, StaticPrompt};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_runtime::memory::{Memory, MemoryLimits};
@@ -53,7 +53,7 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, CliError> {
         scene: &scene,
         situation: &situation,
         memory: &memory,
-        lasting: &Lasting::new(&opened.session, robot, &scene),
+        lasting: &StaticPrompt::new(&opened.session, robot, &scene),
         tokens: args.tokens,
         time: prompt::TIME,
     };

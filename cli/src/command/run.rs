@@ -8,7 +8,7 @@ use clap::Args;
 use motet::run::{create_journal, engine, start_state};
 use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_planner::guard::Guard;
+use motet_planner::runtime_check::Guard;
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject, SimulationInputs, named_robot};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;

@@ -1,6 +1,6 @@
 //! Grounding with the robot's camera: `ground` asks the model with a picture.
 
-use motet_planner::vision::{Pointed, Pointing};
+use motet_planner::vision::{GroundedPoint, GroundingDriver};
 use motet_robots::scene::Scene;
 use motet_runtime::{Driver, Perception};
 use serde_json::json;
@@ -28,13 +28,14 @@ pub(super) fn pointing<'d>(
     eyes: &'d mut dyn Perception,
     scene: &'d Scene,
     log: PointLog,
-) -> Result<Pointing<'d>, CliError> {
+) -> Result<GroundingDriver<'d>, CliError> {
     let client = client(model)?;
-    Ok(Pointing::new(driver, eyes, scene, Box::new(client)).with_listener(move |pointed| log.add(pointed)))
+    Ok(GroundingDriver::new(driver, eyes, scene, Box::new(client))
+        .with_listener(move |pointed| log.add(pointed)))
 }
 
 impl PointLog {
-    fn add(&self, Pointed { object, used_for, found }: Pointed<'_>) {
+    fn add(&self, GroundedPoint { object, used_for, found }: GroundedPoint<'_>) {
         let used_for = printable(used_for);
         let (words, more) = match found {
             Ok(pose) => {

@@ -5,9 +5,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_planner::builtin::Answered;
-use motet_planner::conversation::{Outcome, Problem, Scribe, Watcher};
-use motet_planner::guard::Verifies;
+use motet_planner::builtin::PlannedRequest;
+use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
+use motet_planner::runtime_check::CheckMode;
 use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
 use serde_json::json;
 
@@ -103,13 +103,13 @@ impl<'a> RunObserver<'a> {
     }
 }
 
-impl Watcher for RunObserver<'_> {
-    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn Scribe>> {
+impl DialogueObserver for RunObserver<'_> {
+    fn scribe(&mut self, engine: &Engine, start: &StartState) -> Option<Box<dyn RunRecorder>> {
         let record = self.record.clone()?;
         Some(Box::new(RunJournal::new(record, engine, start, &self.request)))
     }
 
-    fn planned(&mut self, answered: &Answered, graph: &Arc<Graph>) {
+    fn planned(&mut self, answered: &PlannedRequest, graph: &Arc<Graph>) {
         if let Some(record) = &self.record {
             record.policy(&answered.planned.text);
         }
@@ -149,7 +149,7 @@ impl Watcher for RunObserver<'_> {
         self.view.as_ref().map_or(own, |view| view.at_least_every().min(own))
     }
 
-    fn verifies(&self) -> Verifies {
+    fn verifies(&self) -> CheckMode {
         self.args.simulation.speed.verifies()
     }
 

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use motet_graph::Value;
-use motet_planner::conversation::{Kind, Person, Problem};
+use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
 use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
 

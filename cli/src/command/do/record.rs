@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use motet::run::journal_head;
 use motet_host::journal::{JournalWriter, RunRecorder};
-use motet_planner::conversation::Scribe;
+use motet_planner::dialogue::RunRecorder as DialogueRecorder;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Effect, Engine, Observer, RunControl, RunEnd, StartState, Time};
 use serde_json::{Value, json};
@@ -117,7 +117,7 @@ impl RunJournal {
     }
 }
 
-impl Scribe for RunJournal {
+impl DialogueRecorder for RunJournal {
     fn run(
         self: Box<Self>,
         engine: &mut Engine,

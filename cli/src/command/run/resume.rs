@@ -5,7 +5,7 @@ use std::path::Path;
 use motet::run::unix_ns;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
-use motet_planner::guard::{Guard, Verifies};
+use motet_planner::runtime_check::{CheckMode, Guard};
 use motet_project::{SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
@@ -52,7 +52,7 @@ pub(super) fn resume(
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let verifies = match &saved {
         SavedDriver::Simulator(_) => args.simulation.speed.verifies(),
-        SavedDriver::Process { .. } => Verifies::Beside,
+        SavedDriver::Process { .. } => CheckMode::Beside,
     };
     let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
     let course = checked.and_then(|checked| open_course(checked, report));
