@@ -3,9 +3,9 @@
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::domain::DomainNames;
 use crate::errors::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
+use crate::typed::DomainNames;
 use crate::typed::{TypedName, is_type};
 
 /// An argument of a predicate.

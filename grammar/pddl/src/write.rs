@@ -10,7 +10,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use crate::Translation;
 use crate::actions::{Action, Effect};
-use crate::domain::{Domain, DomainNames};
+use crate::domain::Domain;
 use crate::formula::{Argument, Literal};
 use crate::name;
 use crate::plan::PlanStep;
