@@ -5,8 +5,7 @@ use smol_str::SmolStr;
 
 use crate::errors::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
-use crate::typed::DomainNames;
-use crate::typed::{TypedName, is_type};
+use crate::typed::{DomainNames, TypedName, is_type};
 
 /// An argument of a predicate.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -15,7 +15,7 @@ use crate::formula::{Argument, Literal};
 use crate::name;
 use crate::plan::PlanStep;
 use crate::problem::Problem;
-use crate::typed::{OBJECT, TypedName};
+use crate::typed::{DomainNames, OBJECT, TypedName};
 
 /// All of it.
 pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Translation {
