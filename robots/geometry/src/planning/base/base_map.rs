@@ -8,11 +8,10 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Mutex;
 
-use crate::planning::base::footprint::{Footprint, FootprintIndex};
+use crate::planning::base::footprint::{Footprint, FootprintIndex, about_vertical};
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::about_vertical;
 use crate::planning::scene::grid_index::Obstacle;
-use crate::planning::search::context::QueryContext;
+use crate::planning::scene::planning_scene::PlanningScene;
 
 /// A cell's side in m, where the room is not too large for it.
 const CELL: f64 = 0.05;
@@ -47,15 +46,15 @@ pub(crate) struct BaseMap {
 
 impl BaseMap {
     /// The map of a room with the arm at some joints. O(cells of places where it is narrow × obstacles near them).
-    pub(crate) fn new(context: &QueryContext<'_>, joints: &[f64]) -> Self {
+    pub(crate) fn new(scene: &PlanningScene<'_>, joints: &[f64]) -> Self {
         let configuration = Configuration { base: [0.0; 3], joints: joints.to_vec() };
-        let placed = context.body.placed(&context.model.map_from_links(&configuration));
+        let placed = scene.body.placed(&scene.model.map_from_links(&configuration));
         let discs: Vec<(f64, [f64; 2])> =
             placed.iter().map(|solid| about_vertical(solid, 0.0, 0.0)).collect();
         let owned = |obstacle: &Obstacle| Some((Footprint::new(&obstacle.solid, &discs)?, obstacle.entity));
         let (outlines, owners): (Vec<Footprint>, Vec<usize>) =
-            context.obstacles.iter().filter_map(owned).unzip();
-        let [x, y, _] = context.state.robot.base;
+            scene.obstacles.iter().filter_map(owned).unzip();
+        let [x, y, _] = scene.state.robot.base;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for outline in &outlines {
             let reach = outline.reach();

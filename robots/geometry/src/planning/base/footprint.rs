@@ -144,3 +144,23 @@ impl Footprint {
         (a * a + b * b).sqrt() - self.round - self.keep_off
     }
 }
+
+/// The greatest distance of a solid's points from the vertical through a point, and the heights between which it is.
+pub(crate) fn about_vertical(solid: &Solid, x: f64, y: f64) -> (f64, [f64; 2]) {
+    let up = solid.extent(&Vector3::z());
+    let aside = libm::hypot(solid.centre.x - x, solid.centre.y - y);
+    // Along the way from the vertical to the centre it extends so far; a box's corners may be farther than that.
+    let wide = match solid.shape {
+        crate::collision::Shape::Capsule { radius, half }
+        | crate::collision::Shape::Cylinder { radius, half } => {
+            let [_, _, z] = &solid.axes;
+            let end = |sign: f64| {
+                let end = solid.centre + z * (half * sign);
+                libm::hypot(end.x - x, end.y - y)
+            };
+            end(1.0).max(end(-1.0)) + radius
+        }
+        crate::collision::Shape::Box(_) | crate::collision::Shape::HalfSpace => aside + solid.reach(),
+    };
+    (wide, [solid.centre.z - up, solid.centre.z + up])
+}

@@ -7,11 +7,11 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::motions::put::{ABOVE, SupportSurface};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::scene_state::HeldObject;
-use crate::planning::search::context::QueryContext;
+use crate::planning::scene::support_surface::{ABOVE, SupportSurface};
 
 /// A square's side in m, where the room is not too large for it.
 const CELL: f64 = 0.05;
@@ -22,7 +22,7 @@ const MARGIN: f64 = 0.6;
 /// How often a square of a surface is divided.
 const DEPTH: u32 = 7;
 
-impl QueryContext<'_> {
+impl PlanningScene<'_> {
     /// Whether no way of the base leads from where it is to where `far`, which grows by at most 1 for 1, is within `reach`:
     /// looked at is only the largest disc about the base's axis that is within a part no joint moves.
     pub(crate) fn is_shut_off(&self, around: [f64; 2], reach: f64, far: impl Fn(f64, f64) -> f64) -> bool {

@@ -1,16 +1,18 @@
 //! Whether states, and straight ways along which nothing turns, are free among the things in a neighbourhood. Made once for
 //! a query. Ways along which something turns are in `way`.
 
+use std::cell::{OnceCell, RefCell};
+
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::lanes::Met;
-use crate::planning::checking::prefilter::{PrefilterCache, SegmentCentres, other};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::ContactTally;
+use crate::lanes::{Against, Met, Pair, Posed, Slabs};
+use crate::planning::context::QueryContext;
+use crate::planning::query::contact_tally::ContactTally;
+use crate::planning::scene::configuration::{Configuration, plane};
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
 
 /// A neighbourhood, and the robot in it.
 pub(crate) struct CollisionChecker<'r, 'w> {
@@ -102,6 +104,56 @@ impl<'w> QueryContext<'w> {
             }
         });
         limbs.collect()
+    }
+}
+
+impl QueryContext<'_> {
+    /// What the robot touches where it is.
+    pub(crate) fn start_contact(&self) -> Option<&Contact> {
+        let robot = &self.state.robot;
+        // Parts that never move against each other are looked at here alone.
+        let find = || self.along(robot, robot).contact_exactly(robot, AllowedCollisions::default());
+        self.start_contact.get_or_init(find).as_ref()
+    }
+
+    /// The first touch in a state, with [`MIN_CLEARANCE`](super::GAP) between everything. O(parts × obstacles near).
+    #[must_use]
+    pub fn contact(&self, configuration: &Configuration, allowed: AllowedCollisions) -> Option<Contact> {
+        self.along(configuration, configuration).contact(configuration, allowed)
+    }
+
+    /// The same of each of some states, eight at a time: faster the nearer they are to each other.
+    #[must_use]
+    pub fn contacts(
+        &self,
+        configurations: &[Configuration],
+        allowed: AllowedCollisions,
+    ) -> Vec<Option<Contact>> {
+        let checker = self.all_around(configurations, MIN_CLEARANCE);
+        let eights = configurations
+            .chunks(8)
+            .map(|configurations| configurations.iter().collect::<Vec<&Configuration>>());
+        eights.flat_map(|configurations| checker.contacts(&configurations, allowed)).collect()
+    }
+
+    /// The least distance between the robot and what stands around, the floor included, in m; nothing above 1 m is looked for.
+    #[must_use]
+    pub fn clearance(&self, configuration: &Configuration, allowed: AllowedCollisions) -> f64 {
+        self.around(plane(configuration), 1.0).clearance(configuration, allowed, 1.0)
+    }
+
+    /// Whether the straight way between two states is free throughout.
+    ///
+    /// # Errors
+    ///
+    /// What touches on the way, or comes so near that nothing certain can be said.
+    pub fn edge(
+        &self,
+        from: &Configuration,
+        to: &Configuration,
+        allowed: AllowedCollisions,
+    ) -> Result<(), Contact> {
+        self.along(from, to).edge(from, to, allowed)
     }
 }
 
@@ -362,15 +414,6 @@ impl CollisionChecker<'_, '_> {
     }
 }
 
-impl QueryContext<'_> {
-    /// Whether no part of the robot turns on the straight way between two states.
-    pub(crate) fn is_straight(&self, from: &Configuration, to: &Configuration) -> bool {
-        let ([_, _, yaw], [_, _, to_yaw]) = (from.base, to.base);
-        let values = from.joints.iter().zip(&to.joints).zip(self.model.turning());
-        yaw == to_yaw && values.into_iter().all(|((one, other), turns)| one == other || !turns)
-    }
-}
-
 impl CheckedPart {
     pub(crate) fn may_touch(&self, entity: usize, allowed: AllowedCollisions) -> bool {
         (self.in_hand && allowed.hand == Some(entity)) || (self.is_held && allowed.held == Some(entity))
@@ -383,6 +426,33 @@ pub(crate) fn is_touching(one: &Solid, reach: f64, other: &Solid, other_reach: f
         <= MIN_CLEARANCE
 }
 
-pub(crate) fn above_floor(solid: &Solid) -> f64 {
-    solid.centre.z - solid.extent(&Vector3::z())
+/// What the quick look needs of a neighbourhood, made when it is first asked for.
+#[derive(Default)]
+pub(crate) struct PrefilterCache {
+    pub(crate) slabs: OnceCell<Option<Slabs>>,
+    /// Where the robot was placed last: nothing but room for the next time.
+    pub(crate) posed: RefCell<Posed>,
+}
+
+/// Eight legs of a way, all of a length, as shares of it.
+#[derive(Clone, Copy)]
+pub(crate) struct SegmentCentres {
+    pub(crate) middles: [f64; 8],
+    /// Half of the length of each.
+    pub(crate) half: f64,
+}
+
+impl SegmentCentres {
+    /// Those of a whole way, one after the other.
+    pub(crate) const WHOLE: Self =
+        Self { middles: [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375], half: 0.0625 };
+}
+
+/// What a part is near to.
+pub(crate) fn other(pair: &Pair) -> ContactTarget {
+    match pair.against {
+        Against::Slab(at) => ContactTarget::Obstacle(at),
+        Against::Part(at, _) => ContactTarget::Part(at),
+        Against::Floor => ContactTarget::Floor,
+    }
 }

@@ -9,12 +9,12 @@ use nalgebra::Vector3;
 use crate::collision::Solid;
 use crate::kinematics::Lever;
 use crate::lanes::{self, Met};
-use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
+use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, other};
 use crate::planning::checking::motion_bound::MotionBound;
-use crate::planning::checking::prefilter::{SegmentCentres, other};
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
 
 /// How often a way is halved before it counts as not free.
 const DEPTH: u32 = 10;

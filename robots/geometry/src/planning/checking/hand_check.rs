@@ -7,16 +7,15 @@ use smol_str::SmolStr;
 
 use crate::collision::Solid;
 use crate::lanes::{Against, Figure, Look, Met, Posed, Slab, Slabs};
-use crate::planning::checking::collision_checker::{above_floor, is_touching};
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact};
+use crate::planning::checking::collision_checker::is_touching;
+use crate::planning::scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE, above_floor};
 use crate::planning::scene::grid_index::Obstacle;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 
 /// An open hand without its arm, and what is near the thing that it goes around.
 pub(crate) struct HandChecker<'r, 'w> {
-    context: &'r QueryContext<'w>,
+    scene: &'r PlanningScene<'w>,
     /// What is in the hand may touch this entity.
     beneath: Option<usize>,
     parts: Vec<HandPart>,
@@ -37,7 +36,7 @@ struct HandPart {
     reach: f64,
 }
 
-impl<'w> QueryContext<'w> {
+impl<'w> PlanningScene<'w> {
     /// The hand with its tip at any of some poses; `allowed` may be touched.
     pub(crate) fn palm(
         &self,
@@ -71,7 +70,7 @@ impl<'w> QueryContext<'w> {
         let obstacles: Vec<Obstacle> = near.map(|(_, obstacle)| *obstacle).collect();
         let middle = Vector3::new(centre.x, centre.y, 0.0);
         HandChecker {
-            context: self,
+            scene: self,
             beneath: allowed.held,
             parts,
             obstacles,
@@ -150,16 +149,14 @@ impl HandChecker<'_, '_> {
     fn told(&self, met: &Met) -> Option<Contact> {
         let own = self.parts.get(met.pair.part)?;
         match met.pair.against {
-            Against::Slab(at) => {
-                Some(self.contact_of(own, self.context.name(self.obstacles.get(at)?.entity)))
-            }
+            Against::Slab(at) => Some(self.contact_of(own, self.scene.name(self.obstacles.get(at)?.entity))),
             Against::Floor => Some(self.contact_of(own, "floor".into())),
             Against::Part(..) => None,
         }
     }
 
     fn contact_of(&self, own: &HandPart, other: SmolStr) -> Contact {
-        let link = self.context.model.tree().links().get(own.link).cloned().unwrap_or_default();
+        let link = self.scene.model.tree().links().get(own.link).cloned().unwrap_or_default();
         Contact { link, other, is_own: false }
     }
 
@@ -172,7 +169,7 @@ impl HandChecker<'_, '_> {
                     continue;
                 }
                 if is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach) {
-                    return Some(self.contact_of(own, self.context.name(obstacle.entity)));
+                    return Some(self.contact_of(own, self.scene.name(obstacle.entity)));
                 }
             }
             if above_floor(&solid) <= MIN_CLEARANCE {

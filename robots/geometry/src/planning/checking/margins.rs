@@ -2,11 +2,10 @@
 
 use crate::lanes::Met;
 use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::context::QueryContext;
 use crate::planning::query::answer::Margins;
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::plane;
 
 /// Clearances within which something is looked for first, in m, and then.
 const NEARBY: [[f32; 8]; 2] =

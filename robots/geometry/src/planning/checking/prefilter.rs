@@ -1,22 +1,13 @@
 //! States and ways looked at eight at a time before they are looked at one by one: what is apart for certain in `f32` is left
 //! out, so that only what is near is looked at in `f64`.
 
-use std::cell::{OnceCell, RefCell};
-
-use crate::lanes::{Against, Eight, Figure, Look, Met, Pair, Posed, Slab, Slabs};
-use crate::planning::checking::collision_checker::{CollisionChecker, is_touching};
+use crate::lanes::{Eight, Figure, Look, Met, Pair, Slab, Slabs};
+use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
+use crate::planning::context::QueryContext;
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
-use crate::planning::search::context::QueryContext;
-
-/// What the quick look needs of a neighbourhood, made when it is first asked for.
-#[derive(Default)]
-pub(crate) struct PrefilterCache {
-    slabs: OnceCell<Option<Slabs>>,
-    /// Where the robot was placed last: nothing but room for the next time.
-    posed: RefCell<Posed>,
-}
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
 
 /// What counts as near.
 #[derive(Clone, Copy)]
@@ -29,20 +20,6 @@ struct NearRange {
 
 impl NearRange {
     const LEAST: Self = Self { metres: [MIN_CLEARANCE as f32; 8], is_own: true };
-}
-
-/// Eight legs of a way, all of a length, as shares of it.
-#[derive(Clone, Copy)]
-pub(crate) struct SegmentCentres {
-    pub(crate) middles: [f64; 8],
-    /// Half of the length of each.
-    pub(crate) half: f64,
-}
-
-impl SegmentCentres {
-    /// Those of a whole way, one after the other.
-    pub(crate) const WHOLE: Self =
-        Self { middles: [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375], half: 0.0625 };
 }
 
 impl QueryContext<'_> {
@@ -269,19 +246,8 @@ impl CollisionChecker<'_, '_> {
                 let (other, beyond) = solid(at)?;
                 is_touching(&one, limb.reach, &other, beyond.reach)
             }
-            ContactTarget::Floor => {
-                crate::planning::checking::collision_checker::above_floor(&one) <= MIN_CLEARANCE
-            }
+            ContactTarget::Floor => above_floor(&one) <= MIN_CLEARANCE,
         };
         is_touched.then(|| self.told(near))
-    }
-}
-
-/// What a part is near to.
-pub(crate) fn other(pair: &Pair) -> ContactTarget {
-    match pair.against {
-        Against::Slab(at) => ContactTarget::Obstacle(at),
-        Against::Part(at, _) => ContactTarget::Part(at),
-        Against::Floor => ContactTarget::Floor,
     }
 }

@@ -10,150 +10,142 @@ use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
 use crate::kinematics::{Variable, spread};
+use crate::planning::context::QueryContext;
 use crate::planning::query::answer::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
 };
+use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::ContactTally;
 
 /// The greatest angle between the axis of a camera and what it looks at, in rad; up and down of a camera that nothing turns.
 const AIM: f64 = 0.37;
 /// How far out on a thing points are looked at, as a share of its half extents.
 const OUT: f64 = 0.8;
 
-impl QueryContext<'_> {
-    /// A state that sees an entity.
-    pub(crate) fn look(&self, id: &str, budget: SearchBudget) -> MotionAnswer {
-        let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
-        let Some((index, entity)) = self.entity(id) else { return unknown(format!("there is no `{id}`")) };
-        let card = self.model.card();
-        let camera = card.cameras.values().next();
-        let frame = camera.and_then(|camera| self.model.tree().link(camera.frame.as_deref()?).ok());
-        let Some((camera, frame)) = camera.zip(frame) else {
-            return unknown("the card names no camera with a frame".into());
-        };
-        let points = self.points_of(index, entity);
-        if points.is_empty() {
-            return unknown(format!("the place of `{id}` is not known"));
-        }
-        if self.state.holds(id) {
-            return unknown(format!("the hand holds `{id}`"));
-        }
-        let start = &self.state.robot;
-        let (moving, variables) = self.head(frame);
-        let view = CameraView {
-            frame,
-            range: camera.range_m,
-            half: camera.view_rad / 2.0,
-            is_still: moving.is_empty(),
-        };
-        let (mut hides, mut ways) = (ContactTally::default(), ContactTally::default());
-        let mut away = f64::INFINITY;
-        let rounds = if moving.is_empty() { 1 } else { budget.candidates.max(1) };
-        let mut is_blocked = false;
-        for at in 0..rounds {
-            let mut configuration = start.clone();
-            if at > 0 {
-                for (slot, value) in moving.iter().zip(spread(&variables, at)) {
-                    if let Some(joint) = configuration.joints.get_mut(*slot) {
-                        *joint = value;
-                    }
+/// A state that sees an entity.
+pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -> MotionAnswer {
+    let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
+    let Some((index, entity)) = context.entity(id) else { return unknown(format!("there is no `{id}`")) };
+    let card = context.model.card();
+    let camera = card.cameras.values().next();
+    let frame = camera.and_then(|camera| context.model.tree().link(camera.frame.as_deref()?).ok());
+    let Some((camera, frame)) = camera.zip(frame) else {
+        return unknown("the card names no camera with a frame".into());
+    };
+    let points = points_of(context, index, entity);
+    if points.is_empty() {
+        return unknown(format!("the place of `{id}` is not known"));
+    }
+    if context.state.holds(id) {
+        return unknown(format!("the hand holds `{id}`"));
+    }
+    let start = &context.state.robot;
+    let (moving, variables) = head(context, frame);
+    let view =
+        CameraView { frame, range: camera.range_m, half: camera.view_rad / 2.0, is_still: moving.is_empty() };
+    let (mut hides, mut ways) = (ContactTally::default(), ContactTally::default());
+    let mut away = f64::INFINITY;
+    let rounds = if moving.is_empty() { 1 } else { budget.candidates.max(1) };
+    let mut is_blocked = false;
+    for at in 0..rounds {
+        let mut configuration = start.clone();
+        if at > 0 {
+            for (slot, value) in moving.iter().zip(spread(&variables, at)) {
+                if let Some(joint) = configuration.joints.get_mut(*slot) {
+                    *joint = value;
                 }
             }
-            match self.sees(&configuration, &view, index, &points) {
-                Visibility::Free => {}
-                Visibility::Hidden(by) => {
-                    hides.add_entity(by);
-                    continue;
-                }
-                Visibility::Far(far) => {
-                    away = away.min(far);
-                    continue;
-                }
-                Visibility::Aside => continue,
-            }
-            if let Some(path) = self.unfold(start, &configuration, &mut ways) {
-                let margins = self.margins(&path, AllowedCollisions::default());
-                return MotionAnswer::Feasible(Box::new(MotionWitness { path, grasp: None, margins }));
-            }
-            is_blocked = true;
         }
-        let is_far = hides.most().is_none() && away.is_finite();
-        let reason = match (is_blocked, is_far) {
-            (true, _) => InfeasibleReason::BlockedPath { by: ways.most() },
-            (false, true) => InfeasibleReason::OutOfReach { what: "sight", needs: away, reach: view.range },
-            (false, false) => {
-                let by = hides.most();
-                let aside = points.first().filter(|_| by.is_none()).and_then(|it| view.beyond(start, it));
-                InfeasibleReason::NotInView { by, aside }
-            }
-        };
-        MotionAnswer::Infeasible(Infeasible::exhausted(reason))
-    }
-
-    /// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.
-    fn head(&self, frame: usize) -> (Vec<usize>, Vec<Variable>) {
-        let arm = self.model.hand().map(|hand| &hand.solver.chain().in_tree);
-        let mut all: Vec<usize> =
-            self.model.levers(frame).iter().map(|lever| lever.driver.variable).collect();
-        all.sort_unstable();
-        all.dedup();
-        let own: Vec<usize> =
-            all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
-        let moving = if own.is_empty() { all } else { own };
-        let variables = self.model.tree().variables();
-        let known = moving.iter().filter_map(|at| variables.get(*at).cloned()).collect();
-        (moving, known)
-    }
-
-    /// Points of an entity that may be looked at, its middle first.
-    fn points_of(&self, index: usize, entity: &Entity) -> Vec<Vector3<f64>> {
-        let Some(pose) = self.state.pose(entity) else { return vec![] };
-        let mut points = vec![pose.translation.vector];
-        for solid in self.solids_of(index) {
-            for axis in [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis) {
-                let far = solid.extent(&axis) * OUT;
-                points.extend([solid.centre + axis * far, solid.centre - axis * far]);
-            }
-        }
-        points
-    }
-
-    /// Whether a camera sees one of the points.
-    fn sees(
-        &self,
-        configuration: &Configuration,
-        view: &CameraView,
-        index: usize,
-        points: &[Vector3<f64>],
-    ) -> Visibility {
-        let poses = self.model.map_from_links(configuration);
-        let Some(camera) = poses.get(view.frame) else { return Visibility::Aside };
-        let (eye, axis) = (camera.translation.vector, camera.rotation * Vector3::z());
-        let mut found = Visibility::Aside;
-        for point in points {
-            let way = point - eye;
-            let far = way.norm();
-            if far < 1e-6 || !view.holds(&axis, configuration.base[2], &way) {
+        match sees(context, &configuration, &view, index, &points) {
+            Visibility::Free => {}
+            Visibility::Hidden(by) => {
+                hides.add_entity(by);
                 continue;
             }
-            if far > view.range {
-                found = if matches!(found, Visibility::Hidden(_)) { found } else { Visibility::Far(far) };
+            Visibility::Far(far) => {
+                away = away.min(far);
                 continue;
             }
-            let line = segment(&eye, point);
-            let near =
-                self.obstacles.near([line.centre.x, line.centre.y], far / 2.0).map(|(_, obstacle)| obstacle);
-            let mut others = near.filter(|obstacle| obstacle.entity != index);
-            match others.find(|obstacle| !line.is_farther(&obstacle.solid, 0.0)) {
-                None => return Visibility::Free,
-                Some(obstacle) => found = Visibility::Hidden(self.name(obstacle.entity)),
-            }
+            Visibility::Aside => continue,
         }
-        found
+        if let Some(path) = context.unfold(start, &configuration, &mut ways) {
+            let margins = context.margins(&path, AllowedCollisions::default());
+            return MotionAnswer::Feasible(Box::new(MotionWitness { path, grasp: None, margins }));
+        }
+        is_blocked = true;
     }
+    let is_far = hides.most().is_none() && away.is_finite();
+    let reason = match (is_blocked, is_far) {
+        (true, _) => InfeasibleReason::BlockedPath { by: ways.most() },
+        (false, true) => InfeasibleReason::OutOfReach { what: "sight", needs: away, reach: view.range },
+        (false, false) => {
+            let by = hides.most();
+            let aside = points.first().filter(|_| by.is_none()).and_then(|it| view.beyond(start, it));
+            InfeasibleReason::NotInView { by, aside }
+        }
+    };
+    MotionAnswer::Infeasible(Infeasible::exhausted(reason))
+}
+
+/// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.
+fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Variable>) {
+    let arm = context.model.hand().map(|hand| &hand.solver.chain().in_tree);
+    let mut all: Vec<usize> = context.model.levers(frame).iter().map(|lever| lever.driver.variable).collect();
+    all.sort_unstable();
+    all.dedup();
+    let own: Vec<usize> = all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
+    let moving = if own.is_empty() { all } else { own };
+    let variables = context.model.tree().variables();
+    let known = moving.iter().filter_map(|at| variables.get(*at).cloned()).collect();
+    (moving, known)
+}
+
+/// Points of an entity that may be looked at, its middle first.
+fn points_of(context: &QueryContext<'_>, index: usize, entity: &Entity) -> Vec<Vector3<f64>> {
+    let Some(pose) = context.state.pose(entity) else { return vec![] };
+    let mut points = vec![pose.translation.vector];
+    for solid in context.solids_of(index) {
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis) {
+            let far = solid.extent(&axis) * OUT;
+            points.extend([solid.centre + axis * far, solid.centre - axis * far]);
+        }
+    }
+    points
+}
+
+/// Whether a camera sees one of the points.
+fn sees(
+    context: &QueryContext<'_>,
+    configuration: &Configuration,
+    view: &CameraView,
+    index: usize,
+    points: &[Vector3<f64>],
+) -> Visibility {
+    let poses = context.model.map_from_links(configuration);
+    let Some(camera) = poses.get(view.frame) else { return Visibility::Aside };
+    let (eye, axis) = (camera.translation.vector, camera.rotation * Vector3::z());
+    let mut found = Visibility::Aside;
+    for point in points {
+        let way = point - eye;
+        let far = way.norm();
+        if far < 1e-6 || !view.holds(&axis, configuration.base[2], &way) {
+            continue;
+        }
+        if far > view.range {
+            found = if matches!(found, Visibility::Hidden(_)) { found } else { Visibility::Far(far) };
+            continue;
+        }
+        let line = segment(&eye, point);
+        let near =
+            context.obstacles.near([line.centre.x, line.centre.y], far / 2.0).map(|(_, obstacle)| obstacle);
+        let mut others = near.filter(|obstacle| obstacle.entity != index);
+        match others.find(|obstacle| !line.is_farther(&obstacle.solid, 0.0)) {
+            None => return Visibility::Free,
+            Some(obstacle) => found = Visibility::Hidden(context.name(obstacle.entity)),
+        }
+    }
+    found
 }
 
 /// What a camera sees by itself.

@@ -335,3 +335,8 @@ pub enum UnknownReason {
     /// The question cannot be asked of this robot in this scene, or not yet of any.
     Because(String),
 }
+
+/// Answer of a proof that there is no motion.
+pub(crate) fn certain(reason: InfeasibleReason, change: Option<String>) -> MotionAnswer {
+    MotionAnswer::Infeasible(Infeasible::proven(reason, change))
+}

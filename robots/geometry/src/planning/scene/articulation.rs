@@ -8,8 +8,7 @@ use motet_robots::scene::{Entity, Travel};
 use nalgebra::{Isometry3, Point3, Translation3, Unit, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::obstacle::solid_shape;
-use crate::planning::scene::scene_state::SceneState;
+use crate::planning::scene::scene_state::{SceneState, solid_shape};
 use crate::trigonometry::turn;
 
 /// How thick the walls of an open container are taken to be, in m.

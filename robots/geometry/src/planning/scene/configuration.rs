@@ -69,3 +69,9 @@ impl Configuration {
 fn between(one: f64, other: f64, part: f64) -> f64 {
     (one + (other - one) * part).max(one.min(other)).min(one.max(other))
 }
+
+/// Position of the base on the floor, in m in the map.
+pub(crate) fn plane(configuration: &Configuration) -> [f64; 2] {
+    let [x, y, _] = configuration.base;
+    [x, y]
+}

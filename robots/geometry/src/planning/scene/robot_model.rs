@@ -7,8 +7,8 @@ use smol_str::SmolStr;
 
 use crate::collision::{Body, Shape, Solid};
 use crate::kinematics::{Chain, Lever, Tree, planar};
-use crate::planning::checking::collision_checker::above_floor;
 use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::above_floor;
 use crate::planning::scene::ik_solver::IkSolver;
 
 /// How far in front of the palm a thing is held, in m.
@@ -317,6 +317,11 @@ impl HandModel {
         let wanted = Matrix3::from_columns(&[*approach, *along, approach.cross(along)]);
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(wanted * own.transpose()))
     }
+}
+
+/// Away from what a hand points at.
+pub(crate) fn away(map_from_tip: &Isometry3<f64>, hand: &HandModel, far: f64) -> Vector3<f64> {
+    map_from_tip.rotation * -Vector3::from(hand.card.points) * far
 }
 
 fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {

@@ -149,3 +149,18 @@ pub(crate) fn isometry(placement: &Placement) -> Isometry3<f64> {
         turn(&Vector3::z_axis(), yaw) * turn(&Vector3::y_axis(), pitch) * turn(&Vector3::x_axis(), roll);
     Isometry3::from_parts(Translation3::new(x, y, z), rotation)
 }
+
+/// The shape of an entity as a solid; `None` for a mesh and where there is none.
+pub(crate) fn solid_shape(entity: &Entity) -> Option<crate::collision::Shape> {
+    Some(match entity.shape.as_ref()? {
+        Shape::Box([x, y, z]) => crate::collision::Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
+        Shape::Cylinder { radius, height } => {
+            crate::collision::Shape::Cylinder { radius: *radius, half: height / 2.0 }
+        }
+        Shape::Sphere { radius } => crate::collision::Shape::Capsule { radius: *radius, half: 0.0 },
+        Shape::Capsule { radius, height } => {
+            crate::collision::Shape::Capsule { radius: *radius, half: height / 2.0 }
+        }
+        Shape::Mesh { .. } => return None,
+    })
+}

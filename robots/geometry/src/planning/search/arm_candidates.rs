@@ -2,15 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use motet_robots::card::Drive;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{Chain, planar, spread};
+use crate::kinematics::{Chain, spread};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 
 /// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
 const STEPS: usize = 5;
@@ -36,7 +35,7 @@ pub(crate) fn part(at: usize, n: i32, ratio: f64) -> f64 {
     value - libm::floor(value)
 }
 
-impl QueryContext<'_> {
+impl PlanningScene<'_> {
     /// Candidate `at` for a pose of the tip: no state, or some.
     pub(crate) fn candidates(
         &self,
@@ -99,17 +98,6 @@ impl QueryContext<'_> {
         [x, y, towards + aside(part(at, 3, SPACE))]
     }
 
-    /// The direction in which the base is likely to face with the tip at a pose: that of the fingers, or from where the robot
-    /// is where they point down.
-    pub(crate) fn heading(&self, hand: &HandModel, map_from_tip: &Isometry3<f64>) -> f64 {
-        let points = map_from_tip.rotation * Vector3::from(hand.card.points);
-        if points.x * points.x + points.y * points.y > 0.1 {
-            return libm::atan2(points.y, points.x);
-        }
-        let ([x, y, _], at) = (self.state.robot.base, map_from_tip.translation);
-        libm::atan2(at.y - y, at.x - x)
-    }
-
     /// States on the straight line of the hand that ends at `state`, the first `back` m before it; `None` where the arm cannot
     /// follow. `state` itself is the last.
     pub(crate) fn approach(
@@ -154,11 +142,6 @@ impl QueryContext<'_> {
         })
     }
 
-    /// Whether the base goes in every direction.
-    pub(crate) fn slides(&self) -> bool {
-        self.model.drives() && self.model.card().base.drive != Drive::Differential
-    }
-
     /// The states on that line with the base coming from `by`, in m in the map and level.
     fn follows(
         &self,
@@ -185,24 +168,5 @@ impl QueryContext<'_> {
         }
         configurations.reverse();
         Some(configurations)
-    }
-
-    /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
-    pub(crate) fn with(&self, hand: &HandModel, base: [f64; 3], values: &[f64]) -> Configuration {
-        let now = &self.state.robot.joints;
-        // Around something the fingers stay as they are.
-        let mut joints = if self.state.held.is_some() { now.clone() } else { hand.opened(now) };
-        for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
-            if let Some(slot) = joints.get_mut(*at) {
-                *slot = *value;
-            }
-        }
-        Configuration { base, joints }
-    }
-
-    /// The pose of the base's link.
-    pub(crate) fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
-        let height = self.model.card().model.as_ref().map_or(0.0, |model| model.height_m);
-        planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
     }
 }

@@ -1,18 +1,16 @@
 //! Ways of the whole robot: the base drives with the arm as it is, then the arm unfolds, then the base drives in.
 
-use std::collections::BTreeMap;
-
 use motet_robots::card::Drive;
-use smol_str::{SmolStr, format_smolstr};
 
 use crate::planning::base::base_map::BaseMap;
 use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::query::answer::{ContactShare, ITSELF, Infeasible, InfeasibleReason, MotionAnswer};
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::context::QueryContext;
+use crate::planning::query::contact_tally::ContactTally;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::{AllowedCollisions, Contact};
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::goal_search::LAST;
 
+/// How far the base comes from where it stands in the end while the hand reaches, in m.
+pub(crate) const LAST: f64 = 0.65;
 /// How far before the goal the arm unfolds, in m: where there is room, most often, first.
 const BACK: [f64; 4] = [0.2, 0.45, 0.0, 0.1];
 
@@ -23,68 +21,6 @@ pub(crate) enum PathError {
     Line,
     /// None of the ways that are tried leads to where it begins.
     Route,
-}
-
-/// What is met, and how often.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ContactTally {
-    others: BTreeMap<SmolStr, usize>,
-    /// Of the robot itself, by the two links.
-    own: BTreeMap<[SmolStr; 2], usize>,
-}
-
-impl ContactTally {
-    pub(crate) fn add(&mut self, contact: &Contact) {
-        if contact.is_own {
-            *self.own.entry([contact.link.clone(), contact.other.clone()]).or_default() += 1;
-        } else {
-            self.add_entity(contact.other.clone());
-        }
-    }
-
-    pub(crate) fn add_entity(&mut self, name: SmolStr) {
-        *self.others.entry(name).or_default() += 1;
-    }
-
-    /// What is met most often; of equals the first by name. The robot itself counts as one, and is told with the links that meet
-    /// most often.
-    pub(crate) fn most(&self) -> Option<SmolStr> {
-        self.counted().map(|(name, _)| name)
-    }
-
-    /// That no pose is free of those whose touches these are: what most of them touch, and how many of how many.
-    pub(crate) fn none_free(&self) -> InfeasibleReason {
-        let (by, touching) = self.counted().unzip();
-        let tried = self.others.values().chain(self.own.values()).sum();
-        InfeasibleReason::NoFreePose { by, share: touching.map(|touching| ContactShare { touching, tried }) }
-    }
-
-    fn counted(&self) -> Option<(SmolStr, usize)> {
-        let own: usize = self.own.values().sum();
-        match first_most(&self.others) {
-            Some((name, count)) if count >= own => Some((name.clone(), count)),
-            _ => first_most(&self.own)
-                .map(|([one, other], _)| (format_smolstr!("{ITSELF} (`{one}` and `{other}`)"), own)),
-        }
-    }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.others.is_empty() && self.own.is_empty()
-    }
-}
-
-/// The key that is counted most often, the first of equals.
-fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
-    counts.iter().fold(None, |most, (name, count)| match most {
-        Some((_, known)) if known >= *count => most,
-        Some(_) | None => Some((name, *count)),
-    })
-}
-
-/// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.
-pub(crate) fn exhausted(found: bool, poses: &ContactTally, ways: &ContactTally) -> MotionAnswer {
-    let reason = if found { InfeasibleReason::BlockedPath { by: ways.most() } } else { poses.none_free() };
-    MotionAnswer::Infeasible(Infeasible::exhausted(reason))
 }
 
 impl QueryContext<'_> {
@@ -253,16 +189,6 @@ impl QueryContext<'_> {
         });
         out.take(4).collect()
     }
-
-    /// The variable that lifts the arm and its highest value, where the arm has one.
-    fn lift(&self) -> Option<(usize, f64)> {
-        let crate::planning::scene::ik_solver::IkSolver::Lift(arm) = &self.model.hand()?.solver else {
-            return None;
-        };
-        let chain = arm.chain();
-        let (lower, upper) = chain.variables.first()?.limits?;
-        Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
-    }
 }
 
 impl CollisionChecker<'_, '_> {
@@ -394,9 +320,4 @@ impl CollisionChecker<'_, '_> {
             .map(|joints| Configuration { base: from.base, joints })
             .find_map(|by| is_free(&[from, &by, to]).then(|| vec![from.clone(), by, to.clone()]))
     }
-}
-
-pub(crate) fn plane(configuration: &Configuration) -> [f64; 2] {
-    let [x, y, _] = configuration.base;
-    [x, y]
 }

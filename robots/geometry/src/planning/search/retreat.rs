@@ -4,9 +4,8 @@
 use std::f64::consts::TAU;
 
 use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::search::path::plane;
 use crate::planning::search::rrt_connect::{PlannedJoints, RrtEffort};
 
 /// How far from where the line begins the base stands with the arm as it was, in m.

@@ -5,11 +5,10 @@ use nalgebra::{Isometry3, Vector3};
 use crate::inverse::LiftArm;
 use crate::inverse::family::Drift;
 use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::motions::reach::certain;
-use crate::planning::query::answer::{InfeasibleReason, MotionAnswer};
+use crate::planning::query::answer::{InfeasibleReason, MotionAnswer, certain};
 use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 
 /// Poses of the tip that are not out of reach for certain.
 pub(crate) enum ReachEnvelope<'a> {
@@ -21,7 +20,7 @@ pub(crate) enum ReachEnvelope<'a> {
     Anywhere,
 }
 
-impl QueryContext<'_> {
+impl PlanningScene<'_> {
     /// What a hand reaches.
     pub(crate) fn span<'h>(&self, hand: &'h HandModel) -> ReachEnvelope<'h> {
         if let IkSolver::Lift(arm) = &hand.solver {

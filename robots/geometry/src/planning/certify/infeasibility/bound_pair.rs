@@ -5,20 +5,11 @@ use std::rc::Rc;
 use nalgebra::{Isometry3, Vector3};
 
 use super::bound_obstacle::{ScaledMotion, is_in};
-use super::cover::{BodyPair, CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
-use super::relative::{PairGroup, RelativeAxis, RelativeChains};
+use super::cover::{CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
+use super::relative::{BodyPair, PairGroup, RelativeChains};
 use crate::collision::{Shape, Solid};
 use crate::planning::certify::deflate::{DeflatedPart, SLACK};
 use crate::planning::scene::contact::MIN_CLEARANCE;
-
-/// The robot by itself in the middle of a cell, where that was asked for.
-#[derive(Default)]
-pub(super) struct RelativePlacement {
-    pub(super) axes: Vec<RelativeAxis>,
-    /// From any place to the frames, where those in the map do not tell.
-    pub(super) frames: Vec<Isometry3<f64>>,
-    pub(super) parts: Vec<Option<Solid>>,
-}
 
 impl CellModel<'_, '_, '_> {
     /// The pairs of parts that may not touch.

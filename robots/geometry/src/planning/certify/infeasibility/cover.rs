@@ -5,17 +5,15 @@ use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::ArmFamily;
+use super::arm_family::ArmFamily;
 use super::bound_obstacle::{ScaledMotion, is_in};
-use super::bound_pair::RelativePlacement;
-use super::relative::RelativeChains;
+use super::relative::{BodyPair, RelativeChains, RelativePlacement};
 use crate::collision::Solid;
 use crate::inverse::family::{Drift, Stretch, Tips};
 use crate::kinematics::Rig;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
-use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE, above_floor};
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::HandModel;
 
@@ -46,14 +44,6 @@ pub(super) struct CellPart {
     pub(super) solid: Solid,
     pub(super) inner: f64,
     pub(super) reach: f64,
-}
-
-/// Two that may not touch: a part and a thing, the floor or another part.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum BodyPair {
-    Obstacle(u16, u16),
-    Floor(u16),
-    RelativePlacement(u16, u16),
 }
 
 /// What a part may touch in a cell.

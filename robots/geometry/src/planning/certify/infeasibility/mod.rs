@@ -19,68 +19,23 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use nalgebra::Isometry3;
+use cover::CellModel;
+use search::{BranchAndBound, CellNode, OpenPatch, PatchOutcome};
 
-use crate::inverse::family::{Cell, Over, Tips};
-use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::{GraspManifold, GraspPatch};
+use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::robot_model::HandModel;
 
-use cover::{CellModel, ContactGroup};
-use relative::PairGroup;
-use search::{BranchAndBound, PatchOutcome};
-
+mod arm_family;
 mod bound_obstacle;
 mod bound_pair;
 mod cover;
 mod relative;
 mod search;
 mod split;
-
-/// An arm whose solutions have cells.
-#[derive(Clone, Copy)]
-enum ArmFamily<'a> {
-    Lift(&'a LiftArm),
-    /// With the height of the base's link above the floor.
-    Parallel(&'a ParallelArm, f64),
-    /// With where the base's link is, and the base.
-    Seven(&'a SevenArm, Isometry3<f64>, [f64; 3]),
-    /// None that is known: nothing is told but of the hand alone.
-    Any,
-}
-
-impl ArmFamily<'_> {
-    fn cells(self) -> Vec<Cell> {
-        match self {
-            Self::Lift(arm) => arm.cells(),
-            Self::Parallel(arm, _) => arm.cells(),
-            Self::Seven(arm, ..) => arm.cells(),
-            Self::Any => vec![Cell { way: 0, middle: [0.0; 3], half: [0.0; 3] }],
-        }
-    }
-
-    fn weights(self) -> [f64; 3] {
-        match self {
-            Self::Lift(arm) => arm.weights(),
-            Self::Parallel(arm, _) => arm.weights(),
-            Self::Seven(arm, ..) => arm.weights(),
-            Self::Any => [0.0; 3],
-        }
-    }
-
-    fn over(self, tips: &Tips, cell: &Cell) -> Over {
-        match self {
-            Self::Lift(arm) => arm.over(tips, cell),
-            Self::Parallel(arm, height) => arm.over(tips, height, cell),
-            Self::Seven(arm, map_from_base, base) => arm.over(tips, &map_from_base, base, cell),
-            Self::Any => Over::Unclear,
-        }
-    }
-}
 
 /// What is known of all states in which a hand holds a thing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -91,28 +46,6 @@ pub(crate) enum Certificate {
     Somewhere,
     /// Not as much.
     Open,
-}
-
-/// A cell, and what may touch in it.
-#[derive(Clone)]
-struct CellNode {
-    cell: Cell,
-    groups: Rc<[ContactGroup]>,
-    pair_groups: Rc<[PairGroup]>,
-}
-
-impl CellNode {
-    /// Its halves, cut across a parameter.
-    fn halves(&self, across: usize) -> [Self; 2] {
-        self.cell.halves(across).map(|cell| Self { cell, ..self.clone() })
-    }
-}
-
-/// A patch, what the hand may touch in it, and what of its cells is left to look at.
-struct OpenPatch {
-    patch: GraspPatch,
-    hand: Rc<[ContactGroup]>,
-    nodes: Rc<[CellNode]>,
 }
 
 impl CollisionChecker<'_, '_> {

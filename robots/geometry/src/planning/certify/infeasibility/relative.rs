@@ -6,7 +6,6 @@ use std::rc::Rc;
 use nalgebra::{Isometry3, Vector3};
 
 use super::bound_obstacle::MotionExtent;
-use super::cover::BodyPair;
 use crate::collision::Solid;
 use crate::inverse::family::{Spin, farthest};
 use crate::kinematics::Rig;
@@ -190,4 +189,21 @@ impl PairGroup {
     pub(super) fn pairs(&self) -> impl Iterator<Item = BodyPair> + '_ {
         self.pairs.iter().map(|[part, at]| BodyPair::RelativePlacement(*part, *at))
     }
+}
+
+/// Two that may not touch: a part and a thing, the floor or another part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum BodyPair {
+    Obstacle(u16, u16),
+    Floor(u16),
+    RelativePlacement(u16, u16),
+}
+
+/// The robot by itself in the middle of a cell, where that was asked for.
+#[derive(Default)]
+pub(super) struct RelativePlacement {
+    pub(super) axes: Vec<RelativeAxis>,
+    /// From any place to the frames, where those in the map do not tell.
+    pub(super) frames: Vec<Isometry3<f64>>,
+    pub(super) parts: Vec<Option<Solid>>,
 }

@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
-use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
-use super::relative::PairGroup;
+use super::arm_family::ArmFamily;
+use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::relative::{BodyPair, PairGroup};
 use super::split::{SplitCause, SplitGain, TRUSTED};
-use super::{ArmFamily, CellNode, OpenPatch};
 use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::{GraspManifold, GraspPatch, widest};
@@ -27,6 +27,28 @@ const SMALL: f64 = 0.05;
 const KNOWN: usize = 8;
 /// Below this a cell is given up.
 const LEAST: f64 = 5e-4;
+
+/// A cell, and what may touch in it.
+#[derive(Clone)]
+pub(super) struct CellNode {
+    pub(super) cell: Cell,
+    pub(super) groups: Rc<[ContactGroup]>,
+    pub(super) pair_groups: Rc<[PairGroup]>,
+}
+
+impl CellNode {
+    /// Its halves, cut across a parameter.
+    pub(super) fn halves(&self, across: usize) -> [Self; 2] {
+        self.cell.halves(across).map(|cell| Self { cell, ..self.clone() })
+    }
+}
+
+/// A patch, what the hand may touch in it, and what of its cells is left to look at.
+pub(super) struct OpenPatch {
+    pub(super) patch: GraspPatch,
+    pub(super) hand: Rc<[ContactGroup]>,
+    pub(super) nodes: Rc<[CellNode]>,
+}
 
 /// What is known of a patch.
 pub(super) enum PatchOutcome {

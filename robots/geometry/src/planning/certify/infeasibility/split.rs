@@ -4,8 +4,8 @@
 //! Near to it is what would close the cell if all went by a share only of how far it may go: half of it is one cut away. What is nowhere near
 //! that is no culprit, since at the edge of where it touches no cell is small enough.
 
-use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
-use super::relative::PairGroup;
+use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::relative::{BodyPair, PairGroup};
 use crate::inverse::family::{Cell, Drift, Over, Stretch, Tips};
 
 /// The shares by which all may go for a culprit to be one, the farthest from closing a cell first.

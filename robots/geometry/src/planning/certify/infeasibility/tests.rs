@@ -4,18 +4,20 @@ use motet_robots::scene::{Entity, Placement, Scene, Shape as Listed};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
+use super::arm_family::ArmFamily;
 use super::cover::{CellModel, CellPlacement, ContactGroup};
 use super::relative::PairGroup;
 use super::split::SplitCause;
-use super::{ArmFamily, Certificate, GraspManifold};
 use crate::collision::{Shape, Solid};
 use crate::inverse::family::{Cell, Drift, Over, Tips};
 use crate::planning::certify::deflate::DeflatedPart;
+use crate::planning::certify::infeasibility::Certificate;
+use crate::planning::context::QueryContext;
+use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::robot_model::{HandModel, RobotModel};
 use crate::planning::scene::scene_state::SceneState;
-use crate::planning::search::context::QueryContext;
 use crate::trigonometry::wrapped;
 
 mod grips;
@@ -159,7 +161,7 @@ fn poses(
     let (index, _, entity) = scene.entities.get_full("can").unwrap();
     let allowed = AllowedCollisions { hand: Some(index), held: None };
     let pose = context.state.pose(entity).unwrap();
-    let object = Solid::new(&pose, crate::planning::scene::obstacle::solid_shape(entity).unwrap());
+    let object = Solid::new(&pose, crate::planning::scene::scene_state::solid_shape(entity).unwrap());
     let (holds, _) =
         crate::planning::grasp::candidates::grasp_candidates(hand, &object, None, context.state.robot.base);
     let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();

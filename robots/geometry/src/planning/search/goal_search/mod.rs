@@ -9,28 +9,24 @@ use nalgebra::{Isometry3, Vector3};
 use crate::inverse::manifold::LANES;
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::checking::hand_check::HandChecker;
+use crate::planning::context::QueryContext;
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::query::answer::{MotionAnswer, SearchBudget};
+use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::ContactTally;
 use crate::planning::search::prefilter_arm::{ArmDraft, ArmPrefilter, DraftCheck, PoseBatch};
 
 mod trial;
-
-use trial::ApproachLine;
 
 /// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
 /// most candidates have no solution at all, and the poses that were given have more.
 const SHARED: [usize; 2] = [8, 32];
 /// Rounds after which a short proof is tried, where a round takes long.
 const FEW: usize = 9;
-/// How far the base comes from where it stands in the end while the hand reaches, in m.
-pub(crate) const LAST: f64 = 0.65;
 /// States that are looked at at a time for what they touch.
 const BATCH: usize = 8;
 
@@ -56,6 +52,13 @@ pub(crate) enum GoalPose {
     Tip(usize),
     /// At another, between those or where a proof found room for it.
     GraspCandidate(GraspCandidate),
+}
+
+/// States along which the hand comes straight to where it is wanted.
+pub(crate) struct ApproachLine {
+    at: GoalPose,
+    line: Vec<Configuration>,
+    inwards: [f64; 2],
 }
 
 /// A state with the tip at a pose.

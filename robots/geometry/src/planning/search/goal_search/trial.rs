@@ -7,14 +7,16 @@ use std::ops::ControlFlow;
 use nalgebra::Isometry3;
 
 use super::{
-    BaseRegion, FoundPath, GoalCandidate, GoalPose, GoalSearch, GoalSpec, HandCheckState, Rounds, SearchFlow,
+    ApproachLine, BaseRegion, FoundPath, GoalCandidate, GoalPose, GoalSearch, GoalSpec, HandCheckState,
+    Rounds, SearchFlow,
 };
 use crate::planning::certify::infeasibility::Certificate;
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::query::answer::{Infeasible, InfeasibleReason, MotionAnswer, UnknownReason};
+use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::search::path::{ContactTally, PathError};
+use crate::planning::search::path::PathError;
 use crate::planning::search::prefilter_arm::ArmPrefilter;
 use crate::planning::search::rrt_connect::RrtEffort;
 
@@ -40,13 +42,6 @@ const POSES: [usize; 2] = [128, 1024];
 const CUT_OFF: usize = 4;
 /// So many times as many are tried in the end, where it is known that there is a free state, or nothing is.
 const MORE: usize = 8;
-
-/// States along which the hand comes straight to where it is wanted.
-pub(crate) struct ApproachLine {
-    at: GoalPose,
-    line: Vec<Configuration>,
-    inwards: [f64; 2],
-}
 
 impl GoalSearch<'_, '_, '_> {
     /// A way, or the answer where there is none.

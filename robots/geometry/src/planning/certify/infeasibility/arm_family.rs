@@ -1,0 +1,47 @@
+//! Closed-form arms whose solutions are covered by cells.
+
+use nalgebra::Isometry3;
+
+use crate::inverse::family::{Cell, Over, Tips};
+use crate::inverse::{LiftArm, ParallelArm, SevenArm};
+
+/// An arm whose solutions have cells.
+#[derive(Clone, Copy)]
+pub(super) enum ArmFamily<'a> {
+    Lift(&'a LiftArm),
+    /// With the height of the base's link above the floor.
+    Parallel(&'a ParallelArm, f64),
+    /// With where the base's link is, and the base.
+    Seven(&'a SevenArm, Isometry3<f64>, [f64; 3]),
+    /// None that is known: nothing is told but of the hand alone.
+    Any,
+}
+
+impl ArmFamily<'_> {
+    pub(super) fn cells(self) -> Vec<Cell> {
+        match self {
+            Self::Lift(arm) => arm.cells(),
+            Self::Parallel(arm, _) => arm.cells(),
+            Self::Seven(arm, ..) => arm.cells(),
+            Self::Any => vec![Cell { way: 0, middle: [0.0; 3], half: [0.0; 3] }],
+        }
+    }
+
+    pub(super) fn weights(self) -> [f64; 3] {
+        match self {
+            Self::Lift(arm) => arm.weights(),
+            Self::Parallel(arm, _) => arm.weights(),
+            Self::Seven(arm, ..) => arm.weights(),
+            Self::Any => [0.0; 3],
+        }
+    }
+
+    pub(super) fn over(self, tips: &Tips, cell: &Cell) -> Over {
+        match self {
+            Self::Lift(arm) => arm.over(tips, cell),
+            Self::Parallel(arm, height) => arm.over(tips, height, cell),
+            Self::Seven(arm, map_from_base, base) => arm.over(tips, &map_from_base, base, cell),
+            Self::Any => Over::Unclear,
+        }
+    }
+}
