@@ -23,7 +23,7 @@ pub(super) struct Cuboid<S: Simd> {
 
 impl<S: Simd> Cuboid<S> {
     /// Positive where another box is farther than `wanted` for certain: by the box around it along the directions of this one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn aside(self, simd: S, other: Self, wanted: Number<S>) -> Number<S> {
         let between = other.centre - self.centre;
         let [x, y, z] = self.axes;
@@ -35,7 +35,7 @@ impl<S: Simd> Cuboid<S> {
     }
 
     /// How far it goes from its centre in a direction of length 1.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn extent(self, simd: S, direction: Vector<S>) -> Number<S> {
         let [x, y, z] = self.axes;
         let Vector([a, b, c]) = self.half;
@@ -52,7 +52,7 @@ impl<S: Simd> Cuboid<S> {
 impl<S: Simd> Axis<S> {
     /// Positive where the axis is farther than `wanted` from a box for certain: by the boxes along the directions of that one around
     /// `pieces` pieces of the axis.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn beside(self, simd: S, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> Number<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
@@ -68,7 +68,7 @@ impl<S: Simd> Axis<S> {
     }
 
     /// Negative where the middle or an end of the axis is nearer to a box than `wanted` for certain.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Number<S>) -> Number<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
@@ -81,7 +81,7 @@ impl<S: Simd> Axis<S> {
     }
 
     /// The way from a place on another axis to one on this, of which both are nearly the nearest (Ericson 2005, 5.1.9).
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn way(self, simd: S, other: Self) -> Vector<S> {
         let tiny = Number::splat(simd, 1e-9);
         let between = self.centre - other.centre;
@@ -97,7 +97,7 @@ impl<S: Simd> Axis<S> {
 }
 
 /// A bit for each state in which an axis may be no farther from a box than wanted; in pieces where it matters.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> u8 {
     match axis.beside(simd, other, wanted, 1).not_positive() {
         0 => 0,
@@ -107,7 +107,7 @@ pub(super) fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: 
 
 /// The square of the distance of a box from the box around a piece of an axis, along the directions of the first, of which the
 /// middle of the axis is so far off. The piece is at a place from −1 to 1, and is a share of the axis.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 fn squared<S: Simd>(
     simd: S,
     [off_x, off_y, off_z]: [Number<S>; 3],

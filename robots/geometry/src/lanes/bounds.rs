@@ -22,7 +22,7 @@ impl Bound {
     pub(super) const NOWHERE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// Grows so that it holds another one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn add(&mut self, other: &Self) {
         for (slot, value) in self.low.iter_mut().zip(&other.low) {
             *slot = if *value < *slot { *value } else { *slot };
@@ -51,7 +51,7 @@ impl FromIterator<Bound> for Bounds {
 
 impl Bounds {
     /// Sets one, of which the row before is there.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set(&mut self, at: usize, bound: &Bound) {
         let (row, lane) = (at / 8, at % 8);
         if row == self.rows.len() {
@@ -65,13 +65,13 @@ impl Bounds {
     }
 
     /// How many rows there are.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn rows(&self) -> usize {
         self.rows.len()
     }
 
     /// A bit for each box of a row that is no farther than `wide` from another one along each of the directions.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn near<S: Simd>(&self, simd: S, row: usize, other: &Bound, wide: f32) -> u8 {
         let Some([low_x, low_y, low_z, high_x, high_y, high_z]) = self.rows.get(row) else { return 0 };
         let mut bits = 0;

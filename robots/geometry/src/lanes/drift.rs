@@ -45,7 +45,7 @@ pub(super) struct Drifted {
 }
 
 impl Drifted {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<S: Simd>(&self, simd: S, chunk: usize) -> Drift<S> {
         Drift {
             shift: Vector::of(simd, &self.shift, chunk),
@@ -58,7 +58,7 @@ impl Drifted {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<S: Simd>(&mut self, drift: Drift<S>, chunk: usize) {
         drift.shift.store(&mut self.shift, chunk);
         drift.spin.store(&mut self.spin, chunk);
@@ -68,7 +68,7 @@ impl Drifted {
     }
 
     /// How far any place goes that is no farther from the frame's origin than `reach`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn goes<S: Simd>(&self, simd: S, reach: f32, chunk: usize) -> Number<S> {
         Number::of(simd, &self.goes, chunk) + Number::splat(simd, self.spread * reach)
     }
@@ -76,7 +76,7 @@ impl Drifted {
 
 impl<S: Simd> Drift<S> {
     /// What does not move.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Vector::splat(simd, [0.0; 3]), Number::splat(simd, 0.0));
         Self { shift: none, spin: none, goes: zero, spread: 0.0, bends: zero, bend: 0.0, turns: 0.0 }
@@ -84,7 +84,7 @@ impl<S: Simd> Drift<S> {
 
     /// Adds a joint that turns about an axis, from a place on which the frame's origin stands off, and by how much and, at least as much,
     /// how far. Joints come from the last on.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn turn(&mut self, simd: S, off: Vector<S>, axis: Vector<S>, [change, amount]: [f32; 2]) {
         let across = axis.cross(off);
         let change = Number::splat(simd, change);
@@ -101,7 +101,7 @@ impl<S: Simd> Drift<S> {
     }
 
     /// Adds a joint that slides.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn slide(&mut self, simd: S, axis: Vector<S>, [change, amount]: [f32; 2]) {
         self.shift = self.shift + axis.times(Number::splat(simd, change));
         self.goes = self.goes + Number::splat(simd, amount);
@@ -125,7 +125,7 @@ pub(super) struct Drifting<S: Simd> {
 
 impl<S: Simd> Drifting<S> {
     /// A capsule with such a half axis and radius, its centre so far off the frame's origin and no part of it farther from it than `reach`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(
         simd: S,
         drift: Drift<S>,
@@ -146,14 +146,14 @@ impl<S: Simd> Drifting<S> {
     }
 
     /// A ball that holds it.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn ball(self, simd: S, radius: f32) -> Self {
         let turning = self.spin.dot(self.spin).sqrt();
         Self { half: Vector::splat(simd, [0.0; 3]), round: turning * Number::splat(simd, radius), ..self }
     }
 
     /// What does not move.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Vector::splat(simd, [0.0; 3]), Number::splat(simd, 0.0));
         Self { shift: none, spin: none, half: none, round: zero, goes: zero, beyond: zero }
@@ -161,7 +161,7 @@ impl<S: Simd> Drifting<S> {
 
     /// By how much it and another one may come nearer to each other along a direction until the end of the leg, of which the length is
     /// given: at most so much, times that length, and no more than both go.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn approach(self, other: Self, way: Vector<S>, length: Number<S>) -> Number<S> {
         let along = way.dot(self.shift - other.shift).abs();
         let ends = way.dot(self.spin.cross(self.half)).abs() + way.dot(other.spin.cross(other.half)).abs();
@@ -172,7 +172,7 @@ impl<S: Simd> Drifting<S> {
 
 /// A bit for each state in which a capsule may come no farther from a box than wanted along any of the directions of that, with how
 /// both drift.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn drifting_off<S: Simd>(
     simd: S,
     cuboid: Cuboid<S>,

@@ -293,7 +293,7 @@ impl Joint {
 
 impl Part {
     /// Whether a joint of which the frame's bit is set moves one of two and not the other.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
         let last = bit(usize::MAX);
         ((self.carriers ^ other.carriers) | ((self.carriers | other.carriers) & last)) & moving != 0
@@ -343,7 +343,7 @@ impl Eight {
 }
 
 /// A bit for each of some, of which the last stand together.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn bit(at: usize) -> u64 {
     1 << at.min(63)
 }

@@ -75,7 +75,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> Look<'_, F> {
 impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for Look<'_, F> {
     type Output = Vec<Met>;
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<Met> {
         match self.pairs {
             None => self.posed.set(simd, self.figure, self.eight, |_| true, true),
@@ -121,7 +121,7 @@ pub(super) struct Looked<'a> {
 }
 
 impl Looked<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn all<S: Simd>(
         &mut self,
         simd: S,
@@ -198,13 +198,13 @@ impl Looked<'_> {
     }
 
     /// Whether no more has to be known, by the states in which something is touched: all of them, or one on a way.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn is_told(&self, touched: u8) -> bool {
         self.is_first && (touched == u8::MAX || (self.eight.is_way && touched != 0))
     }
 
     /// Looks at one pair in some states, closer and closer: those of them in which it is known to be near.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn look<S: Simd>(&self, simd: S, pair: Pair, wanted: u8, met: &mut Vec<Met>) -> u8 {
         let (mut lanes, mut still, mut sure) = (0, 0, 0);
         for chunk in 0..8 / S::F32_LANES {

@@ -20,13 +20,13 @@ const QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
 const ROUNDER: f32 = 12_582_912.0;
 
 impl<S: Simd> Number<S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn splat(simd: S, value: f32) -> Self {
         Self(simd, simd.splat_f32s(value))
     }
 
     /// The chunk `at` of eight numbers.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(simd: S, values: &[f32; 8], at: usize) -> Self {
         let (chunks, _) = S::as_simd_f32s(values);
         match chunks.get(at) {
@@ -36,7 +36,7 @@ impl<S: Simd> Number<S> {
     }
 
     /// Writes them to the chunk `at` of eight numbers.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn store(self, values: &mut [f32; 8], at: usize) {
         let (chunks, _) = S::as_mut_simd_f32s(values);
         if let Some(slot) = chunks.get_mut(at) {
@@ -44,68 +44,68 @@ impl<S: Simd> Number<S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn abs(self) -> Self {
         // The library's own is a call.
         self.most(-self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn sqrt(self) -> Self {
         Self(self.0, self.0.sqrt_f32s(self.1))
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn over(self, other: Self) -> Self {
         Self(self.0, self.0.div_f32s(self.1, other.1))
     }
 
     /// Of each lane the smaller one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn least(self, other: Self) -> Self {
         // By the greater one, which is the same on every processor.
         -(-self).most(-other)
     }
 
     /// Of each lane the greater one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn most(self, other: Self) -> Self {
         Self(self.0, self.0.max_f32s(self.1, other.1))
     }
 
     /// Zero where negative.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn above_zero(self) -> Self {
         self.most(Self::splat(self.0, 0.0))
     }
 
     /// No less than −1 and no more than 1.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn within(self) -> Self {
         self.most(self.like(-1.0)).least(self.like(1.0))
     }
 
     /// One of two, by whether this is less than a number.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn pick(self, less_than: f32, yes: Self, no: Self) -> Self {
         let is_less = self.0.less_than_f32s(self.1, self.0.splat_f32s(less_than));
         Self(self.0, self.0.select_f32s(is_less, yes.1, no.1))
     }
 
     /// The least of all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn least_lane(self) -> f32 {
         self.0.reduce_min_f32s(self.1)
     }
 
     /// The greatest of all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn most_lane(self) -> f32 {
         self.0.reduce_max_f32s(self.1)
     }
 
     /// A bit for each lane, the first lowest: whether it is not above 0. What is no number at all is not.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn not_positive(self) -> u8 {
         let zero = self.like(0.0);
         let is_above = self.0.less_than_f32s(zero.1, self.1);
@@ -113,7 +113,7 @@ impl<S: Simd> Number<S> {
     }
 
     /// A bit for each lane, the first lowest: whether it is below 0.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn negative(self) -> u8 {
         let zero = self.like(0.0);
         let is_below = self.0.less_than_f32s(self.1, zero.1);
@@ -121,38 +121,38 @@ impl<S: Simd> Number<S> {
     }
 
     /// In each lane the number that its bit alone is.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn bits(self) -> Self {
         Self::of(self.0, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0], 0)
     }
 
     /// The sum of lanes that are zero or their bit: exact, and the same in every order.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn summed(self) -> u8 {
         self.0.reduce_sum_f32s(self.1) as u8
     }
 
     /// The sum of the powers of this from the zeroth on, times the terms.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn series(self, [a, b, c, d]: [f32; 4]) -> Self {
         ((self.like(d) * self + self.like(c)) * self + self.like(b)) * self + self.like(a)
     }
 
     /// A number in all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn like(self, value: f32) -> Self {
         Self::splat(self.0, value)
     }
 
     /// The nearest whole number.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn round(self) -> Self {
         (self + self.like(ROUNDER)) - self.like(ROUNDER)
     }
 
     /// Sine and cosine, off by 4e-7 at most for angles up to 100 rad: taken back to an eighth of a turn on either side of 0
     /// (Cody and Waite 1980), where the first terms of the series are enough.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn sin_cos(self) -> [Self; 2] {
         let quarters = (self * self.like(std::f32::consts::FRAC_2_PI)).round();
         let [high, middle, low] = QUARTER;
@@ -174,7 +174,7 @@ impl<S: Simd> Number<S> {
 
 impl<S: Simd> Add for Number<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, other: Self) -> Self {
         Self(self.0, self.0.add_f32s(self.1, other.1))
     }
@@ -182,7 +182,7 @@ impl<S: Simd> Add for Number<S> {
 
 impl<S: Simd> Sub for Number<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, other: Self) -> Self {
         Self(self.0, self.0.sub_f32s(self.1, other.1))
     }
@@ -190,7 +190,7 @@ impl<S: Simd> Sub for Number<S> {
 
 impl<S: Simd> Mul for Number<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, other: Self) -> Self {
         Self(self.0, self.0.mul_f32s(self.1, other.1))
     }
@@ -198,7 +198,7 @@ impl<S: Simd> Mul for Number<S> {
 
 impl<S: Simd> Neg for Number<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
         Self::splat(self.0, 0.0) - self
     }
@@ -209,25 +209,25 @@ impl<S: Simd> Neg for Number<S> {
 pub(super) struct Vector<S: Simd>(pub(super) [Number<S>; 3]);
 
 impl<S: Simd> Vector<S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn splat(simd: S, [x, y, z]: [f32; 3]) -> Self {
         Self([Number::splat(simd, x), Number::splat(simd, y), Number::splat(simd, z)])
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn dot(self, other: Self) -> Number<S> {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         a * x + b * y + c * z
     }
 
     /// The chunk `at` of eight vectors.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(simd: S, [x, y, z]: &[[f32; 8]; 3], at: usize) -> Self {
         Self([Number::of(simd, x, at), Number::of(simd, y, at), Number::of(simd, z, at)])
     }
 
     /// Writes them to the chunk `at` of eight vectors.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn store(self, [x, y, z]: &mut [[f32; 8]; 3], at: usize) {
         let [a, b, c] = self.0;
         a.store(x, at);
@@ -235,13 +235,13 @@ impl<S: Simd> Vector<S> {
         c.store(z, at);
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn cross(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([b * z - c * y, c * x - a * z, a * y - b * x])
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn times(self, factor: Number<S>) -> Self {
         let [x, y, z] = self.0;
         Self([x * factor, y * factor, z * factor])
@@ -250,7 +250,7 @@ impl<S: Simd> Vector<S> {
 
 impl<S: Simd> Add for Vector<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a + x, b + y, c + z])
@@ -259,7 +259,7 @@ impl<S: Simd> Add for Vector<S> {
 
 impl<S: Simd> Sub for Vector<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a - x, b - y, c - z])

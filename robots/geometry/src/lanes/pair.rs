@@ -14,7 +14,7 @@ use super::{SURE, TOLD};
 
 impl Looked<'_> {
     /// Bits for the states in which a pair may be near on the way, where it stands, and is for certain where it stands.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn chunk<S: Simd>(&self, simd: S, Pair { part, against }: Pair, chunk: usize) -> [u8; 3] {
         let Some((own, place)) = self.figure.parts.get(part).zip(self.posed.parts.get(part)) else {
             return [0; 3];
@@ -138,7 +138,7 @@ impl Looked<'_> {
     }
 
     /// A bit for each state in which a part may be no farther from a thing than wanted.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn slab<S: Simd>(
         &self,
         simd: S,
@@ -157,7 +157,7 @@ impl Looked<'_> {
     }
 
     /// The box of a part that is no capsule.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn cuboid<S: Simd>(&self, simd: S, part: &Part, place: &Place, chunk: usize) -> Option<Cuboid<S>> {
         let ([x, y, z], half) = part.slab?;
         let (posed, frame) = (&self.posed, part.frame);
@@ -175,7 +175,7 @@ impl Looked<'_> {
 }
 
 impl Place {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn axis<S: Simd>(&self, simd: S, chunk: usize) -> Axis<S> {
         Axis { centre: Vector::of(simd, &self.centre, chunk), half: Vector::of(simd, &self.half, chunk) }
     }

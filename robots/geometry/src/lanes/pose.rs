@@ -46,7 +46,7 @@ pub(super) struct Place {
 
 impl Posed {
     /// Places a figure, of its parts those that are needed, and where they are, with the boxes around them.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<S: Simd>(
         &mut self,
         simd: S,
@@ -74,7 +74,7 @@ impl Posed {
     }
 
     /// Places frames, those of which the bit is set.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn carry<S: Simd>(&mut self, simd: S, figure: &Figure, eight: &Eight, frames: u64, chunk: usize) {
         let base = Vector::of(simd, &eight.base, chunk);
         let root = &figure.base_from_root;
@@ -100,7 +100,7 @@ impl Posed {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn place<S: Simd>(
         &mut self,
         simd: S,
@@ -144,7 +144,7 @@ impl Posed {
     }
 
     /// A direction of a frame where it is.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn direction<S: Simd>(
         &self,
         simd: S,
@@ -157,7 +157,7 @@ impl Posed {
     }
 
     /// How a part drifts by those of its joints that come after the first so many.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn drifting<S: Simd>(
         &self,
         simd: S,
@@ -169,7 +169,7 @@ impl Posed {
     }
 
     /// How far any place of a part goes by those of its joints that come after the first so many.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn goes<S: Simd>(
         &self,
         simd: S,
@@ -184,7 +184,7 @@ impl Posed {
     }
 
     /// The same by all of its joints and by the base.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn drifting_in_map<S: Simd>(
         &self,
         simd: S,
@@ -195,7 +195,7 @@ impl Posed {
         self.drifting_by(simd, figure, part, 0, chunk)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn drifting_by<S: Simd>(
         &self,
         simd: S,
@@ -216,7 +216,7 @@ impl Posed {
 
     /// Finds out how frames drift, those of which the bit is set: each by the base and all of its joints, by all joints, by those after the
     /// first, and so on, one after the other.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn drift<S: Simd>(&mut self, simd: S, figure: &Figure, eight: &Eight, frames: u64, chunk: usize) {
         let stride = figure.stride();
         let base = Vector::of(simd, &eight.base, chunk);
@@ -270,14 +270,14 @@ impl Posed {
 }
 
 /// A vector turned about the vertical.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 fn about<S: Simd>(simd: S, [sin, cos]: [Number<S>; 2], vector: [f32; 3]) -> Vector<S> {
     let Vector([x, y, z]) = Vector::splat(simd, vector);
     Vector([cos * x - sin * y, sin * x + cos * y, z])
 }
 
 impl Frame {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn direction<S: Simd>(&self, simd: S, [x, y, z]: [f32; 3], chunk: usize) -> Vector<S> {
         let [a, b, c] = &self.turn;
         Vector::of(simd, a, chunk).times(Number::splat(simd, x))
@@ -285,13 +285,13 @@ impl Frame {
             + Vector::of(simd, c, chunk).times(Number::splat(simd, z))
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn point<S: Simd>(&self, simd: S, vector: [f32; 3], chunk: usize) -> Vector<S> {
         Vector::of(simd, &self.at, chunk) + self.direction(simd, vector, chunk)
     }
 
     /// Places the frame of a joint that this one carries.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn carry<S: Simd>(&self, simd: S, joint: &Joint, position: Number<S>, slot: &mut Self, chunk: usize) {
         let axis = self.direction(simd, joint.axis, chunk);
         axis.store(&mut slot.axis, chunk);

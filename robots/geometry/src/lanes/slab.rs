@@ -38,7 +38,7 @@ impl FromIterator<Slab> for Slabs {
 
 impl Slab {
     /// Positive where a point is farther than `wanted` for certain: by the box along the directions of the map.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn aside<S: Simd>(&self, simd: S, point: Vector<S>, wanted: Number<S>) -> Number<S> {
         let (Vector([x, y, z]), Vector([a, b, c]), Vector([d, e, f])) =
             (point, Vector::splat(simd, self.bound.low), Vector::splat(simd, self.bound.high));

@@ -22,7 +22,7 @@ pub(super) struct Two<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> Two<'a, S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(simd: S, [(own, axis), (far, other)]: [(&'a Part, Axis<S>); 2]) -> Self {
         let way = axis.way(simd, other);
         Self {
@@ -36,13 +36,13 @@ impl<'a, S: Simd> Two<'a, S> {
     }
 
     /// A bit for each state in which the capsules around them may be no farther apart than wanted.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn capsules(self, wanted: Number<S>) -> u8 {
         (self.room - (self.radii + wanted) * self.length).not_positive()
     }
 
     /// The same of the boxes of those that have one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn near(self, simd: S, boxes: [Option<Cuboid<S>>; 2], wanted: Number<S>) -> u8 {
         let ([own, far], [axis, other]) = (self.parts, self.axes);
         let mut bits = u8::MAX;
@@ -61,7 +61,7 @@ impl<'a, S: Simd> Two<'a, S> {
 
     /// A bit for each state in which they may come no farther apart than wanted, by how they drift along the way between them and the
     /// directions of what is a box.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn drifting(
         self,
         simd: S,

@@ -16,8 +16,8 @@ use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::RobotModel;
 use crate::planning::scene::scene_state::SceneState;
 
-/// A robot in a world. Made once for all queries of one world; O(entities), and O(obstacles × cells of the map) when it is first
-/// asked how the base drives.
+/// Query context: a planning scene and the caches of its queries. Built in O(entities); the map of the
+/// floor costs O(obstacles × cells) at its first use. `Send` and `Sync`.
 #[derive(Clone, Debug)]
 pub struct QueryContext<'w> {
     pub(crate) planning: PlanningScene<'w>,
@@ -34,16 +34,17 @@ pub struct QueryContext<'w> {
     pub(crate) figure: OnceLock<Option<(Figure, Vec<bool>)>>,
 }
 
-/// Maps of where a robot's base can drive in a scene, by what else the world is like: made once, whatever the base does.
+/// Cache of base maps, shared by the contexts of one robot and scene. A map does not depend on the base's
+/// pose.
 #[derive(Debug, Default)]
 pub struct BaseMapCache(Mutex<BTreeMap<Vec<u8>, Arc<BaseMap>>>);
 
 impl BaseMapCache {
-    /// The most that are kept; beyond, all are forgotten.
+    /// Greatest number of maps; beyond it, all are dropped.
     const MOST: usize = 64;
 
     fn get(&self, key: &[u8], make: impl Fn() -> Arc<BaseMap>) -> Arc<BaseMap> {
-        // A lock that a panic elsewhere poisoned only loses what was kept.
+        // A poisoned lock only loses cached maps.
         if let Some(known) = self.0.lock().ok().and_then(|maps| maps.get(key).cloned()) {
             return known;
         }
@@ -73,13 +74,13 @@ impl<'w> QueryContext<'w> {
         }
     }
 
-    /// The room with maps that were made for others of the same machine and scene, and that keep what is made for this one.
+    /// Shares base maps with the other contexts of the same robot and scene.
     #[must_use]
     pub fn with_base_maps(self, maps: &'w BaseMapCache) -> Self {
         Self { maps: Some(maps), ..self }
     }
 
-    /// The same machine, scene and maps in another world.
+    /// Context of the same robot, scene and maps in another state.
     pub(crate) fn in_state<'o>(&self, state: &'o SceneState) -> QueryContext<'o>
     where
         'w: 'o,
@@ -88,7 +89,7 @@ impl<'w> QueryContext<'w> {
         QueryContext { maps: self.maps, ..context }
     }
 
-    /// Where the base can drive with the arm as it is; `None` where it does not drive.
+    /// Map of the floor with the arm as it is; `None` for a base that does not drive.
     pub(crate) fn map(&self) -> Option<&BaseMap> {
         let make = || Arc::new(BaseMap::new(&self.planning, &self.state.robot.joints));
         let map = self.map.get_or_init(|| {

@@ -1,5 +1,5 @@
-//! States and ways looked at eight at a time before they are looked at one by one: what is apart for certain in `f32` is left
-//! out, so that only what is near is looked at in `f64`.
+//! Broad phase in batches of eight: drops the pairs that are apart for certain in `f32`, so that `f64`
+//! decides the near ones only.
 
 use crate::lanes::{Eight, Figure, Look, Met, Pair, Slab, Slabs};
 use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
@@ -9,12 +9,12 @@ use crate::planning::scene::contact::{
     AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
 };
 
-/// What counts as near.
+/// Distances that count as near.
 #[derive(Clone, Copy)]
 struct NearRange {
-    /// In each of eight states, in m.
+    /// Distance for each configuration of the batch, in m.
     metres: [f32; 8],
-    /// Whether the parts of the robot count among each other.
+    /// Set where pairs of the robot's own parts count.
     is_own: bool,
 }
 
@@ -23,10 +23,11 @@ impl NearRange {
 }
 
 impl QueryContext<'_> {
-    /// The robot with the joints that a hand, its arm and the postures move; `None` where it is not simple enough.
+    /// Batch model of the robot, whose free joints are those of the hand, its arm and the postures; `None`
+    /// where the robot has no such model.
     pub(crate) fn figure(&self) -> Option<&Figure> {
         let make = || {
-            // Pairs that never move against each other are as apart as at the start.
+            // Pairs that never move against each other keep the distance that they have at the start.
             if self.start_contact().is_some() {
                 return None;
             }
@@ -51,7 +52,8 @@ impl QueryContext<'_> {
         Some(figure)
     }
 
-    /// Whether all but the joints of the figure are as at the start, and the robot itself is free there.
+    /// Checks whether the batch model represents a configuration: joints that it holds still are as at the
+    /// start.
     fn is_drawn(&self, configuration: &Configuration) -> bool {
         let Some(Some((_, free))) = self.figure.get() else { return false };
         let values = configuration.joints.iter().zip(&self.state.robot.joints).zip(free);
@@ -68,7 +70,7 @@ impl CollisionChecker<'_, '_> {
         self.quick.slabs.get_or_init(make).as_ref()
     }
 
-    /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
+    /// Near pairs in up to eight configurations; `None` where the prefilter does not apply.
     pub(crate) fn near_in(
         &self,
         configurations: &[&Configuration],
@@ -78,8 +80,7 @@ impl CollisionChecker<'_, '_> {
         self.near(figure, &self.eight(figure, configurations)?, allowed, None, NearRange::LEAST)
     }
 
-    /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
-    /// bit is set in `lanes`.
+    /// Near pairs on eight segments of an edge. With `pairs`, only of those, on the lanes of their bits.
     pub(crate) fn near_on(
         &self,
         way: [&Configuration; 2],
@@ -97,8 +98,8 @@ impl CollisionChecker<'_, '_> {
         if is_within { self.near(figure, &eight, allowed, pairs, NearRange::LEAST) } else { None }
     }
 
-    /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
-    /// where it cannot be told this way.
+    /// Obstacles and floor within some distances of up to eight configurations; `None` where the prefilter
+    /// does not apply.
     pub(crate) fn within(
         &self,
         configurations: &[&Configuration],
@@ -118,7 +119,7 @@ impl CollisionChecker<'_, '_> {
         )
     }
 
-    /// Some states, at most eight, the first again for what is left.
+    /// Batch of up to eight configurations; the first fills the rest.
     fn eight(&self, figure: &Figure, configurations: &[&Configuration]) -> Option<Eight> {
         let first = configurations.first()?;
         let mut eight = figure.eight();
@@ -130,13 +131,13 @@ impl CollisionChecker<'_, '_> {
         (0..8).all(set).then_some(eight)
     }
 
-    /// A pose of the base from the origin of the neighbourhood.
+    /// Base pose relative to the origin of the neighbourhood.
     fn seen(&self, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
         let [a, b] = self.place();
         [x - a, y - b, yaw]
     }
 
-    /// The pairs that are near each other in eight states.
+    /// Near pairs in a batch.
     pub(crate) fn near_to(
         &self,
         figure: &Figure,
@@ -168,7 +169,7 @@ impl CollisionChecker<'_, '_> {
             slabs,
             gaps: gap.metres,
             is_own: gap.is_own,
-            // Where a clearance is looked for, all that is near counts.
+            // A clearance needs all near pairs, not only the first.
             is_first: gap.is_own,
             pairs,
             posed: &mut posed,
@@ -177,7 +178,7 @@ impl CollisionChecker<'_, '_> {
         Some(look.met())
     }
 
-    /// The first touch in the first of some states that touches anything, with [`MIN_CLEARANCE`] between everything.
+    /// First contact in the first configuration that has one.
     pub(crate) fn first_contact(
         &self,
         configurations: &[&Configuration],
@@ -188,7 +189,7 @@ impl CollisionChecker<'_, '_> {
             .find_map(|configurations| self.contacts(configurations, allowed).into_iter().flatten().next())
     }
 
-    /// The first touch in each of at most eight states.
+    /// First contact in each of up to eight configurations.
     pub(crate) fn contacts(
         &self,
         configurations: &[&Configuration],
@@ -208,7 +209,8 @@ impl CollisionChecker<'_, '_> {
             .collect()
     }
 
-    /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
+    /// First contact among near pairs in one configuration: certain contacts first, which need no check in
+    /// `f64`.
     pub(crate) fn contact_among(
         &self,
         near: &[Met],
@@ -222,7 +224,7 @@ impl CollisionChecker<'_, '_> {
         })
     }
 
-    /// The touch of a pair that touches.
+    /// Contact of a near pair.
     pub(crate) fn told(&self, near: &Met) -> Contact {
         let other = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
@@ -233,7 +235,7 @@ impl CollisionChecker<'_, '_> {
         self.context.told(near.pair.part, other)
     }
 
-    /// Whether a pair touches in a state.
+    /// Checks a near pair in `f64`.
     pub(crate) fn contact_of(&self, near: &Met, configuration: &Configuration) -> Option<Contact> {
         let solid = |part: usize| Some((self.part_at(part, configuration)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;

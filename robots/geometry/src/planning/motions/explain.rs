@@ -1,6 +1,7 @@
-//! What would help where a motion is infeasible: asked of the same world with one thing changed, so that what is told is known to do.
+//! Explanation of an infeasible answer: the nearest change that makes the motion feasible. Each change is
+//! tried in a changed scene or state before it is suggested.
 //!
-//! This is looked for where an answer is told, not where it is given: it takes as long as a few queries.
+//! Runs where an answer is shown, not where it is computed: it takes as long as a few queries.
 
 use motet_robots::scene::{Entity, Scene};
 use nalgebra::Translation3;
@@ -14,26 +15,27 @@ use crate::planning::query::answer::{
 use crate::planning::scene::configuration::plane;
 use crate::planning::search::workspace::whole_centimetres;
 
-/// Things that are taken away, one at a time, to see whether that helps.
+/// Greatest number of obstacles tried for removal, one at a time.
 const TAKEN: usize = 3;
-/// How near to what is asked for a thing has to be to be taken away, in m: between the outlines of most things and their middle.
+/// Greatest distance of such an obstacle from the target, in m: between the outlines of most objects and
+/// their middle.
 const NEAR: f64 = 0.8;
-/// The most that is looked at for one change.
+/// Greatest budget of one trial: candidates and paths.
 const EFFORT: [usize; 2] = [64, 16];
-/// That a change would not help needs no proof: so many cells.
+/// Greatest number of cells of one trial: a change that does not help needs no proof.
 const CELLS: usize = 1024;
-/// By how much higher a thing is tried, in m.
+/// Lifts of an object that are tried, in m.
 const LIFTS: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.3];
 
-/// What is no object, and what never moves, weigh as much as so many objects that can be taken away.
+/// Weights of entities that are no objects, and of those that never move, in removable objects.
 const LARGE: u32 = 8;
 const FIXED: u32 = 100;
-/// How far from where the base stands in the end a way may lead to, in m: from there it comes in straight.
+/// Distance in m from the final place of the base to which a route may lead: the base comes straight in
+/// from there.
 const STRAIGHT: f64 = 0.55;
 
-/// An answer as it is told: with the nearest change that would help, in words, where one is known. What is said of a thing that is in
-/// the way, of a thing that lies too low, or of another place to stand, was tried: with it the motion is feasible. Where every way of the base is cut off, the
-/// reason names what does that.
+/// Adds the nearest change that would help, in words. Where every route of the base is cut off, the reason
+/// names the obstacle.
 pub(crate) fn explain(
     context: &QueryContext<'_>,
     query: &MotionQuery,
@@ -66,7 +68,7 @@ pub(crate) fn explain(
             if context.model.drives() =>
         {
             let to = if *needs > 0.0 { "left" } else { "right" };
-            // Rounding makes no degree more of it.
+            // Rounding must not add a degree.
             let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
             Some(format!("turn to the {to} by at least {least:.0}° before"))
         }
@@ -91,8 +93,8 @@ pub(crate) fn explain(
     told
 }
 
-/// What cuts the base off from where it would have to stand, and that it would have to be taken away, where that helps. Nothing of
-/// an answer that found no free pose, where it would not help.
+/// Obstacle that cuts the base off from its goal, and its removal where that helps. `None` for an answer
+/// without a free pose that no removal helps.
 fn cut_off(
     context: &QueryContext<'_>,
     query: &MotionQuery,
@@ -127,19 +129,19 @@ fn cut_off(
     Some((by.clone(), change))
 }
 
-/// What the motion is about lies in something that is closed.
+/// Suggests to open the closed container that holds the target.
 fn shut_in(context: &QueryContext<'_>, query: &MotionQuery) -> Option<String> {
     let around = |id: &SmolStr| context.scene.entities.get(context.scene.entities.get(id)?.inside.as_ref()?);
     let is_shut = |it: &&Entity| it.travel.is_some() && !context.state.is_open(it);
     let shut = targets(query).find_map(|id| {
-        // What was taken out of it is no longer in it.
+        // An object that was taken out is no longer inside.
         let is_there = !context.state.holds(id) && !context.state.moved.contains_key(id);
         std::iter::successors(around(id).filter(|_| is_there), |it| around(&it.id)).take(8).find(is_shut)
     })?;
     Some(format!("open `{}` before", shut.id))
 }
 
-/// Something that can be taken away, without which the motion is feasible.
+/// Suggests to remove one obstacle, without which the motion is feasible.
 fn cleared(
     context: &QueryContext<'_>,
     query: &MotionQuery,
@@ -171,7 +173,7 @@ fn cleared(
     })
 }
 
-/// By how much higher a thing would have to be that lies where no pose of the hand is free.
+/// Suggests how much higher an object would have to be where no grasp pose is free.
 fn lifted(
     context: &QueryContext<'_>,
     query: &MotionQuery,
@@ -191,17 +193,16 @@ fn lifted(
     Some(format!("with `{id}` {up:.2} m higher it can be done"))
 }
 
-/// Whether something else can be taken away, and what the motion is about stays.
+/// Checks whether an entity can be removed without the target.
 fn may_go(context: &QueryContext<'_>, query: &MotionQuery, id: &str) -> bool {
-    // Nobody is taken away.
+    // Never propose removing a person as an obstacle.
     let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != "Person";
     let is_free = context.scene.entities.get(id).is_some_and(is_thing);
     let is_asked = targets(query).any(|about| goes_with(context.scene, about, id));
     is_free && !is_asked && !context.state.holds(id)
 }
 
-/// That the motion, which leaves the base where it is, is feasible with the arm in a posture, or from where what it is about is
-/// served.
+/// Suggests a posture of the arm, or a place of the base, from which the motion is feasible.
 fn elsewhere(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudget) -> Option<String> {
     let (MotionQuery::Look(to) | MotionQuery::Offer(_, to)) = query else { return None };
     let helps = |first: &MotionQuery| {
@@ -217,9 +218,9 @@ fn elsewhere(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudg
     (context.model.drives() && helps(&MotionQuery::GoTo(to.clone()))).then(|| format!("go to `{to}` before"))
 }
 
-/// The entities, by their index, through which every way of the base leads to where it would have to stand for a motion, or some
-/// of them: as few as were found, objects that `may_go` says can be taken away before others, in the order from where the robot is. Empty where a way
-/// leads past all of them, or where that is not known. O(cells of the map × obstacles near).
+/// Entities on every route of the base to its goal, in order from the start: as few as were found, entities
+/// that `may_go` permits to remove first. Empty where a route passes them all, or none is known. O(cells of
+/// the map × obstacles near).
 pub(crate) fn barrier(
     context: &QueryContext<'_>,
     query: &MotionQuery,
@@ -241,7 +242,7 @@ pub(crate) fn barrier(
     let start = plane(&context.state.robot);
     let from: Vec<[f64; 2]> =
         std::iter::once(start).chain(context.escapes(map).iter().map(|(_, place)| *place)).collect();
-    // What is asked for is never in the way, nor what is in the hand.
+    // Neither the target nor the held object is an obstacle.
     let weight = |at: usize| {
         let (id, entity) = context.scene.entities.get_index(at).filter(|_| at != index)?;
         Some(match (may_go(id), entity.kind.as_str()) {
@@ -258,7 +259,7 @@ pub(crate) fn barrier(
     let centre = pose.translation.vector;
     let far = context.far_from(index, entity, [centre.x, centre.y]);
     let found = map.through(&from, weight, |[x, y]| far(x, y) <= reach).unwrap_or_default();
-    // Near enough on the other side of a wall is of no use.
+    // A place near the goal but behind a wall is useless.
     match &why.configuration {
         Some(configuration) if found.is_empty() && !context.is_near_drivable(configuration.base) => {
             let [to_x, to_y] = plane(configuration);
@@ -269,7 +270,7 @@ pub(crate) fn barrier(
     }
 }
 
-/// What a motion is about, what it is about most at last.
+/// Targets of a query, the most relevant last.
 pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &SmolStr> {
     let (first, second) = match query {
         MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
@@ -283,7 +284,7 @@ pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &S
     first.into_iter().chain(second)
 }
 
-/// Names in backticks, as they are said.
+/// List of names in backticks.
 fn listed(names: &[SmolStr]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {
@@ -292,7 +293,7 @@ fn listed(names: &[SmolStr]) -> String {
     }
 }
 
-/// The scene without some things and what stands on them or is in them.
+/// Scene without some entities and everything that they support or contain.
 fn without(scene: &Scene, ids: &[SmolStr]) -> Scene {
     let mut scene = scene.clone();
     let is_gone = |it: &SmolStr| ids.iter().any(|id| goes_with(&scene, it, id));
@@ -301,7 +302,7 @@ fn without(scene: &Scene, ids: &[SmolStr]) -> Scene {
     scene
 }
 
-/// Whether one thing is another, or stands on it or is in it, directly or not.
+/// Checks whether an entity is another one, or is supported or contained by it, directly or not.
 fn goes_with(scene: &Scene, one: &str, other: &str) -> bool {
     let below = |id: &str| {
         let entity = scene.entities.get(id)?;

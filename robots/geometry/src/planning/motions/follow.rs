@@ -1,5 +1,5 @@
-//! A hand on a handle that moves: states that follow it, and whether the robot and what moves stay clear of each other
-//! and of all else.
+//! Hand on a moving handle: configurations that follow it, and their collision check against the moving
+//! drawer or door.
 
 use nalgebra::{Isometry3, Vector3};
 use smol_str::SmolStr;
@@ -17,18 +17,18 @@ use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE};
 use crate::planning::scene::grid_index::{Obstacle, ObstacleIndex};
 
-/// The greatest angle of a door between two way-points, in rad.
+/// Greatest turn of a door between two way-points, in rad.
 const TURN: f64 = 0.05;
-/// The greatest way of a handle between two way-points where the arm follows, in m.
+/// Greatest motion of a handle between two way-points where the arm follows, in m.
 const STEP: f64 = 0.03;
-/// How far the hand may be from where the handle wants it, in m and in rad, between two way-points.
+/// Greatest error of the hand between two way-points, in m and in rad.
 const OFF: [f64; 2] = [0.002, 0.02];
-/// How often a leg is halved before it counts as not free.
+/// Greatest number of halvings; a segment that needs more counts as blocked.
 const DEPTH: u32 = 12;
-/// By how much what moves is taken smaller where it may touch its surroundings, as drawers and doors do, in m.
+/// Deflation of a drawer or door against its surroundings, which it may touch, in m.
 const PLAY: f64 = 0.004;
 
-/// The last state of a way that follows the handle, where the base follows; else the state itself.
+/// Last configuration of a path that follows the handle.
 pub(crate) fn follows_to(
     context: &QueryContext<'_>,
     pull: &HandlePull<'_>,
@@ -47,7 +47,7 @@ pub(crate) fn follows_to(
     }
 }
 
-/// The states of a way that follows the handle, where all of it is free.
+/// Configurations of a path that follows the handle, where all of it is free.
 pub(crate) fn follow(
     context: &QueryContext<'_>,
     pull: &HandlePull<'_>,
@@ -119,7 +119,7 @@ fn configurations(
                 let wanted = base_from_map * pull.moved(hold, done, turning) * hold.map_from_tip;
                 let next = numeric::refined(chain, &wanted, &values, 20, Tolerance::EXACT)?;
                 let jump = next.iter().zip(&values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                // Another branch of the arm does not follow.
+                // A jump to another branch does not follow the handle.
                 if jump > 0.5 {
                     return None;
                 }
@@ -137,7 +137,7 @@ fn configurations(
     }
 }
 
-/// Whether the straight way between two states is free of what moves along, from `done[0]` to `done[1]` of the travel.
+/// Checks an edge against the moving solids, which go from `done[0]` to `done[1]` of the travel meanwhile.
 fn edge_beside(
     context: &QueryContext<'_>,
     from: &Configuration,
@@ -186,8 +186,7 @@ fn edge_beside(
     Ok(())
 }
 
-/// The room without a container and what goes with it, but with what of it stays; and what goes with it, as it lies when it
-/// is closed.
+/// Context without a container's moving parts and its contents, and the contents in the closed pose.
 pub(crate) fn without<'w>(
     context: &QueryContext<'w>,
     index: usize,
@@ -212,7 +211,7 @@ pub(crate) fn without<'w>(
     (changed, inside.iter().map(|obstacle| obstacle.solid.moved(&back)).collect())
 }
 
-/// The room with what moves where it is when it is open by a part.
+/// Context with the moving parts at `part` of the travel.
 pub(crate) fn beside<'w>(context: &QueryContext<'w>, opening: &Articulation, part: f64) -> QueryContext<'w> {
     let mut changed = context.clone();
     let entity = context.opening.unwrap_or(usize::MAX);
@@ -221,7 +220,7 @@ pub(crate) fn beside<'w>(context: &QueryContext<'w>, opening: &Articulation, par
     changed
 }
 
-/// What the door or drawer itself runs into on its way: the first thing that it overlaps at one of 65 places.
+/// First obstacle that the drawer or door itself overlaps at one of 65 places of its travel.
 pub(crate) fn stops(
     context: &QueryContext<'_>,
     opening: &Articulation,
@@ -238,7 +237,7 @@ pub(crate) fn stops(
     })
 }
 
-/// A state with the base moved along with something that stays level.
+/// Configuration with the base moved along with a level motion.
 fn carried(configuration: &Configuration, moved: &Isometry3<f64>) -> Configuration {
     let [x, y, yaw] = configuration.base;
     let place = moved * nalgebra::Point3::new(x, y, 0.0);

@@ -1,4 +1,5 @@
-//! `go_to`: a standing place from which a thing is served, and the way there; `posture`: the arm to a named posture.
+//! `go_to`: a place of the base from which an entity is served, and a route to it; `posture`: the arm to a
+//! named posture.
 
 use crate::planning::context::QueryContext;
 use crate::planning::query::answer::{
@@ -8,12 +9,12 @@ use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 
-/// Directions around a thing in which places are looked for.
+/// Directions around the entity.
 const DIRECTIONS: usize = 32;
-/// How far from its final place the base may turn to come in straight, in m.
+/// Distances in m from the final place at which the base may turn before it comes straight in.
 const BACK: [f64; 3] = [0.15, 0.3, 0.5];
 
-/// A standing place at an entity.
+/// Answers `go_to`: a place at an entity.
 pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some((index, entity)) = context.entity(id) else { return unknown(format!("there is no `{id}`")) };
@@ -35,7 +36,7 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     let (mut met, mut is_free_somewhere) = (ContactTally::default(), false);
     for share in [1.0, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2, 0.0] {
         for step in 0..DIRECTIONS {
-            // From the side of the robot outwards, both ways.
+            // From the robot's side outwards, alternating.
             let turn = step.div_ceil(2) as f64 * if step % 2 == 0 { 1.0 } else { -1.0 };
             let angle = towards + turn * std::f64::consts::TAU / DIRECTIONS as f64;
             let (sin, cos) = libm::sincos(angle);
@@ -77,7 +78,7 @@ pub(crate) fn go_to(context: &QueryContext<'_>, id: &str, _budget: SearchBudget)
     MotionAnswer::Infeasible(Infeasible { reason, change: None, certified, configuration: None })
 }
 
-/// The arm to a posture of the card, the base where it is.
+/// Answers `posture`: the arm to a posture of the card, with the base still.
 pub(crate) fn to_posture(context: &QueryContext<'_>, name: &str) -> MotionAnswer {
     let start = &context.state.robot;
     let Some(joints) = context.model.posture(name, &start.joints) else {
@@ -102,13 +103,14 @@ fn gone(context: &QueryContext<'_>, path: Vec<Configuration>) -> MotionAnswer {
     MotionAnswer::Feasible(Box::new(MotionWitness { path, grasp: None, margins }))
 }
 
-/// How far out a distance that grows by at most 1 for 1 comes down to `wanted`, seen from afar.
+/// Greatest distance from the centre at which a 1-Lipschitz distance falls to `wanted`, by sphere tracing
+/// from afar.
 fn along(distance: impl Fn(f64) -> f64, wanted: f64) -> Option<f64> {
     let mut out = 12.0;
     for _ in 0..200 {
         let left = distance(out) - wanted;
         if left <= 1e-4 {
-            // No farther than what was asked for.
+            // Rounded inwards, to stay within the wanted distance.
             return Some(out - 1e-4);
         }
         out -= left;

@@ -12,40 +12,40 @@ use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::robot_model::HandModel;
 use crate::trigonometry::turn;
 
-/// How far the finger tips reach beyond the middle of a handle, in m.
+/// Overlap of the finger tips with the bar beyond its middle, in m.
 pub(crate) const BEYOND: f64 = 0.01;
-/// Directions from which a handle is taken, as angles about it in rad from square to its face.
+/// Approach angles about the handle from the normal of its face, in rad.
 const TILTS: [f64; 5] = [0.0, 0.52, -0.52, 1.05, -1.05];
 /// Places along a handle, as shares of half of its length.
 const PLACES: [f64; 3] = [0.0, 0.6, -0.6];
 
-/// A handle to be taken and where it goes.
+/// Handle to be grasped, and the travel that it follows.
 pub(crate) struct HandlePull<'a> {
     pub(crate) id: &'a str,
     pub(crate) hand: &'a HandModel,
     pub(crate) opening: Articulation,
-    /// From how far open to how far open.
+    /// Start and end of the travel, 0 closed and 1 open.
     pub(crate) parts: [f64; 2],
-    /// How far before the tip the middle of the bar is, in m.
+    /// Distance of the bar's middle before the tip, in m.
     pub(crate) depth: f64,
 }
 
-/// What moves so that the hand follows.
+/// Part of the robot that follows the handle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum FollowMode {
-    /// The base, with the arm still.
+    /// Base, with the arm still.
     Base(HandSlide),
-    /// The arm, with the base still.
+    /// Arm, with the base still.
     Arm(HandSlide),
 }
 
-/// How much of the door's turn the hand does not make but slides about the bar: 0 none, 1 all, so that it keeps its
+/// Share of the door's turn that the hand slides about the bar: 0 turns with the door, 1 keeps its
 /// direction.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct HandSlide(pub(crate) f64);
 
 impl HandlePull<'_> {
-    /// The ways in which the robot may follow.
+    /// Modes in which the robot may follow, the most promising first.
     pub(crate) fn followings(
         &self,
         model: &crate::planning::scene::robot_model::RobotModel,
@@ -64,7 +64,7 @@ impl HandlePull<'_> {
         all
     }
 
-    /// The middle of the handle with the directions of its bar.
+    /// Pose of the handle's middle at `part` of the travel.
     pub(crate) fn map_from_handle(&self, part: f64) -> Isometry3<f64> {
         let handle = self.opening.handle();
         let rotation = UnitQuaternion::face_towards(&handle.along, &handle.out);
@@ -72,7 +72,7 @@ impl HandlePull<'_> {
             * Isometry3::from_parts(Translation3::from(handle.centre.coords), rotation)
     }
 
-    /// Poses of the hand around the handle, in a fixed order.
+    /// Grasp candidates of the handle in a fixed order.
     pub(crate) fn holds(&self) -> Vec<GraspCandidate> {
         let handle = self.opening.handle();
         let moved = self.opening.map_moved(self.parts[0]);
@@ -89,7 +89,7 @@ impl HandlePull<'_> {
                     let pose = Isometry3::from_parts(Translation3::from(at), rotation);
                     let approach = moved.rotation * approach;
                     let side = if approach.z < -0.819 { GraspSide::Top } else { GraspSide::Side };
-                    // From below there is no way for a hand.
+                    // A hand never comes from below.
                     if approach.z <= 0.5 {
                         all.push(GraspCandidate { map_from_tip: moved * pose, approach, side, width: THICK });
                     }
@@ -99,7 +99,7 @@ impl HandlePull<'_> {
         all
     }
 
-    /// All of them, and not only these.
+    /// Manifold of all grasps of the handle, for a certificate.
     pub(crate) fn manifold(&self) -> GraspManifold<'_> {
         let handle = self.opening.handle();
         let moved = self.opening.map_moved(self.parts[0]);
@@ -111,7 +111,7 @@ impl HandlePull<'_> {
         GraspManifold::of_bar(self.hand, &bar, out, self.depth, [most(&TILTS), most(&PLACES)])
     }
 
-    /// The point of the bar that a hold is about, where the bar is at the beginning.
+    /// Point of the bar between the fingers, at the start.
     pub(crate) fn bar(&self, hold: &GraspCandidate) -> Point3<f64> {
         let closes = hold.map_from_tip.rotation * Vector3::from(self.hand.card.closes);
         let from_tip = hold.approach * self.depth + closes * self.hand.middle(THICK);
@@ -120,7 +120,7 @@ impl HandlePull<'_> {
 }
 
 impl HandlePull<'_> {
-    /// How the hand has moved in the map since it took the handle, after `done` of its way.
+    /// Motion of the hand in the map after `done` of its path.
     pub(crate) fn moved(
         &self,
         hold: &GraspCandidate,
@@ -137,7 +137,7 @@ impl HandlePull<'_> {
     }
 }
 
-/// A state with the fingers around a handle.
+/// Configuration with the fingers around the handle.
 pub(crate) fn gripping(
     context: &QueryContext<'_>,
     hand: &HandModel,
@@ -149,7 +149,7 @@ pub(crate) fn gripping(
     }
 }
 
-/// How far the hand reaches in front of its tip with its fingers closed around something so wide, in m.
+/// Reach of the hand in front of its tip with the fingers closed around an object of a width, in m.
 pub(crate) fn front_around(context: &QueryContext<'_>, hand: &HandModel, width: f64) -> f64 {
     let rest = context.model.rest();
     let poses = context.model.tree().root_from_links(&hand.around(rest, rest, width));

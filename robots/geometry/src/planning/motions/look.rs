@@ -1,9 +1,8 @@
-//! `look`: a thing in a camera's view with a free line of sight, the base and the arm where they are.
+//! `look`: an entity in a camera's view with a free line of sight, with base and arm still.
 //!
-//! A thing counts as in view where it is no farther than the card says that the camera sees, and where nothing stands between the
-//! camera and one of its points. What is in the view of a camera depends on whether joints turn it: then it has to look at the thing
-//! to within [`AIM`], and the thing may be no farther aside of the base's direction than half of what the card calls its view, which
-//! is with its joints turned; else the whole of the view is its own.
+//! An entity is in view within the range of the card, where no obstacle hides one of its points. A camera
+//! that joints turn has to aim at it to within [`AIM`], and its bearing from the base may be at most half
+//! of the card's view, which includes the joints' motion. The view of a fixed camera is its own.
 
 use motet_robots::scene::Entity;
 use nalgebra::Vector3;
@@ -18,12 +17,12 @@ use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 
-/// The greatest angle between the axis of a camera and what it looks at, in rad; up and down of a camera that nothing turns.
+/// Greatest angle between a camera's axis and its target, in rad; for a fixed camera up and down only.
 const AIM: f64 = 0.37;
-/// How far out on a thing points are looked at, as a share of its half extents.
+/// Distance of sampled points from an entity's centre, as a share of its half extents.
 const OUT: f64 = 0.8;
 
-/// A state that sees an entity.
+/// Answers `look`: a configuration that sees an entity.
 pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some((index, entity)) = context.entity(id) else { return unknown(format!("there is no `{id}`")) };
@@ -88,7 +87,7 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     MotionAnswer::Infeasible(Infeasible::exhausted(reason))
 }
 
-/// The joints that turn a camera and nothing of the arm; of a camera at the wrist those of the arm.
+/// Joints that turn a camera and are not the arm's; all of them for a camera at the wrist.
 fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Variable>) {
     let arm = context.model.hand().map(|hand| &hand.solver.chain().in_tree);
     let mut all: Vec<usize> = context.model.levers(frame).iter().map(|lever| lever.driver.variable).collect();
@@ -101,7 +100,7 @@ fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Variable>)
     (moving, known)
 }
 
-/// Points of an entity that may be looked at, its middle first.
+/// Points of an entity to look at, its centre first.
 fn points_of(context: &QueryContext<'_>, index: usize, entity: &Entity) -> Vec<Vector3<f64>> {
     let Some(pose) = context.state.pose(entity) else { return vec![] };
     let mut points = vec![pose.translation.vector];
@@ -114,7 +113,7 @@ fn points_of(context: &QueryContext<'_>, index: usize, entity: &Entity) -> Vec<V
     points
 }
 
-/// Whether a camera sees one of the points.
+/// Checks whether the camera sees one of the points.
 fn sees(
     context: &QueryContext<'_>,
     configuration: &Configuration,
@@ -148,34 +147,34 @@ fn sees(
     found
 }
 
-/// What a camera sees by itself.
+/// View of a camera.
 struct CameraView {
-    /// The link that it is.
+    /// Index of its link.
     frame: usize,
-    /// How far, in m.
+    /// Range in m.
     range: f64,
-    /// Half of the view that the card gives it, in rad.
+    /// Half of the horizontal view, in rad.
     half: f64,
-    /// Whether no joint turns it.
+    /// Set where no joint turns it.
     is_still: bool,
 }
 
 impl CameraView {
-    /// Whether what is that way from a camera is in its view, the base heading so.
+    /// Checks whether a direction from the camera is in its view, with the base at a heading.
     fn holds(&self, axis: &Vector3<f64>, heading: f64, way: &Vector3<f64>) -> bool {
         let is_within = |angle: f64| axis.dot(way) >= libm::cos(angle) * way.norm();
         let up = |it: &Vector3<f64>| libm::atan2(it.z, libm::hypot(it.x, it.y));
         if !self.is_still {
             return is_within(AIM.min(self.half)) && aside(heading, way).abs() <= self.half;
         }
-        // To the sides of what looks straight down or up there is nothing to measure from.
+        // A camera that looks straight up or down has no bearing.
         if up(axis).abs() > 1.0 {
             return is_within(AIM.min(self.half));
         }
         aside(libm::atan2(axis.y, axis.x), way).abs() <= self.half && (up(way) - up(axis)).abs() <= AIM
     }
 
-    /// How far a place is aside of where a robot heads, where that is beyond the view.
+    /// Bearing of a place, where it is beyond the view.
     fn beyond(&self, configuration: &Configuration, place: &Vector3<f64>) -> Option<BearingLimit> {
         let [x, y, heading] = configuration.base;
         let needs = aside(heading, &(place - Vector3::new(x, y, 0.0)));
@@ -183,7 +182,7 @@ impl CameraView {
     }
 }
 
-/// How far to the left of a direction in the plane a way leads, in rad.
+/// Bearing relative to a heading, positive to the left, in rad.
 fn aside(heading: f64, way: &Vector3<f64>) -> f64 {
     crate::trigonometry::wrapped(libm::atan2(way.y, way.x) - heading)
 }
@@ -192,11 +191,10 @@ enum Visibility {
     Free,
     Hidden(smol_str::SmolStr),
     Far(f64),
-    /// The camera looks elsewhere.
     Aside,
 }
 
-/// The straight line between two points as a solid.
+/// Line segment as a solid.
 fn segment(from: &Vector3<f64>, to: &Vector3<f64>) -> Solid {
     let way = to - from;
     let length = way.norm();
@@ -213,7 +211,7 @@ mod tests {
 
     use super::CameraView;
 
-    /// Whether what is so many degrees to the left and up from a camera that looks along x is in its view, the base heading so.
+    /// Checks a direction, in degrees to the left and up, from a camera that looks along x.
     fn sees(view: f64, is_still: bool, heading: f64, [left, up]: [f64; 2]) -> bool {
         let view = CameraView { frame: 0, range: 5.0, half: view.to_radians() / 2.0, is_still };
         let (left, up) = (left.to_radians(), up.to_radians());
@@ -240,12 +238,12 @@ mod tests {
         for (view, heading, way, is_seen) in [
             (260.0, 0.0, [20.0, 0.0], true),
             (260.0, 0.0, [23.0, 0.0], false),
-            // Turned to the side as far as the view goes, and further.
+            // At the limit of the view, and beyond it.
             (260.0, -125.0, [0.0, 0.0], true),
             (260.0, -135.0, [0.0, 0.0], false),
             (260.0, 170.0, [0.0, 0.0], false),
             (360.0, 180.0, [0.0, 0.0], true),
-            // Narrower than what the camera aims at.
+            // Narrower than the camera's aim.
             (30.0, 0.0, [14.0, 0.0], true),
             (30.0, 0.0, [17.0, 0.0], false),
         ] {

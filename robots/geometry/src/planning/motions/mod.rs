@@ -1,4 +1,4 @@
-//! One file for each motion query.
+//! Motions: one file for each motion query, as a function over the query context.
 
 pub(crate) mod dispatch;
 pub(crate) mod explain;

@@ -1,4 +1,4 @@
-//! `offer`: what is in the hand held out to a person, the base where it is.
+//! `offer`: the held object within a person's reach, with the base still.
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -15,16 +15,16 @@ use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::scene_state::HeldObject;
 use crate::planning::search::arm_candidates::{SPACE, part};
 
-/// How far from a person's middle a thing may be held out, in m: beyond the body, within an arm's length.
+/// Distance of the object from the person's middle, in m: beyond the body, within an arm's length.
 const REACH: [f64; 2] = [0.3, 0.75];
-/// How high, as shares of the stature: between the hip and the shoulder.
+/// Heights of the object as shares of the stature: between hip and shoulder.
 const HEIGHTS: [f64; 2] = [0.42, 0.8];
-/// How much a thing may be tilted: the cosine of 30°.
+/// Greatest tilt of the object: the cosine of 30°.
 const UPRIGHT: f64 = 0.866;
-/// The stature where the shape does not say, in m.
+/// Stature of a person without a shape, in m.
 const STATURE: f64 = 1.7;
 
-/// A pose of the hand in which a person can take what it holds.
+/// Answers `offer`: a configuration in which a person can take the held object.
 pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some(held) = context.held_thing(id) else {
@@ -90,7 +90,7 @@ pub(crate) fn offer(context: &QueryContext<'_>, id: &str, to: &str, budget: Sear
     exhausted(tried > 0, &poses, &ways)
 }
 
-/// States with the base where it is and the thing upright, or nearly so, and where the hand's tip then is.
+/// Configurations with the object about upright and the base still, with the pose of the tip.
 fn held_out(
     context: &QueryContext<'_>,
     held: &HeldObject<'_>,
@@ -116,7 +116,7 @@ fn held_out(
         let configuration = with(&spread(&chain.variables, at));
         return tip(&configuration).map(|tip| (configuration, tip)).into_iter().collect();
     };
-    // Solved anywhere with the thing upright, then moved as one so that the base is where it is.
+    // Solved with the base free, then moved as a whole so that the base is where it is.
     let (lower, upper) = arm.shoulder_span();
     let height = heights[0] + part(at, 3, SPACE) * (heights[1] - heights[0]);
     let object = Isometry3::from_parts(Translation3::new(0.0, 0.0, height), Default::default());

@@ -1,7 +1,8 @@
-//! The world after a motion: where the robot then is, what it holds.
+//! Outcome of a motion: the scene state after it.
 //!
-//! A motion of the base ends where its path ends. A motion of the hand ends with the robot back where it began it, with what
-//! it took, and only where a way back was certified: lifted off its support, or straight back, and then as it came.
+//! A motion of the base ends where its path ends. A motion of the hand ends with the robot back at the
+//! start, and only where a path back was certified: lifted off the support, or straight back, and then the
+//! way it came.
 
 use nalgebra::Vector3;
 
@@ -15,15 +16,15 @@ use crate::planning::scene::robot_model::away;
 use crate::planning::scene::scene_state::SceneState;
 use crate::planning::search::path::LAST;
 
-/// How far a thing is lifted off what it stands on before the robot moves on, in m.
+/// Lift off the support before the robot moves on, in m.
 const LIFT: f64 = 0.05;
-/// How far the hand draws back, in m.
+/// Distances of the straight way back, in m.
 const BACK: [f64; 2] = [0.1, 0.05];
 
-/// How far the fingers open to let go of a handle, in m.
+/// Openings that release a handle, in m; the first is the widest.
 const OPENED: [f64; 3] = [f64::INFINITY, 0.06, 0.03];
 
-/// The world after the robot went a way, without anything taken or put down.
+/// State after the robot followed a path.
 pub(crate) fn after_move(context: &QueryContext<'_>, witness: &MotionWitness) -> SceneState {
     let mut state = context.state.clone();
     if let Some(last) = witness.path.last() {
@@ -34,8 +35,7 @@ pub(crate) fn after_move(context: &QueryContext<'_>, witness: &MotionWitness) ->
     state
 }
 
-/// The world after a thing was taken as a witness of `reach` says, with the robot back where it began; `None` where no way
-/// back was found.
+/// State after a grasp, with the robot back at the start; `None` where no path back was found.
 pub(crate) fn after_reach(context: &QueryContext<'_>, witness: &MotionWitness) -> Option<SceneState> {
     let grasp = witness.grasp.as_ref()?;
     let hand = context.model.hand()?;
@@ -63,8 +63,8 @@ pub(crate) fn after_reach(context: &QueryContext<'_>, witness: &MotionWitness) -
     is_back.then_some(state)
 }
 
-/// The world after a thing was put where a witness of `put` says, with the robot back where it began; `None` where no way
-/// back was found.
+/// State after an object was put down, with the robot back at the start; `None` where no path back was
+/// found.
 pub(crate) fn after_put(context: &QueryContext<'_>, witness: &MotionWitness) -> Option<SceneState> {
     let grasp = witness.grasp.as_ref()?;
     let (hand, end) = (context.model.hand()?, witness.path.last()?);
@@ -74,7 +74,7 @@ pub(crate) fn after_put(context: &QueryContext<'_>, witness: &MotionWitness) -> 
     let (index, _) = context.entity(&grasp.object)?;
     let after = context.in_state(&state);
     let allowed = AllowedCollisions { hand: Some(index), held: None };
-    // The fingers open, then the hand draws back from the thing.
+    // The fingers open before the hand draws back.
     let open = Configuration { base: end.base, joints: hand.opened(&end.joints) };
     after.edge(end, &open, allowed).ok()?;
     let is_back = BACK.into_iter().any(|far| {
@@ -88,17 +88,17 @@ pub(crate) fn after_put(context: &QueryContext<'_>, witness: &MotionWitness) -> 
     is_back.then_some(state)
 }
 
-/// The world after a person took what was held out to them: the robot is back where it began, by the way it came.
+/// State after a person took the held object, with the robot back at the start.
 pub(crate) fn after_offer(context: &QueryContext<'_>, to: &str) -> Option<SceneState> {
     let mut state = context.state.clone();
     let (held, _) = state.held.take()?;
     let (_, person) = context.entity(to)?;
-    // With them it stands in nobody's way.
+    // In a person's hands the object is in nobody's way.
     state.moved.insert(held, context.state.pose(person)?);
     Some(state)
 }
 
-/// Whether a way leads between where the robot is in this room and a state in front of a place.
+/// Checks whether a path connects the start with a configuration in front of a place.
 pub(crate) fn leads_back(
     context: &QueryContext<'_>,
     configuration: &Configuration,
@@ -110,9 +110,8 @@ pub(crate) fn leads_back(
         .is_some()
 }
 
-/// The world after a container was pulled open, or pushed closed, as a witness says: what lies in a drawer has gone with it, and
-/// the robot is back where it began; where no way leads back there, where it let go of the handle, with the arm as it was.
-/// `None` where neither was found.
+/// State after a container was opened or closed, with the robot back at the start, or at the handle with
+/// its arm folded; `None` where neither was found. The contents of a drawer move with it.
 pub(crate) fn after_pull(context: &QueryContext<'_>, witness: &MotionWitness) -> Option<SceneState> {
     let none = AllowedCollisions::default();
     let grasp = witness.grasp.as_ref()?;
@@ -136,7 +135,7 @@ pub(crate) fn after_pull(context: &QueryContext<'_>, witness: &MotionWitness) ->
     let after = context.in_state(&state);
     let ways = OPENED.into_iter().flat_map(|width| BACK.map(|far| (width, far)));
     for (width, far) in ways {
-        // No farther than the door beside it leaves room for.
+        // At most as far as the door beside the hand permits.
         let fingers = |configuration: &Configuration| {
             hand.around(&configuration.joints, context.model.rest(), width.min(hand.card.opening_m))
         };

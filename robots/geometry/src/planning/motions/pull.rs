@@ -1,10 +1,9 @@
-//! `pull` and `push` of what opens: the hand takes the handle and follows it along the container's own travel, the whole
-//! robot with it.
+//! `pull`, and `push` of a container: the hand grasps the handle and follows it along the container's
+//! travel.
 //!
-//! The robot follows in one of two ways. Its base goes along with the arm still: beside the handle, or turning with the
-//! door, or half of each, the hand turning about the bar that it holds. Or the base stands still and the arm follows. Each leg is certified
-//! with the door or drawer moving: a solid and a part of the robot are far enough from each other in the middle of a leg
-//! that what both go until its ends cannot bring them together; else the leg is halved.
+//! The robot follows in one of two modes. The base moves with the arm still: beside the handle, or turning
+//! with the door, or half of each, while the hand turns about the bar. Or the base is still and the arm
+//! follows. Each segment is certified with the door or drawer moving, by motion bounds on both.
 
 use std::ops::ControlFlow;
 
@@ -26,10 +25,10 @@ use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::robot_model::HandModel;
 use crate::planning::search::path::LAST;
 
-/// How far before a handle the hand turns straight towards it, in m; the shorter where the longer does not do.
+/// Approach distances before a handle, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
 
-/// A container opened, `parts` `[0, 1]`, or closed, `[1, 0]`, by its handle.
+/// Answers `pull`: opens a container, `parts` `[0, 1]`, or closes it, `[1, 0]`, by its handle.
 pub(crate) fn pull(
     context: &QueryContext<'_>,
     id: &str,
@@ -78,8 +77,7 @@ pub(crate) fn pull(
     )
 }
 
-/// The holds in which the hand alone touches nothing, of those with these poses of its tip. What it touches is in the way of every
-/// arm.
+/// Grasp candidates in which the hand alone is free.
 fn free_holds<'h>(
     context: &QueryContext<'_>,
     hand: &HandModel,
@@ -149,7 +147,7 @@ fn search_pull(
             }
         }
     }
-    // Where a free state was found there is nothing to prove.
+    // A free configuration contradicts a proof.
     if !is_free {
         let manifold = pull.manifold();
         let none = AllowedCollisions::default();
@@ -162,7 +160,7 @@ fn search_pull(
     exhausted(is_free || is_cut_off, &poses, &ways)
 }
 
-/// A way from where the robot is to a state at the handle, which the hand then closes around.
+/// Path from the start to the handle, with the fingers closed around it at the end.
 fn way_to_handle(
     context: &QueryContext<'_>,
     pull: &HandlePull<'_>,
@@ -191,7 +189,7 @@ fn pulled_along(
     let second = clear.margins(&way, none);
     let count = way.len().saturating_sub(1).max(1) as f64;
     let [from, to] = pull.parts;
-    // The door itself, at the way-points.
+    // Clearance to the moving door at the way-points.
     let nearest = way.iter().zip(0..).map(|(configuration, at)| {
         let part = from + (to - from) * (f64::from(at) / count);
         beside(clear, &pull.opening, part).clearance(configuration, none)

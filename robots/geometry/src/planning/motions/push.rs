@@ -1,4 +1,5 @@
-//! `push`: what is open closed by its handle; any other thing a little away from the robot with the closed hand.
+//! `push`: closes a container by its handle, or pushes any other object a little away from the robot with
+//! the closed hand.
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -19,16 +20,16 @@ use crate::planning::scene::robot_model::HandModel;
 use crate::planning::scene::scene_state::solid_shape;
 use crate::trigonometry::turn;
 
-/// How far a thing is pushed, in m.
+/// Length of a push, in m.
 const FAR: f64 = 0.1;
-/// How far before the thing the hand begins, in m.
+/// Gap between hand and object at the start, in m.
 const BEFORE: f64 = 0.003;
-/// Directions in which it is pushed, as angles in rad from straight away from the robot.
+/// Directions of the push, as angles in rad from straight away from the robot.
 const ASIDE: [f64; 7] = [0.0, 0.26, -0.26, 0.52, -0.52, 0.78, -0.78];
-/// Places on its way at which it is looked whether it runs into something.
+/// Places of the object at which it is checked against obstacles.
 const PLACES: u32 = 16;
 
-/// What is open closed; any other thing pushed away.
+/// Answers `push`: closes a container, or pushes an object away.
 pub(crate) fn push(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some((index, entity)) = context.entity(id) else { return unknown(format!("there is no `{id}`")) };
@@ -127,7 +128,7 @@ pub(crate) fn push(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     exhausted(tried > 0, &poses, &ways)
 }
 
-/// A way to a state, the last part straight along the push.
+/// Path to a configuration whose last edge is the push.
 fn way_along(
     context: &QueryContext<'_>,
     hand: &HandModel,
@@ -138,7 +139,7 @@ fn way_along(
     met: &mut ContactTally,
 ) -> Option<Vec<Configuration>> {
     let line = context.line(hand, configuration, map_from_tip, &(along * -FAR))?;
-    // The fingers of a line are open; these are closed.
+    // A hand path has open fingers; a push needs them closed.
     let closed = |it: &Configuration| Configuration {
         base: it.base,
         joints: hand.around(&it.joints, context.model.rest(), 0.0),
@@ -147,7 +148,7 @@ fn way_along(
     context.route_along(&line, [along.x, along.y], allowed, met)
 }
 
-/// Whether a thing runs into another in whatever direction it is pushed, of all those between which some are tried.
+/// Checks whether the object meets an obstacle in every direction between the tried ones.
 fn is_walled_in(object: &Solid, others: &[&Obstacle], ahead: &Vector3<f64>) -> bool {
     const DEPTH: u32 = 8;
     let most = ASIDE.iter().copied().fold(0.0, f64::max);
@@ -157,7 +158,7 @@ fn is_walled_in(object: &Solid, others: &[&Obstacle], ahead: &Vector3<f64>) -> b
         let is_stopped = (1..=PLACES).any(|at| {
             let gone = FAR * f64::from(at) / f64::from(PLACES);
             let solid = object.moved(&Isometry3::from(Translation3::from(along * gone)));
-            // Smaller by the gap too, since it may go along something.
+            // Deflated by the padding, since the object may slide along an obstacle.
             let drift = gone * half + MIN_CLEARANCE;
             let placed = DeflatedPart { solid, inner: inner(&solid), reach: solid.reach(), drift };
             others.iter().any(|it| placed.touches(&it.solid, inner(&it.solid), it.reach, drift))

@@ -1,4 +1,4 @@
-//! `put`: a place for what is in the hand on a surface or in a container, and a way of the whole robot to it.
+//! `put`: a place for the held object on a surface or in a container, and a path to it.
 
 use motet_robots::scene::{Entity, Travel};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -20,17 +20,17 @@ use crate::planning::search::goal_search::{GoalPose, GoalSpec};
 use crate::planning::search::path::LAST;
 use crate::planning::search::workspace::ReachEnvelope;
 
-/// How far it is lowered straight down before, in m; the shorter where the longer does not do.
+/// Heights in m from which the object is lowered straight down; the shorter where the longer is blocked.
 const LOWER: [f64; 2] = [0.1, 0.05];
-/// Places that are tried with the usual budget: half of them the nearest to the robot, half spread over the face; and half as many
-/// along its rim, where a hand beside the thing has room that it has not over the face.
+/// Places of the usual budget: half of them the nearest to the robot, half spread over the face; and half
+/// as many along the rim, where the hand has room beside the object.
 const PLACES: usize = 16;
-/// A larger budget tries at most so many times as many.
+/// Greatest factor of the places for a larger budget.
 const MOST_TIMES: usize = 16;
-/// Directions in which the thing may be turned.
+/// Number of rotations of the object.
 const TURNS: u32 = 8;
 
-/// A place for what is held.
+/// Answers `put`: a place for the held object.
 pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: SearchBudget) -> MotionAnswer {
     let unknown = |why: String| MotionAnswer::Unknown(UnknownReason::Because(why));
     let Some(held) = context.held_thing(id) else {
@@ -57,10 +57,11 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
     let face = support.map_from_face.translation;
     let wide = libm::hypot(support.half[0], support.half[1]);
     let checker = context.around([face.x, face.y], context.farthest(held.hand) + wide + LAST);
-    // What comes into a drawer comes from above its walls.
+    // Into a drawer the object comes from above its walls.
     let over = (support.walls > 0.0).then(|| support.walls + LOWER[1]);
     let tips: Vec<_> = places.iter().map(|place| place * tip_from_place).collect();
-    // Upright at one height the wrist is at one height too, wherever it stands and however it is turned.
+    // Upright at one height, the wrist is at one height too, wherever the object is and however it is
+    // turned.
     let span = context.span(held.hand);
     if let Some((reason, change)) = span.beyond_all(&face.vector, &format!("the top of `{on}`"), &tips) {
         let certified = matches!(span, ReachEnvelope::Heights(..));
@@ -78,12 +79,12 @@ pub(crate) fn put(context: &QueryContext<'_>, id: &str, on: &str, budget: Search
         Ok((at, path)) => {
             let tip = match at {
                 GoalPose::Tip(at) => goal.tips.get(at).copied(),
-                GoalPose::GraspCandidate(hold) => Some(hold.map_from_tip),
+                GoalPose::Grasp(hold) => Some(hold.map_from_tip),
             };
             let Some(tip) = tip else { return MotionAnswer::Unknown(UnknownReason::Budget) };
             MotionAnswer::Feasible(Box::new(put_down(context, &held, path, tip, allowed)))
         }
-        // There may be other places, which were not tried.
+        // Other places were not tried.
         Err(MotionAnswer::Infeasible(Infeasible { certified: false, .. })) if is_cut => {
             MotionAnswer::Unknown(UnknownReason::Budget)
         }
@@ -113,7 +114,7 @@ fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurf
         return Err(MotionAnswer::Infeasible(Infeasible::proven(reason, change)));
     }
     let (face, inset) = match &entity.travel {
-        // Inside, on its bottom.
+        // On the bottom of the container.
         Some(Travel::Slide { axis, distance }) => (
             pose * Translation3::from(Vector3::from(*axis) * *distance),
             crate::planning::scene::articulation::WALL,
@@ -132,8 +133,8 @@ fn support_of(context: &QueryContext<'_>, entity: &Entity) -> Result<SupportSurf
     Ok(SupportSurface { map_from_face, half: half.map(|half| half - inset), walls, is_disc })
 }
 
-/// So many free places of what is held, or fewer, upright: those nearest to the robot, then others all over the face, and half as
-/// many along its rim. Tells whether there were more.
+/// Free upright places of the held object, up to a number: the nearest to the robot, others spread over the
+/// face, and half as many along the rim. Returns `true` where there are more.
 fn places(
     context: &QueryContext<'_>,
     held: &HeldObject<'_>,
@@ -145,7 +146,7 @@ fn places(
     let bottom = solid.extent(&Vector3::z());
     let around = libm::hypot(solid.extent(&Vector3::x()), solid.extent(&Vector3::y()));
     let around = if matches!(held.shape, Shape::Box(_)) { around } else { solid.extent(&Vector3::x()) };
-    // What is too large for it may stand out on all sides, with its middle on the middle.
+    // An object larger than the surface may overhang, with its centre on the centre.
     let spread = on.half.map(|half| (half - around).max(0.0));
     let [base_x, base_y, _] = context.state.robot.base;
     let sorted = |spots: Vec<[f64; 2]>| {
@@ -181,7 +182,7 @@ fn places(
         let free: Vec<Vector3<f64>> =
             spots.into_iter().map(|(_, spot)| spot).filter(|spot| is_free(spot)).collect();
         let (near, far) = free.split_at(free.len().min(wanted / 2));
-        // In their order by distance, every so many-th.
+        // Every n-th by distance.
         let step = far.len().div_ceil(wanted / 2).max(1);
         chosen.extend(near.iter().chain(far.iter().step_by(step)).copied());
         is_cut |= step > 1;
@@ -190,7 +191,7 @@ fn places(
     (turned.collect(), is_cut)
 }
 
-/// The witness of a motion with what is held.
+/// Witness of a motion with the held object.
 pub(crate) fn put_down(
     context: &QueryContext<'_>,
     held: &HeldObject<'_>,

@@ -1,4 +1,4 @@
-//! `reach`: a grasp of a thing, and a way of the whole robot to it.
+//! `reach`: a grasp of an object, and a path of the whole robot to it.
 
 use motet_robots::scene::Entity;
 use nalgebra::{Isometry3, Vector3};
@@ -19,12 +19,12 @@ use crate::planning::scene::scene_state::solid_shape;
 use crate::planning::search::goal_search::{GoalPose, GoalSpec};
 use crate::planning::search::path::LAST;
 
-/// How far before a thing the hand turns straight towards it, in m; the shorter where the longer does not do.
+/// Approach distances before the object, in m; the shorter where the longer is blocked.
 const BACK: [f64; 2] = [0.1, 0.05];
-/// How finely holds are told apart by how much they point away from the robot.
+/// Steps in which candidates are ordered by their approach.
 const STEPS: usize = 20;
 
-/// A grasp of an entity.
+/// Answers `reach`: a grasp of an entity.
 pub(crate) fn reach(
     context: &QueryContext<'_>,
     id: &str,
@@ -68,7 +68,7 @@ pub(crate) fn reach(
     {
         return answer;
     }
-    // What the arm reaches in no way needs no search.
+    // A pose outside of the workspace needs no search.
     all.retain(|hold| span.holds(&hold.map_from_tip));
     sort(context, &mut all, &target);
     let tips: Vec<_> = all.iter().map(|hold| hold.map_from_tip).collect();
@@ -87,7 +87,7 @@ pub(crate) fn reach(
         Ok((at, path)) => {
             let hold = match at {
                 GoalPose::Tip(at) => all.get(at).copied(),
-                GoalPose::GraspCandidate(hold) => Some(hold),
+                GoalPose::Grasp(hold) => Some(hold),
             };
             let Some(hold) = hold else { return MotionAnswer::Unknown(UnknownReason::Budget) };
             MotionAnswer::Feasible(Box::new(checker.grasped(&target, &hold, path)))
@@ -96,8 +96,8 @@ pub(crate) fn reach(
     }
 }
 
-/// From a pose of the tip back to where the hand turns straight to it: against where its fingers point;
-/// else, where there is a base to do so, level or from above, or, where they point down, level past the thing between them.
+/// Offsets back from a tip pose: against the pointing direction and, for a driving base, level or from
+/// above or, where the fingers point down, level past the object between them.
 fn backs(context: &QueryContext<'_>, tip: &Isometry3<f64>, hand: &HandModel) -> Vec<Vector3<f64>> {
     let away = away(tip, hand, 1.0);
     let [long, _] = BACK;
@@ -119,12 +119,12 @@ fn backs(context: &QueryContext<'_>, tip: &Isometry3<f64>, hand: &HandModel) -> 
     backs
 }
 
-/// Holds from the robot's side come first; from above there is room, most often.
+/// Orders candidates: from the robot's side first, and from above, which is rarely blocked, in the middle.
 fn sort(context: &QueryContext<'_>, holds: &mut Vec<GraspCandidate>, target: &ReachTarget<'_>) {
     let [x, y, _] = context.state.robot.base;
     let ahead = Vector3::new(target.pose.translation.x - x, target.pose.translation.y - y, 0.0);
     let far = (ahead.x * ahead.x + ahead.y * ahead.y).sqrt().max(1e-9);
-    // In steps, so that what differs by rounding alone keeps its order; the best is the least.
+    // In steps, so that rounding does not change the order; the best is the least.
     let step = |hold: &GraspCandidate| match hold.side {
         GraspSide::Top => STEPS / 2,
         GraspSide::Side | GraspSide::Front => {
@@ -159,7 +159,7 @@ impl CollisionChecker<'_, '_> {
     }
 }
 
-/// What is to be grasped, and with what.
+/// Object to be grasped, and the hand.
 struct ReachTarget<'a> {
     id: &'a str,
     entity: &'a Entity,

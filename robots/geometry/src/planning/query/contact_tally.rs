@@ -1,4 +1,4 @@
-//! Tally of the contacts that a search met: the reason that an answer gives.
+//! Tally of the contacts that a search met, for the reason of an infeasible answer.
 
 use std::collections::BTreeMap;
 
@@ -7,11 +7,11 @@ use smol_str::{SmolStr, format_smolstr};
 use crate::planning::query::answer::{ContactShare, ITSELF, Infeasible, InfeasibleReason, MotionAnswer};
 use crate::planning::scene::contact::Contact;
 
-/// What is met, and how often.
+/// Count of contacts by body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactTally {
     others: BTreeMap<SmolStr, usize>,
-    /// Of the robot itself, by the two links.
+    /// Contacts within the robot, by the two links.
     own: BTreeMap<[SmolStr; 2], usize>,
 }
 
@@ -28,13 +28,13 @@ impl ContactTally {
         *self.others.entry(name).or_default() += 1;
     }
 
-    /// What is met most often; of equals the first by name. The robot itself counts as one, and is told with the links that meet
-    /// most often.
+    /// Most frequent body; the first by name among equals. The robot itself counts as one body, named with
+    /// its two links that touch most often.
     pub(crate) fn most(&self) -> Option<SmolStr> {
         self.counted().map(|(name, _)| name)
     }
 
-    /// That no pose is free of those whose touches these are: what most of them touch, and how many of how many.
+    /// Reason that no pose is free: the most frequent body and its share of all contacts.
     pub(crate) fn none_free(&self) -> InfeasibleReason {
         let (by, touching) = self.counted().unzip();
         let tried = self.others.values().chain(self.own.values()).sum();
@@ -55,7 +55,7 @@ impl ContactTally {
     }
 }
 
-/// The key that is counted most often, the first of equals.
+/// Key with the greatest count, the first of equals.
 fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
     counts.iter().fold(None, |most, (name, count)| match most {
         Some((_, known)) if known >= *count => most,
@@ -63,7 +63,7 @@ fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
     })
 }
 
-/// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.
+/// Answer of a search without a path: blocked where a free configuration was found, else not free.
 pub(crate) fn exhausted(found: bool, poses: &ContactTally, ways: &ContactTally) -> MotionAnswer {
     let reason = if found { InfeasibleReason::BlockedPath { by: ways.most() } } else { poses.none_free() };
     MotionAnswer::Infeasible(Infeasible::exhausted(reason))

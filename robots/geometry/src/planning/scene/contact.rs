@@ -1,4 +1,4 @@
-//! What touches what: the robot itself, the things around, the floor. How that is found is in `around`.
+//! Contacts and the pairs of bodies that may be in contact. The collision checker finds them.
 
 use nalgebra::Vector3;
 use smol_str::SmolStr;
@@ -8,27 +8,27 @@ use crate::collision::Solid;
 /// Padding of every check: the least distance between any two bodies that may not touch, in m.
 pub const MIN_CLEARANCE: f64 = 0.002;
 
-/// What may touch what, beside what always may.
+/// Pairs that may be in contact, besides those that always may.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct AllowedCollisions {
-    /// The hand may touch this entity: it is about to be grasped or has just been let go.
+    /// Index of the entity that the hand may touch: the one about to be grasped or just released.
     pub hand: Option<usize>,
-    /// What is in the hand may touch this entity: it stands on it.
+    /// Index of the entity that the held object may touch: the one on which it stands.
     pub held: Option<usize>,
 }
 
-/// Two things that touch.
+/// Contact between two bodies: they are closer than [`MIN_CLEARANCE`].
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Contact {
-    /// The robot's link; that of the hand for what is in it.
+    /// Link of the robot; the link of the hand for the held object.
     pub link: SmolStr,
-    /// What it touches: an entity, another link, or `floor`.
+    /// Name of the other body: an entity, another link, or `floor`.
     pub other: SmolStr,
-    /// Whether that is a part of the robot.
+    /// Set where the other body is a part of the robot.
     pub is_own: bool,
 }
 
-/// What a pair of solids is looked at for.
+/// Other body of a checked pair.
 #[derive(Clone, Copy)]
 pub(crate) enum ContactTarget {
     Obstacle(usize),

@@ -17,7 +17,7 @@ use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::{HandModel, RobotModel};
 use crate::planning::scene::scene_state::{HeldObject, SceneState, solid_shape};
 
-/// How near a place counts as being at it, in m.
+/// Distance at which the base counts as being at a place, in m.
 const AT_PLACE: f64 = 0.5;
 
 /// A robot in a scene: its model, the scene and its state, the robot's body with the held object, and the obstacles.
@@ -69,30 +69,30 @@ impl<'w> PlanningScene<'w> {
         }
     }
 
-    /// The robot that is asked.
+    /// Model of the robot.
     #[must_use]
     pub fn model(&self) -> &RobotModel {
         self.model
     }
 
-    /// Where the robot is.
+    /// Configuration of the robot.
     #[must_use]
     pub fn start(&self) -> &Configuration {
         &self.state.robot
     }
 
-    /// What stands around: ids of entities with a solid of theirs, in the order of the scene.
+    /// Obstacles by entity id, in the scene's order. An entity may have several solids.
     pub fn obstacles(&self) -> impl Iterator<Item = (SmolStr, &Solid)> {
         self.obstacles.iter().map(|obstacle| (self.name(obstacle.entity), &obstacle.solid))
     }
 
-    /// The solids of the robot in a state, with what it holds.
+    /// Solids of the robot and of the held object in a configuration.
     #[must_use]
     pub fn robot_at(&self, configuration: &Configuration) -> Vec<Solid> {
         self.body.placed(&self.model.map_from_links(configuration))
     }
 
-    /// Why nothing can be said in this room, if so: something in it has a shape that is not known.
+    /// Reason for which no query can be answered: the shape of a body is not known.
     pub(crate) fn blind_spot(&self) -> Option<String> {
         if let Some(entity) = self.unseen.first() {
             return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
@@ -101,13 +101,13 @@ impl<'w> PlanningScene<'w> {
         Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
     }
 
-    /// An entity with its index.
+    /// Entity with its index.
     pub(crate) fn entity(&self, id: &str) -> Option<(usize, &'w Entity)> {
         let (at, _, entity) = self.scene.entities.get_full(id)?;
         Some((at, entity))
     }
 
-    /// The entity's solids, as they stand.
+    /// Solids of an entity in the current state.
     pub(crate) fn solids_of(&self, entity: usize) -> impl Iterator<Item = &Solid> {
         self.obstacles
             .iter()
@@ -115,7 +115,7 @@ impl<'w> PlanningScene<'w> {
             .map(|obstacle| &obstacle.solid)
     }
 
-    /// The name of an entity by index.
+    /// Id of an entity by its index.
     pub(crate) fn name(&self, entity: usize) -> SmolStr {
         self.scene.entities.get_index(entity).map(|(id, _)| id.clone()).unwrap_or_default()
     }
@@ -135,14 +135,14 @@ impl<'w> PlanningScene<'w> {
         Contact { link: link(part), other, is_own }
     }
 
-    /// Whether no part of the robot turns on the straight way between two states.
+    /// Checks whether no part of the robot turns along an edge.
     pub(crate) fn is_straight(&self, from: &Configuration, to: &Configuration) -> bool {
         let ([_, _, yaw], [_, _, to_yaw]) = (from.base, to.base);
         let values = from.joints.iter().zip(&to.joints).zip(self.model.turning());
         yaw == to_yaw && values.into_iter().all(|((one, other), turns)| one == other || !turns)
     }
 
-    /// The variable that lifts the arm and its highest value, where the arm has one.
+    /// Variable of the arm's lift and its highest value; `None` for an arm without one.
     pub(crate) fn lift(&self) -> Option<(usize, f64)> {
         let IkSolver::Lift(arm) = &self.model.hand()?.solver else {
             return None;
@@ -152,10 +152,10 @@ impl<'w> PlanningScene<'w> {
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
     }
 
-    /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
+    /// Current configuration with the base elsewhere, the hand open and the arm's joints at `values`.
     pub(crate) fn with(&self, hand: &HandModel, base: [f64; 3], values: &[f64]) -> Configuration {
         let now = &self.state.robot.joints;
-        // Around something the fingers stay as they are.
+        // Fingers around a held object stay closed.
         let mut joints = if self.state.held.is_some() { now.clone() } else { hand.opened(now) };
         for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
             if let Some(slot) = joints.get_mut(*at) {
@@ -165,19 +165,19 @@ impl<'w> PlanningScene<'w> {
         Configuration { base, joints }
     }
 
-    /// The pose of the base's link.
+    /// Pose of the base's link with the base at a pose on the floor.
     pub(crate) fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
         let height = self.model.card().model.as_ref().map_or(0.0, |model| model.height_m);
         planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
     }
 
-    /// Whether the base goes in every direction.
+    /// Checks whether the base drives in every direction.
     pub(crate) fn slides(&self) -> bool {
         self.model.drives() && self.model.card().base.drive != Drive::Differential
     }
 
-    /// The direction in which the base is likely to face with the tip at a pose: that of the fingers, or from where the robot
-    /// is where they point down.
+    /// Likely heading of the base with the tip at a pose: the one of the fingers or, where they point down,
+    /// the direction from the robot.
     pub(crate) fn heading(&self, hand: &HandModel, map_from_tip: &Isometry3<f64>) -> f64 {
         let points = map_from_tip.rotation * Vector3::from(hand.card.points);
         if points.x * points.x + points.y * points.y > 0.1 {
@@ -187,8 +187,8 @@ impl<'w> PlanningScene<'w> {
         libm::atan2(at.y - y, at.x - x)
     }
 
-    /// How far a place is from an entity with its middle at another. A thing is served by its centre; what things stand on, in or with, by
-    /// its outline.
+    /// Distance function in the plane to an entity centred at a point. An object or place counts by its
+    /// centre; furniture, containers and people by their outline.
     pub(crate) fn far_from(
         &self,
         index: usize,
@@ -203,7 +203,7 @@ impl<'w> PlanningScene<'w> {
         }
     }
 
-    /// How near the base has to be to an entity to serve it, in m.
+    /// Greatest distance in m from which the base serves an entity.
     pub(crate) fn served_within(&self, entity: &Entity) -> f64 {
         match (entity.kind.as_str(), self.model.hand()) {
             ("Place", _) | (_, None) => AT_PLACE,
@@ -211,7 +211,7 @@ impl<'w> PlanningScene<'w> {
         }
     }
 
-    /// What is in the hand, where it is the thing that is asked for.
+    /// Held object, where its id is `id`.
     pub(crate) fn held_thing(&self, id: &str) -> Option<HeldObject<'_>> {
         let (held, tip_from_object) = self.state.held.as_ref().filter(|(held, _)| held == id)?;
         let (hand, (_, entity)) = (self.model.hand()?, self.entity(held)?);
@@ -221,7 +221,7 @@ impl<'w> PlanningScene<'w> {
         Some(HeldObject { id: held.clone(), tip_from_object: *tip_from_object, hand, shape, width })
     }
 
-    /// What an entity stands on: the first other that is no farther from it than everything stays from everything.
+    /// Supporting entity of another one: the first within the padding of it.
     pub(crate) fn support(&self, entity: usize) -> Option<usize> {
         let own: Vec<&Solid> = self.solids_of(entity).collect();
         let gap = MIN_CLEARANCE + 0.001;
@@ -233,10 +233,10 @@ impl<'w> PlanningScene<'w> {
     }
 }
 
-/// The solids of an entity; none where it has no shape or its place is not known, or where it is in the hand.
+/// Solids of an entity; none where it has no shape or no known pose, or is held.
 ///
-/// A closed container is as solid as its shape. An open drawer is a box without a lid that stands out by its travel; what has
-/// a door is a box without the face where the door was, and the door turned outwards.
+/// A closed container is as solid as its shape. An open drawer is a box without a lid, moved by its travel;
+/// a container with an open door is a box without one face, and the door turned outwards.
 pub(crate) fn solids(entity: &Entity, state: &SceneState) -> Vec<Solid> {
     let (Some(pose), Some(shape)) = (state.pose(entity), solid_shape(entity)) else { return vec![] };
     if state.holds(&entity.id) {
@@ -246,7 +246,7 @@ pub(crate) fn solids(entity: &Entity, state: &SceneState) -> Vec<Solid> {
     opening.map_or_else(|| vec![Solid::new(&pose, shape)], |opening| opening.solids(1.0))
 }
 
-/// The distance in the plane from a place to a solid, whatever its height.
+/// Horizontal distance from a point to a solid, whatever its height.
 fn beside(solid: &Solid, x: f64, y: f64) -> f64 {
     let up = solid.extent(&Vector3::z());
     let vertical = Solid {

@@ -1,30 +1,30 @@
-//! Support surface: the flat face on which an object can be put.
+//! Support surface: the flat face on which an object is put.
 
 use nalgebra::Isometry3;
 
-/// How far above its support a thing is let go, in m.
+/// Height above the surface at which an object is released, in m.
 pub(crate) const ABOVE: f64 = 0.004;
 
-/// A flat rectangle or disc on which things can stand.
+/// Flat rectangle or disc that supports objects.
 pub(crate) struct SupportSurface {
-    /// The middle of its upper face, with its directions.
+    /// Pose of the middle of its upper face.
     pub(crate) map_from_face: Isometry3<f64>,
     pub(crate) half: [f64; 2],
-    /// How high the walls around it are, in m: what is put there comes from above them.
+    /// Height of the walls around it, in m: objects come in from above them.
     pub(crate) walls: f64,
     pub(crate) is_disc: bool,
 }
 
 impl SupportSurface {
-    /// A place on the rim, so far around it of 1, in parts of half its sides.
+    /// Point of the rim at a share of its length, in units of half the sides.
     pub(crate) fn rim(&self, around: f64) -> [f64; 2] {
         if self.is_disc {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * around);
             return [cos, sin];
         }
-        // As far from one place to the next on a long side as on a short one.
+        // Equal spacing on long and short sides.
         let [wide, deep] = self.half;
-        // No rim but one place.
+        // The rim is a single point.
         if wide + deep <= 0.0 {
             return [0.0; 2];
         }

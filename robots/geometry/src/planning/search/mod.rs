@@ -1,4 +1,4 @@
-//! Search for paths of the whole robot.
+//! Search for paths of the whole robot: goal configurations, and routes to them.
 
 pub(crate) mod arm_candidates;
 pub(crate) mod goal_search;

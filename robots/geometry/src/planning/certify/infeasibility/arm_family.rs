@@ -1,19 +1,19 @@
-//! Closed-form arms whose solutions are covered by cells.
+//! Arm families: arms whose inverse kinematics has an interval solution over cells.
 
 use nalgebra::Isometry3;
 
 use crate::inverse::family::{Cell, Over, Tips};
 use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 
-/// An arm whose solutions have cells.
+/// Arm whose solutions are covered by cells.
 #[derive(Clone, Copy)]
 pub(super) enum ArmFamily<'a> {
     Lift(&'a LiftArm),
-    /// With the height of the base's link above the floor.
+    /// Arm, and the height of the base's link above the floor in m.
     Parallel(&'a ParallelArm, f64),
-    /// With where the base's link is, and the base.
+    /// Arm, the pose of the base's link, and the base's pose.
     Seven(&'a SevenArm, Isometry3<f64>, [f64; 3]),
-    /// None that is known: nothing is told but of the hand alone.
+    /// Any other arm: only the hand is covered.
     Any,
 }
 
