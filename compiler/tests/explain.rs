@@ -137,8 +137,8 @@ impl Case {
             self.said.extend(said);
             let urdf = urdf.map(|urdf| {
                 let find = |name: &str| match self.meshes.iter().find(|(known, _)| known == name) {
-                    Some((_, bytes)) => mesh::Found::Bytes(bytes.clone()),
-                    None => mesh::Found::Missing(mesh::locate(name, "", &[])),
+                    Some((_, bytes)) => mesh::MeshFile::Bytes(bytes.clone()),
+                    None => mesh::MeshFile::Missing(mesh::locate(name, "", &[])),
                 };
                 let (urdf, said) = mesh::attach(&source, file, urdf, find);
                 self.said.extend(said);
@@ -240,9 +240,9 @@ impl Case {
             let input = |of: &(Source, FileId)| (of.0.clone(), of.1);
             let ((domain, first), (problem, second)) = (input(domain), input(problem));
             let plan = plan.first().map(input);
-            let plan = plan.as_ref().map(|(source, file)| motet_pddl::Input { source, file: *file });
-            let domain = motet_pddl::Input { source: &domain, file: first };
-            let problem = motet_pddl::Input { source: &problem, file: second };
+            let plan = plan.as_ref().map(|(source, file)| motet_pddl::PddlSource { source, file: *file });
+            let domain = motet_pddl::PddlSource { source: &domain, file: first };
+            let problem = motet_pddl::PddlSource { source: &problem, file: second };
             self.said.extend(motet_pddl::import(domain, problem, plan).1);
         }
         if let Some((source, file)) = self.card.as_ref().filter(|_| !self.has_srdf) {

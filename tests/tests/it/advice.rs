@@ -1,5 +1,5 @@
 //! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own are in
-//! `grammar/syntax/tests/messages.rs`.
+//! `grammar/syntax/tests/syntax/messages.rs`.
 
 use motet_compiler::{Options, Session};
 use motet_syntax::{Severity, Source, Sources, render};
@@ -237,7 +237,7 @@ fn labels_stand_under_their_places() {
     let mut said = session.check(&motet_syntax::read(&source, file));
     said.retain(|said| said.code.0 == "M0702");
     assert!(!said.is_empty());
-    let shown = render::human(&said[..1], &sources, render::Color::Off, 120);
+    let shown = render::human(&said[..1], &sources, render::ColorChoice::Off, 120);
     let lines: Vec<&str> = shown.lines().collect();
     let document = lines.iter().find(|line| line.contains("policy p")).unwrap();
     let marks = lines.iter().find(|line| line.contains('┬')).unwrap();

@@ -4,8 +4,8 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::ApproximateTokEnv;
 use llguidance::{Matcher, ParserFactory};
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Surface, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_decode::{Modifiers, Subset, canonical};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
 
@@ -33,8 +33,8 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
         let signatures = session.signatures();
         let parsed = motet_syntax::read(&Source::new("example", read(&path)), FileId(0));
         let policy = parsed.file.runnable().next().unwrap();
-        for form in [Form::Json, Form::Text] {
-            let surface = Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+        for form in [Syntax::Json, Syntax::Text] {
+            let surface = Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
             let line = canonical(policy, &signatures, surface).unwrap();
             let lark = export(&signatures, surface, Format::Lark, Header::Llguidance).unwrap();
             let mut engines = vec![engine(&factory, TopLevelGrammar::from_lark(lark))];
@@ -50,7 +50,7 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
                     "{path:?} {index}: stops before {}",
                     &line[count..]
                 );
-                if form == Form::Json {
+                if form == Syntax::Json {
                     for (what, miss) in misses::near_misses(&line) {
                         let verdict = taken(engine, &miss);
                         assert_ne!(verdict, (miss.len(), true), "{what} is taken: {miss}");

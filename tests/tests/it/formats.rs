@@ -96,7 +96,7 @@ fn shape() -> Value {
 #[test]
 fn sarif_has_the_shape_of_the_standard() {
     let validator = jsonschema::validator_for(&shape()).unwrap();
-    let help = |_: &str| Some(render::Help { title: "a title", markdown: "# A page" });
+    let help = |_: &str| Some(render::CodePage { title: "a title", markdown: "# A page" });
     let mut fixes = 0;
     for (diagnostics, sources) in said("a b/é.motet") {
         assert!(!diagnostics.is_empty());

@@ -2,7 +2,7 @@
 
 use motet_compiler::{Session, settle};
 use motet_syntax::ast::{File, Item};
-use motet_syntax::{Form, Source, Sources, print};
+use motet_syntax::{Source, Sources, Syntax, print};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
 
@@ -17,7 +17,7 @@ fn graph(session: &Session, text: &str) -> String {
 }
 
 /// The document in the other form, settled for it.
-fn turned(session: &Session, text: &str, form: Form) -> String {
+fn turned(session: &Session, text: &str, form: Syntax) -> String {
     let mut sources = Sources::default();
     let source = Source::new("example", text);
     let id = sources.add(source.clone());
@@ -29,8 +29,8 @@ fn turned(session: &Session, text: &str, form: Form) -> String {
     }
     let file = File { items };
     match form {
-        Form::Text => print::text(&file),
-        Form::Json => file.policies().map(print::policy_json).collect(),
+        Syntax::Text => print::text(&file),
+        Syntax::Json => file.policies().map(print::policy_json).collect(),
     }
 }
 
@@ -43,10 +43,10 @@ fn both_forms_of_an_example_are_one_policy() {
         let (text, json) = (read(&path), read(&path.with_extension("json")));
         let expected = graph(&session, &text);
         assert_eq!(graph(&session, &json), expected, "{}", path.display());
-        let as_json = turned(&session, &text, Form::Json);
+        let as_json = turned(&session, &text, Syntax::Json);
         assert_eq!(as_json, json, "{}: the JSON form is that of the text", path.display());
-        let back = turned(&session, &as_json, Form::Text);
+        let back = turned(&session, &as_json, Syntax::Text);
         assert_eq!(graph(&session, &back), expected, "{}: there and back", path.display());
-        assert_eq!(turned(&session, &back, Form::Json), json, "{}: there, back, and there", path.display());
+        assert_eq!(turned(&session, &back, Syntax::Json), json, "{}: there, back, and there", path.display());
     }
 }

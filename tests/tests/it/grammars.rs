@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 
 use motet_compiler::{Session, Signatures};
-use motet_decode::export::{Format, Grammar, Header, Offer, RESERVED, export, grammar};
-use motet_decode::{Modifiers, Surface, canonical};
-use motet_syntax::{Form, Parsed, Severity, Source, Sources};
+use motet_decode::export::{Format, Grammar, Header, Offer, export, grammar};
+use motet_decode::{Modifiers, Subset, canonical};
+use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
 use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
 use motet_tests::setup;
 
@@ -36,13 +36,13 @@ fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
         .collect()
 }
 
-fn surfaces() -> Vec<Surface> {
-    let of = |form, modifiers| Surface { form, modifiers, ..Surface::default() };
+fn surfaces() -> Vec<Subset> {
+    let of = |form, modifiers| Subset { syntax: form, modifiers, ..Subset::default() };
     vec![
-        of(Form::Json, Modifiers::Default),
-        of(Form::Json, Modifiers::Written),
-        of(Form::Text, Modifiers::Default),
-        of(Form::Text, Modifiers::Written),
+        of(Syntax::Json, Modifiers::Default),
+        of(Syntax::Json, Modifiers::Written),
+        of(Syntax::Text, Modifiers::Default),
+        of(Syntax::Text, Modifiers::Written),
     ]
 }
 
@@ -63,7 +63,7 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
         let is_binding =
             name.trim_start_matches('$').bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
                 && (name.starts_with('$')
-                    || parsed.form == Form::Text
+                    || parsed.syntax == Syntax::Text
                     || ["M0206", "M0211"].contains(&code.as_str()));
         // It replaces what bears its name, and calls that.
         let policy = parsed.file.runnable().next().map(|policy| policy.name.text.as_str());
@@ -84,7 +84,7 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
 fn walk(
     session: &Session,
     signatures: &Signatures,
-    surface: Surface,
+    surface: Subset,
     grammar: &Grammar,
     seed: u64,
 ) -> BTreeMap<String, usize> {
@@ -136,13 +136,4 @@ fn what_a_grammar_generates_is_read_and_typed() {
     }
     println!("{count} derivations: {found:?}");
     assert!(count >= 100_000, "{count}");
-}
-
-#[test]
-fn the_reserved_words_are_those_of_the_text_grammar() {
-    let pest = include_str!("../../../grammar/syntax/src/motet.pest");
-    let (_, rule) = pest.split_once("reserved = _{").unwrap();
-    let (rule, _) = rule.split_once("~ !rest").unwrap();
-    let words: Vec<&str> = rule.split('"').skip(1).step_by(2).collect();
-    assert_eq!(words, RESERVED);
 }

@@ -1,14 +1,14 @@
 //! Import of PDDL: domains with a plan that is valid and one that is not, what is refused, and hostile text.
 
 use motet_compiler::{Options, Session};
-use motet_pddl::{Imported, Input, import};
+use motet_pddl::{PddlSource, Translation, import};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, read};
 use proptest::prelude::*;
 
-fn run(domain: &str, problem: &str, plan: Option<&str>) -> (Option<Imported>, Vec<Diagnostic>) {
+fn run(domain: &str, problem: &str, plan: Option<&str>) -> (Option<Translation>, Vec<Diagnostic>) {
     let sources = [domain, problem, plan.unwrap_or_default()].map(|text| Source::new("pddl", text));
     let [domain, problem, steps] = &sources;
-    let input = |source, file| Input { source, file: FileId(file) };
+    let input = |source, file| PddlSource { source, file: FileId(file) };
     import(input(domain, 0), input(problem, 1), plan.map(|_| input(steps, 2)))
 }
 

@@ -8,13 +8,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use motet_robots::scene::Scene;
 
-use crate::lanes::Figure;
 use crate::planning::base::base_map::BaseMap;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::Contact;
 use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::RobotModel;
 use crate::planning::scene::scene_state::SceneState;
+use crate::simd::BatchModel;
 
 /// Query context: a planning scene and the caches of its queries. Built in O(entities); the map of the
 /// floor costs O(obstacles × cells) at its first use. `Send` and `Sync`.
@@ -31,7 +31,7 @@ pub struct QueryContext<'w> {
     /// Contact at the start.
     pub(crate) start_contact: OnceLock<Option<Contact>>,
     /// Batch model of the robot, and for each variable whether the model moves it.
-    pub(crate) figure: OnceLock<Option<(Figure, Vec<bool>)>>,
+    pub(crate) batch_model: OnceLock<Option<(BatchModel, Vec<bool>)>>,
 }
 
 /// Cache of base maps, shared by the contexts of one robot and scene. A map does not depend on the base's
@@ -70,7 +70,7 @@ impl<'w> QueryContext<'w> {
             escapes: OnceLock::new(),
             homes: OnceLock::new(),
             start_contact: OnceLock::new(),
-            figure: OnceLock::new(),
+            batch_model: OnceLock::new(),
         }
     }
 

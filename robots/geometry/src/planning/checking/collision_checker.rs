@@ -6,13 +6,13 @@ use std::cell::{OnceCell, RefCell};
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::lanes::{Against, Met, Pair, Posed, Slabs};
 use crate::planning::context::QueryContext;
 use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::{
     AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
 };
+use crate::simd::{BatchPair, NearPair, ObbSet, PairTarget, PosedBatch};
 
 /// Collision checker: the robot's parts and the obstacles that they can touch around a place of the base.
 pub(crate) struct CollisionChecker<'r, 'w> {
@@ -274,11 +274,11 @@ impl CollisionChecker<'_, '_> {
     pub(crate) fn clearance_among<'n>(
         &self,
         configuration: &Configuration,
-        near: impl Iterator<Item = &'n Met>,
+        near: impl Iterator<Item = &'n NearPair>,
         mut least: f64,
     ) -> f64 {
         let mut placed: Option<(usize, Solid)> = None;
-        for Met { pair, .. } in near {
+        for NearPair { pair, .. } in near {
             let solid = match placed {
                 Some((part, solid)) if part == pair.part => solid,
                 Some(_) | None => {
@@ -430,9 +430,9 @@ pub(crate) fn is_touching(one: &Solid, reach: f64, other: &Solid, other_reach: f
 /// Prefilter data of a neighbourhood, filled at first use.
 #[derive(Default)]
 pub(crate) struct PrefilterCache {
-    pub(crate) slabs: OnceCell<Option<Slabs>>,
+    pub(crate) obbs: OnceCell<Option<ObbSet>>,
     /// Buffer for the placed robot, reused by the next check.
-    pub(crate) posed: RefCell<Posed>,
+    pub(crate) posed: RefCell<PosedBatch>,
 }
 
 /// Centres of eight segments of one length, as shares of the edge.
@@ -450,10 +450,10 @@ impl SegmentCentres {
 }
 
 /// Other body of a batch pair.
-pub(crate) fn other(pair: &Pair) -> ContactTarget {
-    match pair.against {
-        Against::Slab(at) => ContactTarget::Obstacle(at),
-        Against::Part(at, _) => ContactTarget::Part(at),
-        Against::Floor => ContactTarget::Floor,
+pub(crate) fn other(pair: &BatchPair) -> ContactTarget {
+    match pair.target {
+        PairTarget::Obb(at) => ContactTarget::Obstacle(at),
+        PairTarget::Part(at, _) => ContactTarget::Part(at),
+        PairTarget::Floor => ContactTarget::Floor,
     }
 }

@@ -9,14 +9,14 @@ use std::collections::VecDeque;
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::kinematics::Lever;
-use crate::lanes::{self, Met};
+use crate::kinematics::AncestorJoint;
 use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, other};
 use crate::planning::checking::motion_bound::MotionBound;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::{
     AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
 };
+use crate::simd::{self, NearPair};
 
 /// Greatest number of halvings; an edge that needs more counts as blocked.
 const DEPTH: u32 = 10;
@@ -151,7 +151,7 @@ struct SegmentBatch {
     legs: SegmentCentres,
     /// Number of halvings that led to them.
     depth: u32,
-    near: Vec<Met>,
+    near: Vec<NearPair>,
 }
 
 impl SegmentBatch {
@@ -163,7 +163,7 @@ impl SegmentBatch {
 
     /// Halves of the open segments in batches of eight, with the number of halvings and the pairs to check.
     /// Up to four segments a batch, each cut into as many pieces as fit.
-    fn pieces(&self) -> impl Iterator<Item = (SegmentCentres, u32, Vec<(lanes::Pair, u8)>)> {
+    fn pieces(&self) -> impl Iterator<Item = (SegmentCentres, u32, Vec<(simd::BatchPair, u8)>)> {
         let mut open = self.open();
         std::iter::from_fn(move || {
             let first = open.next()?;
@@ -184,7 +184,7 @@ impl SegmentBatch {
                 }
             }
             let all = u8::MAX >> (8 - pieces);
-            let on = |met: &Met| {
+            let on = |met: &NearPair| {
                 let ones = four.into_iter().flatten().zip(0..);
                 let ones = ones.filter(|(lane, _)| met.lanes >> lane & 1 == 1);
                 ones.fold(0, |lanes, (_, at): (usize, u32)| lanes | all << (pieces * at))
@@ -235,7 +235,7 @@ struct EdgeCheck<'a, 'r, 'w> {
     motion_bound: MotionBound<'a>,
     /// Configuration at the middle.
     configuration: Configuration,
-    along: crate::kinematics::Along,
+    along: crate::kinematics::EdgePoses,
     moved: Vec<PlacedPart>,
     leg: usize,
 }
@@ -247,7 +247,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
             checker,
             motion_bound: MotionBound { from, to, half: 0.0 },
             configuration: from.clone(),
-            along: checker.context.model.tree().along(&from.joints, &to.joints),
+            along: checker.context.model.tree().edge_poses(&from.joints, &to.joints),
             moved: vec![nowhere; checker.limbs.len()],
             leg: 0,
         }
@@ -258,7 +258,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         self.configuration.set_towards(self.motion_bound.from, self.motion_bound.to, middle);
         (self.motion_bound.half, self.leg) = (half, self.leg + 1);
         let root = model.map_from_root(self.configuration.base);
-        model.tree().place(&mut self.along, &root, &self.configuration.joints);
+        model.tree().place_on_edge(&mut self.along, &root, &self.configuration.joints);
     }
 
     /// Visits every pair that may not be in contact.
@@ -326,13 +326,14 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
     fn approach(&self, part: usize, solid: &Solid, other: usize, beyond: &Solid) -> f64 {
         let (context, limbs) = (self.checker.context, &self.checker.limbs);
         let Some((one, two)) = limbs.get(part).zip(limbs.get(other)) else { return 0.0 };
-        let (levers, others) = (context.model.levers(one.link), context.model.levers(two.link));
-        let common = levers.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
-        let goes = |levers: &[Lever], solid: &Solid, reach: f64| {
-            let own = levers.get(common..).unwrap_or_default();
+        let (ancestors, others) =
+            (context.model.ancestor_joints(one.link), context.model.ancestor_joints(two.link));
+        let common = ancestors.iter().zip(others).take_while(|(a, b)| a.frame == b.frame).count();
+        let goes = |ancestors: &[AncestorJoint], solid: &Solid, reach: f64| {
+            let own = ancestors.get(common..).unwrap_or_default();
             self.motion_bound.by(own, self.along.poses(), solid, reach)
         };
-        goes(levers, solid, one.reach) + goes(others, beyond, two.reach)
+        goes(ancestors, solid, one.reach) + goes(others, beyond, two.reach)
     }
 
     /// Part at the middle of the segment, placed once.
@@ -344,8 +345,8 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         let context = self.checker.context;
         let (limb, own) = (self.checker.limbs.get(part)?, context.body.parts().get(part)?);
         let solid = own.solid.moved(self.along.poses().get(limb.link)?);
-        let (levers, poses) = (context.model.levers(limb.link), self.along.poses());
-        let whole = self.motion_bound.in_map(self.configuration.base, levers, poses, &solid, limb.reach);
+        let (ancestors, poses) = (context.model.ancestor_joints(limb.link), self.along.poses());
+        let whole = self.motion_bound.in_map(self.configuration.base, ancestors, poses, &solid, limb.reach);
         let moved = PlacedPart { leg: self.leg, solid, whole };
         *self.moved.get_mut(part)? = moved;
         Some(moved)

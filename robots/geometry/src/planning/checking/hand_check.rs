@@ -6,12 +6,12 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
 use crate::collision::Solid;
-use crate::lanes::{Against, Figure, Look, Met, Posed, Slab, Slabs};
 use crate::planning::checking::collision_checker::is_touching;
 use crate::planning::scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE, above_floor};
 use crate::planning::scene::grid_index::Obstacle;
 use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
+use crate::simd::{BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
 /// Open hand without its arm, and the obstacles near the object that it grasps.
 pub(crate) struct HandChecker<'r, 'w> {
@@ -23,8 +23,8 @@ pub(crate) struct HandChecker<'r, 'w> {
     /// Mean position of the poses.
     middle: Vector3<f64>,
     /// Prefilter data seen from there, filled at first use; `None` where it does not apply.
-    quick: OnceCell<Option<(Figure, Slabs)>>,
-    posed: RefCell<Posed>,
+    quick: OnceCell<Option<(BatchModel, ObbSet)>>,
+    posed: RefCell<PosedBatch>,
 }
 
 /// Part of the hand, or the held object.
@@ -96,31 +96,31 @@ impl HandChecker<'_, '_> {
     }
 
     /// Batch model of the hand and the obstacles; `None` where one is too large or has no box.
-    fn quick(&self) -> Option<&(Figure, Slabs)> {
+    fn quick(&self) -> Option<&(BatchModel, ObbSet)> {
         let place = [self.middle.x, self.middle.y];
         let make = || {
-            let slabs =
-                self.obstacles.iter().map(|obstacle| Slab::new(obstacle.entity, &obstacle.solid, place));
-            let slabs = slabs.collect::<Option<Slabs>>()?;
-            Some((Figure::rigid(self.parts.iter().map(|own| &own.solid))?, slabs))
+            let obbs =
+                self.obstacles.iter().map(|obstacle| Obb::new(obstacle.entity, &obstacle.solid, place));
+            let obbs = obbs.collect::<Option<ObbSet>>()?;
+            Some((BatchModel::rigid(self.parts.iter().map(|own| &own.solid))?, obbs))
         };
         self.quick.get_or_init(make).as_ref()
     }
 
     /// Pairs that are near each other at some poses; `None` where the prefilter does not apply.
-    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<Met>> {
-        let (figure, slabs) = self.quick()?;
+    fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<NearPair>> {
+        let (batch_model, obbs) = self.quick()?;
         let seen = |tip: &Isometry3<f64>| {
             Isometry3::from_parts(Translation3::from(tip.translation.vector - self.middle), tip.rotation)
         };
-        let eight = figure.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
+        let batch = batch_model.at(&map_from_tips.iter().map(seen).collect::<Vec<_>>())?;
         let counts = |part: usize, entity: Option<usize>| {
             self.parts.get(part).is_some_and(|own| entity.is_none() || !own.is_held || self.beneath != entity)
         };
-        let look = Look {
-            figure,
-            eight: &eight,
-            slabs,
+        let look = BatchCheck {
+            batch_model,
+            batch: &batch,
+            obbs,
             gaps: [MIN_CLEARANCE as f32; 8],
             is_own: false,
             is_first: true,
@@ -128,30 +128,32 @@ impl HandChecker<'_, '_> {
             posed: &mut self.posed.borrow_mut(),
             counts,
         };
-        Some(look.met())
+        Some(look.near_pairs())
     }
 
     /// Checks whether a pair is in contact at a pose.
-    fn is_touching(&self, met: &Met, map_from_tip: &Isometry3<f64>) -> bool {
+    fn is_touching(&self, met: &NearPair, map_from_tip: &Isometry3<f64>) -> bool {
         let Some(own) = self.parts.get(met.pair.part) else { return false };
         let solid = own.solid.moved(map_from_tip);
-        match met.pair.against {
-            Against::Slab(at) => self
+        match met.pair.target {
+            PairTarget::Obb(at) => self
                 .obstacles
                 .get(at)
                 .is_some_and(|obstacle| is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach)),
-            Against::Floor => above_floor(&solid) <= MIN_CLEARANCE,
-            Against::Part(..) => false,
+            PairTarget::Floor => above_floor(&solid) <= MIN_CLEARANCE,
+            PairTarget::Part(..) => false,
         }
     }
 
     /// Contact of a pair.
-    fn told(&self, met: &Met) -> Option<Contact> {
+    fn told(&self, met: &NearPair) -> Option<Contact> {
         let own = self.parts.get(met.pair.part)?;
-        match met.pair.against {
-            Against::Slab(at) => Some(self.contact_of(own, self.scene.name(self.obstacles.get(at)?.entity))),
-            Against::Floor => Some(self.contact_of(own, "floor".into())),
-            Against::Part(..) => None,
+        match met.pair.target {
+            PairTarget::Obb(at) => {
+                Some(self.contact_of(own, self.scene.name(self.obstacles.get(at)?.entity)))
+            }
+            PairTarget::Floor => Some(self.contact_of(own, "floor".into())),
+            PairTarget::Part(..) => None,
         }
     }
 

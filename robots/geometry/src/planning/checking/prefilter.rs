@@ -1,13 +1,13 @@
 //! Broad phase in batches of eight: drops the pairs that are apart for certain in `f32`, so that `f64`
 //! decides the near ones only.
 
-use crate::lanes::{Eight, Figure, Look, Met, Pair, Slab, Slabs};
 use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
 use crate::planning::context::QueryContext;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::{
     AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
 };
+use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet};
 
 /// Distances that count as near.
 #[derive(Clone, Copy)]
@@ -25,7 +25,7 @@ impl NearRange {
 impl QueryContext<'_> {
     /// Batch model of the robot, whose free joints are those of the hand, its arm and the postures; `None`
     /// where the robot has no such model.
-    pub(crate) fn figure(&self) -> Option<&Figure> {
+    pub(crate) fn batch_model(&self) -> Option<&BatchModel> {
         let make = || {
             // Pairs that never move against each other keep the distance that they have at the start.
             if self.start_contact().is_some() {
@@ -33,41 +33,39 @@ impl QueryContext<'_> {
             }
             let model = self.model;
             let hand = model.hand()?;
-            let variables = model.tree().variables().iter().zip(0..);
-            let named: Vec<usize> = variables
-                .filter(|(variable, _)| {
-                    model.card().postures.values().any(|it| it.contains_key(&variable.name))
-                })
+            let dofs = model.tree().dofs().iter().zip(0..);
+            let named: Vec<usize> = dofs
+                .filter(|(dof, _)| model.card().postures.values().any(|it| it.contains_key(&dof.name)))
                 .map(|(_, at)| at)
                 .collect();
             let chain = &hand.solver.chain().in_tree;
             let is_free = |at: usize| {
                 chain.contains(&at) || named.contains(&at) || hand.open.iter().any(|(open, _)| *open == at)
             };
-            let rig = model.tree().rig(&self.state.robot.joints, is_free)?;
-            let free = (0..model.tree().variables().len()).map(is_free).collect();
-            Some((Figure::new(&rig, &model.map_from_root([0.0; 3]), &self.body)?, free))
+            let reduced = model.tree().reduced(&self.state.robot.joints, is_free)?;
+            let free = (0..model.tree().dofs().len()).map(is_free).collect();
+            Some((BatchModel::new(&reduced, &model.map_from_root([0.0; 3]), &self.body)?, free))
         };
-        let (figure, _) = self.figure.get_or_init(make).as_ref()?;
-        Some(figure)
+        let (batch_model, _) = self.batch_model.get_or_init(make).as_ref()?;
+        Some(batch_model)
     }
 
     /// Checks whether the batch model represents a configuration: joints that it holds still are as at the
     /// start.
     fn is_drawn(&self, configuration: &Configuration) -> bool {
-        let Some(Some((_, free))) = self.figure.get() else { return false };
+        let Some(Some((_, free))) = self.batch_model.get() else { return false };
         let values = configuration.joints.iter().zip(&self.state.robot.joints).zip(free);
         values.into_iter().all(|((one, start), is_free)| *is_free || one == start)
     }
 }
 
 impl CollisionChecker<'_, '_> {
-    fn slabs(&self) -> Option<&Slabs> {
+    fn obbs(&self) -> Option<&ObbSet> {
         let make = || {
-            let slabs = self.obstacles.iter().map(|near| Slab::new(near.entity, &near.solid, self.place()));
-            slabs.collect()
+            let obbs = self.obstacles.iter().map(|near| Obb::new(near.entity, &near.solid, self.place()));
+            obbs.collect()
         };
-        self.quick.slabs.get_or_init(make).as_ref()
+        self.quick.obbs.get_or_init(make).as_ref()
     }
 
     /// Near pairs in up to eight configurations; `None` where the prefilter does not apply.
@@ -75,9 +73,9 @@ impl CollisionChecker<'_, '_> {
         &self,
         configurations: &[&Configuration],
         allowed: AllowedCollisions,
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
-        self.near(figure, &self.eight(figure, configurations)?, allowed, None, NearRange::LEAST)
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
+        self.near(batch_model, &self.batch(batch_model, configurations)?, allowed, None, NearRange::LEAST)
     }
 
     /// Near pairs on eight segments of an edge. With `pairs`, only of those, on the lanes of their bits.
@@ -86,16 +84,16 @@ impl CollisionChecker<'_, '_> {
         way: [&Configuration; 2],
         legs: &SegmentCentres,
         allowed: AllowedCollisions,
-        pairs: Option<&[(Pair, u8)]>,
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
+        pairs: Option<&[(BatchPair, u8)]>,
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
         if !way.iter().all(|configuration| self.context.is_drawn(configuration)) {
             return None;
         }
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let ends = way.map(|configuration| (self.seen(configuration.base), configuration.joints.as_slice()));
-        let is_within = figure.set_on(&mut eight, ends, &legs.middles, legs.half);
-        if is_within { self.near(figure, &eight, allowed, pairs, NearRange::LEAST) } else { None }
+        let is_within = batch_model.set_on(&mut batch, ends, &legs.middles, legs.half);
+        if is_within { self.near(batch_model, &batch, allowed, pairs, NearRange::LEAST) } else { None }
     }
 
     /// Obstacles and floor within some distances of up to eight configurations; `None` where the prefilter
@@ -105,14 +103,14 @@ impl CollisionChecker<'_, '_> {
         configurations: &[&Configuration],
         allowed: AllowedCollisions,
         metres: [f32; 8],
-    ) -> Option<Vec<Met>> {
-        let figure = self.context.figure()?;
+    ) -> Option<Vec<NearPair>> {
+        let batch_model = self.context.batch_model()?;
         if !configurations.iter().all(|configuration| self.holds(configuration)) {
             return None;
         }
         self.near(
-            figure,
-            &self.eight(figure, configurations)?,
+            batch_model,
+            &self.batch(batch_model, configurations)?,
             allowed,
             None,
             NearRange { metres, is_own: false },
@@ -120,15 +118,15 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Batch of up to eight configurations; the first fills the rest.
-    fn eight(&self, figure: &Figure, configurations: &[&Configuration]) -> Option<Eight> {
+    fn batch(&self, batch_model: &BatchModel, configurations: &[&Configuration]) -> Option<Batch8> {
         let first = configurations.first()?;
-        let mut eight = figure.eight();
+        let mut batch = batch_model.batch();
         let set = |lane: usize| {
             let configuration = configurations.get(lane).unwrap_or(first);
             self.context.is_drawn(configuration)
-                && figure.set(&mut eight, lane, self.seen(configuration.base), &configuration.joints)
+                && batch_model.set(&mut batch, lane, self.seen(configuration.base), &configuration.joints)
         };
-        (0..8).all(set).then_some(eight)
+        (0..8).all(set).then_some(batch)
     }
 
     /// Base pose relative to the origin of the neighbourhood.
@@ -140,22 +138,22 @@ impl CollisionChecker<'_, '_> {
     /// Near pairs in a batch.
     pub(crate) fn near_to(
         &self,
-        figure: &Figure,
-        eight: &Eight,
+        batch_model: &BatchModel,
+        batch: &Batch8,
         allowed: AllowedCollisions,
-    ) -> Option<Vec<Met>> {
-        self.near(figure, eight, allowed, None, NearRange::LEAST)
+    ) -> Option<Vec<NearPair>> {
+        self.near(batch_model, batch, allowed, None, NearRange::LEAST)
     }
 
     fn near(
         &self,
-        figure: &Figure,
-        eight: &Eight,
+        batch_model: &BatchModel,
+        batch: &Batch8,
         allowed: AllowedCollisions,
-        pairs: Option<&[(Pair, u8)]>,
+        pairs: Option<&[(BatchPair, u8)]>,
         gap: NearRange,
-    ) -> Option<Vec<Met>> {
-        let slabs = self.slabs()?;
+    ) -> Option<Vec<NearPair>> {
+        let obbs = self.obbs()?;
         let mut posed = self.quick.posed.borrow_mut();
         let counts = |part: usize, entity: Option<usize>| {
             self.limbs.get(part).is_some_and(|limb| match entity {
@@ -163,10 +161,10 @@ impl CollisionChecker<'_, '_> {
                 None => limb.counts && limb.is_carried,
             })
         };
-        let look = Look {
-            figure,
-            eight,
-            slabs,
+        let look = BatchCheck {
+            batch_model,
+            batch,
+            obbs,
             gaps: gap.metres,
             is_own: gap.is_own,
             // A clearance needs all near pairs, not only the first.
@@ -175,7 +173,7 @@ impl CollisionChecker<'_, '_> {
             posed: &mut posed,
             counts,
         };
-        Some(look.met())
+        Some(look.near_pairs())
     }
 
     /// First contact in the first configuration that has one.
@@ -213,7 +211,7 @@ impl CollisionChecker<'_, '_> {
     /// `f64`.
     pub(crate) fn contact_among(
         &self,
-        near: &[Met],
+        near: &[NearPair],
         lane: usize,
         configuration: &Configuration,
     ) -> Option<Contact> {
@@ -225,7 +223,7 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Contact of a near pair.
-    pub(crate) fn told(&self, near: &Met) -> Contact {
+    pub(crate) fn told(&self, near: &NearPair) -> Contact {
         let other = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
                 ContactTarget::Obstacle(self.obstacles.get(at).map_or(at, |obstacle| obstacle.index))
@@ -236,7 +234,7 @@ impl CollisionChecker<'_, '_> {
     }
 
     /// Checks a near pair in `f64`.
-    pub(crate) fn contact_of(&self, near: &Met, configuration: &Configuration) -> Option<Contact> {
+    pub(crate) fn contact_of(&self, near: &NearPair, configuration: &Configuration) -> Option<Contact> {
         let solid = |part: usize| Some((self.part_at(part, configuration)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;
         let is_touched = match other(&near.pair) {

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::inverse::family::Drift;
+use crate::inverse::interval::DisplacementBound;
 use crate::planning::grasp::candidates::{GRIP, GraspCandidate, SHORT, TOP, is_ahead};
 use crate::planning::query::answer::GraspSide;
 use crate::planning::scene::robot_model::HandModel;
@@ -236,7 +236,7 @@ impl<'a> GraspManifold<'a> {
     }
 
     /// Grasp at the middle of a patch, and the drift of the others; `None` for an empty patch.
-    pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, Drift)> {
+    pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, DisplacementBound)> {
         let slot = self.slots.get(patch.slot)?;
         let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
         let (approach, across) = slot.kind.directions(about, bend);
@@ -264,7 +264,7 @@ impl<'a> GraspManifold<'a> {
         let middle = self.object.centre + slot.along * place;
         let at = middle - approach * depth - across * self.hand.middle(slot.width);
         let tip = Isometry3::from_parts(Translation3::from(at), self.hand.turned(&approach, &across));
-        let drift = Drift::none()
+        let drift = DisplacementBound::none()
             .shifted(SLACK)
             .slid(slot.along * places)
             .slid(approach * ((last - first).abs() / 2.0));
@@ -305,7 +305,7 @@ impl<'a> GraspManifold<'a> {
 
     /// Checks a predicate of a pose and its drift on all grasps, by subdivision. `false` where the patches
     /// run out before it is decided.
-    pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &Drift) -> bool) -> bool {
+    pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &DisplacementBound) -> bool) -> bool {
         const MOST: usize = 4096;
         let mut open = self.patches();
         for _ in 0..MOST {

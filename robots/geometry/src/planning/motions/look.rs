@@ -8,7 +8,7 @@ use motet_robots::scene::Entity;
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
-use crate::kinematics::{Variable, spread};
+use crate::kinematics::{Dof, quasi_random};
 use crate::planning::context::QueryContext;
 use crate::planning::query::answer::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, SearchBudget, UnknownReason,
@@ -40,7 +40,7 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
         return unknown(format!("the hand holds `{id}`"));
     }
     let start = &context.state.robot;
-    let (moving, variables) = head(context, frame);
+    let (moving, dofs) = head(context, frame);
     let view =
         CameraView { frame, range: camera.range_m, half: camera.view_rad / 2.0, is_still: moving.is_empty() };
     let (mut hides, mut ways) = (ContactTally::default(), ContactTally::default());
@@ -50,7 +50,7 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     for at in 0..rounds {
         let mut configuration = start.clone();
         if at > 0 {
-            for (slot, value) in moving.iter().zip(spread(&variables, at)) {
+            for (slot, value) in moving.iter().zip(quasi_random(&dofs, at)) {
                 if let Some(joint) = configuration.joints.get_mut(*slot) {
                     *joint = value;
                 }
@@ -88,15 +88,16 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
 }
 
 /// Joints that turn a camera and are not the arm's; all of them for a camera at the wrist.
-fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Variable>) {
+fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Dof>) {
     let arm = context.model.hand().map(|hand| &hand.solver.chain().in_tree);
-    let mut all: Vec<usize> = context.model.levers(frame).iter().map(|lever| lever.driver.variable).collect();
+    let mut all: Vec<usize> =
+        context.model.ancestor_joints(frame).iter().map(|ancestor| ancestor.coupling.dof).collect();
     all.sort_unstable();
     all.dedup();
     let own: Vec<usize> = all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
     let moving = if own.is_empty() { all } else { own };
-    let variables = context.model.tree().variables();
-    let known = moving.iter().filter_map(|at| variables.get(*at).cloned()).collect();
+    let dofs = context.model.tree().dofs();
+    let known = moving.iter().filter_map(|at| dofs.get(*at).cloned()).collect();
     (moving, known)
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use crate::kinematics::{planar, spread};
+use crate::kinematics::{planar, quasi_random};
 use crate::planning::context::QueryContext;
 use crate::planning::motions::put::put_down;
 use crate::planning::query::answer::{
@@ -113,7 +113,7 @@ fn held_out(
         context.model.map_from_links(configuration).get(held.hand.tip).copied()
     };
     let IkSolver::Lift(arm) = &held.hand.solver else {
-        let configuration = with(&spread(&chain.variables, at));
+        let configuration = with(&quasi_random(&chain.dofs, at));
         return tip(&configuration).map(|tip| (configuration, tip)).into_iter().collect();
     };
     // Solved with the base free, then moved as a whole so that the base is where it is.

@@ -4,7 +4,7 @@ use motet_robots::card::Drive;
 use nalgebra::Isometry3;
 
 use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
-use crate::kinematics::Chain;
+use crate::kinematics::KinematicChain;
 
 /// Greatest change of a joint between two points of a hand path, in rad or m.
 const JUMP: f64 = 0.5;
@@ -19,13 +19,13 @@ pub enum IkSolver {
     /// Seven joints as in the Franka arms.
     Seven(SevenArm),
     /// Any other chain: damped least squares.
-    Steps(Chain),
+    Steps(KinematicChain),
 }
 
 impl IkSolver {
     /// Chooses the solver of a chain on a base with a drive, whose link is `height` m above the floor.
     #[must_use]
-    pub fn of(chain: &Chain, drive: Drive, height: f64) -> Self {
+    pub fn of(chain: &KinematicChain, drive: Drive, height: f64) -> Self {
         let drives_anywhere = matches!(drive, Drive::Omnidirectional | Drive::Legged);
         let lift =
             LiftArm::detect(chain).filter(|_| drives_anywhere).map(|arm| Self::Lift(arm.raised(height)));
@@ -36,7 +36,7 @@ impl IkSolver {
 
     /// Kinematic chain from the base's link to the tip.
     #[must_use]
-    pub fn chain(&self) -> &Chain {
+    pub fn chain(&self) -> &KinematicChain {
         match self {
             Self::Lift(arm) => arm.chain(),
             Self::Parallel(arm) => arm.chain(),

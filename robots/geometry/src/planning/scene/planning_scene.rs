@@ -3,11 +3,11 @@
 //! It holds nothing that is computed lazily; a [`QueryContext`](crate::planning::QueryContext) keeps that.
 
 use motet_robots::card::Drive;
-use motet_robots::scene::{Entity, Scene, Shape as ListedShape};
+use motet_robots::scene::{Entity, EntityShape, Scene};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
-use crate::collision::{Body, Part, Shape, Solid};
+use crate::collision::{CollisionModel, LinkSolid, Shape, Solid};
 use crate::kinematics::planar;
 use crate::planning::scene::articulation::Articulation;
 use crate::planning::scene::configuration::Configuration;
@@ -27,7 +27,7 @@ pub struct PlanningScene<'w> {
     pub(crate) scene: &'w Scene,
     pub(crate) state: &'w SceneState,
     /// The robot's body, with the held object as its last part.
-    pub(crate) body: Body,
+    pub(crate) body: CollisionModel,
     /// Index of the part that is held.
     pub(crate) held: Option<usize>,
     pub(crate) obstacles: ObstacleIndex,
@@ -52,10 +52,10 @@ impl<'w> PlanningScene<'w> {
             && let Some(shape) = scene.entities.get(id).and_then(solid_shape)
         {
             held = Some(body.parts().len());
-            let part = Part { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
-            body = body.carrying(part, |link| hand.members.get(link) == Some(&true));
+            let part = LinkSolid { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
+            body = body.with_attached(part, |link| hand.members.get(link) == Some(&true));
         }
-        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(ListedShape::Mesh { .. }));
+        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(EntityShape::Mesh { .. }));
         let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
         Self {
             model,
@@ -97,7 +97,8 @@ impl<'w> PlanningScene<'w> {
         if let Some(entity) = self.unseen.first() {
             return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
         }
-        let link = self.body.unseen().first().and_then(|link| self.model.tree().links().get(*link))?;
+        let link =
+            self.body.uncovered_links().first().and_then(|link| self.model.tree().links().get(*link))?;
         Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
     }
 
@@ -148,7 +149,7 @@ impl<'w> PlanningScene<'w> {
             return None;
         };
         let chain = arm.chain();
-        let (lower, upper) = chain.variables.first()?.limits?;
+        let (lower, upper) = chain.dofs.first()?.limits?;
         Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
     }
 

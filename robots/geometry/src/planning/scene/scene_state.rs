@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_robots::scene::{Entity, Placement, Scene, Shape};
+use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
 
@@ -40,18 +40,18 @@ impl SceneState {
     pub fn new(model: &RobotModel, scene: &Scene) -> Self {
         let mut joints = model.rest().to_vec();
         for (name, value) in &scene.robot.joints {
-            if let Some(slot) = model.tree().variable(name).ok().and_then(|at| joints.get_mut(at)) {
+            if let Some(slot) = model.tree().dof(name).ok().and_then(|at| joints.get_mut(at)) {
                 *slot = *value;
             }
         }
         let held = scene.robot.holding.clone().flatten().and_then(|id| {
             let (hand, entity) = model.hand().zip(scene.entities.get(&id))?;
             let half = match entity.shape.as_ref()? {
-                Shape::Box([x, ..]) => x / 2.0,
-                Shape::Cylinder { radius, .. } | Shape::Sphere { radius } | Shape::Capsule { radius, .. } => {
-                    *radius
-                }
-                Shape::Mesh { .. } => return None,
+                EntityShape::Box([x, ..]) => x / 2.0,
+                EntityShape::Cylinder { radius, .. }
+                | EntityShape::Sphere { radius }
+                | EntityShape::Capsule { radius, .. } => *radius,
+                EntityShape::Mesh { .. } => return None,
             };
             let points = Vector3::from(hand.card.points);
             let closes = Vector3::from(hand.card.closes);
@@ -80,9 +80,9 @@ impl SceneState {
         let pose = isometry(entity.pose.as_ref()?);
         // The scene gives the pose of a person's feet.
         let lifted = match (&entity.shape, entity.kind.as_str()) {
-            (Some(Shape::Cylinder { height, .. }), "Person") => height / 2.0,
-            (Some(Shape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
-            (Some(Shape::Box([_, _, z])), "Person") => z / 2.0,
+            (Some(EntityShape::Cylinder { height, .. }), "Person") => height / 2.0,
+            (Some(EntityShape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
+            (Some(EntityShape::Box([_, _, z])), "Person") => z / 2.0,
             _ => 0.0,
         };
         Some(pose * Translation3::new(0.0, 0.0, lifted))
@@ -153,14 +153,14 @@ pub(crate) fn isometry(placement: &Placement) -> Isometry3<f64> {
 /// Solid shape of an entity; `None` for a mesh or without a shape.
 pub(crate) fn solid_shape(entity: &Entity) -> Option<crate::collision::Shape> {
     Some(match entity.shape.as_ref()? {
-        Shape::Box([x, y, z]) => crate::collision::Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
-        Shape::Cylinder { radius, height } => {
+        EntityShape::Box([x, y, z]) => crate::collision::Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
+        EntityShape::Cylinder { radius, height } => {
             crate::collision::Shape::Cylinder { radius: *radius, half: height / 2.0 }
         }
-        Shape::Sphere { radius } => crate::collision::Shape::Capsule { radius: *radius, half: 0.0 },
-        Shape::Capsule { radius, height } => {
+        EntityShape::Sphere { radius } => crate::collision::Shape::Capsule { radius: *radius, half: 0.0 },
+        EntityShape::Capsule { radius, height } => {
             crate::collision::Shape::Capsule { radius: *radius, half: height / 2.0 }
         }
-        Shape::Mesh { .. } => return None,
+        EntityShape::Mesh { .. } => return None,
     })
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{Chain, spread};
+use crate::kinematics::{KinematicChain, quasi_random};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::planning_scene::PlanningScene;
@@ -67,7 +67,7 @@ impl PlanningScene<'_> {
                 let chain = hand.solver.chain();
                 let start = match at {
                     0 => self.now(chain),
-                    _ => spread(&chain.variables, at - 1),
+                    _ => quasi_random(&chain.dofs, at - 1),
                 };
                 numeric::refined(chain, &base_from_tip, &start, CLOSES, Tolerance::EXACT)
                     .into_iter()
@@ -78,7 +78,7 @@ impl PlanningScene<'_> {
     }
 
     /// Current values of the arm's joints.
-    fn now(&self, chain: &Chain) -> Vec<f64> {
+    fn now(&self, chain: &KinematicChain) -> Vec<f64> {
         let joints = &self.state.robot.joints;
         chain.in_tree.iter().map(|at| joints.get(*at).copied().unwrap_or_default()).collect()
     }
@@ -124,11 +124,11 @@ impl PlanningScene<'_> {
         if let IkSolver::Lift(arm) = &hand.solver {
             // Base and lift alone move the hand along any line.
             let chain = hand.solver.chain();
-            let (joint, variable) = (chain.joints.first()?, chain.variables.first()?);
+            let (joint, dof) = (chain.joints.first()?, chain.dofs.first()?);
             let mut first = configuration.clone();
             let lift = first.joints.get_mut(*chain.in_tree.first()?)?;
-            *lift += shift.z * arm.up / joint.driver.multiplier;
-            if !variable.allows(*lift) {
+            *lift += shift.z * arm.up / joint.coupling.multiplier;
+            if !dof.allows(*lift) {
                 return None;
             }
             let [x, y, yaw] = first.base;

@@ -149,7 +149,7 @@ impl QueryContext<'_> {
     /// Fills the caches.
     pub(crate) fn prepare(&self) {
         self.start_contact();
-        self.figure();
+        self.batch_model();
         if let Some(map) = self.map() {
             self.homes(map);
         }

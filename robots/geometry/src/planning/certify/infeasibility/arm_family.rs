@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use crate::inverse::family::{Cell, Over, Tips};
+use crate::inverse::interval::{IkCell, IntervalSolution, PoseSet};
 use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 
 /// Arm whose solutions are covered by cells.
@@ -18,12 +18,12 @@ pub(super) enum ArmFamily<'a> {
 }
 
 impl ArmFamily<'_> {
-    pub(super) fn cells(self) -> Vec<Cell> {
+    pub(super) fn cells(self) -> Vec<IkCell> {
         match self {
             Self::Lift(arm) => arm.cells(),
             Self::Parallel(arm, _) => arm.cells(),
             Self::Seven(arm, ..) => arm.cells(),
-            Self::Any => vec![Cell { way: 0, middle: [0.0; 3], half: [0.0; 3] }],
+            Self::Any => vec![IkCell { branch: 0, middle: [0.0; 3], half: [0.0; 3] }],
         }
     }
 
@@ -36,12 +36,12 @@ impl ArmFamily<'_> {
         }
     }
 
-    pub(super) fn over(self, tips: &Tips, cell: &Cell) -> Over {
+    pub(super) fn over(self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
         match self {
-            Self::Lift(arm) => arm.over(tips, cell),
-            Self::Parallel(arm, height) => arm.over(tips, height, cell),
-            Self::Seven(arm, map_from_base, base) => arm.over(tips, &map_from_base, base, cell),
-            Self::Any => Over::Unclear,
+            Self::Lift(arm) => arm.enclose(tips, cell),
+            Self::Parallel(arm, height) => arm.enclose(tips, height, cell),
+            Self::Seven(arm, map_from_base, base) => arm.enclose(tips, &map_from_base, base, cell),
+            Self::Any => IntervalSolution::Unknown,
         }
     }
 }

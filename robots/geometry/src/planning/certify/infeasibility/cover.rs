@@ -9,8 +9,8 @@ use super::arm_family::ArmFamily;
 use super::bound_obstacle::{ScaledMotion, is_in};
 use super::relative::{BodyPair, RelativeChains, RelativePlacement};
 use crate::collision::Solid;
-use crate::inverse::family::{Drift, Stretch, Tips};
-use crate::kinematics::Rig;
+use crate::inverse::interval::{CellEnclosure, DisplacementBound, PoseSet};
+use crate::kinematics::ReducedModel;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE, above_floor};
@@ -23,7 +23,7 @@ pub(super) struct CellModel<'a, 'r, 'w> {
     pub(super) hand: &'a HandModel,
     pub(super) family: ArmFamily<'a>,
     pub(super) allowed: AllowedCollisions,
-    pub(super) rig: Rig,
+    pub(super) reduced: ReducedModel,
     pub(super) pair_groups: RelativeChains,
     /// Joint values with the hand as it approaches.
     joints: Vec<f64>,
@@ -72,7 +72,7 @@ pub(super) const FAR: f64 = 0.8;
 /// Robot in a cell: the frames of the reduced model, and the parts placed so far.
 #[derive(Default)]
 pub(super) struct CellPlacement {
-    pub(super) frames: Vec<(Isometry3<f64>, Drift)>,
+    pub(super) frames: Vec<(Isometry3<f64>, DisplacementBound)>,
     parts: Vec<Option<DeflatedPart>>,
     /// Position and drift of each joint; NaN where unknown.
     pub(super) steps: Vec<[f64; 2]>,
@@ -107,11 +107,11 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         };
         let chain = hand.solver.chain();
         let joints = context.with(hand, [0.0; 3], &[]).joints;
-        let rig = model.tree().rig(&joints, |variable| chain.in_tree.contains(&variable))?;
-        let (last, frame_from_tip) = *rig.links.get(hand.tip)?;
+        let reduced = model.tree().reduced(&joints, |dof| chain.in_tree.contains(&dof))?;
+        let (last, frame_from_tip) = *reduced.links.get(hand.tip)?;
         // From the tip down to the base.
         let (mut frame, mut order) = (last, vec![]);
-        while let Some(joint) = frame.checked_sub(1).and_then(|at| rig.joints.get(at)) {
+        while let Some(joint) = frame.checked_sub(1).and_then(|at| reduced.joints.get(at)) {
             order.push(frame);
             frame = joint.parent;
         }
@@ -119,10 +119,10 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         if order.len() != chain.joints.len() {
             return None;
         }
-        let arm = (1..=rig.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
+        let arm = (1..=reduced.joints.len()).map(|at| order.iter().position(|frame| *frame == at)).collect();
         let mut limbs = Vec::new();
         for part in context.body.parts() {
-            let (frame, pose) = rig.links.get(part.link)?;
+            let (frame, pose) = reduced.links.get(part.link)?;
             let solid = part.solid.moved(pose);
             limbs.push(CellPart { frame: *frame, solid, inner: inner(&solid), reach: solid.reach() });
         }
@@ -134,8 +134,8 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
             hand,
             family,
             allowed,
-            pair_groups: RelativeChains::new(&rig),
-            rig,
+            pair_groups: RelativeChains::new(&reduced),
+            reduced,
             joints,
             arm,
             last,
@@ -218,49 +218,49 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
     }
 
     /// Places the hand alone over a set of tip poses; the other parts are unknown.
-    pub(super) fn place_hand(&self, tips: &Tips, placing: &mut CellPlacement) {
+    pub(super) fn place_hand(&self, tips: &PoseSet, placing: &mut CellPlacement) {
         let pose = tips.map_from_tip * self.frame_from_tip.inverse();
         placing.frames.clear();
-        let unknown = Drift::unknown();
-        placing.frames.resize(self.rig.joints.len() + 1, (Isometry3::identity(), unknown));
-        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.drift));
+        let unknown = DisplacementBound::unknown();
+        placing.frames.resize(self.reduced.joints.len() + 1, (Isometry3::identity(), unknown));
+        placing.frames.get_mut(self.last).into_iter().for_each(|slot| *slot = (pose, tips.displacement));
         placing.steps.clear();
         self.forget(placing);
     }
 
     /// Places the robot in a cell.
-    pub(super) fn place(&self, stretch: &Stretch, placing: &mut CellPlacement) {
+    pub(super) fn place(&self, enclosure: &CellEnclosure, placing: &mut CellPlacement) {
         let chain = self.hand.solver.chain();
-        let root = (self.checker.context.model.map_from_root(stretch.base), stretch.base_drift);
+        let root = (self.checker.context.model.map_from_root(enclosure.base), enclosure.base_displacement);
         placing.frames.clear();
         placing.frames.push(root);
         placing.steps.clear();
-        placing.is_joined = stretch.is_joined;
-        for (joint, arm) in self.rig.joints.iter().zip(&self.arm) {
-            let mut values = chain.in_tree.iter().zip(&stretch.values).zip(&chain.variables);
-            let known = values.find(|((at, _), _)| **at == joint.driver.variable);
+        placing.is_joined = enclosure.is_joined;
+        for (joint, arm) in self.reduced.joints.iter().zip(&self.arm) {
+            let mut values = chain.in_tree.iter().zip(&enclosure.values).zip(&chain.dofs);
+            let known = values.find(|((at, _), _)| **at == joint.coupling.dof);
             // Full turns do not matter to the arm, but to the joints that follow it.
-            let turns = known.is_some_and(|(_, variable)| {
-                !variable.slides && variable.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
+            let turns = known.is_some_and(|(_, dof)| {
+                !dof.is_prismatic && dof.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
             });
             let known = known.map(|((_, value), _)| *value);
-            let still = self.joints.get(joint.driver.variable).copied().unwrap_or_default();
+            let still = self.joints.get(joint.coupling.dof).copied().unwrap_or_default();
             let [value, off] = known.unwrap_or([still, 0.0]);
-            let position = joint.driver.multiplier * value + joint.driver.offset;
+            let position = joint.coupling.multiplier * value + joint.coupling.offset;
             placing.steps.push([position, off]);
-            if let Some(frame) = arm.and_then(|at| stretch.frames.get(at)) {
+            if let Some(frame) = arm.and_then(|at| enclosure.frames.get(at)) {
                 placing.frames.push(*frame);
                 continue;
             }
             // Mimic joints of the arm's joints.
             let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
-            let off = off * joint.driver.multiplier;
+            let off = off * joint.coupling.multiplier;
             let pose = parent * joint.before * joint.motion(position);
-            let drift = match (joint.slides, off == 0.0) {
-                _ if turns => Drift::unknown(),
+            let drift = match (joint.is_prismatic, off == 0.0) {
+                _ if turns => DisplacementBound::unknown(),
                 (true, _) => drift.slid(pose.rotation * joint.axis.into_inner() * off),
                 (false, true) => drift,
-                (false, false) => Drift::unknown(),
+                (false, false) => DisplacementBound::unknown(),
             };
             placing.frames.push((pose, drift));
         }
