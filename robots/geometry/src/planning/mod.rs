@@ -7,12 +7,14 @@
 mod base;
 mod certify;
 mod checking;
+mod context;
 mod grasp;
 mod motions;
 mod query;
 mod scene;
 mod search;
 
+pub use context::{BaseMapCache, QueryContext};
 pub use query::answer::{
     BearingLimit, ContactShare, Grasp, GraspSide, Infeasible, InfeasibleReason, Margins, MotionAnswer,
     MotionQuery, MotionWitness, SearchBudget, UnknownReason,
@@ -21,34 +23,6 @@ pub use scene::articulation::Articulation;
 pub use scene::configuration::Configuration;
 pub use scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE};
 pub use scene::ik_solver::IkSolver;
+pub use scene::planning_scene::PlanningScene;
 pub use scene::robot_model::{HandModel, RobotModel};
 pub use scene::scene_state::{SceneState, components};
-pub use search::context::{BaseMapCache, QueryContext};
-
-impl QueryContext<'_> {
-    /// Answers a query in this room. The same room, query and budget give the same answer, bit for bit.
-    #[must_use]
-    pub fn answer(&self, query: &MotionQuery, budget: SearchBudget) -> MotionAnswer {
-        if let Some(why) = self.blind_spot() {
-            return MotionAnswer::Unknown(UnknownReason::Because(why));
-        }
-        if let Some(Contact { link, other, .. }) = self.start_contact() {
-            return MotionAnswer::Unknown(UnknownReason::Because(format!(
-                "at the start `{link}` touches `{other}`"
-            )));
-        }
-        match query {
-            MotionQuery::GoTo(to) => self.go_to(to, budget),
-            MotionQuery::Reach(object, side) => self.reach(object, *side, budget),
-            MotionQuery::Put(object, on) => self.put(object, on, budget),
-            MotionQuery::Offer(object, to) => self.offer(object, to, budget),
-            MotionQuery::Look(at) => self.look(at, budget),
-            MotionQuery::Pull(what) => self.pull(what, [0.0, 1.0], budget),
-            MotionQuery::Push(what) => self.push(what, budget),
-            MotionQuery::Posture(name) => self.to_posture(name),
-            MotionQuery::Other(name) => {
-                MotionAnswer::Unknown(UnknownReason::Because(format!("`{name}` is not computed yet")))
-            }
-        }
-    }
-}

@@ -22,7 +22,7 @@ impl Aabb {
     pub(super) const NOWHERE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// Grows to contain another box.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn add(&mut self, other: &Self) {
         for (slot, value) in self.low.iter_mut().zip(&other.low) {
             *slot = if *value < *slot { *value } else { *slot };
@@ -51,7 +51,7 @@ impl FromIterator<Aabb> for AabbRows {
 
 impl AabbRows {
     /// Sets a box; the row before it must exist.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set(&mut self, at: usize, bound: &Aabb) {
         let (row, lane) = (at / 8, at % 8);
         if row == self.rows.len() {
@@ -65,13 +65,13 @@ impl AabbRows {
     }
 
     /// Number of rows.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn rows(&self) -> usize {
         self.rows.len()
     }
 
     /// Bit mask of the boxes of a row that are at most `wide` from another box along each axis.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn near<S: Simd>(&self, simd: S, row: usize, other: &Aabb, wide: f32) -> u8 {
         let Some([low_x, low_y, low_z, high_x, high_y, high_z]) = self.rows.get(row) else { return 0 };
         let mut bits = 0;

@@ -75,7 +75,7 @@ impl<F: Fn(usize, Option<usize>) -> bool> BatchCheck<'_, F> {
 impl<F: Fn(usize, Option<usize>) -> bool> WithSimd for BatchCheck<'_, F> {
     type Output = Vec<NearPair>;
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<NearPair> {
         match self.pairs {
             None => self.posed.set(simd, self.batch_model, self.batch, |_| true, true),
@@ -121,7 +121,7 @@ pub(super) struct BatchChecker<'a> {
 }
 
 impl BatchChecker<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn all<S: Simd>(
         &mut self,
         simd: S,
@@ -208,14 +208,14 @@ impl BatchChecker<'_> {
     }
 
     /// True to stop at the first certain contact: in all configurations, or in one on an edge.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn is_told(&self, touched: u8) -> bool {
         self.is_first && (touched == u8::MAX || (self.batch.is_way && touched != 0))
     }
 
     /// Checks one pair in some configurations, with tighter bounds at each step; returns those with a certain
     /// contact.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn look<S: Simd>(&self, simd: S, pair: BatchPair, wanted: u8, near_pairs: &mut Vec<NearPair>) -> u8 {
         let (mut lanes, mut still, mut sure) = (0, 0, 0);
         for chunk in 0..8 / S::F32_LANES {

@@ -302,7 +302,7 @@ impl BatchJoint {
 
 impl BatchPart {
     /// Checks whether one of the moving joints moves exactly one of two parts.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
         let last = bit(usize::MAX);
         ((self.carriers ^ other.carriers) | ((self.carriers | other.carriers) & last)) & moving != 0
@@ -352,7 +352,7 @@ impl Batch8 {
 }
 
 /// Bit of an index; those from 63 on share one.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn bit(at: usize) -> u64 {
     1 << at.min(63)
 }

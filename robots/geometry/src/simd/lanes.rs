@@ -26,13 +26,13 @@ const QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
 const ROUNDER: f32 = 12_582_912.0;
 
 impl<S: Simd> Lanes<S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn splat(simd: S, value: f32) -> Self {
         Self(simd, simd.splat_f32s(value))
     }
 
     /// Loads the chunk `at` of eight numbers.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(simd: S, values: &[f32; 8], at: usize) -> Self {
         let (chunks, _) = S::as_simd_f32s(values);
         match chunks.get(at) {
@@ -42,7 +42,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Stores to the chunk `at` of eight numbers.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn store(self, values: &mut [f32; 8], at: usize) {
         let (chunks, _) = S::as_mut_simd_f32s(values);
         if let Some(slot) = chunks.get_mut(at) {
@@ -50,68 +50,68 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn abs(self) -> Self {
         // The `abs` of the library is a call.
         self.max(-self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn sqrt(self) -> Self {
         Self(self.0, self.0.sqrt_f32s(self.1))
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn div(self, other: Self) -> Self {
         Self(self.0, self.0.div_f32s(self.1, other.1))
     }
 
     /// Smaller value in each lane.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn min(self, other: Self) -> Self {
         // Through `max`, which is the same on every processor.
         -(-self).max(-other)
     }
 
     /// Greater value in each lane.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn max(self, other: Self) -> Self {
         Self(self.0, self.0.max_f32s(self.1, other.1))
     }
 
     /// Replaces negative values by zero.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn max_zero(self) -> Self {
         self.max(Self::splat(self.0, 0.0))
     }
 
     /// Clamps to [−1, 1].
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn within(self) -> Self {
         self.max(self.like(-1.0)).min(self.like(1.0))
     }
 
     /// Selects `yes` in lanes below a number, else `no`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn pick(self, less_than: f32, yes: Self, no: Self) -> Self {
         let is_less = self.0.less_than_f32s(self.1, self.0.splat_f32s(less_than));
         Self(self.0, self.0.select_f32s(is_less, yes.1, no.1))
     }
 
     /// Least value of all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn min_lane(self) -> f32 {
         self.0.reduce_min_f32s(self.1)
     }
 
     /// Greatest value of all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn max_lane(self) -> f32 {
         self.0.reduce_max_f32s(self.1)
     }
 
     /// Bit mask, first lane lowest, of the lanes that are not above 0; NaN counts as such.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn not_positive(self) -> u8 {
         let zero = self.like(0.0);
         let is_above = self.0.less_than_f32s(zero.1, self.1);
@@ -119,7 +119,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Bit mask, first lane lowest, of the lanes that are below 0.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn negative(self) -> u8 {
         let zero = self.like(0.0);
         let is_below = self.0.less_than_f32s(self.1, zero.1);
@@ -127,38 +127,38 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Value of the bit of each lane.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn bits(self) -> Self {
         Self::of(self.0, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0], 0)
     }
 
     /// Sum of lanes that are zero or their bit: exact, and the same in every order.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn summed(self) -> u8 {
         self.0.reduce_sum_f32s(self.1) as u8
     }
 
     /// Evaluates a polynomial with four coefficients, lowest first.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn series(self, [a, b, c, d]: [f32; 4]) -> Self {
         ((self.like(d) * self + self.like(c)) * self + self.like(b)) * self + self.like(a)
     }
 
     /// Broadcasts a number to all lanes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn like(self, value: f32) -> Self {
         Self::splat(self.0, value)
     }
 
     /// Rounds to the nearest whole number.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn round(self) -> Self {
         (self + self.like(ROUNDER)) - self.like(ROUNDER)
     }
 
     /// Sine and cosine with an error of at most 4e-7 for angles up to 100 rad: the angle is reduced to an
     /// eighth turn on either side of 0 (Cody and Waite 1980), where the first terms of the series suffice.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn sin_cos(self) -> [Self; 2] {
         let quarters = (self * self.like(std::f32::consts::FRAC_2_PI)).round();
         let [high, middle, low] = QUARTER;
@@ -180,7 +180,7 @@ impl<S: Simd> Lanes<S> {
 
 impl<S: Simd> Add for Lanes<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, other: Self) -> Self {
         Self(self.0, self.0.add_f32s(self.1, other.1))
     }
@@ -188,7 +188,7 @@ impl<S: Simd> Add for Lanes<S> {
 
 impl<S: Simd> Sub for Lanes<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, other: Self) -> Self {
         Self(self.0, self.0.sub_f32s(self.1, other.1))
     }
@@ -196,7 +196,7 @@ impl<S: Simd> Sub for Lanes<S> {
 
 impl<S: Simd> Mul for Lanes<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, other: Self) -> Self {
         Self(self.0, self.0.mul_f32s(self.1, other.1))
     }
@@ -204,7 +204,7 @@ impl<S: Simd> Mul for Lanes<S> {
 
 impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
         Self::splat(self.0, 0.0) - self
     }
@@ -215,25 +215,25 @@ impl<S: Simd> Neg for Lanes<S> {
 pub(super) struct Lanes3<S: Simd>(pub(super) [Lanes<S>; 3]);
 
 impl<S: Simd> Lanes3<S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn splat(simd: S, [x, y, z]: [f32; 3]) -> Self {
         Self([Lanes::splat(simd, x), Lanes::splat(simd, y), Lanes::splat(simd, z)])
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn dot(self, other: Self) -> Lanes<S> {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         a * x + b * y + c * z
     }
 
     /// Loads the chunk `at` of eight vectors.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(simd: S, [x, y, z]: &[[f32; 8]; 3], at: usize) -> Self {
         Self([Lanes::of(simd, x, at), Lanes::of(simd, y, at), Lanes::of(simd, z, at)])
     }
 
     /// Stores to the chunk `at` of eight vectors.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn store(self, [x, y, z]: &mut [[f32; 8]; 3], at: usize) {
         let [a, b, c] = self.0;
         a.store(x, at);
@@ -241,13 +241,13 @@ impl<S: Simd> Lanes3<S> {
         c.store(z, at);
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn cross(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([b * z - c * y, c * x - a * z, a * y - b * x])
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn times(self, factor: Lanes<S>) -> Self {
         let [x, y, z] = self.0;
         Self([x * factor, y * factor, z * factor])
@@ -256,7 +256,7 @@ impl<S: Simd> Lanes3<S> {
 
 impl<S: Simd> Add for Lanes3<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a + x, b + y, c + z])
@@ -265,7 +265,7 @@ impl<S: Simd> Add for Lanes3<S> {
 
 impl<S: Simd> Sub for Lanes3<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a - x, b - y, c - z])

@@ -46,7 +46,7 @@ pub(super) struct FrameMotion8 {
 }
 
 impl FrameMotion8 {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<S: Simd>(&self, simd: S, chunk: usize) -> FrameMotion<S> {
         FrameMotion {
             shift: Lanes3::of(simd, &self.shift, chunk),
@@ -59,7 +59,7 @@ impl FrameMotion8 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<S: Simd>(&mut self, motion: FrameMotion<S>, chunk: usize) {
         motion.shift.store(&mut self.shift, chunk);
         motion.spin.store(&mut self.spin, chunk);
@@ -69,7 +69,7 @@ impl FrameMotion8 {
     }
 
     /// Greatest displacement of any point within `reach` of the origin of the frame.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn goes<S: Simd>(&self, simd: S, reach: f32, chunk: usize) -> Lanes<S> {
         Lanes::of(simd, &self.goes, chunk) + Lanes::splat(simd, self.spread * reach)
     }
@@ -77,7 +77,7 @@ impl FrameMotion8 {
 
 impl<S: Simd> FrameMotion<S> {
     /// Zero motion.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));
         Self { shift: none, spin: none, goes: zero, spread: 0.0, bends: zero, bend: 0.0, turns: 0.0 }
@@ -85,7 +85,7 @@ impl<S: Simd> FrameMotion<S> {
 
     /// Adds a revolute joint: offset of the origin of the frame from the axis, axis, signed change, and
     /// greatest change. Joints are added from the last to the first.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn turn(&mut self, simd: S, off: Lanes3<S>, axis: Lanes3<S>, [change, amount]: [f32; 2]) {
         let across = axis.cross(off);
         let change = Lanes::splat(simd, change);
@@ -102,7 +102,7 @@ impl<S: Simd> FrameMotion<S> {
     }
 
     /// Adds a prismatic joint.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn slide(&mut self, simd: S, axis: Lanes3<S>, [change, amount]: [f32; 2]) {
         self.shift = self.shift + axis.times(Lanes::splat(simd, change));
         self.goes = self.goes + Lanes::splat(simd, amount);
@@ -127,7 +127,7 @@ pub(super) struct CapsuleMotion<S: Simd> {
 impl<S: Simd> CapsuleMotion<S> {
     /// Motion of a capsule with a half axis and radius, an offset of its centre from the origin of the frame,
     /// and all its points within `reach` of that origin.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(
         simd: S,
         motion: FrameMotion<S>,
@@ -148,21 +148,21 @@ impl<S: Simd> CapsuleMotion<S> {
     }
 
     /// Motion of a bounding ball.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn ball(self, simd: S, radius: f32) -> Self {
         let turning = self.spin.dot(self.spin).sqrt();
         Self { half: Lanes3::splat(simd, [0.0; 3]), round: turning * Lanes::splat(simd, radius), ..self }
     }
 
     /// Zero motion.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn still(simd: S) -> Self {
         let (none, zero) = (Lanes3::splat(simd, [0.0; 3]), Lanes::splat(simd, 0.0));
         Self { shift: none, spin: none, half: none, round: zero, goes: zero, beyond: zero }
     }
 
     /// Greatest approach of two capsules along a direction of the given length until the end of the segment.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn approach(self, other: Self, way: Lanes3<S>, length: Lanes<S>) -> Lanes<S> {
         let along = way.dot(self.shift - other.shift).abs();
         let ends = way.dot(self.spin.cross(self.half)).abs() + way.dot(other.spin.cross(other.half)).abs();
@@ -173,7 +173,7 @@ impl<S: Simd> CapsuleMotion<S> {
 
 /// Bit mask of the configurations in which a capsule may come too near to a box along all axes of the box,
 /// with the motion of both.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn stays_clear_of_box<S: Simd>(
     simd: S,
     cuboid: Cuboid<S>,

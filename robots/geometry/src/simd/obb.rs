@@ -39,7 +39,7 @@ impl FromIterator<Obb> for ObbSet {
 
 impl Obb {
     /// Positive if a point is certainly farther than `wanted`, by the axis-aligned box.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn aside<S: Simd>(&self, simd: S, point: Lanes3<S>, wanted: Lanes<S>) -> Lanes<S> {
         let (Lanes3([x, y, z]), Lanes3([a, b, c]), Lanes3([d, e, f])) =
             (point, Lanes3::splat(simd, self.bound.low), Lanes3::splat(simd, self.bound.high));

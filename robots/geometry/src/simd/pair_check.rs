@@ -15,7 +15,7 @@ use super::{SURE, TOLD};
 impl BatchChecker<'_> {
     /// Bit masks of the configurations in which a pair may touch during its motion, may touch at rest, and
     /// certainly touches at rest.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn chunk<S: Simd>(
         &self,
         simd: S,
@@ -153,7 +153,7 @@ impl BatchChecker<'_> {
     }
 
     /// Bit mask of the configurations in which a part may be nearer to an obstacle than `wanted`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn obb<S: Simd>(
         &self,
         simd: S,
@@ -172,7 +172,7 @@ impl BatchChecker<'_> {
     }
 
     /// Box of a part that is no capsule.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn cuboid<S: Simd>(
         &self,
         simd: S,
@@ -196,7 +196,7 @@ impl BatchChecker<'_> {
 }
 
 impl PosedPart {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn axis<S: Simd>(&self, simd: S, chunk: usize) -> CapsuleAxis<S> {
         CapsuleAxis {
             centre: Lanes3::of(simd, &self.centre, chunk),

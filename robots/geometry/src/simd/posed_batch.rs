@@ -43,7 +43,7 @@ pub(super) struct PosedPart {
 
 impl PosedBatch {
     /// Places the needed parts of a batch model, and computes their boxes if requested.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<S: Simd>(
         &mut self,
         simd: S,
@@ -71,7 +71,7 @@ impl PosedBatch {
     }
 
     /// Places the frames whose bits are set.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn carry<S: Simd>(
         &mut self,
         simd: S,
@@ -104,7 +104,7 @@ impl PosedBatch {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn place<S: Simd>(
         &mut self,
         simd: S,
@@ -148,7 +148,7 @@ impl PosedBatch {
     }
 
     /// Image of a direction of a frame.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn direction<S: Simd>(
         &self,
         simd: S,
@@ -161,7 +161,7 @@ impl PosedBatch {
     }
 
     /// Motion of a part by its joints after the first `common` ones.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion_after<S: Simd>(
         &self,
         simd: S,
@@ -173,7 +173,7 @@ impl PosedBatch {
     }
 
     /// Greatest displacement of a part by its joints after the first `common` ones.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn goes<S: Simd>(
         &self,
         simd: S,
@@ -188,7 +188,7 @@ impl PosedBatch {
     }
 
     /// Motion of a part by all its joints and the base.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion_in_map<S: Simd>(
         &self,
         simd: S,
@@ -199,7 +199,7 @@ impl PosedBatch {
         self.motion_by(simd, batch_model, part, 0, chunk)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn motion_by<S: Simd>(
         &self,
         simd: S,
@@ -220,7 +220,7 @@ impl PosedBatch {
 
     /// Computes the motions of the frames whose bits are set: by the base and all joints, by all joints, by
     /// those after the first, and so on.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn motion<S: Simd>(
         &mut self,
         simd: S,
@@ -281,14 +281,14 @@ impl PosedBatch {
 }
 
 /// Rotates a vector about the vertical.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 fn about<S: Simd>(simd: S, [sin, cos]: [Lanes<S>; 2], vector: [f32; 3]) -> Lanes3<S> {
     let Lanes3([x, y, z]) = Lanes3::splat(simd, vector);
     Lanes3([cos * x - sin * y, sin * x + cos * y, z])
 }
 
 impl Frame {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn direction<S: Simd>(&self, simd: S, [x, y, z]: [f32; 3], chunk: usize) -> Lanes3<S> {
         let [a, b, c] = &self.turn;
         Lanes3::of(simd, a, chunk).times(Lanes::splat(simd, x))
@@ -296,13 +296,13 @@ impl Frame {
             + Lanes3::of(simd, c, chunk).times(Lanes::splat(simd, z))
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn point<S: Simd>(&self, simd: S, vector: [f32; 3], chunk: usize) -> Lanes3<S> {
         Lanes3::of(simd, &self.at, chunk) + self.direction(simd, vector, chunk)
     }
 
     /// Places the frame of a child joint.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn carry<S: Simd>(&self, simd: S, joint: &BatchJoint, position: Lanes<S>, slot: &mut Self, chunk: usize) {
         let axis = self.direction(simd, joint.axis, chunk);
         axis.store(&mut slot.axis, chunk);

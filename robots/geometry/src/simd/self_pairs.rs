@@ -23,7 +23,7 @@ pub(super) struct SelfPair<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> SelfPair<'a, S> {
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(simd: S, [(own, axis), (far, other)]: [(&'a BatchPart, CapsuleAxis<S>); 2]) -> Self {
         let way = axis.way(simd, other);
         Self {
@@ -37,13 +37,13 @@ impl<'a, S: Simd> SelfPair<'a, S> {
     }
 
     /// Bit mask of the configurations in which the bounding capsules may be nearer than `wanted`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn capsules(self, wanted: Lanes<S>) -> u8 {
         (self.room - (self.radii + wanted) * self.length).not_positive()
     }
 
     /// The same for the boxes of the parts that have one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn near(self, simd: S, boxes: [Option<Cuboid<S>>; 2], wanted: Lanes<S>) -> u8 {
         let ([own, far], [axis, other]) = (self.parts, self.axes);
         let mut bits = u8::MAX;
@@ -62,7 +62,7 @@ impl<'a, S: Simd> SelfPair<'a, S> {
 
     /// Bit mask of the configurations in which the parts may come too near, by their motion along the line
     /// between them and along the axes of boxes.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion_after(
         self,
         simd: S,

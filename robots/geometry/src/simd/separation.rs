@@ -25,7 +25,7 @@ pub(super) struct Cuboid<S: Simd> {
 impl<S: Simd> Cuboid<S> {
     /// Positive if another box is certainly farther than `wanted`, by its bounding box along the axes of this
     /// one.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn aside(self, simd: S, other: Self, wanted: Lanes<S>) -> Lanes<S> {
         let between = other.centre - self.centre;
         let [x, y, z] = self.axes;
@@ -37,7 +37,7 @@ impl<S: Simd> Cuboid<S> {
     }
 
     /// Extent from its centre along a unit vector.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     fn extent(self, simd: S, direction: Lanes3<S>) -> Lanes<S> {
         let [x, y, z] = self.axes;
         let Lanes3([a, b, c]) = self.half;
@@ -54,7 +54,7 @@ impl<S: Simd> Cuboid<S> {
 impl<S: Simd> CapsuleAxis<S> {
     /// Positive if the axis is certainly farther than `wanted` from a box, by the bounding boxes of `pieces`
     /// pieces of the axis along the axes of the box.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn beside(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>, pieces: u8) -> Lanes<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
@@ -70,7 +70,7 @@ impl<S: Simd> CapsuleAxis<S> {
     }
 
     /// Negative if the middle or an end of the axis is certainly nearer to a box than `wanted`.
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>) -> Lanes<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
@@ -84,7 +84,7 @@ impl<S: Simd> CapsuleAxis<S> {
 
     /// Vector from a point on another axis to one on this; both are nearly the nearest points (Ericson 2005,
     /// 5.1.9).
-    #[inline(always)]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn way(self, simd: S, other: Self) -> Lanes3<S> {
         let tiny = Lanes::splat(simd, 1e-9);
         let between = self.centre - other.centre;
@@ -101,7 +101,7 @@ impl<S: Simd> CapsuleAxis<S> {
 
 /// Bit mask of the configurations in which an axis may be nearer to a box than `wanted`; in pieces only where
 /// needed.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn beside<S: Simd>(
     simd: S,
     axis: CapsuleAxis<S>,
@@ -117,7 +117,7 @@ pub(super) fn beside<S: Simd>(
 
 /// Squared distance of a box from the bounding box of a piece of an axis, along the axes of the box; `off` is
 /// the offset of the middle of the axis, `place` is from −1 to 1, and `share` is the fraction of the axis.
-#[inline(always)]
+#[cfg_attr(optimised, inline(always))]
 fn squared<S: Simd>(
     simd: S,
     [off_x, off_y, off_z]: [Lanes<S>; 3],

@@ -1,61 +1,60 @@
-//! Where the base can drive with the arm as it is: the robot as a stack of discs about the base's axis, so that its yaw does
-//! not matter. For each obstacle only the parts between its heights count.
+//! Base map: free space of the base with the arm as it is, and routes through it.
 //!
-//! The clearance of a place changes by no more than the way between two places, so a straight way is certified by steps as
-//! long as the clearance where each begins.
+//! The robot is a stack of discs about the base's axis, so that its yaw does not matter; an obstacle meets
+//! only the discs at its heights. The clearance of a place is 1-Lipschitz, so a straight route is certified
+//! by steps as long as the clearance at the start of each.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Mutex;
 
-use crate::planning::base::footprint::{Footprint, FootprintIndex};
+use crate::planning::base::footprint::{Footprint, FootprintIndex, about_vertical};
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::about_vertical;
 use crate::planning::scene::grid_index::Obstacle;
-use crate::planning::search::context::QueryContext;
+use crate::planning::scene::planning_scene::PlanningScene;
 
-/// A cell's side in m, where the room is not too large for it.
+/// Side of a cell in m, for scenes of up to [`CELLS`] cells a side.
 const CELL: f64 = 0.05;
-/// The most cells along a side.
+/// Greatest number of cells along a side.
 const CELLS: usize = 400;
-/// How far beyond everything the map goes, in m.
+/// Margin of the map around all obstacles, in m.
 const MARGIN: f64 = 1.5;
-/// The greatest clearance that is told, in m.
+/// Cap of the clearance, in m.
 const CAP: f64 = 2.0;
-/// The side of a square of cells that are looked at one by one.
+/// Side of a leaf of the quadtree, in cells.
 const LEAF: usize = 4;
 
-/// The map of a room for one configuration of the arm.
+/// Map of the floor for one arm configuration: clearance and connectivity of its cells.
 #[derive(Debug)]
 pub(crate) struct BaseMap {
     pub(super) outlines: FootprintIndex,
-    /// Of each outline the entity, by its index.
+    /// Entity of each footprint.
     pub(super) owners: Vec<usize>,
     pub(super) origin: [f64; 2],
     pub(super) cell: f64,
     pub(super) size: [usize; 2],
-    /// Of each cell; where it is wide, no more than the clearance, where nothing is free, no less.
+    /// Clearance of each cell: a lower bound in free space, an upper bound in occupied space.
     pub(super) clearance: Vec<f64>,
-    /// For each cell one more than another that it hangs together with, on the way to the first of all these; 0 for that.
+    /// Union-find forest of the free cells: 1 + the parent's index, 0 for an occupied cell.
     first: Vec<u32>,
-    /// Free cells but for those within a square of which all are free.
+    /// Free cells at the border of fully free squares.
     rim: Vec<usize>,
     is_anywhere: bool,
-    /// Room for a search.
+    /// Buffer of the route search.
     visits: Mutex<SearchBuffer>,
 }
 
 impl BaseMap {
-    /// The map of a room with the arm at some joints. O(cells of places where it is narrow × obstacles near them).
-    pub(crate) fn new(context: &QueryContext<'_>, joints: &[f64]) -> Self {
+    /// Builds the map of a scene; O(cells near obstacles × obstacles near them).
+    pub(crate) fn new(scene: &PlanningScene<'_>, joints: &[f64]) -> Self {
         let configuration = Configuration { base: [0.0; 3], joints: joints.to_vec() };
-        let placed = context.body.placed(&context.model.map_from_links(&configuration));
+        let placed = scene.body.placed(&scene.model.map_from_links(&configuration));
         let discs: Vec<(f64, [f64; 2])> =
             placed.iter().map(|solid| about_vertical(solid, 0.0, 0.0)).collect();
         let owned = |obstacle: &Obstacle| Some((Footprint::new(&obstacle.solid, &discs)?, obstacle.entity));
         let (outlines, owners): (Vec<Footprint>, Vec<usize>) =
-            context.obstacles.iter().filter_map(owned).unzip();
-        let [x, y, _] = context.state.robot.base;
+            scene.obstacles.iter().filter_map(owned).unzip();
+        let [x, y, _] = scene.state.robot.base;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for outline in &outlines {
             let reach = outline.reach();
@@ -92,14 +91,14 @@ impl BaseMap {
         map
     }
 
-    /// Whether it would be the same with the robot's base elsewhere among the things.
+    /// Checks whether the map holds for any base pose within it.
     pub(crate) fn is_anywhere(&self) -> bool {
         self.is_anywhere
     }
 
-    /// The clearance of the cells of a rectangle, from a corner, by the outlines that matter there. A quarter is looked at
-    /// closer only where the clearance at its middle leaves it open whether a cell is free; elsewhere each cell gets the bound that
-    /// the middle gives, from below where it is free and from above where it is not.
+    /// Fills a rectangle of cells from the footprints that matter there. A quarter is refined only where
+    /// the clearance at its middle leaves it open whether a cell is free; elsewhere its cells get the bound
+    /// that the middle gives.
     fn fill(&mut self, corner: [usize; 2], size: [usize; 2], near: &[u32]) {
         let [columns, rows] = size;
         if columns == 0 || rows == 0 {
@@ -160,24 +159,24 @@ impl BaseMap {
         }
     }
 
-    /// Clearance of a place in m, or what is much where it is more; negative where the robot would touch something.
+    /// Clearance of a place in m, capped; negative where the robot would be in contact.
     pub(crate) fn at(&self, place: [f64; 2]) -> f64 {
         self.outlines.at(place)
     }
 
-    /// The component of the cell that is reached straight from a free place: ways lead from it to all of the same component.
+    /// Component of the cell that a free place reaches: routes connect all places of a component.
     pub(crate) fn component(&self, place: [f64; 2]) -> Option<u32> {
         self.entry(place).map(|at| self.root(at))
     }
 
-    /// Whether the nearest cell is in one of these components: quick, and not exact.
+    /// Checks whether the nearest cell is in one of some components; fast and approximate.
     pub(crate) fn is_among(&self, place: [f64; 2], components: &[u32]) -> bool {
         let [column, row] = [0, 1].map(|axis: usize| {
             let off = place.get(axis).zip(self.origin.get(axis)).map_or(0.0, |(at, origin)| at - origin);
             off / self.cell + 0.5
         });
         let [columns, rows] = self.size.map(|count| count as f64);
-        // All around is outside, and leads to everywhere outside.
+        // Outside of the map all is free and connected.
         let at = if column >= 0.0 && row >= 0.0 && column < columns && row < rows {
             row as usize * self.size[0] + column as usize
         } else {
@@ -186,7 +185,7 @@ impl BaseMap {
         self.free(at) > 0.0 && components.contains(&self.root(at))
     }
 
-    /// Whether a straight way is free.
+    /// Checks whether a straight route is free.
     pub(crate) fn is_clear(&self, from: [f64; 2], to: [f64; 2]) -> bool {
         let way = [to[0] - from[0], to[1] - from[1]];
         let length = libm::hypot(way[0], way[1]);
@@ -194,7 +193,7 @@ impl BaseMap {
         loop {
             let part = if length > 0.0 { gone / length } else { 1.0 };
             let clearance = self.at([from[0] + way[0] * part, from[1] + way[1] * part]);
-            // A way along which there is no room to speak of is not looked at any closer.
+            // A route with hardly any clearance is given up.
             if clearance <= 0.001 && !(clearance > 0.0 && gone + clearance >= length) {
                 return false;
             }
@@ -205,7 +204,7 @@ impl BaseMap {
         }
     }
 
-    /// Whether a way leads from a place to another, straight or along the cells.
+    /// Checks whether a route connects two places.
     pub(crate) fn is_connected(&self, from: [f64; 2], to: [f64; 2]) -> bool {
         match (self.component(from), self.component(to)) {
             (Some(one), Some(other)) if one == other => true,
@@ -222,7 +221,7 @@ impl BaseMap {
         self.clearance.get(at).copied().unwrap_or(-1.0)
     }
 
-    /// The nearest cell that is reached straight from a free place.
+    /// Nearest cell that a straight route from a free place reaches.
     fn entry(&self, place: [f64; 2]) -> Option<usize> {
         let index = |axis: usize| {
             let at = libm::round((place.get(axis)? - self.origin.get(axis)?) / self.cell);
@@ -245,14 +244,15 @@ impl BaseMap {
         best.map(|(_, cell)| cell)
     }
 
-    /// Finds out which cells hang together. O(rim).
+    /// Connects neighbouring free cells; O(border cells).
     fn connect(&mut self) {
         let columns = self.size[0];
         let diagonal = self.cell * std::f64::consts::SQRT_2;
         let rim = std::mem::take(&mut self.rim);
         for at in &rim {
             let (at, column, here) = (*at, at % columns, self.free(*at));
-            // The other four neighbours look at this one, and what is within a square hangs together with it.
+            // The other four neighbours connect to this cell themselves; squares that are free throughout
+            // are one component.
             let around = [
                 (column + 1 < columns, at + 1, self.cell),
                 (true, at + columns, self.cell),
@@ -277,7 +277,7 @@ impl BaseMap {
         }
     }
 
-    /// The first of the cells that a free cell hangs together with.
+    /// Root of a free cell's component.
     fn root(&self, mut at: usize) -> u32 {
         loop {
             match self.first.get(at).copied() {
@@ -288,7 +288,7 @@ impl BaseMap {
     }
 }
 
-/// The first of the cells that a cell hangs together with; ways to it become shorter.
+/// Root of a free cell's component, with path compression.
 fn shortened(first: &mut [u32], mut at: usize) -> usize {
     loop {
         let next = match first.get(at).copied() {
@@ -303,13 +303,14 @@ fn shortened(first: &mut [u32], mut at: usize) -> usize {
     }
 }
 
-/// How much longer than the shortest a way along the cells may be before its corners are cut: fewer cells are looked at.
+/// Weight of the A* search: a route along cells may be this many times the shortest before its corners are
+/// cut.
 const DETOUR: f64 = 2.0;
-/// How far aside of the straight way one with one corner is tried, in m.
+/// Sideways offsets of a route with one corner, in m.
 const ASIDE: [f64; 5] = [0.3, 0.6, 1.0, 1.5, 2.0];
 
 impl BaseMap {
-    /// The corners of a free way between two places, both included; `None` where none was found.
+    /// Corners of a free route between two places, both included; `None` where none was found.
     pub(crate) fn way(&self, from: [f64; 2], to: [f64; 2]) -> Option<Vec<[f64; 2]>> {
         if self.is_clear(from, to) {
             return Some(vec![from, to]);
@@ -318,17 +319,17 @@ impl BaseMap {
             return Some(vec![from, by, to]);
         }
         let (start, goal) = (self.entry(from)?, self.entry(to)?);
-        // Where the robot goes to is narrower than where it comes from, most often, so fewer cells are looked at from there.
+        // The goal is usually tighter than the start, so the search from the goal visits fewer cells.
         let cells = self.search(goal, start)?;
         let mut corners = vec![from];
         let all: Vec<[f64; 2]> = cells.into_iter().map(|cell| self.centre(cell)).chain([to]).collect();
-        // From each corner to the farthest that can be seen; the next can be, by the cells' clearances.
+        // Cuts corners: from each one to the farthest that a straight route reaches.
         let mut at = 0;
         while at < all.len() {
             let here = corners.last().copied().unwrap_or(from);
             let is_seen = |next: &usize| all.get(*next).is_some_and(|next| self.is_clear(here, *next));
             let last = all.len() - 1;
-            // In ever larger strides as long as the way is clear.
+            // In doubling strides while the route is clear.
             let strides = (0..16).map(|power| (at + (1 << power)).min(last));
             let seen = is_seen(&last).then_some(last);
             let next = seen.unwrap_or_else(|| strides.take_while(is_seen).last().unwrap_or(at));
@@ -338,7 +339,7 @@ impl BaseMap {
         Some(corners)
     }
 
-    /// A place aside of the middle between two by way of which a way leads from one to the other.
+    /// Corner of a free route with one corner.
     fn around_something(&self, from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
         let [x, y] = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
         let [along, up] = [to[0] - from[0], to[1] - from[1]];
@@ -348,7 +349,7 @@ impl BaseMap {
         places.find(|by| self.is_clear(to, *by) && self.is_clear(from, *by))
     }
 
-    /// The neighbours of a cell to which the straight way is free, with its length.
+    /// Free neighbours of a cell with their distance.
     fn next(&self, at: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let [columns, rows] = self.size;
         let (row, column) = (at / columns, at % columns);
@@ -372,21 +373,21 @@ impl BaseMap {
         })
     }
 
-    /// A way from cell to cell, the last first, no longer than [`DETOUR`] times the shortest (A* with the way where all is free, weighted: Pohl 1970).
+    /// Cells of a route, the last first, at most [`DETOUR`] times the shortest: weighted A* (Pohl 1970).
     fn search(&self, start: usize, goal: usize) -> Option<Vec<usize>> {
         if self.root(start) != self.root(goal) {
             return None;
         }
         let place = |at: usize| ((at / self.size[0]) as i64, (at % self.size[0]) as i64);
         let (goal_row, goal_column) = place(goal);
-        // Straight and diagonal steps alone are no shorter than this where nothing is in the way.
+        // Octile distance: a lower bound for straight and diagonal steps.
         let left = |at: usize| {
             let (row, column) = place(at);
             let (far, near) = ((goal_row - row).abs(), (goal_column - column).abs());
             let (far, near) = (far.max(near) as f64, far.min(near) as f64);
             DETOUR * self.cell * (far + near * (std::f64::consts::SQRT_2 - 1.0))
         };
-        // A search beside another one makes room of its own.
+        // A concurrent search uses a buffer of its own.
         let (mut kept, mut own) = (self.visits.try_lock().ok(), SearchBuffer::default());
         let visits = kept.as_deref_mut().unwrap_or(&mut own);
         visits.begin(self.clearance.len());
@@ -412,21 +413,21 @@ impl BaseMap {
     }
 }
 
-/// What a search knows of the cells, with room that it leaves to the next.
+/// Buffer of a route search, reused by the next.
 #[derive(Debug, Default)]
 pub(crate) struct SearchBuffer {
-    /// Which search it is.
+    /// Number of the search.
     round: u32,
-    /// For each cell the search that came to it last; nothing is known of what is of another one.
+    /// Search that last visited each cell; older entries are void.
     rounds: Vec<u32>,
-    /// The cell before it.
+    /// Predecessor of each cell.
     from: Vec<u32>,
-    /// The length of the way to it.
+    /// Cost of each cell.
     cost: Vec<f64>,
 }
 
 impl SearchBuffer {
-    /// Begins a search over so many cells.
+    /// Begins a search over `cells` cells.
     fn begin(&mut self, cells: usize) {
         if self.rounds.len() != cells || self.round == u32::MAX {
             *self = Self { round: 0, rounds: vec![0; cells], from: vec![0; cells], cost: vec![0.0; cells] };
@@ -446,7 +447,7 @@ impl SearchBuffer {
         self.from.get(cell).map(|from| *from as usize).filter(|_| self.is_known(cell))
     }
 
-    /// Takes a way to a cell in, where none is known that is as short; whether it was.
+    /// Records a shorter route to a cell; returns `false` where a shorter one is known.
     fn improve(&mut self, cell: usize, cost: f64, from: usize) -> bool {
         let is_better = self.cost(cell).is_none_or(|known| cost < known);
         let slots = self.rounds.get_mut(cell).zip(self.from.get_mut(cell)).zip(self.cost.get_mut(cell));
@@ -457,7 +458,7 @@ impl SearchBuffer {
     }
 }
 
-/// A cell to look at, the least bound first, then the lower index.
+/// Open cell, ordered by the least bound, then by the lower index.
 #[derive(PartialEq)]
 struct OpenCell {
     bound: f64,

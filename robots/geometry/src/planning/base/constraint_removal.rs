@@ -1,18 +1,19 @@
-//! What cuts a place off: the things that a way leads through where none leads past them. Each cell is kept with the first things that a
-//! way to it was found through, which finds the fewest most often (Hauser 2014, the minimum constraint removal problem, greedily).
+//! Minimum constraint removal (Hauser 2014): the fewest obstacles whose absence opens a route of the base.
+//!
+//! The greedy search keeps the first set of obstacles for each cell, which is minimal in most scenes.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use super::base_map::BaseMap;
 
-/// A side of the squares for each of which the outlines on it are listed, in m.
+/// Side of a square of the list of footprints, in m.
 const SQUARE: f64 = 0.5;
 
 impl BaseMap {
-    /// The entities, by their index, that a way from some places leads through to the first place that is wanted, in the order in which it
-    /// comes to them: those that weigh least together, and of these ways the shortest. What has no weight is never led through. Empty
-    /// where a way leads past all; `None` where none leads there whatever is taken away. O(cells × outlines on each).
+    /// Entities on the cheapest route from some places to the first place that is wanted, in order: least
+    /// total weight first, then the shortest. An entity without a weight is never crossed. Empty where a
+    /// free route exists; `None` where no route exists. O(cells × footprints on each).
     pub(crate) fn through(
         &self,
         from: &[[f64; 2]],
@@ -49,7 +50,7 @@ impl BaseMap {
         None
     }
 
-    /// The neighbours of a cell, free or not; not those between which there is no room though both are free.
+    /// Neighbours of a cell, free or not, without those that have no clearance between them.
     fn beside(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> {
         let [columns, rows] = self.size;
         let (row, column) = ((cell / columns) as i64, (cell % columns) as i64);
@@ -63,7 +64,7 @@ impl BaseMap {
         })
     }
 
-    /// The entities that the robot would touch in a cell.
+    /// Entities in contact with the robot in a cell.
     fn covers(&self, listed: &BTreeMap<[i64; 2], Vec<usize>>, cell: usize) -> Vec<usize> {
         if self.free(cell) > 0.0 {
             return vec![];
@@ -77,7 +78,7 @@ impl BaseMap {
         owners
     }
 
-    /// Which outlines are on each square.
+    /// Footprints on each square.
     fn listed(&self) -> BTreeMap<[i64; 2], Vec<usize>> {
         let mut listed: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
         for (outline, at) in self.outlines.all().iter().zip(0..) {
@@ -105,7 +106,7 @@ impl BaseMap {
         listed
     }
 
-    /// The cell that a place is in, or that is nearest to it.
+    /// Cell of a place, or the nearest one.
     fn nearest(&self, place: [f64; 2]) -> usize {
         let [column, row] = [0, 1].map(|axis: usize| {
             let off = place.get(axis).zip(self.origin.get(axis)).map_or(0.0, |(at, origin)| at - origin);
@@ -120,7 +121,7 @@ fn square(at: f64) -> i64 {
     libm::floor(at / SQUARE) as i64
 }
 
-/// Sets of entities, each known by its index.
+/// Interned sets of entities.
 #[derive(Default)]
 struct ObstacleSets {
     all: Vec<Vec<usize>>,
@@ -137,7 +138,7 @@ impl ObstacleSets {
         index
     }
 
-    /// A set with more in it, and what that weighs beyond; `None` where something has no weight.
+    /// Union of a set with more entities, and the weight that they add; `None` where one has no weight.
     fn with(
         &mut self,
         set: usize,
@@ -155,7 +156,7 @@ impl ObstacleSets {
     }
 }
 
-/// A cell that a way leads to, the lightest first, then the nearest, then the lower index.
+/// Open cell, ordered by weight, then by length, then by index.
 #[derive(PartialEq)]
 struct OpenCell {
     weight: u32,

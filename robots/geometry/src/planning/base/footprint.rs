@@ -1,41 +1,40 @@
-//! Obstacles seen from above, each wider by as much of the robot as is between its heights, and which of them are near a
-//! place.
+//! Footprints: obstacles seen from above, grown by the radius of the robot at their heights, in a grid.
 
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
 use crate::planning::scene::contact::MIN_CLEARANCE;
 
-/// Clearances above this are not told apart, in m.
+/// Cap of the clearance, in m.
 const WIDE: f64 = 0.4;
-/// A side of the squares for each of which the outlines near it are listed, in m.
+/// Side of a square of the grid, in m.
 const SQUARE: f64 = 0.5;
 
-/// The outlines of a room.
+/// Footprints of a scene with a grid over them.
 #[derive(Clone, Debug)]
 pub(crate) struct FootprintIndex {
     all: Vec<Footprint>,
-    /// Which are near each square of a grid.
+    /// Footprints near each square.
     squares: Vec<Vec<Footprint>>,
-    /// How many squares there are in a row and in a column.
+    /// Numbers of squares in a row and in a column.
     size: [usize; 2],
     origin: [f64; 2],
 }
 
-/// An obstacle seen from above, and the radius of the robot between its heights.
+/// Footprint of an obstacle, and the radius of the robot between its heights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint {
     centre: [f64; 2],
-    /// Direction of its first side.
+    /// Unit direction of its first side.
     side: [f64; 2],
     half: [f64; 2],
-    /// How much is added around.
+    /// Radius around the rectangle.
     round: f64,
     keep_off: f64,
 }
 
 impl FootprintIndex {
-    /// Outlines with a grid over them, from a corner and so wide and so deep in m. O(outlines × squares near each).
+    /// Builds the grid from a corner and a size in m. O(footprints × squares near each).
     pub(crate) fn new(all: Vec<Footprint>, origin: [f64; 2], span: [f64; 2]) -> Self {
         let size = span.map(|span| libm::ceil(span / SQUARE) as usize + 1);
         let mut new = Self { all: vec![], squares: vec![vec![]; size[0] * size[1]], size, origin };
@@ -43,12 +42,12 @@ impl FootprintIndex {
         Self { all, ..new }
     }
 
-    /// All, in the order of the room.
+    /// All footprints in the scene's order.
     pub(crate) fn all(&self) -> &[Footprint] {
         &self.all
     }
 
-    /// The clearance of a place in m, or what is much where it is more; negative where the robot would touch something.
+    /// Clearance of a place in m, capped; negative where the robot would be in contact.
     pub(crate) fn at(&self, place: [f64; 2]) -> f64 {
         let [column, row] = [0, 1].map(|axis: usize| {
             let off = place.get(axis).zip(self.origin.get(axis)).map_or(0.0, |(at, origin)| at - origin);
@@ -64,7 +63,7 @@ impl FootprintIndex {
         near.iter().map(|outline| outline.distance(place)).fold(WIDE, f64::min)
     }
 
-    /// Lists an outline in the squares that it is near to.
+    /// Lists a footprint in the squares near it.
     fn list(&mut self, outline: &Footprint) {
         let far = outline.reach() + outline.keep_off + WIDE;
         let range = |axis: usize| {
@@ -79,7 +78,7 @@ impl FootprintIndex {
             for column in columns.clone() {
                 let middle = [column, row].map(|at| (at as f64 + 0.5) * SQUARE);
                 let middle = [self.origin[0] + middle[0], self.origin[1] + middle[1]];
-                // The corners of a square are 0.71 of its side from its middle.
+                // A square's corner is 0.71 of its side from its middle.
                 if outline.distance(middle) <= WIDE + 0.72 * SQUARE
                     && let Some(square) = self.squares.get_mut(row * self.size[0] + column)
                 {
@@ -91,7 +90,7 @@ impl FootprintIndex {
 }
 
 impl Footprint {
-    /// `None` where no part of the robot is between the solid's heights.
+    /// Footprint of a solid; `None` where no part of the robot is at its heights.
     pub(crate) fn new(solid: &Solid, discs: &[(f64, [f64; 2])]) -> Option<Self> {
         let up = solid.extent(&Vector3::z());
         let (low, high) = (solid.centre.z - up - MIN_CLEARANCE, solid.centre.z + up + MIN_CLEARANCE);
@@ -120,22 +119,22 @@ impl Footprint {
         })
     }
 
-    /// The middle of what is covered.
+    /// Centre in the map, in m.
     pub(crate) fn centre(&self) -> [f64; 2] {
         self.centre
     }
 
-    /// How far the obstacle goes from its middle, in m.
+    /// Greatest distance of its points from its centre, in m.
     pub(crate) fn reach(&self) -> f64 {
         libm::hypot(self.half[0], self.half[1]) + self.round
     }
 
-    /// How far the base's axis stays from the obstacle, in m.
+    /// Required distance of the base's axis, in m.
     pub(crate) fn keep_off(&self) -> f64 {
         self.keep_off
     }
 
-    /// How far the base's axis at a place is from where the robot may touch the obstacle, in m.
+    /// Clearance of the base's axis at a place, in m.
     pub(crate) fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let (x, y) = (x - self.centre[0], y - self.centre[1]);
         let [c, s] = self.side;
@@ -143,4 +142,24 @@ impl Footprint {
         let b = ((y * c - x * s).abs() - self.half[1]).max(0.0);
         (a * a + b * b).sqrt() - self.round - self.keep_off
     }
+}
+
+/// Cylinder about a vertical axis that holds a solid: its radius and its heights, in m.
+pub(crate) fn about_vertical(solid: &Solid, x: f64, y: f64) -> (f64, [f64; 2]) {
+    let up = solid.extent(&Vector3::z());
+    let aside = libm::hypot(solid.centre.x - x, solid.centre.y - y);
+    // Extent along the direction from the axis to the centre; a box's corners may be farther.
+    let wide = match solid.shape {
+        crate::collision::Shape::Capsule { radius, half }
+        | crate::collision::Shape::Cylinder { radius, half } => {
+            let [_, _, z] = &solid.axes;
+            let end = |sign: f64| {
+                let end = solid.centre + z * (half * sign);
+                libm::hypot(end.x - x, end.y - y)
+            };
+            end(1.0).max(end(-1.0)) + radius
+        }
+        crate::collision::Shape::Box(_) | crate::collision::Shape::HalfSpace => aside + solid.reach(),
+    };
+    (wide, [solid.centre.z - up, solid.centre.z + up])
 }

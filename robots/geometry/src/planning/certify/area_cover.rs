@@ -1,30 +1,31 @@
-//! Proofs that there is no place: that the base cannot come near enough to something whatever the arm does, and that a
-//! surface has no room for a thing.
+//! Infeasibility by area cover: the base cannot come near enough to an entity whatever the arm does, or a
+//! surface has no room for an object.
 //!
-//! Both cover the plane with squares. A square is dead where what is surely there of the robot or the thing, smaller by the
-//! farthest that any place in the square is from its middle, still touches something.
+//! Squares cover the plane. A square is dead where the certain core of the robot or object, deflated by
+//! half of the square's diagonal, is still in contact.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::motions::put::{ABOVE, SupportSurface};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::scene_state::HeldObject;
-use crate::planning::search::context::QueryContext;
+use crate::planning::scene::support_surface::{ABOVE, SupportSurface};
 
-/// A square's side in m, where the room is not too large for it.
+/// Side of a square in m, for scenes of up to [`CELLS`] squares a side.
 const CELL: f64 = 0.05;
-/// The most squares along a side.
+/// Greatest number of squares along a side.
 const CELLS: usize = 400;
-/// How far beyond everything squares go, in m.
+/// Margin of the cover around all obstacles, in m.
 const MARGIN: f64 = 0.6;
-/// How often a square of a surface is divided.
+/// Greatest number of divisions of a square on a surface.
 const DEPTH: u32 = 7;
 
-impl QueryContext<'_> {
-    /// Whether no way of the base leads from where it is to where `far`, which grows by at most 1 for 1, is within `reach`:
-    /// looked at is only the largest disc about the base's axis that is within a part no joint moves.
+impl PlanningScene<'_> {
+    /// Checks whether no route of the base leads within `reach` of a target, by the 1-Lipschitz distance
+    /// `far`. Sound for all arm configurations: it moves only the largest disc about the base's axis within
+    /// a part that no joint moves.
     pub(crate) fn is_shut_off(&self, around: [f64; 2], reach: f64, far: impl Fn(f64, f64) -> f64) -> bool {
         let Some((radius, height)) = self.core() else { return false };
         let walls: Vec<Solid> =
@@ -41,7 +42,7 @@ impl QueryContext<'_> {
                 (*low, *high) = (low.min(from), high.max(to));
             }
         }
-        // Around everything there is a ring in which it can always drive.
+        // In the ring around everything the base always drives.
         let margin = MARGIN + radius;
         let origin = low.map(|low| low - margin);
         let span = [high[0] - origin[0] + margin, high[1] - origin[1] + margin];
@@ -77,7 +78,8 @@ impl QueryContext<'_> {
         true
     }
 
-    /// The largest upright disc about the base's axis within one part that no joint moves: its radius and its height.
+    /// Radius and height of the largest upright disc about the base's axis within one part that no joint
+    /// moves.
     fn core(&self) -> Option<(f64, f64)> {
         let configuration = Configuration { base: [0.0; 3], joints: self.model.rest().to_vec() };
         let placed = self.body.placed(&self.model.map_from_links(&configuration));
@@ -104,7 +106,7 @@ impl QueryContext<'_> {
         best.filter(|(radius, _)| *radius > 2.0 * MIN_CLEARANCE)
     }
 
-    /// Whether no place on a surface is free for what is held, upright in any direction, as far within as it has to stand.
+    /// Checks whether no place on a surface is free for the held object, upright in any direction.
     pub(crate) fn is_full(&self, held: &HeldObject<'_>, on: &SupportSurface, index: usize) -> bool {
         let solid = Solid::new(&Isometry3::identity(), held.shape);
         let bottom = solid.extent(&Vector3::z());
@@ -113,7 +115,7 @@ impl QueryContext<'_> {
             Shape::Cylinder { radius, .. } | Shape::Capsule { radius, .. } => (radius, radius),
             Shape::HalfSpace => return false,
         };
-        // Of a round thing only the ball at its middle is sure to be as wide all over.
+        // A round object is as wide all over only within the ball at its middle.
         let tall = if matches!(held.shape, Shape::Capsule { .. }) { 0.0 } else { bottom };
         let others: Vec<&Solid> = self
             .obstacles
@@ -151,7 +153,7 @@ impl QueryContext<'_> {
     }
 }
 
-/// A solid where it is surely as wide at a height, as a flat slice; `None` where it is not there.
+/// Flat slice of a solid at a height at which it is surely as wide; `None` where it is not there.
 fn section(solid: &Solid, height: f64) -> Option<Solid> {
     const THIN: f64 = 1e-3;
     let [_, _, z] = &solid.axes;
@@ -171,7 +173,7 @@ fn section(solid: &Solid, height: f64) -> Option<Solid> {
     Some(Solid { centre, axes: solid.axes, shape })
 }
 
-/// A point of the base's axis.
+/// Point of the base's axis as a solid.
 fn disc(x: f64, y: f64, height: f64) -> Solid {
     let pose = Isometry3::from(Translation3::new(x, y, height));
     Solid::new(&pose, Shape::Capsule { radius: 0.0, half: 0.0 })

@@ -1,15 +1,16 @@
-//! Whether two solids touch wherever they are within some distance of where they are known to be: each is made smaller by as much as it
-//! can be off.
+//! Deflated solids: contact for all poses within a drift, since two solids are in contact wherever they
+//! move if the deflated ones are.
 
 use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
 use crate::planning::scene::contact::MIN_CLEARANCE;
 
-/// What may be off of places and lengths, in m: far more than rounding, and than what the axes of a URDF are off.
+/// Numerical slack of positions and lengths, in m: far more than rounding and than the error of a URDF's
+/// axes.
 pub(crate) const SLACK: f64 = 1e-5;
 
-/// A part where it is in the middle of a cell, and how far it can be from there.
+/// Part at the middle of a cell, with the bound of its drift.
 #[derive(Clone, Copy)]
 pub(crate) struct DeflatedPart {
     pub(crate) solid: Solid,
@@ -19,12 +20,13 @@ pub(crate) struct DeflatedPart {
 }
 
 impl DeflatedPart {
-    /// Whether it touches another solid, in which so large a ball is and which is in so large a one, wherever both are within their drifts.
+    /// Checks whether the part is in contact with a solid for all poses within both drifts. `inner` is the
+    /// radius of a ball within that solid, `reach` of one around it.
     #[inline]
     pub(crate) fn touches(&self, other: &Solid, inner: f64, reach: f64, drift: f64) -> bool {
         let off = drift + SLACK;
         let from_other = (off - self.inner).max(0.0);
-        // What is not known at all is off by more than any number.
+        // An unknown drift is NaN or infinite.
         if off.is_nan() || from_other >= inner {
             return false;
         }
@@ -38,7 +40,7 @@ impl DeflatedPart {
         one.is_nearer(&far, MIN_CLEARANCE)
     }
 
-    /// Whether it stays apart from another solid, around which so large a ball is, wherever both are within their drifts.
+    /// Checks whether the part is apart from a solid for all poses within both drifts.
     #[inline]
     pub(crate) fn is_apart(&self, other: &Solid, reach: f64, drift: f64) -> bool {
         let wide = self.reach + MIN_CLEARANCE + drift + SLACK;
@@ -48,8 +50,7 @@ impl DeflatedPart {
     }
 }
 
-/// Whether a place, seen from the centre of a solid, is farther from it than `far`, by the directions of a box: a ball there is
-/// not near it.
+/// Checks whether a ball is apart from a box, by the box's axes.
 #[inline]
 fn beyond(solid: &Solid, between: &Vector3<f64>, far: f64) -> bool {
     let Shape::Box(half) = solid.shape else { return false };
@@ -63,7 +64,7 @@ fn beyond(solid: &Solid, between: &Vector3<f64>, far: f64) -> bool {
     x * x + y * y + z * z > far * far
 }
 
-/// The radius of the greatest ball within a solid.
+/// Radius of the largest ball within a solid, in m.
 pub(crate) fn inner(solid: &Solid) -> f64 {
     match solid.shape {
         Shape::Box(half) => half.min(),
@@ -73,12 +74,12 @@ pub(crate) fn inner(solid: &Solid) -> f64 {
     }
 }
 
-/// The points of a solid that are so deep within it, at most as deep as the greatest ball.
+/// Points of a solid deeper than `depth`, at most the radius of its largest ball.
 fn within(solid: &Solid, depth: f64) -> Solid {
     resized(solid, |length| (length - depth).max(0.0))
 }
 
-/// A solid with its surface elsewhere: every length from the core of its shape to it is another one.
+/// Solid with its surface offset: `length` maps each distance from the core to the surface.
 pub(crate) fn resized(solid: &Solid, length: impl Fn(f64) -> f64) -> Solid {
     let shape = match solid.shape {
         Shape::Box(half) => Shape::Box(half.map(length)),
@@ -105,7 +106,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4096))]
 
-        /// What touches a board throughout does so wherever it is moved within its drift, and what is apart is so.
+        /// Deflation is sound: contact and separation hold for every pose within the drift.
         #[test]
         fn what_is_said_of_a_board_holds_for_all_that_is_near(
             at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
@@ -123,7 +124,7 @@ mod tests {
             let placed = DeflatedPart { solid: own, inner: inner(&own), reach: own.reach(), drift };
             let is_stuck = placed.touches(&board, inner(&board), board.reach(), drift);
             let is_apart = placed.is_apart(&board, board.reach(), drift);
-            // A turn about its centre and a shift that together are no more than the drift.
+            // A turn about its centre and a shift that together stay within the drift.
             let [x, y, z] = shift;
             let along = Vector3::new(x, y, z + 1e-3).normalize();
             let axis = Vector3::new(y, z, x + 1e-3).normalize();

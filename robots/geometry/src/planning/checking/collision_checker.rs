@@ -1,41 +1,43 @@
-//! Whether states, and straight ways along which nothing turns, are free among the things in a neighbourhood. Made once for
-//! a query. Ways along which something turns are in `way`.
+//! Collision checker for configurations and pure-translation edges against nearby obstacles. Built once a
+//! query. Edges along which a part turns are in `edge_check`.
+
+use std::cell::{OnceCell, RefCell};
 
 use nalgebra::Vector3;
 
 use crate::collision::Solid;
-use crate::planning::checking::prefilter::{PrefilterCache, SegmentCentres, other};
-use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::ContactTally;
-use crate::simd::NearPair;
+use crate::planning::context::QueryContext;
+use crate::planning::query::contact_tally::ContactTally;
+use crate::planning::scene::configuration::{Configuration, plane};
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
+use crate::simd::{BatchPair, NearPair, ObbSet, PairTarget, PosedBatch};
 
-/// A neighbourhood, and the robot in it.
+/// Collision checker: the robot's parts and the obstacles that they can touch around a place of the base.
 pub(crate) struct CollisionChecker<'r, 'w> {
     pub(crate) context: &'r QueryContext<'w>,
     pub(crate) limbs: Vec<CheckedPart>,
     pub(crate) obstacles: Vec<NearObstacle>,
-    /// The middle of the places where the base can be, and how far from it, in m.
+    /// Centre of the base positions that the checker covers, and their greatest distance from it, in m.
     place: [f64; 2],
     far: f64,
     pub(crate) quick: PrefilterCache,
 }
 
-/// What counts of a part of the robot.
+/// Flags of one part of the robot.
 #[derive(Clone, Copy)]
 pub(crate) struct CheckedPart {
     pub(crate) link: usize,
     pub(crate) reach: f64,
-    /// What does not move on a base that does not drive touches what it is bolted to.
+    /// Unset for a part that never moves: on a fixed base it touches what it is bolted to.
     pub(crate) counts: bool,
     pub(crate) is_carried: bool,
     in_hand: bool,
     is_held: bool,
 }
 
-/// A thing of the room.
+/// Obstacle within reach.
 pub(crate) struct NearObstacle {
     pub(crate) index: usize,
     pub(crate) entity: usize,
@@ -44,7 +46,7 @@ pub(crate) struct NearObstacle {
 }
 
 impl<'w> QueryContext<'w> {
-    /// What the robot can touch with its base no farther than `far` from a place, in m.
+    /// Checker for base positions within `far` m of a place.
     pub(crate) fn around(&self, place: [f64; 2], far: f64) -> CollisionChecker<'_, 'w> {
         let wide = far + self.model.extent() + self.held_reach() + MIN_CLEARANCE;
         let [x, y] = place;
@@ -69,15 +71,15 @@ impl<'w> QueryContext<'w> {
         }
     }
 
-    /// What the robot can touch on its way between two places of its base.
+    /// Checker for an edge.
     pub(crate) fn along(&self, from: &Configuration, to: &Configuration) -> CollisionChecker<'_, 'w> {
         let ([x, y, _], [to_x, to_y, _]) = (from.base, to.base);
         let middle = [(x + to_x) / 2.0, (y + to_y) / 2.0];
-        // With some to spare for rounding.
+        // Spare for rounding.
         self.around(middle, libm::hypot(to_x - x, to_y - y) / 2.0 + 1e-6)
     }
 
-    /// How far what is held adds to the robot.
+    /// Reach that the held object adds to the robot, in m.
     fn held_reach(&self) -> f64 {
         let part = self.held.and_then(|at| self.body.parts().get(at));
         part.map_or(0.0, |part| part.solid.centre.norm() + part.solid.reach())
@@ -105,8 +107,59 @@ impl<'w> QueryContext<'w> {
     }
 }
 
+impl QueryContext<'_> {
+    /// Contact at the start.
+    pub(crate) fn start_contact(&self) -> Option<&Contact> {
+        let robot = &self.state.robot;
+        // This check alone includes parts that never move against each other.
+        let find = || self.along(robot, robot).contact_exactly(robot, AllowedCollisions::default());
+        self.start_contact.get_or_init(find).as_ref()
+    }
+
+    /// First contact in a configuration, with a padding of [`MIN_CLEARANCE`]. O(parts × obstacles near).
+    #[must_use]
+    pub fn contact(&self, configuration: &Configuration, allowed: AllowedCollisions) -> Option<Contact> {
+        self.along(configuration, configuration).contact(configuration, allowed)
+    }
+
+    /// First contact in each configuration, checked in batches of eight: faster the nearer they are to each
+    /// other.
+    #[must_use]
+    pub fn contacts(
+        &self,
+        configurations: &[Configuration],
+        allowed: AllowedCollisions,
+    ) -> Vec<Option<Contact>> {
+        let checker = self.all_around(configurations, MIN_CLEARANCE);
+        let eights = configurations
+            .chunks(8)
+            .map(|configurations| configurations.iter().collect::<Vec<&Configuration>>());
+        eights.flat_map(|configurations| checker.contacts(&configurations, allowed)).collect()
+    }
+
+    /// Clearance to obstacles and floor, in m, at most 1.
+    #[must_use]
+    pub fn clearance(&self, configuration: &Configuration, allowed: AllowedCollisions) -> f64 {
+        self.around(plane(configuration), 1.0).clearance(configuration, allowed, 1.0)
+    }
+
+    /// Checks whether a whole edge is free, not only samples of it.
+    ///
+    /// # Errors
+    ///
+    /// The contact, or a pair that comes too near to be certified.
+    pub fn edge(
+        &self,
+        from: &Configuration,
+        to: &Configuration,
+        allowed: AllowedCollisions,
+    ) -> Result<(), Contact> {
+        self.along(from, to).edge(from, to, allowed)
+    }
+}
+
 impl CollisionChecker<'_, '_> {
-    /// The first touch in a state, with [`MIN_CLEARANCE`] between everything.
+    /// First contact in a configuration, with a padding of [`MIN_CLEARANCE`].
     pub(crate) fn contact(
         &self,
         configuration: &Configuration,
@@ -119,7 +172,7 @@ impl CollisionChecker<'_, '_> {
         }
     }
 
-    /// The same, pair by pair.
+    /// First contact in a configuration, pair by pair in `f64`.
     pub(crate) fn contact_exactly(
         &self,
         configuration: &Configuration,
@@ -132,7 +185,7 @@ impl CollisionChecker<'_, '_> {
         }
     }
 
-    /// The origin of the neighbourhood.
+    /// Origin of the neighbourhood.
     pub(crate) fn place(&self) -> [f64; 2] {
         self.place
     }
@@ -144,14 +197,14 @@ impl CollisionChecker<'_, '_> {
         found.map(|(part, other)| self.context.told(part, other))
     }
 
-    /// Whether the base is where this neighbourhood is enough.
+    /// Checks whether the checker covers the base of a configuration.
     pub(crate) fn holds(&self, configuration: &Configuration) -> bool {
         let [x, y, _] = configuration.base;
         let [a, b] = self.place;
         self.holds_off([x - a, y - b])
     }
 
-    /// The same for a base so far from the origin of the neighbourhood.
+    /// Checks whether the checker covers a base at an offset from its origin.
     pub(crate) fn holds_off(&self, [x, y]: [f64; 2]) -> bool {
         x * x + y * y <= self.far * self.far
     }
@@ -179,8 +232,7 @@ impl CollisionChecker<'_, '_> {
         })
     }
 
-    /// The least distance between the robot and what stands around, the floor included, where it is less than `least`; with the
-    /// base anywhere.
+    /// Clearance to obstacles and floor where it is less than `least`, with the base anywhere.
     pub(crate) fn clearance_at(
         &self,
         configuration: &Configuration,
@@ -188,7 +240,7 @@ impl CollisionChecker<'_, '_> {
         least: f64,
     ) -> f64 {
         let [x, y, _] = configuration.base;
-        // A neighbourhood is as large as the robot and says nothing of what is beyond.
+        // The neighbourhood is only as large as the robot's reach.
         let (dx, dy) = (x - self.place[0], y - self.place[1]);
         if (dx * dx + dy * dy).sqrt() + least <= self.far {
             self.clearance(configuration, allowed, least)
@@ -197,7 +249,7 @@ impl CollisionChecker<'_, '_> {
         }
     }
 
-    /// The least distance between the robot and what stands around, the floor included, where it is less than `least`.
+    /// Clearance to obstacles and floor where it is less than `least`.
     pub(crate) fn clearance(
         &self,
         configuration: &Configuration,
@@ -218,7 +270,7 @@ impl CollisionChecker<'_, '_> {
         least
     }
 
-    /// The least distance of some pairs of parts and what stands around in a state, where it is less than `least`.
+    /// Least distance of some pairs in a configuration, where it is less than `least`.
     pub(crate) fn clearance_among<'n>(
         &self,
         configuration: &Configuration,
@@ -250,7 +302,7 @@ impl CollisionChecker<'_, '_> {
         least
     }
 
-    /// A part of the robot in a state.
+    /// Solid of a part in a configuration.
     pub(crate) fn part_at(&self, part: usize, configuration: &Configuration) -> Option<Solid> {
         let (model, own) = (self.context.model, self.context.body.parts().get(part)?);
         let pose = model.map_from_root(configuration.base)
@@ -258,11 +310,11 @@ impl CollisionChecker<'_, '_> {
         Some(own.solid.moved(&pose))
     }
 
-    /// Whether the straight way between two states is free throughout.
+    /// Checks whether a whole edge is free.
     ///
     /// # Errors
     ///
-    /// What touches on the way, or comes so near that nothing certain can be said.
+    /// The contact, or a pair that comes too near to be certified.
     pub(crate) fn edge(
         &self,
         from: &Configuration,
@@ -275,7 +327,7 @@ impl CollisionChecker<'_, '_> {
         }
     }
 
-    /// Whether a way is free. What touches is noted.
+    /// Checks whether a path is free, and counts its contact.
     pub(crate) fn is_free(
         &self,
         way: &[Configuration],
@@ -294,7 +346,8 @@ impl CollisionChecker<'_, '_> {
 }
 
 impl CollisionChecker<'_, '_> {
-    /// Whether a straight way is free where nothing turns on it, so that what each part sweeps over is convex and one distance tells all.
+    /// Checks an edge along which nothing turns: the sweep of each part is convex, so that one distance
+    /// decides.
     pub(crate) fn swept(
         &self,
         from: &Configuration,
@@ -333,7 +386,7 @@ impl CollisionChecker<'_, '_> {
         context.body.pairs().iter().try_for_each(|[one, other]| look(*one, ContactTarget::Part(*other)))
     }
 
-    /// What a part touches while it moves straight, if it does: a thing as the room knows it.
+    /// Contact of one part while it moves straight, with the scene's index of an obstacle.
     fn touches_swept(
         &self,
         solids: &[(Solid, Vector3<f64>)],
@@ -351,7 +404,7 @@ impl CollisionChecker<'_, '_> {
             ContactTarget::Floor => (above_floor(solid) + shift.z.min(0.0) <= MIN_CLEARANCE).then_some(other),
             ContactTarget::Part(at) => {
                 let ((beyond, moved), far) = solids.get(at).zip(self.limbs.get(at))?;
-                // What goes along stays as far away as it is.
+                // Parts that move alike keep their distance.
                 let shift = shift - moved;
                 let is_touched = shift.norm_squared() > 0.0
                     && solid.swept_distance_to(&shift, limb.reach, beyond, far.reach, MIN_CLEARANCE)
@@ -362,27 +415,45 @@ impl CollisionChecker<'_, '_> {
     }
 }
 
-impl QueryContext<'_> {
-    /// Whether no part of the robot turns on the straight way between two states.
-    pub(crate) fn is_straight(&self, from: &Configuration, to: &Configuration) -> bool {
-        let ([_, _, yaw], [_, _, to_yaw]) = (from.base, to.base);
-        let values = from.joints.iter().zip(&to.joints).zip(self.model.turning());
-        yaw == to_yaw && values.into_iter().all(|((one, other), turns)| one == other || !turns)
-    }
-}
-
 impl CheckedPart {
     pub(crate) fn may_touch(&self, entity: usize, allowed: AllowedCollisions) -> bool {
         (self.in_hand && allowed.hand == Some(entity)) || (self.is_held && allowed.held == Some(entity))
     }
 }
 
-/// Whether two solids are no farther from each other than [`MIN_CLEARANCE`].
+/// Checks whether two solids are within [`MIN_CLEARANCE`] of each other.
 pub(crate) fn is_touching(one: &Solid, reach: f64, other: &Solid, other_reach: f64) -> bool {
     one.apart(reach, other, other_reach, [MIN_CLEARANCE, MIN_CLEARANCE], &mut Vector3::zeros())
         <= MIN_CLEARANCE
 }
 
-pub(crate) fn above_floor(solid: &Solid) -> f64 {
-    solid.centre.z - solid.extent(&Vector3::z())
+/// Prefilter data of a neighbourhood, filled at first use.
+#[derive(Default)]
+pub(crate) struct PrefilterCache {
+    pub(crate) obbs: OnceCell<Option<ObbSet>>,
+    /// Buffer for the placed robot, reused by the next check.
+    pub(crate) posed: RefCell<PosedBatch>,
+}
+
+/// Centres of eight segments of one length, as shares of the edge.
+#[derive(Clone, Copy)]
+pub(crate) struct SegmentCentres {
+    pub(crate) middles: [f64; 8],
+    /// Half of a segment's length.
+    pub(crate) half: f64,
+}
+
+impl SegmentCentres {
+    /// Eight segments of the whole edge.
+    pub(crate) const WHOLE: Self =
+        Self { middles: [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375], half: 0.0625 };
+}
+
+/// Other body of a batch pair.
+pub(crate) fn other(pair: &BatchPair) -> ContactTarget {
+    match pair.target {
+        PairTarget::Obb(at) => ContactTarget::Obstacle(at),
+        PairTarget::Part(at, _) => ContactTarget::Part(at),
+        PairTarget::Floor => ContactTarget::Floor,
+    }
 }

@@ -1,6 +1,8 @@
-//! Straight ways between two states, certified and not sampled: where every pair of solids is farther apart at the middle than
-//! both can come nearer until the ends, the whole of it is free; else it is halved, and only the pairs that were too near are
-//! looked at again.
+//! Continuous edge check, certified and not sampled.
+//!
+//! Where every pair of solids is farther apart at the middle of a segment than their motion bounds allow
+//! them to approach, the whole segment is free. Else it is halved, and only the undecided pairs are checked
+//! again (Schwarzer, Saha and Latombe 2005).
 
 use std::collections::VecDeque;
 
@@ -8,27 +10,27 @@ use nalgebra::Vector3;
 
 use crate::collision::Solid;
 use crate::kinematics::AncestorJoint;
-use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
+use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, other};
 use crate::planning::checking::motion_bound::MotionBound;
-use crate::planning::checking::prefilter::{SegmentCentres, other};
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
 use crate::simd::{self, NearPair};
 
-/// How often a way is halved before it counts as not free.
+/// Greatest number of halvings; an edge that needs more counts as blocked.
 const DEPTH: u32 = 10;
-/// As often halved, legs are no longer looked at eight at a time.
+/// Number of halvings from which on segments are checked one by one.
 const QUICK: u32 = 9;
-/// How often an eighth of a way is.
+/// Halvings of an eighth of an edge.
 const EIGHTH: u32 = 3;
 
 impl CollisionChecker<'_, '_> {
-    /// Whether the straight way between two free states is free throughout.
+    /// Checks whether the edge between two free configurations is free.
     ///
     /// # Errors
     ///
-    /// What touches on the way, or comes so near that nothing certain can be said.
+    /// The contact, or a pair that comes too near to be certified.
     pub(crate) fn between(
         &self,
         from: &Configuration,
@@ -52,7 +54,7 @@ impl CollisionChecker<'_, '_> {
             return self.swept(from, to, allowed);
         }
         let mut way = EdgeCheck::new(self, from, to);
-        // What is left to look at; the widest first finds a touch soonest.
+        // Undecided segments, the longest first: they meet a contact soonest.
         let mut open = VecDeque::new();
         let mut pairs: Vec<SolidPair> = Vec::new();
         if !self.prefilter_edge([from, to], allowed, &mut open, &mut pairs)? {
@@ -81,8 +83,8 @@ impl CollisionChecker<'_, '_> {
 }
 
 impl CollisionChecker<'_, '_> {
-    /// Looks at a way eight legs at a time: those on which something is near are left open, with the pairs that are. Whether it could
-    /// be looked at in this way at all.
+    /// Checks an edge in batches of eight segments and leaves those open that come near something. Returns
+    /// `false` where the batch model does not apply.
     fn prefilter_edge(
         &self,
         way: [&Configuration; 2],
@@ -113,7 +115,7 @@ impl CollisionChecker<'_, '_> {
         Ok(true)
     }
 
-    /// Adds eight legs where something is near on any; an error where something touches in the middle of one.
+    /// Keeps a batch where a segment comes near something; an error where the middle of one is in contact.
     fn add(
         &self,
         way: [&Configuration; 2],
@@ -127,7 +129,7 @@ impl CollisionChecker<'_, '_> {
         Ok(())
     }
 
-    /// Of the pairs that look as if they touch in the middle of a leg, whether one does.
+    /// Confirms in `f64` the contacts that a batch suspects at the middle of its segments.
     fn still(
         &self,
         [from, to]: [&Configuration; 2],
@@ -144,23 +146,23 @@ impl CollisionChecker<'_, '_> {
     }
 }
 
-/// Eight legs with the pairs that are near on any of them.
+/// Eight segments with the pairs that are near on any of them.
 struct SegmentBatch {
     legs: SegmentCentres,
-    /// How often the way was halved for them.
+    /// Number of halvings that led to them.
     depth: u32,
     near: Vec<NearPair>,
 }
 
 impl SegmentBatch {
-    /// The legs on which something is near.
+    /// Segments with a near pair.
     fn open(&self) -> impl Iterator<Item = usize> + use<> {
         let lanes = self.near.iter().fold(0, |lanes, met| lanes | met.lanes);
         (0..8).filter(move |lane| lanes >> lane & 1 == 1)
     }
 
-    /// Pieces of those, eight at a time: of four or fewer legs, each cut in as many as there is room for, with how often the way was halved
-    /// for them and the pairs to look at on them.
+    /// Halves of the open segments in batches of eight, with the number of halvings and the pairs to check.
+    /// Up to four segments a batch, each cut into as many pieces as fit.
     fn pieces(&self) -> impl Iterator<Item = (SegmentCentres, u32, Vec<(simd::BatchPair, u8)>)> {
         let mut open = self.open();
         std::iter::from_fn(move || {
@@ -193,22 +195,22 @@ impl SegmentBatch {
     }
 }
 
-/// A part where it is in the middle of a leg, and how far it goes from there.
+/// Part at the middle of a segment, with its motion bound.
 #[derive(Clone, Copy)]
 struct PlacedPart {
-    /// Of which leg.
+    /// Number of the segment for which it was placed.
     leg: usize,
     solid: Solid,
-    /// In the map.
+    /// Motion bound in the map, in m.
     whole: f64,
 }
 
-/// Two solids that are not known to stay apart: a part, and a near thing, another part or the floor.
+/// Undecided pair: a part, and an obstacle, another part or the floor.
 #[derive(Clone, Copy)]
 struct SolidPair {
     part: usize,
     other: ContactTarget,
-    /// A direction along which they were apart on the leg of which this is a half; 0 where none is known.
+    /// Separating direction of the parent segment; zero where none is known.
     axis: Vector3<f64>,
 }
 
@@ -218,20 +220,20 @@ impl SolidPair {
     }
 }
 
-/// A leg of a way: from `middle - half` to `middle + half`.
+/// Segment of an edge from `middle - half` to `middle + half`.
 struct Segment {
     middle: f64,
     half: f64,
     depth: u32,
-    /// Which pairs it has to look at; all for the first.
+    /// Range of its undecided pairs; `None` for all pairs.
     pairs: Option<[usize; 2]>,
 }
 
-/// A straight way, with the robot where it is in the middle of a leg.
+/// Check of one edge, with the robot at the middle of a segment.
 struct EdgeCheck<'a, 'r, 'w> {
     checker: &'a CollisionChecker<'r, 'w>,
     motion_bound: MotionBound<'a>,
-    /// The state in the middle.
+    /// Configuration at the middle.
     configuration: Configuration,
     along: crate::kinematics::EdgePoses,
     moved: Vec<PlacedPart>,
@@ -259,7 +261,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         model.tree().place_on_edge(&mut self.along, &root, &self.configuration.joints);
     }
 
-    /// Hands over every pair that may not touch.
+    /// Visits every pair that may not be in contact.
     fn all(
         &mut self,
         allowed: AllowedCollisions,
@@ -283,7 +285,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         Ok(())
     }
 
-    /// Looks at a pair: it touches, or stays apart on the whole leg, or has to be looked at again.
+    /// Checks a pair on a segment: in contact, free, or to be checked again on the halves.
     fn look(&mut self, mut pair: SolidPair, depth: u32, again: &mut Vec<SolidPair>) -> Result<(), Contact> {
         let checker = self.checker;
         let Some((one, limb)) = self.moved(pair.part).zip(checker.limbs.get(pair.part)) else {
@@ -320,7 +322,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         Ok(())
     }
 
-    /// How much two parts of the robot come nearer at most. What moves both moves them alike and does not count.
+    /// Approach bound of two parts. Joints that move both alike do not count.
     fn approach(&self, part: usize, solid: &Solid, other: usize, beyond: &Solid) -> f64 {
         let (context, limbs) = (self.checker.context, &self.checker.limbs);
         let Some((one, two)) = limbs.get(part).zip(limbs.get(other)) else { return 0.0 };
@@ -334,7 +336,7 @@ impl<'a, 'r, 'w> EdgeCheck<'a, 'r, 'w> {
         goes(ancestors, solid, one.reach) + goes(others, beyond, two.reach)
     }
 
-    /// A part where it is, and how far it goes.
+    /// Part at the middle of the segment, placed once.
     fn moved(&mut self, part: usize) -> Option<PlacedPart> {
         let known = self.moved.get(part)?;
         if known.leg == self.leg {

@@ -1,4 +1,4 @@
-//! The hand alone at a pose: what it touches there is in the way of every arm.
+//! Hand-only collision check: a contact of the hand alone excludes a grasp for every arm configuration.
 
 use std::cell::{OnceCell, RefCell};
 
@@ -6,39 +6,38 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use smol_str::SmolStr;
 
 use crate::collision::Solid;
-use crate::planning::checking::collision_checker::{above_floor, is_touching};
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact};
+use crate::planning::checking::collision_checker::is_touching;
+use crate::planning::scene::contact::{AllowedCollisions, Contact, MIN_CLEARANCE, above_floor};
 use crate::planning::scene::grid_index::Obstacle;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 use crate::simd::{BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
 
-/// An open hand without its arm, and what is near the thing that it goes around.
+/// Open hand without its arm, and the obstacles near the object that it grasps.
 pub(crate) struct HandChecker<'r, 'w> {
-    context: &'r QueryContext<'w>,
-    /// What is in the hand may touch this entity.
+    scene: &'r PlanningScene<'w>,
+    /// Entity that the held object may touch.
     beneath: Option<usize>,
     parts: Vec<HandPart>,
     obstacles: Vec<Obstacle>,
-    /// A place in the middle of the poses.
+    /// Mean position of the poses.
     middle: Vector3<f64>,
-    /// The same for a quick look, seen from there; made when it is first asked for.
+    /// Prefilter data seen from there, filled at first use; `None` where it does not apply.
     quick: OnceCell<Option<(BatchModel, ObbSet)>>,
     posed: RefCell<PosedBatch>,
 }
 
-/// A part of the hand, or what it holds.
+/// Part of the hand, or the held object.
 struct HandPart {
     link: usize,
     is_held: bool,
-    /// In the tip's frame.
+    /// Solid in the tip's frame.
     solid: Solid,
     reach: f64,
 }
 
-impl<'w> QueryContext<'w> {
-    /// The hand with its tip at any of some poses; `allowed` may be touched.
+impl<'w> PlanningScene<'w> {
+    /// Checker of the hand at any of some tip poses.
     pub(crate) fn palm(
         &self,
         hand: &HandModel,
@@ -46,7 +45,7 @@ impl<'w> QueryContext<'w> {
         allowed: AllowedCollisions,
     ) -> HandChecker<'_, 'w> {
         let joints = &self.state.robot.joints;
-        // Around something the fingers stay as they are.
+        // Fingers around a held object stay closed.
         let joints = if self.state.held.is_some() { joints.clone() } else { hand.opened(joints) };
         let poses = self.model.tree().root_from_links(&joints);
         let tip_from_root = poses.get(hand.tip).map(Isometry3::inverse).unwrap_or_default();
@@ -57,7 +56,7 @@ impl<'w> QueryContext<'w> {
             Some(HandPart { link: part.link, is_held: self.held == Some(at), solid, reach: solid.reach() })
         });
         let parts: Vec<HandPart> = parts.collect();
-        // The tip is this near to the middle of the poses, and a part reaches so far from the tip.
+        // Bound on the distance of any hand point from the mean position.
         let places = tips.iter().map(|tip| tip.translation.vector);
         let centre = places.clone().sum::<Vector3<f64>>() / (tips.len().max(1) as f64);
         let far = places.map(|place| (place - centre).norm()).fold(0.0, f64::max);
@@ -71,7 +70,7 @@ impl<'w> QueryContext<'w> {
         let obstacles: Vec<Obstacle> = near.map(|(_, obstacle)| *obstacle).collect();
         let middle = Vector3::new(centre.x, centre.y, 0.0);
         HandChecker {
-            context: self,
+            scene: self,
             beneath: allowed.held,
             parts,
             obstacles,
@@ -83,7 +82,7 @@ impl<'w> QueryContext<'w> {
 }
 
 impl HandChecker<'_, '_> {
-    /// What it touches at some poses, at most eight.
+    /// First contact at each of up to eight poses.
     pub(crate) fn contacts(&self, map_from_tips: &[Isometry3<f64>]) -> Vec<Option<Contact>> {
         let Some(near) = self.near(map_from_tips) else {
             return map_from_tips.iter().map(|tip| self.contact(tip)).collect();
@@ -96,7 +95,7 @@ impl HandChecker<'_, '_> {
         map_from_tips.iter().zip(0..).map(contact).collect()
     }
 
-    /// `None` where something is too large, or has no box and is known to be apart from nothing.
+    /// Batch model of the hand and the obstacles; `None` where one is too large or has no box.
     fn quick(&self) -> Option<&(BatchModel, ObbSet)> {
         let place = [self.middle.x, self.middle.y];
         let make = || {
@@ -108,7 +107,7 @@ impl HandChecker<'_, '_> {
         self.quick.get_or_init(make).as_ref()
     }
 
-    /// The pairs that are near each other at some poses; `None` where it cannot be told this way.
+    /// Pairs that are near each other at some poses; `None` where the prefilter does not apply.
     fn near(&self, map_from_tips: &[Isometry3<f64>]) -> Option<Vec<NearPair>> {
         let (batch_model, obbs) = self.quick()?;
         let seen = |tip: &Isometry3<f64>| {
@@ -132,7 +131,7 @@ impl HandChecker<'_, '_> {
         Some(look.near_pairs())
     }
 
-    /// Whether a part touches something at a pose.
+    /// Checks whether a pair is in contact at a pose.
     fn is_touching(&self, met: &NearPair, map_from_tip: &Isometry3<f64>) -> bool {
         let Some(own) = self.parts.get(met.pair.part) else { return false };
         let solid = own.solid.moved(map_from_tip);
@@ -146,12 +145,12 @@ impl HandChecker<'_, '_> {
         }
     }
 
-    /// What is told of a pair that touches.
+    /// Contact of a pair.
     fn told(&self, met: &NearPair) -> Option<Contact> {
         let own = self.parts.get(met.pair.part)?;
         match met.pair.target {
             PairTarget::Obb(at) => {
-                Some(self.contact_of(own, self.context.name(self.obstacles.get(at)?.entity)))
+                Some(self.contact_of(own, self.scene.name(self.obstacles.get(at)?.entity)))
             }
             PairTarget::Floor => Some(self.contact_of(own, "floor".into())),
             PairTarget::Part(..) => None,
@@ -159,11 +158,11 @@ impl HandChecker<'_, '_> {
     }
 
     fn contact_of(&self, own: &HandPart, other: SmolStr) -> Contact {
-        let link = self.context.model.tree().links().get(own.link).cloned().unwrap_or_default();
+        let link = self.scene.model.tree().links().get(own.link).cloned().unwrap_or_default();
         Contact { link, other, is_own: false }
     }
 
-    /// What it touches.
+    /// First contact at a pose.
     pub(crate) fn contact(&self, map_from_tip: &Isometry3<f64>) -> Option<Contact> {
         for own in &self.parts {
             let solid = own.solid.moved(map_from_tip);
@@ -172,7 +171,7 @@ impl HandChecker<'_, '_> {
                     continue;
                 }
                 if is_touching(&solid, own.reach, &obstacle.solid, obstacle.reach) {
-                    return Some(self.contact_of(own, self.context.name(obstacle.entity)));
+                    return Some(self.contact_of(own, self.scene.name(obstacle.entity)));
                 }
             }
             if above_floor(&solid) <= MIN_CLEARANCE {

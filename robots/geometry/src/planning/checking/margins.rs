@@ -1,19 +1,18 @@
-//! Room to spare along a path.
+//! Margins of a path: its clearance and the distance to joint limits.
 
 use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::context::QueryContext;
 use crate::planning::query::answer::Margins;
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::plane;
 use crate::simd::NearPair;
 
-/// Clearances within which something is looked for first, in m, and then.
+/// Clearances to try first, in m, in two batches.
 const NEARBY: [[f32; 8]; 2] =
     [[0.003, 0.005, 0.007, 0.01, 0.013, 0.017, 0.022, 0.03], [0.04, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16, 0.2]];
 
 impl<'w> QueryContext<'w> {
-    /// All that may be within `metres` of the robot in some states.
+    /// Checker for everything within `metres` of the robot in some configurations.
     pub(crate) fn all_around(
         &self,
         configurations: &[Configuration],
@@ -31,7 +30,7 @@ impl<'w> QueryContext<'w> {
 }
 
 impl QueryContext<'_> {
-    /// Room to spare along a path.
+    /// Margins of a path.
     pub(crate) fn margins(&self, path: &[Configuration], allowed: AllowedCollisions) -> Margins {
         let [x, y] = path.last().map_or([0.0; 2], plane);
         self.around([x, y], 1.0).margins(path, allowed)
@@ -39,9 +38,9 @@ impl QueryContext<'_> {
 }
 
 impl CollisionChecker<'_, '_> {
-    /// Room to spare along a path, at its way-points and half-way between them.
+    /// Margins of a path, sampled at its way-points and half-way between them.
     pub(crate) fn margins(&self, path: &[Configuration], allowed: AllowedCollisions) -> Margins {
-        // The last states are where it is tightest, most often: after them little is looked at closely.
+        // The goal is usually the tightest, so it rules out most of the rest.
         let mut clearance = path.last().map_or(1.0, |last| self.clearance_of(last, allowed));
         let mut configurations: Vec<Configuration> = Vec::with_capacity(2 * path.len());
         for pair in path.windows(2).rev() {
@@ -51,7 +50,7 @@ impl CollisionChecker<'_, '_> {
         for configurations in configurations.chunks(8) {
             let checker = self.context.all_around(configurations, clearance);
             let all: Vec<&Configuration> = configurations.iter().collect();
-            // Rounded up.
+            // Rounded up, so that the prefilter keeps every pair.
             let metres = (clearance * (1.0 + 1e-6)) as f32;
             let near = checker.within(&all, allowed, [metres; 8]);
             for (configuration, lane) in configurations.iter().zip(0..) {
@@ -62,7 +61,7 @@ impl CollisionChecker<'_, '_> {
             }
         }
         let dofs = self.context.model.tree().dofs().iter();
-        // An open hand is at its limit by intent.
+        // The joints of an open hand are at their limits by intent.
         let hand = self.context.model.hand();
         let is_finger = |at: usize| hand.is_some_and(|hand| hand.open.iter().any(|(own, _)| *own == at));
         let ends = path.first().zip(path.last());
@@ -74,7 +73,7 @@ impl CollisionChecker<'_, '_> {
         Margins { clearance, limit: rooms.reduce(f64::min), payload: None }
     }
 
-    /// The clearance of a state, looked for nearby first.
+    /// Clearance of a configuration, with the nearest obstacles first.
     fn clearance_of(&self, configuration: &Configuration, allowed: AllowedCollisions) -> f64 {
         for nearby in NEARBY {
             let Some(near) = self.within(&[configuration], allowed, nearby) else { break };
@@ -89,7 +88,7 @@ impl CollisionChecker<'_, '_> {
     }
 }
 
-/// The pairs that may be near in one of eight states.
+/// Pairs that may be near in one lane of a batch.
 fn in_lane(near: &[NearPair], lane: usize) -> impl Iterator<Item = &NearPair> {
     near.iter().filter(move |near| near.still >> lane & 1 == 1)
 }

@@ -1,5 +1,8 @@
-//! How far the robot goes on a leg, bounded joint by joint from the link outwards: a joint that turns by `a` moves a point at
-//! a distance `r` from its axis by at most `a r`.
+//! Motion bound: an upper bound for the distance that a part moves along a segment of an edge (Schwarzer,
+//! Saha and Latombe 2005).
+//!
+//! The bound adds up joint by joint from the link outwards: a joint that turns by `a` moves a point at a
+//! distance `r` from its axis by at most `a r`.
 
 use nalgebra::Isometry3;
 
@@ -7,18 +10,18 @@ use crate::collision::Solid;
 use crate::kinematics::AncestorJoint;
 use crate::planning::scene::configuration::Configuration;
 
-/// A leg of the straight way between two states, seen from its middle.
+/// Motion bounds on one segment of an edge, from its middle to either end.
 #[derive(Clone, Copy)]
 pub(crate) struct MotionBound<'a> {
     pub(crate) from: &'a Configuration,
     pub(crate) to: &'a Configuration,
-    /// From the middle to either end, as a share of the whole way.
+    /// Half of the segment's length as a share of the edge.
     pub(crate) half: f64,
 }
 
 impl MotionBound<'_> {
-    /// How far any point of a solid goes at most while levers move it, until the ends of the leg. Links are where `poses` say,
-    /// and a ball of the radius `reach` about its centre holds the solid.
+    /// Greatest distance in m that a point of a solid moves by some joints. `poses` are the link poses at
+    /// the middle; a ball of radius `reach` about its centre holds the solid.
     pub(crate) fn by(
         &self,
         ancestors: &[AncestorJoint],
@@ -48,7 +51,7 @@ impl MotionBound<'_> {
         goes
     }
 
-    /// The same in the map, with the base in the middle of the leg at `base`.
+    /// Greatest distance in the map, which adds the motion of the base.
     pub(crate) fn in_map(
         &self,
         base: [f64; 3],

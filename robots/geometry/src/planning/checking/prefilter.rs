@@ -1,29 +1,20 @@
-//! States and ways looked at eight at a time before they are looked at one by one: what is apart for certain in `f32` is left
-//! out, so that only what is near is looked at in `f64`.
+//! Broad phase in batches of eight: drops the pairs that are apart for certain in `f32`, so that `f64`
+//! decides the near ones only.
 
-use std::cell::{OnceCell, RefCell};
-
-use crate::planning::checking::collision_checker::{CollisionChecker, is_touching};
+use crate::planning::checking::collision_checker::{CollisionChecker, SegmentCentres, is_touching, other};
+use crate::planning::context::QueryContext;
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::scene::contact::MIN_CLEARANCE;
-use crate::planning::scene::contact::{AllowedCollisions, Contact, ContactTarget};
-use crate::planning::search::context::QueryContext;
-use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
+use crate::planning::scene::contact::{
+    AllowedCollisions, Contact, ContactTarget, MIN_CLEARANCE, above_floor,
+};
+use crate::simd::{Batch8, BatchCheck, BatchModel, BatchPair, NearPair, Obb, ObbSet};
 
-/// What the quick look needs of a neighbourhood, made when it is first asked for.
-#[derive(Default)]
-pub(crate) struct PrefilterCache {
-    obbs: OnceCell<Option<ObbSet>>,
-    /// Where the robot was placed last: nothing but room for the next time.
-    posed: RefCell<PosedBatch>,
-}
-
-/// What counts as near.
+/// Distances that count as near.
 #[derive(Clone, Copy)]
 struct NearRange {
-    /// In each of eight states, in m.
+    /// Distance for each configuration of the batch, in m.
     metres: [f32; 8],
-    /// Whether the parts of the robot count among each other.
+    /// Set where pairs of the robot's own parts count.
     is_own: bool,
 }
 
@@ -31,25 +22,12 @@ impl NearRange {
     const LEAST: Self = Self { metres: [MIN_CLEARANCE as f32; 8], is_own: true };
 }
 
-/// Eight legs of a way, all of a length, as shares of it.
-#[derive(Clone, Copy)]
-pub(crate) struct SegmentCentres {
-    pub(crate) middles: [f64; 8],
-    /// Half of the length of each.
-    pub(crate) half: f64,
-}
-
-impl SegmentCentres {
-    /// Those of a whole way, one after the other.
-    pub(crate) const WHOLE: Self =
-        Self { middles: [0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375], half: 0.0625 };
-}
-
 impl QueryContext<'_> {
-    /// The robot with the joints that a hand, its arm and the postures move; `None` where it is not simple enough.
+    /// Batch model of the robot, whose free joints are those of the hand, its arm and the postures; `None`
+    /// where the robot has no such model.
     pub(crate) fn batch_model(&self) -> Option<&BatchModel> {
         let make = || {
-            // Pairs that never move against each other are as apart as at the start.
+            // Pairs that never move against each other keep the distance that they have at the start.
             if self.start_contact().is_some() {
                 return None;
             }
@@ -72,7 +50,8 @@ impl QueryContext<'_> {
         Some(batch_model)
     }
 
-    /// Whether all but the joints of the figure are as at the start, and the robot itself is free there.
+    /// Checks whether the batch model represents a configuration: joints that it holds still are as at the
+    /// start.
     fn is_drawn(&self, configuration: &Configuration) -> bool {
         let Some(Some((_, free))) = self.batch_model.get() else { return false };
         let values = configuration.joints.iter().zip(&self.state.robot.joints).zip(free);
@@ -89,7 +68,7 @@ impl CollisionChecker<'_, '_> {
         self.quick.obbs.get_or_init(make).as_ref()
     }
 
-    /// The pairs that are near each other in some states, at most eight: `None` where it cannot be told this way.
+    /// Near pairs in up to eight configurations; `None` where the prefilter does not apply.
     pub(crate) fn near_in(
         &self,
         configurations: &[&Configuration],
@@ -99,8 +78,7 @@ impl CollisionChecker<'_, '_> {
         self.near(batch_model, &self.batch(batch_model, configurations)?, allowed, None, NearRange::LEAST)
     }
 
-    /// The pairs that are near each other on eight legs of a way; where some are given, of these only, each on those legs of which its
-    /// bit is set in `lanes`.
+    /// Near pairs on eight segments of an edge. With `pairs`, only of those, on the lanes of their bits.
     pub(crate) fn near_on(
         &self,
         way: [&Configuration; 2],
@@ -118,8 +96,8 @@ impl CollisionChecker<'_, '_> {
         if is_within { self.near(batch_model, &batch, allowed, pairs, NearRange::LEAST) } else { None }
     }
 
-    /// What stands around, or the floor, that may be within so many metres of the robot in each of some states, at most eight; `None`
-    /// where it cannot be told this way.
+    /// Obstacles and floor within some distances of up to eight configurations; `None` where the prefilter
+    /// does not apply.
     pub(crate) fn within(
         &self,
         configurations: &[&Configuration],
@@ -139,7 +117,7 @@ impl CollisionChecker<'_, '_> {
         )
     }
 
-    /// Some states, at most eight, the first again for what is left.
+    /// Batch of up to eight configurations; the first fills the rest.
     fn batch(&self, batch_model: &BatchModel, configurations: &[&Configuration]) -> Option<Batch8> {
         let first = configurations.first()?;
         let mut batch = batch_model.batch();
@@ -151,13 +129,13 @@ impl CollisionChecker<'_, '_> {
         (0..8).all(set).then_some(batch)
     }
 
-    /// A pose of the base from the origin of the neighbourhood.
+    /// Base pose relative to the origin of the neighbourhood.
     fn seen(&self, [x, y, yaw]: [f64; 3]) -> [f64; 3] {
         let [a, b] = self.place();
         [x - a, y - b, yaw]
     }
 
-    /// The pairs that are near each other in eight states.
+    /// Near pairs in a batch.
     pub(crate) fn near_to(
         &self,
         batch_model: &BatchModel,
@@ -189,7 +167,7 @@ impl CollisionChecker<'_, '_> {
             obbs,
             gaps: gap.metres,
             is_own: gap.is_own,
-            // Where a clearance is looked for, all that is near counts.
+            // A clearance needs all near pairs, not only the first.
             is_first: gap.is_own,
             pairs,
             posed: &mut posed,
@@ -198,7 +176,7 @@ impl CollisionChecker<'_, '_> {
         Some(look.near_pairs())
     }
 
-    /// The first touch in the first of some states that touches anything, with [`MIN_CLEARANCE`] between everything.
+    /// First contact in the first configuration that has one.
     pub(crate) fn first_contact(
         &self,
         configurations: &[&Configuration],
@@ -209,7 +187,7 @@ impl CollisionChecker<'_, '_> {
             .find_map(|configurations| self.contacts(configurations, allowed).into_iter().flatten().next())
     }
 
-    /// The first touch in each of at most eight states.
+    /// First contact in each of up to eight configurations.
     pub(crate) fn contacts(
         &self,
         configurations: &[&Configuration],
@@ -229,7 +207,8 @@ impl CollisionChecker<'_, '_> {
             .collect()
     }
 
-    /// Which of some pairs touches in a state, which is one of those looked at: what is certain first, which costs nothing more.
+    /// First contact among near pairs in one configuration: certain contacts first, which need no check in
+    /// `f64`.
     pub(crate) fn contact_among(
         &self,
         near: &[NearPair],
@@ -243,7 +222,7 @@ impl CollisionChecker<'_, '_> {
         })
     }
 
-    /// The touch of a pair that touches.
+    /// Contact of a near pair.
     pub(crate) fn told(&self, near: &NearPair) -> Contact {
         let other = match other(&near.pair) {
             ContactTarget::Obstacle(at) => {
@@ -254,7 +233,7 @@ impl CollisionChecker<'_, '_> {
         self.context.told(near.pair.part, other)
     }
 
-    /// Whether a pair touches in a state.
+    /// Checks a near pair in `f64`.
     pub(crate) fn contact_of(&self, near: &NearPair, configuration: &Configuration) -> Option<Contact> {
         let solid = |part: usize| Some((self.part_at(part, configuration)?, self.limbs.get(part)?));
         let (one, limb) = solid(near.pair.part)?;
@@ -267,19 +246,8 @@ impl CollisionChecker<'_, '_> {
                 let (other, beyond) = solid(at)?;
                 is_touching(&one, limb.reach, &other, beyond.reach)
             }
-            ContactTarget::Floor => {
-                crate::planning::checking::collision_checker::above_floor(&one) <= MIN_CLEARANCE
-            }
+            ContactTarget::Floor => above_floor(&one) <= MIN_CLEARANCE,
         };
         is_touched.then(|| self.told(near))
-    }
-}
-
-/// What a part is near to.
-pub(crate) fn other(pair: &BatchPair) -> ContactTarget {
-    match pair.target {
-        PairTarget::Obb(at) => ContactTarget::Obstacle(at),
-        PairTarget::Part(at, _) => ContactTarget::Part(at),
-        PairTarget::Floor => ContactTarget::Floor,
     }
 }

@@ -1,7 +1,7 @@
-//! How a thing can be held: poses of the hand's tip, from the shape of the thing and the opening of the hand.
+//! Grasp candidates: hand poses from the shape of an object and the opening of the hand.
 //!
-//! The fingers close across the thing on a line through its axis or its centre; its near face is as close to the palm as it can
-//! be, but no nearer than where its centre is between the finger tips.
+//! The fingers close across the object on a line through its axis or its centre. Its near face is as close
+//! to the palm as possible, with its centre no nearer than between the finger tips.
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -12,26 +12,26 @@ use crate::planning::query::answer::GraspSide;
 use crate::planning::scene::robot_model::HandModel;
 use crate::trigonometry::{sin_cos, turn};
 
-/// How far the fingers have to reach along a thing with flat faces, in m.
+/// Overlap of the fingers with a flat face, in m.
 pub(crate) const GRIP: f64 = 0.01;
-/// How far they may stay behind the widest place of a round thing, as a share of its radius: the sine of the angle of friction
-/// of rubber on most things, with some to spare.
+/// Greatest distance of the finger tips behind the widest point of a round object, as a share of its
+/// radius: the sine of the friction angle of rubber on most materials, with some to spare.
 pub(crate) const SHORT: f64 = 0.35;
 
-/// What points down more than this comes from above: the cosine of 35°.
+/// Cosine bound of a grasp from above: approaches steeper than 35° from straight down.
 pub(crate) const TOP: f64 = -0.819;
 
-/// A pose of the hand.
+/// Grasp candidate: a hand pose with its approach and the width of the object there.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct GraspCandidate {
     pub(crate) map_from_tip: Isometry3<f64>,
-    /// The direction in which the fingers point.
+    /// Unit vector along which the fingers point.
     pub(crate) approach: Vector3<f64>,
     pub(crate) side: GraspSide,
     pub(crate) width: f64,
 }
 
-/// Every pose that is considered, in a fixed order, and the least width across which the thing could be held.
+/// All candidates in a fixed order, and the least width across which the object could be grasped, in m.
 pub(crate) fn grasp_candidates(
     hand: &HandModel,
     object: &Solid,
@@ -44,7 +44,7 @@ pub(crate) fn grasp_candidates(
         Shape::Box(half) => found.of_box(&half),
         Shape::Cylinder { radius, half } => {
             found.around(&z, radius, half);
-            // By its rim, across its height: so is a plate held.
+            // Across the height at the rim, as for a plate.
             for step in 0..16 {
                 let out = turn(&Unit::new_normalize(z), TAU * f64::from(step) / 16.0) * x;
                 found.add(&-out, &z, 2.0 * half, FingerContact::Flat);
@@ -67,28 +67,28 @@ pub(crate) fn grasp_candidates(
     (holds, least)
 }
 
-/// Whether fingers point within 45° of a direction in the plane.
+/// Checks whether the fingers point within 45° of a direction in the plane.
 pub(crate) fn is_ahead(approach: &Vector3<f64>, [x, y]: [f64; 2]) -> bool {
     let flat = libm::hypot(approach.x, approach.y);
     approach.x * x + approach.y * y >= std::f64::consts::FRAC_1_SQRT_2 * flat * libm::hypot(x, y)
 }
 
-/// What the fingers meet.
+/// Shape between the fingers.
 #[derive(Clone, Copy, PartialEq)]
 enum FingerContact {
-    /// It is widest at its centre.
+    /// Widest at its centre.
     Round,
-    /// It is as wide all along.
+    /// Equally wide along the fingers.
     Flat,
 }
 
-/// Fingers that go around a thing, wherever along it they do.
+/// Finger placement around an object, free along its axis.
 struct FingerPlacement {
     approach: Vector3<f64>,
     along: Vector3<f64>,
     width: f64,
     side: GraspSide,
-    /// How far the centre is from the tip, and how far it may be from above.
+    /// Distance of the object's centre from the tip, and the greatest one for a grasp from above.
     depth: f64,
     shallow: Option<f64>,
     rotation: UnitQuaternion<f64>,
@@ -102,9 +102,9 @@ struct CandidateList<'a> {
 }
 
 impl CandidateList<'_> {
-    /// Around an axis, level and bent down towards its lower end, and along it from either end.
+    /// Adds grasps around an axis, level and bent towards its lower end, and along it from either end.
     fn around(&mut self, axis: &Vector3<f64>, radius: f64, half: f64) {
-        // Downwards, where the axis stands.
+        // Downwards for an upright axis.
         let down = if axis.z > 0.0 { -axis } else { *axis };
         let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
         let first = square.normalize();
@@ -117,7 +117,7 @@ impl CandidateList<'_> {
             for out in &outs {
                 let approach = down * sin - out * cos;
                 let along = axis.cross(out);
-                // Bent, the fingers still close across the axis, and meet it where it is widest.
+                // Bent fingers still close across the axis at the widest place.
                 let ways = [along, -along]
                     .map(|along| self.way(&approach, &along, 2.0 * radius, FingerContact::Round));
                 for height in heights {
@@ -155,14 +155,15 @@ impl CandidateList<'_> {
         }
     }
 
-    /// Around its middle.
+    /// Adds grasps around the centre.
     fn add(&mut self, approach: &Vector3<f64>, along: &Vector3<f64>, width: f64, grip: FingerContact) {
         if let Some(way) = self.way(approach, along, width, grip) {
             self.hold(&way, Vector3::zeros());
         }
     }
 
-    /// Fingers that point along `approach` and close along `along`; `None` where they do not go around the thing.
+    /// Placement with an approach and a closing direction; `None` where the fingers do not reach around the
+    /// object.
     fn way(
         &mut self,
         approach: &Vector3<f64>,
@@ -170,7 +171,7 @@ impl CandidateList<'_> {
         width: f64,
         grip: FingerContact,
     ) -> Option<FingerPlacement> {
-        // From below there is no way for a hand.
+        // A hand never comes from below.
         if approach.z > 0.5 {
             return None;
         }
@@ -180,13 +181,13 @@ impl CandidateList<'_> {
         }
         let half = match grip {
             FingerContact::Flat => self.object.extent(approach),
-            // Bent towards a long thing the palm meets its side, not its end.
+            // Bent towards a long object, the palm meets its side before its end.
             FingerContact::Round => {
                 (width / 2.0).max(self.object.extent(approach).min(self.side_extent(approach)))
             }
         };
         let depth = (self.hand.palm + half).max(0.0);
-        // How far the centre may be from the tip at most, so that the fingers still hold.
+        // Greatest distance of the centre from the tip at which the fingers still hold.
         let most = match grip {
             FingerContact::Round => self.hand.fingers + SHORT * width / 2.0,
             FingerContact::Flat => self.hand.fingers + half - GRIP.min(half),
@@ -195,13 +196,13 @@ impl CandidateList<'_> {
             return None;
         }
         let side = if approach.z < TOP { GraspSide::Top } else { GraspSide::Side };
-        // From above the finger tips may have to stay above what the thing stands on.
+        // From above, the finger tips may have to stay above the support.
         let shallow = (side == GraspSide::Top && most > depth + 0.005).then_some(most);
         let rotation = self.hand.turned(approach, along);
         Some(FingerPlacement { approach: *approach, along: *along, width, side, depth, shallow, rotation })
     }
 
-    /// Around a place so far from its middle.
+    /// Adds the grasps at a shift from the centre.
     fn hold(&mut self, way: &FingerPlacement, shift: Vector3<f64>) {
         let FingerPlacement { approach, along, width, side, rotation, .. } = *way;
         for depth in [way.depth].into_iter().chain(way.shallow) {

@@ -1,5 +1,7 @@
-//! All ways to hold a thing, and not only those that a search goes through: families of poses of the hand with up to four parameters,
-//! which a proof that there is no way has to cover. What makes a pose a grasp is what does in `grasp`.
+//! Grasp manifold: all grasps of an object, as families of hand poses with up to four parameters.
+//!
+//! A search samples grasps (`candidates`); an infeasibility certificate has to cover all of them. The two
+//! agree on which poses are grasps.
 
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 
@@ -12,61 +14,61 @@ use crate::planning::query::answer::GraspSide;
 use crate::planning::scene::robot_model::HandModel;
 use crate::trigonometry::{atan2, sin_cos, turn, wrapped};
 
-/// What rounding may take of an angle or a length.
+/// Numerical slack of an angle or a length.
 const SLACK: f64 = 1e-6;
 
-/// How far behind the palm an arm's wrist is, about, in m.
+/// Typical distance of an arm's wrist behind the palm, in m.
 const WRIST: f64 = 0.25;
 
-/// The ways to hold a thing with a hand.
+/// All grasps of one object with one hand.
 pub(crate) struct GraspManifold<'a> {
     hand: &'a HandModel,
     object: Solid,
     side: Option<GraspSide>,
-    /// From the base to the thing, in the plane.
+    /// Direction from the base to the object, in the plane.
     ahead: [f64; 2],
     slots: Vec<GraspFamily>,
 }
 
-/// A part of the poses of a family.
+/// Patch: a box of parameters of one family.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GraspPatch {
     slot: usize,
-    /// The angle about the thing's axis, how far the fingers are bent down, where along the thing in −1..=1, and how far from as deep as
-    /// can be to as shallow as can be.
+    /// Parameters: the angle about the object's axis, the bend of the fingers, the place along the object
+    /// in −1..=1, and the depth from 0, the deepest, to 1, the shallowest.
     middle: [f64; 4],
     half: [f64; 4],
 }
 
-/// A family of poses.
+/// Family of grasps with the same placement of the fingers.
 #[derive(Clone, Copy)]
 struct GraspFamily {
     kind: FamilyKind,
     width: f64,
-    /// Along which the place goes, and how far.
+    /// Half of the extent over which the place varies, as a vector.
     along: Vector3<f64>,
     low: [f64; 4],
     high: [f64; 4],
-    /// Whether poses are from above; `None` where some are.
+    /// Set where all poses are from above, unset where none is; `None` for a mixture.
     is_top: Option<bool>,
 }
 
 #[derive(Clone, Copy)]
 enum FamilyKind {
-    /// Around an axis from its side: downwards along it, and a direction square to it; closing to one side or the other.
+    /// Around an axis from its side, closing to one side or the other.
     Around { down: Vector3<f64>, first: Vector3<f64>, sign: f64 },
     /// Along an axis, turned about it.
     End { down: Vector3<f64>, first: Vector3<f64>, is_round: bool },
     /// From the side of a disc, across its height.
     Rim { first: Vector3<f64>, across: Vector3<f64> },
-    /// Straight.
+    /// A single approach and closing direction.
     Flat { approach: Vector3<f64>, across: Vector3<f64> },
-    /// Around a bar before a face, which faces outwards: so deep, closing to one side or the other.
+    /// Around a bar before a face, at a depth, closing to one side or the other.
     Bar { along: Vector3<f64>, out: Vector3<f64>, depth: f64, sign: f64 },
 }
 
 impl<'a> GraspManifold<'a> {
-    /// The ways to hold a thing from a side, with the base where it is.
+    /// Grasps of an object from a side, or from any, with the base at a pose.
     pub(crate) fn new(
         hand: &'a HandModel,
         object: &Solid,
@@ -91,8 +93,8 @@ impl<'a> GraspManifold<'a> {
         manifold
     }
 
-    /// The ways to hold a bar, a capsule, before a face that faces outwards: turned about it by no more than `about`, so deep, and
-    /// no farther than a share of its half length from its middle.
+    /// Grasps of a bar before a face: turned about it by at most `about`, at a depth, and at most `share`
+    /// of its half length from its middle.
     pub(crate) fn of_bar(
         hand: &'a HandModel,
         bar: &Solid,
@@ -149,8 +151,7 @@ impl<'a> GraspManifold<'a> {
         }
     }
 
-    /// Adds a family whose angle about the axis goes so far to both sides, whose fingers are bent so far down, and whose place goes so
-    /// far to both sides.
+    /// Adds a family with its ranges of the angle, of the bend and of the place along the object.
     fn add(
         &mut self,
         kind: FamilyKind,
@@ -178,7 +179,7 @@ impl<'a> GraspManifold<'a> {
         };
         match kind {
             FamilyKind::Around { down, .. } if is_upright(&down) => {
-                // From where on they come from above.
+                // Bend from which on a grasp counts as from above.
                 let bent = libm::asin(-TOP);
                 let [_, most, ..] = whole.high;
                 let side = GraspFamily { high: [about, (bent + SLACK).min(most), places, 1.0], ..whole };
@@ -202,7 +203,7 @@ impl<'a> GraspManifold<'a> {
         }
     }
 
-    /// Patches that hold all poses.
+    /// Patches that cover all grasps.
     pub(crate) fn patches(&self) -> Vec<GraspPatch> {
         let slots = self.slots.iter().zip(0..).filter(|(slot, _)| match self.side {
             None => true,
@@ -224,7 +225,8 @@ impl<'a> GraspManifold<'a> {
         patches.collect()
     }
 
-    /// How far the hand goes for the half of the widest side of a patch, about, in m, and which that is.
+    /// Motion of the hand in m over half of a patch's widest side, approximately, and the index of that
+    /// side.
     pub(crate) fn widest(&self, patch: &GraspPatch) -> (f64, usize) {
         let [about, bend, place, deep] = patch.half;
         let Some(slot) = self.slots.get(patch.slot) else { return (0.0, 0) };
@@ -233,20 +235,21 @@ impl<'a> GraspManifold<'a> {
         widest(&[about * far, bend * far, place * slot.along.norm(), deep])
     }
 
-    /// A pose in the middle of a patch, and how far the others of it can be; `None` where there is none.
+    /// Grasp at the middle of a patch, and the drift of the others; `None` for an empty patch.
     pub(crate) fn over(&self, patch: &GraspPatch) -> Option<(Isometry3<f64>, DisplacementBound)> {
         let slot = self.slots.get(patch.slot)?;
         let ([about, bend, place, deep], [abouts, bends, places, deeps]) = (patch.middle, patch.half);
         let (approach, across) = slot.kind.directions(about, bend);
         let turns = match slot.kind {
             FamilyKind::Flat { .. } => 0.0,
-            // About axes square to each other: the cosine of half of both is the product of those of the halves.
+            // For rotations about perpendicular axes, the cosine of half of the whole angle is the product
+            // of the cosines of the half angles.
             FamilyKind::Around { .. }
             | FamilyKind::End { .. }
             | FamilyKind::Rim { .. }
             | FamilyKind::Bar { .. } => libm::hypot(abouts, bends),
         };
-        // From below there is no way for a hand.
+        // A hand never comes from below.
         if approach.z - turns - SLACK > 0.5 || self.is_behind(slot, &approach, abouts + bends) {
             return None;
         }
@@ -267,7 +270,7 @@ impl<'a> GraspManifold<'a> {
             .slid(approach * ((last - first).abs() / 2.0));
         let drift = match slot.kind {
             FamilyKind::Flat { .. } => drift,
-            // What is bent is turned about the thing in the end.
+            // The bend is applied first, the turn about the object last.
             FamilyKind::Around { down, .. } => drift.spun(across, middle, bends).spun(down, middle, abouts),
             FamilyKind::End { down: axis, .. }
             | FamilyKind::Rim { across: axis, .. }
@@ -276,7 +279,8 @@ impl<'a> GraspManifold<'a> {
         Some((tip, drift))
     }
 
-    /// Between which depths the tip is before the middle; `None` where the thing is too far from the palm in all.
+    /// Range of the tip's distance from the centre; `None` where the object is too far from the palm in all
+    /// poses.
     fn depths(
         &self,
         slot: &GraspFamily,
@@ -299,8 +303,8 @@ impl<'a> GraspManifold<'a> {
         Some((mix(least, (deep - deeps).max(0.0)), mix(greatest, (deep + deeps).min(1.0))))
     }
 
-    /// Whether something is so for all poses, each near to one by no more than what is told of it: `false` where as many patches as
-    /// may be looked at do not tell.
+    /// Checks a predicate of a pose and its drift on all grasps, by subdivision. `false` where the patches
+    /// run out before it is decided.
     pub(crate) fn are_all(&self, is: impl Fn(&Isometry3<f64>, &DisplacementBound) -> bool) -> bool {
         const MOST: usize = 4096;
         let mut open = self.patches();
@@ -315,7 +319,7 @@ impl<'a> GraspManifold<'a> {
         false
     }
 
-    /// The pose in the middle of a patch; `None` where that is none, or from another side than was asked for.
+    /// Grasp at the middle of a patch; `None` where it is no grasp, or from another side than requested.
     pub(crate) fn hold(&self, patch: &GraspPatch) -> Option<GraspCandidate> {
         let slot = self.slots.get(patch.slot)?;
         let [about, bend, ..] = patch.middle;
@@ -336,7 +340,7 @@ impl<'a> GraspManifold<'a> {
         })
     }
 
-    /// Whether no pose of a patch is from the robot's side, where that is asked for.
+    /// Checks whether no pose of a patch is from the robot's side, where that is requested.
     fn is_behind(&self, slot: &GraspFamily, approach: &Vector3<f64>, off: f64) -> bool {
         let is_level = matches!(slot.kind, FamilyKind::Flat { .. })
             || matches!(slot.kind, FamilyKind::Around { down: axis, .. } | FamilyKind::Rim { across: axis, .. }
@@ -346,7 +350,7 @@ impl<'a> GraspManifold<'a> {
         self.side == Some(GraspSide::Front) && is_level && angle.abs() > FRAC_PI_4 + off + SLACK
     }
 
-    /// Between which lengths the thing extends against the fingers, and whether it is round there.
+    /// Range of the object's extent against the fingers, and whether it is round there.
     fn extents(
         &self,
         slot: &GraspFamily,
@@ -373,7 +377,7 @@ impl<'a> GraspManifold<'a> {
                 }
                 let (low, high) = ((bend - bends).max(0.0), bend + bends);
                 let (sin, cos) = (libm::sin, libm::cos);
-                // The line of the hand meets the side later and the end sooner, the more it is bent.
+                // A more bent hand meets the side later and the end sooner.
                 let side = |bend: f64| radius / cos(bend).max(1e-6);
                 let end = |bend: f64| half / sin(bend).max(1e-9);
                 let whole = |bend: f64| half * sin(bend) + if is_flat { radius * cos(bend) } else { radius };
@@ -386,7 +390,7 @@ impl<'a> GraspManifold<'a> {
 }
 
 impl FamilyKind {
-    /// Where the fingers point, and across what they close.
+    /// Approach and closing direction of the fingers.
     fn directions(&self, about: f64, bend: f64) -> (Vector3<f64>, Vector3<f64>) {
         match self {
             Self::Around { down, first, sign } => {
@@ -406,14 +410,14 @@ impl FamilyKind {
     }
 }
 
-/// The largest of some sizes, the first of equals, and which it is.
+/// Largest of some sizes, the first of equals, with its index.
 pub(crate) fn widest(sizes: &[f64]) -> (f64, usize) {
     let all = sizes.iter().copied().zip(0..);
     all.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
 }
 
 impl GraspPatch {
-    /// The two halves of a patch, cut across a parameter.
+    /// Halves of a patch across one parameter.
     pub(crate) fn halves(&self, across: usize) -> [Self; 2] {
         let mut halves = [*self; 2];
         for (half, sign) in halves.iter_mut().zip([-0.5, 0.5]) {

@@ -1,205 +1,276 @@
-//! What would help where a motion is infeasible: asked of the same world with one thing changed, so that what is told is known to do.
+//! Explanation of an infeasible answer: the nearest change that makes the motion feasible. Each change is
+//! tried in a changed scene or state before it is suggested.
 //!
-//! This is looked for where an answer is told, not where it is given: it takes as long as a few queries.
+//! Runs where an answer is shown, not where it is computed: it takes as long as a few queries.
 
 use motet_robots::scene::{Entity, Scene};
 use nalgebra::Translation3;
 use smol_str::SmolStr;
 
+use crate::planning::context::QueryContext;
+use crate::planning::motions::outcome::after_move;
 use crate::planning::query::answer::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, SearchBudget,
 };
-use crate::planning::search::context::QueryContext;
+use crate::planning::scene::configuration::plane;
 use crate::planning::search::workspace::whole_centimetres;
 
-/// Things that are taken away, one at a time, to see whether that helps.
+/// Greatest number of obstacles tried for removal, one at a time.
 const TAKEN: usize = 3;
-/// How near to what is asked for a thing has to be to be taken away, in m: between the outlines of most things and their middle.
+/// Greatest distance of such an obstacle from the target, in m: between the outlines of most objects and
+/// their middle.
 const NEAR: f64 = 0.8;
-/// The most that is looked at for one change.
+/// Greatest budget of one trial: candidates and paths.
 const EFFORT: [usize; 2] = [64, 16];
-/// That a change would not help needs no proof: so many cells.
+/// Greatest number of cells of one trial: a change that does not help needs no proof.
 const CELLS: usize = 1024;
-/// By how much higher a thing is tried, in m.
+/// Lifts of an object that are tried, in m.
 const LIFTS: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.3];
 
-impl QueryContext<'_> {
-    /// An answer as it is told: with the nearest change that would help, in words, where one is known. What is said of a thing that is in
-    /// the way, of a thing that lies too low, or of another place to stand, was tried: with it the motion is feasible. Where every way of the base is cut off, the
-    /// reason names what does that.
-    #[must_use]
-    pub fn explain(&self, query: &MotionQuery, why: &Infeasible, budget: SearchBudget) -> Infeasible {
-        let mut told = why.clone();
-        if told.change.is_some() {
-            return told;
+/// Weights of entities that are no objects, and of those that never move, in removable objects.
+const LARGE: u32 = 8;
+const FIXED: u32 = 100;
+/// Distance in m from the final place of the base to which a route may lead: the base comes straight in
+/// from there.
+const STRAIGHT: f64 = 0.55;
+
+/// Adds the nearest change that would help, in words. Where every route of the base is cut off, the reason
+/// names the obstacle.
+pub(crate) fn explain(
+    context: &QueryContext<'_>,
+    query: &MotionQuery,
+    why: &Infeasible,
+    budget: SearchBudget,
+) -> Infeasible {
+    let mut told = why.clone();
+    if told.change.is_some() {
+        return told;
+    }
+    let mut least = budget;
+    least.candidates = least.candidates.min(EFFORT[0]);
+    least.paths = least.paths.min(EFFORT[1]);
+    least.cells = least.cells.min(CELLS);
+    told.change = match &why.reason {
+        InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
+        InfeasibleReason::OutOfReach { what: "sight", needs, reach } => {
+            targets(query).next_back().map(|id| {
+                let nearer = whole_centimetres(needs - reach);
+                format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
+            })
         }
-        let mut least = budget;
-        least.candidates = least.candidates.min(EFFORT[0]);
-        least.paths = least.paths.min(EFFORT[1]);
-        least.cells = least.cells.min(CELLS);
-        told.change = match &why.reason {
-            InfeasibleReason::TooHeavy { .. } | InfeasibleReason::TooWide { .. } => None,
-            InfeasibleReason::OutOfReach { what: "sight", needs, reach } => {
-                targets(query).next_back().map(|id| {
-                    let nearer = whole_centimetres(needs - reach);
-                    format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
-                })
-            }
-            InfeasibleReason::OutOfReach { what: "distance", needs, reach } => {
-                targets(query).next_back().map(|id| {
-                    format!(
-                        "`{id}` would have to be at least {:.2} m nearer",
-                        whole_centimetres(needs - reach)
-                    )
-                })
-            }
-            InfeasibleReason::OutOfReach { .. } => None,
-            InfeasibleReason::NotInView { by: None, aside: Some(BearingLimit { needs, limit }) }
-                if self.model.drives() =>
-            {
-                let to = if *needs > 0.0 { "left" } else { "right" };
-                // Rounding makes no degree more of it.
-                let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
-                Some(format!("turn to the {to} by at least {least:.0}° before"))
-            }
-            InfeasibleReason::NoFreePose { by, .. }
-            | InfeasibleReason::BlockedPath { by }
-            | InfeasibleReason::NotInView { by, .. } => {
-                let shut = self.shut_in(query);
-                if shut.is_some() {
-                    shut
-                } else if let Some((by, change)) = self.cut_off(query, why, least) {
-                    if let InfeasibleReason::BlockedPath { by: named } = &mut told.reason {
-                        *named = Some(by);
-                    }
-                    change
-                } else {
-                    (self.cleared(query, by.as_ref(), least))
-                        .or_else(|| self.lifted(query, &why.reason, least))
-                        .or_else(|| self.elsewhere(query, least))
+        InfeasibleReason::OutOfReach { what: "distance", needs, reach } => {
+            targets(query).next_back().map(|id| {
+                format!("`{id}` would have to be at least {:.2} m nearer", whole_centimetres(needs - reach))
+            })
+        }
+        InfeasibleReason::OutOfReach { .. } => None,
+        InfeasibleReason::NotInView { by: None, aside: Some(BearingLimit { needs, limit }) }
+            if context.model.drives() =>
+        {
+            let to = if *needs > 0.0 { "left" } else { "right" };
+            // Rounding must not add a degree.
+            let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
+            Some(format!("turn to the {to} by at least {least:.0}° before"))
+        }
+        InfeasibleReason::NoFreePose { by, .. }
+        | InfeasibleReason::BlockedPath { by }
+        | InfeasibleReason::NotInView { by, .. } => {
+            let shut = shut_in(context, query);
+            if shut.is_some() {
+                shut
+            } else if let Some((by, change)) = cut_off(context, query, why, least) {
+                if let InfeasibleReason::BlockedPath { by: named } = &mut told.reason {
+                    *named = Some(by);
                 }
+                change
+            } else {
+                (cleared(context, query, by.as_ref(), least))
+                    .or_else(|| lifted(context, query, &why.reason, least))
+                    .or_else(|| elsewhere(context, query, least))
             }
-        };
-        told
-    }
+        }
+    };
+    told
+}
 
-    /// What cuts the base off from where it would have to stand, and that it would have to be taken away, where that helps. Nothing of
-    /// an answer that found no free pose, where it would not help.
-    fn cut_off(
-        &self,
-        query: &MotionQuery,
-        why: &Infeasible,
-        budget: SearchBudget,
-    ) -> Option<(SmolStr, Option<String>)> {
-        let between = self.barrier(query, why, |id| self.may_go(query, id));
-        let names: Vec<SmolStr> = between.into_iter().map(|at| self.name(at)).collect();
-        let fixed = names.iter().find(|id| !self.may_go(query, id));
-        let helps = || {
-            let scene = without(self.scene, &names);
-            let context = QueryContext::new(self.model, &scene, self.state);
-            matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
-        };
-        let may_help = fixed.is_none() && !names.is_empty() && names.len() <= TAKEN;
-        let change = (may_help && helps()).then(|| {
-            let what = match query {
-                MotionQuery::GoTo(to) => {
-                    let reach = self.scene.entities.get(to).map_or(0.0, |it| self.served_within(it));
-                    format!("a place within {reach:.2} m of `{to}`")
-                }
-                _ => match targets(query).next_back() {
-                    Some(id) => format!("a place from which `{id}` is in reach"),
-                    None => "such a place".to_owned(),
-                },
-            };
-            let them = if names.len() == 1 { "it" } else { "them" };
-            format!("every way to {what} is blocked by {}: take {them} out of the way", listed(&names))
-        });
-        let is_way = matches!(why.reason, InfeasibleReason::BlockedPath { .. });
-        let by = fixed.or(names.first()).filter(|_| is_way || change.is_some())?;
-        Some((by.clone(), change))
-    }
-
-    /// What the motion is about lies in something that is closed.
-    fn shut_in(&self, query: &MotionQuery) -> Option<String> {
-        let around = |id: &SmolStr| self.scene.entities.get(self.scene.entities.get(id)?.inside.as_ref()?);
-        let is_shut = |it: &&Entity| it.travel.is_some() && !self.state.is_open(it);
-        let shut = targets(query).find_map(|id| {
-            // What was taken out of it is no longer in it.
-            let is_there = !self.state.holds(id) && !self.state.moved.contains_key(id);
-            std::iter::successors(around(id).filter(|_| is_there), |it| around(&it.id)).take(8).find(is_shut)
-        })?;
-        Some(format!("open `{}` before", shut.id))
-    }
-
-    /// Something that can be taken away, without which the motion is feasible.
-    fn cleared(&self, query: &MotionQuery, by: Option<&SmolStr>, budget: SearchBudget) -> Option<String> {
-        let by = by.filter(|by| self.may_go(query, by));
-        let about = targets(query).next_back().and_then(|id| self.scene.entities.get(id));
-        let place = about.and_then(|entity| self.state.pose(entity)).map(|pose| pose.translation.vector);
-        let far = |entity: &Entity| Some((self.state.pose(entity)?.translation.vector - place?).norm());
-        let near = self.scene.entities.values().filter(|it| Some(&it.id) != by && self.may_go(query, &it.id));
-        let near = near.filter_map(|it| far(it).filter(|far| *far < NEAR).map(|far| (far, &it.id)));
-        let mut near: Vec<(f64, &SmolStr)> = near.collect();
-        near.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let tried = by.into_iter().chain(near.into_iter().map(|(_, id)| id)).take(TAKEN);
-        let helps = |id: &&SmolStr| {
-            let scene = without(self.scene, std::slice::from_ref(*id));
-            let context = QueryContext::new(self.model, &scene, self.state);
-            matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
-        };
-        let id = { tried }.find(helps)?;
-        Some(match query {
+/// Obstacle that cuts the base off from its goal, and its removal where that helps. `None` for an answer
+/// without a free pose that no removal helps.
+fn cut_off(
+    context: &QueryContext<'_>,
+    query: &MotionQuery,
+    why: &Infeasible,
+    budget: SearchBudget,
+) -> Option<(SmolStr, Option<String>)> {
+    let between = barrier(context, query, why, |id| may_go(context, query, id));
+    let names: Vec<SmolStr> = between.into_iter().map(|at| context.name(at)).collect();
+    let fixed = names.iter().find(|id| !may_go(context, query, id));
+    let helps = || {
+        let scene = without(context.scene, &names);
+        let context = QueryContext::new(context.model, &scene, context.state);
+        matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
+    };
+    let may_help = fixed.is_none() && !names.is_empty() && names.len() <= TAKEN;
+    let change = (may_help && helps()).then(|| {
+        let what = match query {
             MotionQuery::GoTo(to) => {
-                let reach = self.served_within(self.scene.entities.get(to)?);
-                format!("a place within {reach:.2} m of `{to}` is blocked by `{id}`: take it out of the way")
+                let reach = context.scene.entities.get(to).map_or(0.0, |it| context.served_within(it));
+                format!("a place within {reach:.2} m of `{to}`")
             }
-            _ => format!("without `{id}` it can be done: take it out of the way"),
-        })
-    }
-
-    /// By how much higher a thing would have to be that lies where no pose of the hand is free.
-    fn lifted(&self, query: &MotionQuery, reason: &InfeasibleReason, budget: SearchBudget) -> Option<String> {
-        let (MotionQuery::Reach(id, _), InfeasibleReason::NoFreePose { .. }) = (query, reason) else {
-            return None;
+            _ => match targets(query).next_back() {
+                Some(id) => format!("a place from which `{id}` is in reach"),
+                None => "such a place".to_owned(),
+            },
         };
-        let pose = self.scene.entities.get(id).and_then(|entity| self.state.pose(entity))?;
-        let helps = |up: &f64| {
-            let mut state = self.state.clone();
-            state.moved.insert(id.clone(), Translation3::new(0.0, 0.0, *up) * pose);
-            matches!(self.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
-        };
-        let up = LIFTS.into_iter().find(helps)?;
-        Some(format!("with `{id}` {up:.2} m higher it can be done"))
-    }
+        let them = if names.len() == 1 { "it" } else { "them" };
+        format!("every way to {what} is blocked by {}: take {them} out of the way", listed(&names))
+    });
+    let is_way = matches!(why.reason, InfeasibleReason::BlockedPath { .. });
+    let by = fixed.or(names.first()).filter(|_| is_way || change.is_some())?;
+    Some((by.clone(), change))
+}
 
-    /// Whether something else can be taken away, and what the motion is about stays.
-    fn may_go(&self, query: &MotionQuery, id: &str) -> bool {
-        // Nobody is taken away.
-        let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != "Person";
-        let is_free = self.scene.entities.get(id).is_some_and(is_thing);
-        let is_asked = targets(query).any(|about| goes_with(self.scene, about, id));
-        is_free && !is_asked && !self.state.holds(id)
-    }
+/// Suggests to open the closed container that holds the target.
+fn shut_in(context: &QueryContext<'_>, query: &MotionQuery) -> Option<String> {
+    let around = |id: &SmolStr| context.scene.entities.get(context.scene.entities.get(id)?.inside.as_ref()?);
+    let is_shut = |it: &&Entity| it.travel.is_some() && !context.state.is_open(it);
+    let shut = targets(query).find_map(|id| {
+        // An object that was taken out is no longer inside.
+        let is_there = !context.state.holds(id) && !context.state.moved.contains_key(id);
+        std::iter::successors(around(id).filter(|_| is_there), |it| around(&it.id)).take(8).find(is_shut)
+    })?;
+    Some(format!("open `{}` before", shut.id))
+}
 
-    /// That the motion, which leaves the base where it is, is feasible with the arm in a posture, or from where what it is about is
-    /// served.
-    fn elsewhere(&self, query: &MotionQuery, budget: SearchBudget) -> Option<String> {
-        let (MotionQuery::Look(to) | MotionQuery::Offer(_, to)) = query else { return None };
-        let helps = |first: &MotionQuery| {
-            let MotionAnswer::Feasible(way) = self.answer(first, budget) else { return false };
-            let state = self.after_move(&way);
-            let is_elsewhere = state.robot != self.state.robot;
-            is_elsewhere && matches!(self.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
-        };
-        let mut postures = self.model.card().postures.keys();
-        if let Some(name) = postures.find(|name| helps(&MotionQuery::Posture((*name).clone()))) {
-            return Some(format!("bring the arm into the posture `{name}` before"));
+/// Suggests to remove one obstacle, without which the motion is feasible.
+fn cleared(
+    context: &QueryContext<'_>,
+    query: &MotionQuery,
+    by: Option<&SmolStr>,
+    budget: SearchBudget,
+) -> Option<String> {
+    let by = by.filter(|by| may_go(context, query, by));
+    let about = targets(query).next_back().and_then(|id| context.scene.entities.get(id));
+    let place = about.and_then(|entity| context.state.pose(entity)).map(|pose| pose.translation.vector);
+    let far = |entity: &Entity| Some((context.state.pose(entity)?.translation.vector - place?).norm());
+    let near =
+        context.scene.entities.values().filter(|it| Some(&it.id) != by && may_go(context, query, &it.id));
+    let near = near.filter_map(|it| far(it).filter(|far| *far < NEAR).map(|far| (far, &it.id)));
+    let mut near: Vec<(f64, &SmolStr)> = near.collect();
+    near.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let tried = by.into_iter().chain(near.into_iter().map(|(_, id)| id)).take(TAKEN);
+    let helps = |id: &&SmolStr| {
+        let scene = without(context.scene, std::slice::from_ref(*id));
+        let context = QueryContext::new(context.model, &scene, context.state);
+        matches!(context.answer(query, budget), MotionAnswer::Feasible(_))
+    };
+    let id = { tried }.find(helps)?;
+    Some(match query {
+        MotionQuery::GoTo(to) => {
+            let reach = context.served_within(context.scene.entities.get(to)?);
+            format!("a place within {reach:.2} m of `{to}` is blocked by `{id}`: take it out of the way")
         }
-        (self.model.drives() && helps(&MotionQuery::GoTo(to.clone()))).then(|| format!("go to `{to}` before"))
+        _ => format!("without `{id}` it can be done: take it out of the way"),
+    })
+}
+
+/// Suggests how much higher an object would have to be where no grasp pose is free.
+fn lifted(
+    context: &QueryContext<'_>,
+    query: &MotionQuery,
+    reason: &InfeasibleReason,
+    budget: SearchBudget,
+) -> Option<String> {
+    let (MotionQuery::Reach(id, _), InfeasibleReason::NoFreePose { .. }) = (query, reason) else {
+        return None;
+    };
+    let pose = context.scene.entities.get(id).and_then(|entity| context.state.pose(entity))?;
+    let helps = |up: &f64| {
+        let mut state = context.state.clone();
+        state.moved.insert(id.clone(), Translation3::new(0.0, 0.0, *up) * pose);
+        matches!(context.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
+    };
+    let up = LIFTS.into_iter().find(helps)?;
+    Some(format!("with `{id}` {up:.2} m higher it can be done"))
+}
+
+/// Checks whether an entity can be removed without the target.
+fn may_go(context: &QueryContext<'_>, query: &MotionQuery, id: &str) -> bool {
+    // Never propose removing a person as an obstacle.
+    let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != "Person";
+    let is_free = context.scene.entities.get(id).is_some_and(is_thing);
+    let is_asked = targets(query).any(|about| goes_with(context.scene, about, id));
+    is_free && !is_asked && !context.state.holds(id)
+}
+
+/// Suggests a posture of the arm, or a place of the base, from which the motion is feasible.
+fn elsewhere(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudget) -> Option<String> {
+    let (MotionQuery::Look(to) | MotionQuery::Offer(_, to)) = query else { return None };
+    let helps = |first: &MotionQuery| {
+        let MotionAnswer::Feasible(way) = context.answer(first, budget) else { return false };
+        let state = after_move(context, &way);
+        let is_elsewhere = state.robot != context.state.robot;
+        is_elsewhere && matches!(context.in_state(&state).answer(query, budget), MotionAnswer::Feasible(_))
+    };
+    let mut postures = context.model.card().postures.keys();
+    if let Some(name) = postures.find(|name| helps(&MotionQuery::Posture((*name).clone()))) {
+        return Some(format!("bring the arm into the posture `{name}` before"));
+    }
+    (context.model.drives() && helps(&MotionQuery::GoTo(to.clone()))).then(|| format!("go to `{to}` before"))
+}
+
+/// Entities on every route of the base to its goal, in order from the start: as few as were found, entities
+/// that `may_go` permits to remove first. Empty where a route passes them all, or none is known. O(cells of
+/// the map × obstacles near).
+pub(crate) fn barrier(
+    context: &QueryContext<'_>,
+    query: &MotionQuery,
+    why: &Infeasible,
+    may_go: impl Fn(&str) -> bool,
+) -> Vec<usize> {
+    let asks = matches!(
+        query,
+        MotionQuery::GoTo(_)
+            | MotionQuery::Reach(..)
+            | MotionQuery::Put(..)
+            | MotionQuery::Pull(_)
+            | MotionQuery::Push(_)
+    );
+    let Some(map) = context.map().filter(|_| asks) else { return vec![] };
+    let target = targets(query).next_back().and_then(|id| context.entity(id));
+    let Some((index, entity)) = target else { return vec![] };
+    let Some(pose) = context.state.pose(entity) else { return vec![] };
+    let start = plane(&context.state.robot);
+    let from: Vec<[f64; 2]> =
+        std::iter::once(start).chain(context.escapes(map).iter().map(|(_, place)| *place)).collect();
+    // Neither the target nor the held object is an obstacle.
+    let weight = |at: usize| {
+        let (id, entity) = context.scene.entities.get_index(at).filter(|_| at != index)?;
+        Some(match (may_go(id), entity.kind.as_str()) {
+            (true, "Object") => 1,
+            (true, _) => LARGE,
+            (false, _) => FIXED,
+        })
+    };
+    let reach = match (query, context.model.hand()) {
+        (MotionQuery::GoTo(_), _) => context.served_within(entity),
+        (_, Some(hand)) => context.farthest(hand),
+        (_, None) => return vec![],
+    };
+    let centre = pose.translation.vector;
+    let far = context.far_from(index, entity, [centre.x, centre.y]);
+    let found = map.through(&from, weight, |[x, y]| far(x, y) <= reach).unwrap_or_default();
+    // A place near the goal but behind a wall is useless.
+    match &why.configuration {
+        Some(configuration) if found.is_empty() && !context.is_near_drivable(configuration.base) => {
+            let [to_x, to_y] = plane(configuration);
+            let is_near = |[x, y]: [f64; 2]| libm::hypot(x - to_x, y - to_y) <= STRAIGHT;
+            map.through(&from, weight, is_near).unwrap_or_default()
+        }
+        Some(_) | None => found,
     }
 }
 
-/// What a motion is about, what it is about most at last.
+/// Targets of a query, the most relevant last.
 pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &SmolStr> {
     let (first, second) = match query {
         MotionQuery::Put(object, other) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
@@ -213,7 +284,7 @@ pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &S
     first.into_iter().chain(second)
 }
 
-/// Names in backticks, as they are said.
+/// List of names in backticks.
 fn listed(names: &[SmolStr]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {
@@ -222,7 +293,7 @@ fn listed(names: &[SmolStr]) -> String {
     }
 }
 
-/// The scene without some things and what stands on them or is in them.
+/// Scene without some entities and everything that they support or contain.
 fn without(scene: &Scene, ids: &[SmolStr]) -> Scene {
     let mut scene = scene.clone();
     let is_gone = |it: &SmolStr| ids.iter().any(|id| goes_with(&scene, it, id));
@@ -231,7 +302,7 @@ fn without(scene: &Scene, ids: &[SmolStr]) -> Scene {
     scene
 }
 
-/// Whether one thing is another, or stands on it or is in it, directly or not.
+/// Checks whether an entity is another one, or is supported or contained by it, directly or not.
 fn goes_with(scene: &Scene, one: &str, other: &str) -> bool {
     let below = |id: &str| {
         let entity = scene.entities.get(id)?;

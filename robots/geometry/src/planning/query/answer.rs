@@ -1,45 +1,46 @@
-//! What is asked, and what is answered.
+//! Motion queries and their answers: the vocabulary of all other folders.
 
 use smol_str::SmolStr;
 
 use crate::planning::scene::configuration::Configuration;
 
-/// From where a thing is grasped.
+/// Direction from which an object is grasped.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum GraspSide {
-    /// From above: within 35° of straight down.
+    /// Within 35° of straight down.
     Top,
-    /// From any side.
+    /// Any direction but from above.
     Side,
-    /// From the side on which the robot is: within 45° of the direction from its base.
+    /// Within 45° of the direction from the base.
     Front,
 }
 
-/// A motion that is asked for. Names are ids of the scene.
+/// Motion query. Names are ids of the scene.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum MotionQuery {
-    /// To a standing place from which a thing is served.
+    /// Drive to a place from which an entity is served.
     GoTo(SmolStr),
-    /// A grasp of a thing, from a side where one is given.
+    /// Grasp an object, from a given side or from any.
     Reach(SmolStr, Option<GraspSide>),
-    /// What is in the hand onto a surface, or into a container.
+    /// Put the held object on a surface or into a container.
     Put(SmolStr, SmolStr),
-    /// What is in the hand held out to a person.
+    /// Hold the held object out to a person.
     Offer(SmolStr, SmolStr),
-    /// A thing in view.
+    /// Bring an entity into the camera's view.
     Look(SmolStr),
-    /// The handle of what is closed along its travel until it is open.
+    /// Open a container by its handle.
     Pull(SmolStr),
-    /// The handle of what is open along its travel until it is closed; any other thing a little away from the robot.
+    /// Close a container by its handle, or push any other object a little away from the robot.
     Push(SmolStr),
-    /// To a posture of the card.
+    /// Move the arm to a posture of the card.
     Posture(SmolStr),
-    /// Any other motion, which is not computed: its name.
+    /// Any other motion, by name; it is not computed.
     Other(SmolStr),
 }
 
 impl MotionQuery {
-    /// A query as it is written: `reach(mug_1)`, `reach(mug_1, top)`, `go_to(sink)`. `None` where it is none.
+    /// Parses a query in the notation of [`Display`](std::fmt::Display), such as `reach(mug_1, top)` or
+    /// `go_to(sink)`. `None` for anything else.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let (name, rest) = text.trim().split_once('(')?;
@@ -93,20 +94,20 @@ impl std::fmt::Display for MotionQuery {
     }
 }
 
-/// How long to look; a larger one finds more and contradicts nothing.
+/// Search budget. A larger budget finds more and never contradicts an answer of a smaller one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SearchBudget {
-    /// Candidates for the base and the arm that are tried for each grasp.
+    /// Candidate configurations per grasp.
     pub candidates: usize,
-    /// Free candidates to which a path is looked for.
+    /// Free candidates for which a path is searched.
     pub paths: usize,
-    /// Cells of states, and patches of grasps, that are looked at to prove that no state is free where no candidate was. What is not
-    /// proven then stays a search that ended.
+    /// Cells and grasp patches of a proof that no configuration is free. An unfinished proof leaves the
+    /// answer uncertified.
     pub cells: usize,
 }
 
 impl SearchBudget {
-    /// So many times as large.
+    /// Budget scaled by a factor.
     #[must_use]
     pub fn times(self, factor: usize) -> Self {
         let [candidates, paths, cells] =
@@ -121,131 +122,121 @@ impl Default for SearchBudget {
     }
 }
 
-/// The answer to a query.
+/// Answer to a motion query.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MotionAnswer {
-    /// There is such a motion: this one.
+    /// A motion exists: this one.
     Feasible(Box<MotionWitness>),
-    /// There is none, or the search, which was not cut short, found none: see [`Infeasible::certified`].
+    /// No motion exists, or a complete search found none: see [`Infeasible::certified`].
     Infeasible(Infeasible),
-    /// It is not known.
+    /// Not decided.
     Unknown(UnknownReason),
 }
 
-/// A motion that was found.
+/// Witness: a path that proves a motion feasible.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MotionWitness {
-    /// States from where the robot is to the last; between two the robot moves straight in base and joints.
+    /// Configurations from the start to the goal; each edge between two is certified free.
     pub path: Vec<Configuration>,
-    /// The grasp, where one was asked for. The last leg of the path brings the hand to it from in front of the thing, which the
-    /// hand may touch on that leg.
+    /// Grasp at the end of the path. On the last edge the hand approaches it and may touch the object.
     pub grasp: Option<Grasp>,
-    /// How much room there is.
     pub margins: Margins,
 }
 
-/// How a thing is held.
+/// Grasp of an object: a hand pose relative to it, with an opening.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Grasp {
-    /// What.
     pub object: SmolStr,
-    /// From where.
     pub side: GraspSide,
-    /// The pose of the hand's tip in the map.
+    /// Pose of the tip in the map.
     pub map_from_tip: nalgebra::Isometry3<f64>,
-    /// The pose of the thing in the tip's frame.
+    /// Pose of the object in the tip's frame.
     pub tip_from_object: nalgebra::Isometry3<f64>,
-    /// How wide the hand has to be open, in m.
+    /// Opening of the hand, in m.
     pub width: f64,
 }
 
-/// Room to spare.
+/// Margins of a motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Margins {
-    /// The least distance to what stands around and to the floor, in m and at most 1, at the way-points and half-way between
-    /// them; on the whole way it is at least [`super::MIN_CLEARANCE`].
+    /// Least distance to obstacles and floor, in m, at most 1, at the way-points and half-way between them.
+    /// Along the whole path it is at least [`MIN_CLEARANCE`](crate::planning::MIN_CLEARANCE).
     pub clearance: f64,
-    /// Room of the last state to the nearest limit of a joint that the motion moved, in rad or m; `None` where none was.
+    /// Distance of the last configuration to the nearest limit of a joint that moved, in rad or m; `None`
+    /// where none moved.
     pub limit: Option<f64>,
-    /// What the hand could carry beyond, in kg; `None` where no mass is known.
+    /// Payload that is left, in kg; `None` where no mass is known.
     pub payload: Option<f64>,
 }
 
-/// Why there is no motion.
+/// Infeasibility: the reason, and a change that would help.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Infeasible {
-    /// The kind.
     pub reason: InfeasibleReason,
-    /// What would help, where something is known to.
+    /// Change that would make the motion feasible, in words; known after
+    /// [`QueryContext::explain`](crate::planning::QueryContext::explain) or where it follows from the
+    /// reason.
     pub change: Option<String>,
-    /// Whether it is proven, for all ways to grip and not only those that are tried; else the search ended without finding anything.
+    /// Set where infeasibility is proven for all grasps and configurations; else the search ended without a
+    /// motion.
     pub certified: bool,
-    /// A free state with the hand where it is wanted, where one was found to which no way was; never where it is proven that there
-    /// is none.
+    /// Free goal configuration to which no path was found. `None` where a proof excludes one.
     pub configuration: Option<Box<Configuration>>,
 }
 
 impl Infeasible {
-    /// What is proven.
+    /// Infeasibility with a proof.
     pub(crate) fn proven(reason: InfeasibleReason, change: Option<String>) -> Self {
         Self { reason, change, certified: true, configuration: None }
     }
 
-    /// What a search that ended says.
+    /// Infeasibility after a search without a result.
     pub(crate) fn exhausted(reason: InfeasibleReason) -> Self {
         Self { reason, change: None, certified: false, configuration: None }
     }
 }
 
-/// The reasons of the language.
+/// Reason of an infeasible motion, in the language's terms.
 #[derive(Clone, PartialEq, Debug)]
 pub enum InfeasibleReason {
-    /// It is too far away, too high or too low: what is needed and what is reached, both in m, and in which direction.
+    /// Too far, too high or too low; both lengths in m.
     OutOfReach {
-        /// What is measured: `height`, `distance`, or `sight`.
+        /// Measured quantity: `height`, `distance` or `sight`.
         what: &'static str,
-        /// What is needed.
         needs: f64,
-        /// What is reached.
         reach: f64,
     },
-    /// Every configuration touches something: most often this.
+    /// Every candidate configuration is in contact.
     NoFreePose {
-        /// What is touched most often.
+        /// Most frequent contact.
         by: Option<SmolStr>,
-        /// How often, where that was counted.
+        /// Count of that contact, where it was counted.
         share: Option<ContactShare>,
     },
-    /// There are free configurations, and no way to one was found.
+    /// Free goal configurations exist, and no path to one was found.
     BlockedPath {
-        /// What is touched most often on the way.
+        /// Most frequent contact on the paths tried.
         by: Option<SmolStr>,
     },
-    /// No camera sees it from here: what hides it, where something does.
+    /// The camera does not see it from here.
     NotInView {
-        /// What stands before it most often.
+        /// Entity that hides it most often.
         by: Option<SmolStr>,
-        /// Where it is beyond the camera's view, by how much.
+        /// Bearing beyond the camera's view.
         aside: Option<BearingLimit>,
     },
-    /// It weighs more than the hand carries, both in kg.
-    TooHeavy {
-        /// Its mass.
-        needs: f64,
-        /// The payload.
-        limit: f64,
-    },
-    /// It is wider than the hand opens, both in m.
+    /// Heavier than the payload; both in kg.
+    TooHeavy { needs: f64, limit: f64 },
+    /// Wider than the hand opens; both in m.
     TooWide {
-        /// Its least width.
+        /// Least width over all grasps.
         needs: f64,
-        /// The opening.
         limit: f64,
     },
 }
 
 impl InfeasibleReason {
-    /// Its name in the language.
+    /// Name of the reason in the language.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -300,38 +291,43 @@ impl std::fmt::Display for InfeasibleReason {
     }
 }
 
-/// How many poses touch something, of those of the robot or, where none is free of the hand alone, of the hand that were tried.
+/// Share of the tried poses that are in contact with one body: poses of the robot or, where the hand alone
+/// is never free, of the hand.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ContactShare {
-    /// Those that touch it before anything else that is looked at.
+    /// Poses whose first contact is this body.
     pub touching: usize,
-    /// All.
+    /// All poses tried.
     pub tried: usize,
 }
 
-/// How far aside of the direction of the base something is, and how far the camera sees: both in rad, the first positive to the
-/// left, the second to either side.
+/// Bearing of a target relative to the base's heading, and the limit of the camera's view, in rad.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct BearingLimit {
-    /// Where it is.
+    /// Bearing, positive to the left.
     pub needs: f64,
-    /// How far the camera sees.
+    /// Greatest bearing to either side.
     pub limit: f64,
 }
 
-/// What is in the way, as it is written: the robot itself has no name in the scene.
+/// Body as it is written in a message: the robot itself has no id.
 fn named(by: &str) -> String {
     if by.starts_with(ITSELF) { by.to_owned() } else { format!("`{by}`") }
 }
 
-/// How the robot is called where it is in its own way.
+/// Name of the robot in the reasons of its own contacts.
 pub(crate) const ITSELF: &str = "the robot itself";
 
-/// Why nothing is known.
+/// Reason for an undecided query.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum UnknownReason {
-    /// The search was cut short.
+    /// The budget ended the search.
     Budget,
-    /// The question cannot be asked of this robot in this scene, or not yet of any.
+    /// The query does not apply to this robot and scene, or is not computed; in words.
     Because(String),
+}
+
+/// Answer of a proof that there is no motion.
+pub(crate) fn certain(reason: InfeasibleReason, change: Option<String>) -> MotionAnswer {
+    MotionAnswer::Infeasible(Infeasible::proven(reason, change))
 }

@@ -1,49 +1,46 @@
-//! A drawer or a door between closed and open: what of a container moves, what stays, along which way, and where the hand
-//! takes hold of it.
+//! Articulation of a container: its drawer or door between closed and open.
 //!
-//! A drawer is a box without a lid that comes out as a whole. What has a door is a box without the face that the door
-//! closes, and the door, which turns about the hinge.
+//! A drawer is a box without a lid that slides out as a whole. A container with a door is a box without the
+//! face that the door closes; the door turns about the hinge. Motion of the hand along the handle is in
+//! `motions`.
 
 use motet_robots::scene::{Entity, Travel};
 use nalgebra::{Isometry3, Point3, Translation3, Unit, Vector3};
 
 use crate::collision::{Shape, Solid};
-use crate::planning::scene::obstacle::solid_shape;
-use crate::planning::scene::scene_state::SceneState;
+use crate::planning::scene::scene_state::{SceneState, solid_shape};
 use crate::trigonometry::turn;
 
-/// How thick the walls of an open container are taken to be, in m.
+/// Assumed wall thickness of an open container, in m.
 pub(crate) const WALL: f64 = 0.01;
-/// How far the middle of a handle stands out from the face that it is on, in m: room for fingers behind it.
+/// Distance from the face to the middle of its handle, in m: room for fingers behind it.
 const STANDS_OUT: f64 = 0.04;
-/// How far a door's handle is from the edge away from the hinge, in m.
+/// Distance of a door's handle from the edge away from the hinge, in m.
 const INSET: f64 = 0.05;
-/// The thickness of a handle, in m.
+/// Thickness of a handle, in m.
 pub(crate) const THICK: f64 = 0.016;
 
-/// How a container opens, in the map. `part` is 0 where it is closed and 1 where it is open.
+/// Articulation of a container, in the map. `part` is 0 where it is closed and 1 where it is open.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Articulation {
     still: Vec<Solid>,
-    /// Where they are when it is closed.
+    /// Moving solids in the closed pose.
     moving: Vec<Solid>,
     way: ArticulationJoint,
-    /// Where it is when it is closed.
+    /// Handle in the closed pose.
     handle: Handle,
-    /// The closed container.
     whole: Solid,
 }
 
-/// A bar to take hold of. A scene does not say where handles are, so it is where most are: across the middle of a
-/// drawer's front, along the free edge of a door.
+/// Bar that the hand grasps. A scene does not place handles, so this one is where most are: across the
+/// middle of a drawer's front, or along the free edge of a door.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Handle {
     pub(crate) centre: Point3<f64>,
-    /// Its direction; of length 1.
     pub(crate) along: Vector3<f64>,
-    /// Away from the face that it is on; of length 1.
+    /// Unit normal of the face that carries it.
     pub(crate) out: Vector3<f64>,
-    /// Half of the length over which it can be taken, in m.
+    /// Half of its graspable length, in m.
     pub(crate) half: f64,
 }
 
@@ -54,8 +51,8 @@ enum ArticulationJoint {
 }
 
 impl Articulation {
-    /// How an entity opens where it stands. `None` where it has no travel or no known place, is no box, or has no face whose
-    /// door turns about its hinge.
+    /// Articulation of an entity in a state. `None` where the entity has no travel or no known pose, is no
+    /// box, or has no face whose door turns about its hinge.
     #[must_use]
     pub fn new(entity: &Entity, state: &SceneState) -> Option<Self> {
         let (pose, shape) = (state.pose(entity)?, solid_shape(entity)?);
@@ -64,7 +61,7 @@ impl Articulation {
         match travel {
             Travel::Slide { axis, distance } => {
                 let axis = Vector3::from(axis) * distance;
-                // Without its upper face, wherever the entity's axes have that.
+                // The upper face is missing, whichever axis of the entity points up.
                 let up = face_towards(&(pose.rotation.inverse() * Vector3::z()));
                 let out = face_towards(&axis);
                 let across = out.cross(&up);
@@ -102,33 +99,33 @@ impl Articulation {
         }
     }
 
-    /// The same with more that goes along, where it is when it is closed.
+    /// Adds solids that move along, given in the closed pose.
     #[must_use]
     pub(crate) fn with(mut self, more: Vec<Solid>) -> Self {
         self.moving.extend(more);
         self
     }
 
-    /// What stays where it is.
+    /// Solids that stay in place.
     #[must_use]
     pub fn still(&self) -> &[Solid] {
         &self.still
     }
 
-    /// What moves, where it then is.
+    /// Moving solids at `part`.
     #[must_use]
     pub fn moving(&self, part: f64) -> Vec<Solid> {
         let moved = self.map_moved(part);
         self.moving.iter().map(|solid| solid.moved(&moved)).collect()
     }
 
-    /// All of it.
+    /// All solids at `part`.
     #[must_use]
     pub fn solids(&self, part: f64) -> Vec<Solid> {
         self.still.iter().copied().chain(self.moving(part)).collect()
     }
 
-    /// How what moves has moved in the map since it was closed.
+    /// Motion of the moving solids in the map from the closed pose to `part`.
     #[must_use]
     pub fn map_moved(&self, part: f64) -> Isometry3<f64> {
         match &self.way {
@@ -140,7 +137,8 @@ impl Articulation {
         }
     }
 
-    /// How far any point of a solid that moves along goes for a `part`, at most, in m. The solid is where it is at any part.
+    /// Motion bound: the greatest distance that a point of a moving solid goes within `part` of the travel,
+    /// in m.
     pub(crate) fn goes(&self, solid: &Solid, part: f64) -> f64 {
         match &self.way {
             ArticulationJoint::Slide(way) => way.norm() * part,
@@ -151,7 +149,7 @@ impl Articulation {
         }
     }
 
-    /// The hinge's axis and how far the door turns about it, in rad; `None` of a drawer.
+    /// Axis of the hinge and the angle of the open door, in rad; `None` for a drawer.
     pub(crate) fn hinge(&self) -> Option<(Unit<Vector3<f64>>, f64)> {
         match &self.way {
             ArticulationJoint::Slide(_) => None,
@@ -159,7 +157,7 @@ impl Articulation {
         }
     }
 
-    /// How far the handle goes, in m.
+    /// Path length of the handle, in m.
     pub(crate) fn length(&self) -> f64 {
         match &self.way {
             ArticulationJoint::Slide(way) => way.norm(),
@@ -169,12 +167,12 @@ impl Articulation {
         }
     }
 
-    /// The handle when it is closed.
+    /// Handle in the closed pose.
     pub(crate) fn handle(&self) -> &Handle {
         &self.handle
     }
 
-    /// Whether a point lies in it when it is open by a part; what lies in a drawer goes with it.
+    /// Checks whether a point is inside of the container at `part`; the contents of a drawer move with it.
     pub(crate) fn carries(&self, point: &Vector3<f64>, part: f64) -> bool {
         let ArticulationJoint::Slide(way) = &self.way else { return false };
         let Shape::Box(half) = self.whole.shape else { return false };
@@ -200,23 +198,23 @@ impl Handle {
     }
 }
 
-/// The direction of the box's face that looks most along a direction.
+/// Normal of the box's face that is nearest to a direction.
 fn face_towards(direction: &Vector3<f64>) -> Vector3<f64> {
     let axis = direction.iamax();
     Vector3::from_fn(|row, _| if row == axis { direction.get(row).map_or(0.0, |v| v.signum()) } else { 0.0 })
 }
 
-/// Some axis of a box that is square to another.
+/// Axis of a box that is square to another one.
 fn across_of(axis: &Vector3<f64>) -> Vector3<f64> {
     if axis.x == 0.0 { Vector3::x() } else { Vector3::y() }
 }
 
-/// 1 along the axis that is square to both, else 0.
+/// Mask of the axis that is square to both: 1 there, else 0.
 fn across_mask(one: &Vector3<f64>, other: &Vector3<f64>) -> Vector3<f64> {
     Vector3::repeat(1.0) - one.abs() - other.abs()
 }
 
-/// Five walls of a box, in the frame of its pose, without the face in a direction.
+/// Five walls of a box without the face in one direction, in the frame of its pose.
 fn walls(pose: &Isometry3<f64>, half: &Vector3<f64>, missing: &Vector3<f64>) -> Vec<Solid> {
     faces().filter(|face| face != missing).map(|face| wall(half, &face).moved(pose)).collect()
 }
@@ -225,14 +223,14 @@ fn faces() -> impl Iterator<Item = Vector3<f64>> {
     [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().flat_map(|axis| [axis, -axis])
 }
 
-/// A face of a box as a slab within it.
+/// Face of a box as a slab within it.
 fn wall(half: &Vector3<f64>, face: &Vector3<f64>) -> Solid {
     let thin = half.zip_map(face, |half, part| if part == 0.0 { half } else { (WALL / 2.0).min(half) });
     let centre = face.component_mul(&(half - thin));
     Solid::new(&Translation3::from(centre).into(), Shape::Box(thin))
 }
 
-/// The face that the door closes: of the faces next to the hinge that whose door comes to lie farthest outside of the box.
+/// Face that the door closes: of the faces at the hinge the one whose door swings farthest out of the box.
 fn door(
     half: &Vector3<f64>,
     axis: &Unit<Vector3<f64>>,

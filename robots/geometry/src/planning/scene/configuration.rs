@@ -1,18 +1,21 @@
-//! Where a robot is: the pose of its base, and the positions of its joints.
+//! Configuration of the whole robot: the pose of its base and the positions of its joints.
 
 use nalgebra::Vector3;
 
-/// A state of the whole robot.
+/// Configuration: a base pose and all joint values.
+///
+/// Between two configurations the robot moves straight in base and joints.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Configuration {
-    /// x and y in m and yaw in rad of the base in the map. Along a path yaw goes on beyond a half turn.
+    /// Pose of the base in the map: x and y in m, yaw in rad. Along a path yaw continues beyond half a
+    /// turn.
     pub base: [f64; 3],
-    /// A value for each variable of the robot's tree.
+    /// Value of each variable of the robot's tree, in rad or m.
     pub joints: Vec<f64>,
 }
 
 impl Configuration {
-    /// The state on the straight way to another, at `part` of it in 0..=1.
+    /// Configuration on the straight edge to another one, at `part` of it in 0..=1.
     #[must_use]
     pub fn towards(&self, other: &Self, part: f64) -> Self {
         let mix = |one, other| between(one, other, part);
@@ -24,7 +27,7 @@ impl Configuration {
         }
     }
 
-    /// Becomes the state on the straight way between two others, at `part` of it in 0..=1.
+    /// Becomes the configuration at `part` of the edge between two others, without an allocation.
     pub(crate) fn set_towards(&mut self, from: &Self, to: &Self, part: f64) {
         let mix = |one, other| between(one, other, part);
         let values = self.joints.iter_mut().zip(from.joints.iter().zip(&to.joints));
@@ -33,20 +36,20 @@ impl Configuration {
         values.for_each(|(slot, (one, other))| *slot = mix(*one, *other));
     }
 
-    /// The same state with the base elsewhere.
+    /// Same joints with the base at another pose.
     #[must_use]
     pub fn at(&self, base: [f64; 3]) -> Self {
         Self { base, joints: self.joints.clone() }
     }
 
-    /// The same state with the base turned further, in rad.
+    /// Same configuration with the base turned by `further` rad.
     #[must_use]
     pub(crate) fn turned(&self, further: f64) -> Self {
         let [x, y, yaw] = self.base;
         self.at([x, y, yaw + further])
     }
 
-    /// The direction from the base to a place, in the plane and of length 1.
+    /// Unit direction in the plane from the base to a point.
     #[must_use]
     pub(crate) fn inwards(&self, place: &Vector3<f64>) -> [f64; 2] {
         let [x, y, _] = self.base;
@@ -55,7 +58,7 @@ impl Configuration {
         [dx / far, dy / far]
     }
 
-    /// The same state with a yaw that differs by full turns and is nearest to that of `before`.
+    /// Same configuration with the yaw, modulo full turns, that is nearest to the one of `before`.
     #[must_use]
     pub fn after(mut self, before: &Self) -> Self {
         let [_, _, from] = before.base;
@@ -65,7 +68,13 @@ impl Configuration {
     }
 }
 
-/// The number at `part` of the way between two; rounding does not take it beyond them.
+/// Linear interpolation; rounding does not leave the interval.
 fn between(one: f64, other: f64, part: f64) -> f64 {
     (one + (other - one) * part).max(one.min(other)).min(one.max(other))
+}
+
+/// Position of the base on the floor, in m in the map.
+pub(crate) fn plane(configuration: &Configuration) -> [f64; 2] {
+    let [x, y, _] = configuration.base;
+    [x, y]
 }

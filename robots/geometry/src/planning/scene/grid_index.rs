@@ -1,21 +1,21 @@
-//! What stands in a room, listed by square of the floor, so that what is near a place is found without looking at all.
+//! Grid index: obstacles listed by square of the floor, so that a search near a place does not visit all.
 
 use crate::collision::Solid;
 
-/// A side of the squares in m, where the room is not too large for it.
+/// Side of a square in m, for scenes of up to [`SQUARES`] squares a side.
 const SIDE: f64 = 1.0;
-/// The most squares along a side.
+/// Greatest number of squares along a side.
 const SQUARES: usize = 256;
-/// As few things are looked at one by one.
+/// Up to this number of obstacles there is no grid.
 const FEW: usize = 32;
 
-/// A solid of an entity.
+/// One solid of an entity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Obstacle {
-    /// Index of the entity in the scene.
+    /// Index of its entity in the scene.
     pub(crate) entity: usize,
     pub(crate) solid: Solid,
-    /// The radius of the ball around its centre that holds it, in m.
+    /// Radius of its bounding ball, in m.
     pub(crate) reach: f64,
 }
 
@@ -25,23 +25,23 @@ impl Obstacle {
     }
 }
 
-/// All solids of a room, in the order of the scene.
+/// All obstacles of a scene in the scene's order, with a grid over them.
 #[derive(Clone, Debug)]
 pub(crate) struct ObstacleIndex {
     all: Vec<Obstacle>,
     origin: [f64; 2],
     side: f64,
     size: [usize; 2],
-    /// Where the list of each square begins, and where the last ends.
+    /// Start of each square's list, and the end of the last.
     starts: Vec<usize>,
-    /// By square, those with their middle in it that are no larger than a square.
+    /// Obstacles by the square of their centre, of those no larger than a square.
     listed: Vec<usize>,
-    /// Those that are larger.
+    /// Obstacles larger than a square.
     large: Vec<usize>,
 }
 
 impl ObstacleIndex {
-    /// Lists solids. O(things).
+    /// Builds the index; O(obstacles).
     pub(crate) fn new(all: Vec<Obstacle>) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for obstacle in &all {
@@ -101,18 +101,17 @@ impl ObstacleIndex {
         (obstacle.reach <= self.side).then_some(at(1)? * self.size[0] + at(0)?)
     }
 
-    /// All of them.
+    /// Iterates in the scene's order.
     pub(crate) fn iter(&self) -> std::slice::Iter<'_, Obstacle> {
         self.all.iter()
     }
 
-    /// One by index.
+    /// Obstacle by index.
     pub(crate) fn get(&self, index: usize) -> Option<&Obstacle> {
         self.all.get(index)
     }
 
-    /// Those of which a point may be within `far` m of a place in the plane, with their indices, which rise; some may be
-    /// farther. O(those).
+    /// Obstacles with a point within `far` m of a place, by rising index; a superset. O(obstacles found).
     pub(crate) fn near(&self, place: [f64; 2], far: f64) -> impl Iterator<Item = (usize, &Obstacle)> {
         let mut found: Vec<usize> = Vec::new();
         let is_every = self.starts.is_empty() || !far.is_finite();
@@ -139,7 +138,7 @@ impl ObstacleIndex {
         every.chain(found).filter_map(|index| Some((index, self.all.get(index)?)))
     }
 
-    /// The same with others after them.
+    /// Copy with more obstacles at the end.
     pub(crate) fn with(&self, others: impl IntoIterator<Item = Obstacle>) -> Self {
         Self::new(self.all.iter().copied().chain(others).collect())
     }

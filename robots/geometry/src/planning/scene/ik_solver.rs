@@ -1,4 +1,4 @@
-//! How the joint positions of an arm are found: in closed form where it has one.
+//! Inverse kinematics of one arm: in closed form where its chain has one, else in steps.
 
 use motet_robots::card::Drive;
 use nalgebra::Isometry3;
@@ -6,24 +6,24 @@ use nalgebra::Isometry3;
 use crate::inverse::{LiftArm, ParallelArm, SevenArm, Tolerance, numeric};
 use crate::kinematics::KinematicChain;
 
-/// The largest change of a joint between two places on a line that the hand follows, in rad or m.
+/// Greatest change of a joint between two points of a hand path, in rad or m.
 const JUMP: f64 = 0.5;
 
-/// How an arm is solved.
+/// Solver for the inverse kinematics of one arm, chosen by the shape of its chain.
 #[derive(Clone, Debug)]
 pub enum IkSolver {
-    /// A lift with a spherical wrist on a base that drives anywhere.
+    /// Lift with a spherical wrist, on a base that drives in every direction.
     Lift(LiftArm),
-    /// Six joints of which three are parallel.
+    /// Six joints, three of them parallel.
     Parallel(ParallelArm),
-    /// Seven joints as of the Franka arms.
+    /// Seven joints as in the Franka arms.
     Seven(SevenArm),
-    /// Any other chain, in steps.
+    /// Any other chain: damped least squares.
     Steps(KinematicChain),
 }
 
 impl IkSolver {
-    /// How the arm of a chain is solved on a base that drives so, whose link is so high above the floor, in m.
+    /// Chooses the solver of a chain on a base with a drive, whose link is `height` m above the floor.
     #[must_use]
     pub fn of(chain: &KinematicChain, drive: Drive, height: f64) -> Self {
         let drives_anywhere = matches!(drive, Drive::Omnidirectional | Drive::Legged);
@@ -34,7 +34,7 @@ impl IkSolver {
         lift.or_else(parallel).or_else(seven).unwrap_or_else(|| Self::Steps(chain.clone()))
     }
 
-    /// The arm's chain, from the base's link to the tip.
+    /// Kinematic chain from the base's link to the tip.
     #[must_use]
     pub fn chain(&self) -> &KinematicChain {
         match self {
@@ -45,11 +45,11 @@ impl IkSolver {
         }
     }
 
-    /// Values of the arm's variables that put the tip at a pose a little way from where it is with others: near to these.
+    /// Joint values for a tip pose near to the one of `values`, without a jump to another branch.
     pub(crate) fn followed(&self, base_from_tip: &Isometry3<f64>, values: &[f64]) -> Option<Vec<f64>> {
         let is_near = |next: &Vec<f64>| next.iter().zip(values).all(|(a, b)| (a - b).abs() <= JUMP);
         let closed = match self {
-            // All solutions are known, so that there is none nearby where the nearest is not.
+            // The closed form finds all solutions, so none is near where the nearest is not.
             Self::Parallel(arm) => {
                 return arm.nearest(base_from_tip, values.try_into().ok()?).map(Vec::from).filter(is_near);
             }
@@ -60,7 +60,7 @@ impl IkSolver {
             Self::Lift(_) | Self::Steps(_) => None,
         };
         let numeric = || numeric::refined(self.chain(), base_from_tip, values, 20, Tolerance::EXACT);
-        // Another branch of the arm is no straight line.
+        // A jump to another branch leaves the straight line of the hand.
         closed.filter(is_near).or_else(|| numeric().filter(is_near))
     }
 }

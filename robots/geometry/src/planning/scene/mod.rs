@@ -5,6 +5,7 @@ pub(crate) mod configuration;
 pub(crate) mod contact;
 pub(crate) mod grid_index;
 pub(crate) mod ik_solver;
-pub(crate) mod obstacle;
+pub(crate) mod planning_scene;
 pub(crate) mod robot_model;
 pub(crate) mod scene_state;
+pub(crate) mod support_surface;

@@ -1,4 +1,4 @@
-//! A robot made ready for queries: its card, its kinematics, its body, and how its hand is solved. Made once.
+//! Robot model for motion queries: card, kinematics, body and the solver of its arm.
 
 use motet_robots::card::{Drive, HandSpec, Robot};
 use motet_robots::urdf::Urdf;
@@ -7,59 +7,60 @@ use smol_str::SmolStr;
 
 use crate::collision::{CollisionModel, Shape, Solid};
 use crate::kinematics::{AncestorJoint, KinematicChain, KinematicTree, planar};
-use crate::planning::checking::collision_checker::above_floor;
 use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::above_floor;
 use crate::planning::scene::ik_solver::IkSolver;
 
-/// How far in front of the palm a thing is held, in m.
+/// Gap between the palm and a held object, in m.
 const PALM_GAP: f64 = 0.005;
 
-/// A robot of which motions can be asked.
+/// Robot model: all that depends on the robot alone. Built once and shared by all scenes.
 #[derive(Clone, Debug)]
 pub struct RobotModel {
     card: Robot,
     tree: KinematicTree,
     body: CollisionModel,
     floor_from_root: Isometry3<f64>,
-    /// For each link the joints that move it.
+    /// Joints that move each link.
     ancestors: Vec<Vec<AncestorJoint>>,
     hand: Option<HandModel>,
     rest: Vec<f64>,
-    /// How far any point of it can be from the vertical axis of its base, in m.
+    /// Greatest distance of a point from the vertical axis of the base, in m.
     extent: f64,
-    /// For each variable whether it turns something.
+    /// Flag of each variable: set where it turns some part.
     turning: Vec<bool>,
 }
 
-/// A hand and the arm that carries it.
+/// Hand with the arm that carries it.
 #[derive(Clone, Debug)]
 pub struct HandModel {
-    /// Its name in the card.
+    /// Name in the robot card.
     pub name: SmolStr,
-    /// What the card says of it.
+    /// Entry in the robot card.
     pub card: HandSpec,
-    /// Index of its tip's link.
+    /// Index of the tip's link.
     pub tip: usize,
-    /// How joint positions are found.
+    /// Inverse kinematics of the arm.
     pub solver: IkSolver,
-    /// How far the palm reaches along the direction in which the fingers point, from the tip's origin, in m.
+    /// Reach of the palm from the tip's origin along the pointing direction, in m; may be negative.
     pub palm: f64,
-    /// How far the open fingers reach, likewise.
+    /// Reach of the open fingers, likewise.
     pub fingers: f64,
-    /// Whether the tip is on a jaw that does not move: then what is held lies against it, else in the middle between the fingers.
+    /// Set where the tip is on a jaw that does not move: a held object rests against that jaw, else it is
+    /// centred.
     pub has_fixed_jaw: bool,
-    /// The variables of its own joints with their values when it is open.
+    /// Variables of the hand's own joints, with their values in the open hand.
     pub open: Vec<(usize, f64)>,
-    /// For each link whether it belongs to the hand: rigid with the tip, or carried by it.
+    /// Flag of each link: set for links of the hand.
     pub members: Vec<bool>,
-    /// For each link whether a joint of the arm moves it.
+    /// Flag of each link: set where a joint of the arm moves it.
     pub carried: Vec<bool>,
 }
 
 impl RobotModel {
-    /// A robot from its card and a URDF that fits it, with its meshes and its SRDF where there are any. O(parts²).
+    /// Builds the model from a card and its URDF; O(parts²).
     ///
-    /// The fingers of a hand may touch each other: that is what they are for.
+    /// Fingers of one hand may touch each other, since they close on each other.
     #[must_use]
     pub fn new(card: &Robot, urdf: &Urdf) -> Self {
         let tree = KinematicTree::new(urdf);
@@ -159,37 +160,38 @@ impl RobotModel {
         })
     }
 
-    /// The card.
+    /// Card of the robot.
     #[must_use]
     pub fn card(&self) -> &Robot {
         &self.card
     }
 
-    /// The kinematics.
+    /// Kinematic tree.
     #[must_use]
     pub fn tree(&self) -> &KinematicTree {
         &self.tree
     }
 
-    /// The body.
+    /// Collision body at rest.
     #[must_use]
     pub fn body(&self) -> &CollisionModel {
         &self.body
     }
 
-    /// The hand that is meant where only one is: the first of the card's that the base's link carries.
+    /// Hand that queries use: the first of the card whose arm starts at the base's link.
     #[must_use]
     pub fn hand(&self) -> Option<&HandModel> {
         self.hand.as_ref()
     }
 
-    /// The configuration where nothing else is said: at rest, in the posture `home`.
+    /// Joint values at rest: the posture `home`.
     #[must_use]
     pub fn rest(&self) -> &[f64] {
         &self.rest
     }
 
-    /// The configuration of a posture, with everything that it does not name as in `from`.
+    /// Joint values of a posture; joints that it does not name stay as in `from`. `None` for an unknown
+    /// name.
     #[must_use]
     pub fn posture(&self, name: &str, from: &[f64]) -> Option<Vec<f64>> {
         let mut joints = from.to_vec();
@@ -199,8 +201,8 @@ impl RobotModel {
         Some(joints)
     }
 
-    /// The lowest point of those links that count: a link, and its height above the floor in m. None where no shape of them is
-    /// known.
+    /// Lowest point of the links that `counts` selects: the link and its height above the floor, in m.
+    /// `None` where no shape of them is known.
     #[must_use]
     pub fn lowest(
         &self,
@@ -215,13 +217,13 @@ impl RobotModel {
         Some((self.tree.links().get(link)?.clone(), height))
     }
 
-    /// Whether the base drives.
+    /// Checks whether the base drives.
     #[must_use]
     pub fn drives(&self) -> bool {
         self.card.base.drive != Drive::Fixed
     }
 
-    /// The pose of every link in the map.
+    /// Poses of all links in the map.
     #[must_use]
     pub fn map_from_links(&self, configuration: &Configuration) -> Vec<Isometry3<f64>> {
         let map_from_root = self.map_from_root(configuration.base);
@@ -232,22 +234,23 @@ impl RobotModel {
         poses
     }
 
-    /// The pose of the root's link with the base at a place.
+    /// Pose of the root link with the base at a pose on the floor.
     pub(crate) fn map_from_root(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
         planar(x, y, yaw) * self.floor_from_root
     }
 
-    /// For each variable of the tree whether it turns something.
+    /// Flag of each variable: set where it turns some part.
     pub(crate) fn turning(&self) -> &[bool] {
         &self.turning
     }
 
-    /// How far any point of the robot can be from the vertical axis of its base, in m, whatever its joints.
+    /// Greatest distance of a point of the robot from the vertical axis of its base, in m, over all joint
+    /// values.
     pub(crate) fn extent(&self) -> f64 {
         self.extent
     }
 
-    /// Added up joint by joint. While nothing has turned about another axis than the vertical, heights do not count.
+    /// Sum over the joints of each chain. Before the first joint with a tilted axis, heights do not count.
     fn extent_about(&self, base: usize) -> f64 {
         let parts = self.body.parts().iter().map(|part| {
             let Some(chain) = KinematicChain::new(&self.tree, base, part.link) else { return f64::INFINITY };
@@ -276,7 +279,7 @@ impl RobotModel {
             let solid = part.solid;
             add(&(turned * chain.last_from_tip.rotation), solid.centre, is_upright);
             let far = far + solid.reach();
-            // Nothing times no limit.
+            // Zero times infinity: a joint without limits that moves nothing.
             if far.is_nan() { f64::INFINITY } else { far }
         });
         parts.fold(0.0, f64::max)
@@ -288,19 +291,19 @@ impl RobotModel {
 }
 
 impl HandModel {
-    /// How far from the tip, in the direction in which the fingers close, the middle of a thing so wide is held, in m.
+    /// Offset of the centre of an object of a width from the tip along the closing direction, in m.
     #[must_use]
     pub fn middle(&self, width: f64) -> f64 {
         if self.has_fixed_jaw { width / 2.0 } else { 0.0 }
     }
 
-    /// A configuration with the hand open.
+    /// Joint values with the hand open.
     #[must_use]
     pub fn opened(&self, joints: &[f64]) -> Vec<f64> {
         opened(joints, &self.open)
     }
 
-    /// A configuration with the fingers around a thing: as far open, from how they rest, as it is wide against the opening.
+    /// Joint values with the fingers around an object of a width: open in proportion to the width.
     #[must_use]
     pub fn around(&self, joints: &[f64], rest: &[f64], width: f64) -> Vec<f64> {
         let share = (width / self.card.opening_m.max(1e-6)).clamp(0.0, 1.0);
@@ -310,8 +313,8 @@ impl HandModel {
         opened(joints, &fingers)
     }
 
-    /// The rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`, which is
-    /// square to it; both of length 1.
+    /// Rotation of the tip in the map with the fingers pointing along `approach` and closing along `along`;
+    /// the two are unit vectors and square to each other.
     #[must_use]
     pub fn turned(&self, approach: &Vector3<f64>, along: &Vector3<f64>) -> UnitQuaternion<f64> {
         let (points, closes) = (Vector3::from(self.card.points), Vector3::from(self.card.closes));
@@ -319,6 +322,11 @@ impl HandModel {
         let wanted = Matrix3::from_columns(&[*approach, *along, approach.cross(along)]);
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(wanted * own.transpose()))
     }
+}
+
+/// Shift of `far` m against the pointing direction of the hand, in the map.
+pub(crate) fn away(map_from_tip: &Isometry3<f64>, hand: &HandModel, far: f64) -> Vector3<f64> {
+    map_from_tip.rotation * -Vector3::from(hand.card.points) * far
 }
 
 fn opened(joints: &[f64], open: &[(usize, f64)]) -> Vec<f64> {
@@ -337,7 +345,7 @@ fn set(tree: &KinematicTree, joints: &mut [f64], joint: &str, position: f64) {
     }
 }
 
-/// Whether a link hangs on another by way of a joint that moves.
+/// Checks whether a moving joint connects two links.
 fn is_carried_by(tree: &KinematicTree, ancestors: &[Vec<AncestorJoint>], tip: usize, link: usize) -> bool {
     let own = ancestors.get(tip).map_or(0, Vec::len);
     ancestors.get(link).is_some_and(|ancestors| ancestors.len() > own)
@@ -345,12 +353,12 @@ fn is_carried_by(tree: &KinematicTree, ancestors: &[Vec<AncestorJoint>], tip: us
             .is_some_and(|chain| !chain.joints.is_empty())
 }
 
-/// The link after the last moving joint before the tip: everything on it is rigid with the tip.
+/// Last moving link of the chain to the tip: everything on it is rigid with the tip.
 fn tip_group(tree: &KinematicTree, ancestors: &[Vec<AncestorJoint>], tip: usize) -> usize {
     ancestors.get(tip).and_then(|ancestors| ancestors.last()).map_or(tree.root(), |last| last.frame)
 }
 
-/// Whether a solid in the tip's frame is a jaw on whose inner face the tip is.
+/// Checks whether a solid in the tip's frame is a jaw whose inner face carries the tip.
 fn is_jaw(solid: &Solid, closes: &Vector3<f64>) -> bool {
     const NEAR: f64 = 0.003;
     let point = Solid {
@@ -362,7 +370,7 @@ fn is_jaw(solid: &Solid, closes: &Vector3<f64>) -> bool {
     (-NEAR..=0.0).contains(&face) && solid.distance(&point) <= NEAR
 }
 
-/// Where a ray against a direction through the origin meets a solid, along the direction; −∞ where it passes by.
+/// Position along a ray through the origin at which it meets a solid, coming from afar; −∞ where it misses.
 fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
     let far = 2.0;
     let mut at = far;
@@ -384,7 +392,7 @@ fn front(solid: &Solid, direction: &Vector3<f64>) -> f64 {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 impl RobotModel {
-    /// A robot that the crates bring along.
+    /// Model of an embedded robot.
     pub(crate) fn embedded(name: &str) -> Self {
         let motet_robots::builtin::RobotWithBody { robot, urdf } =
             motet_robots::builtin::robot(name).unwrap();

@@ -1,5 +1,4 @@
-//! What changes from step to step: where the robot and the things are, what it holds, what is open. A query is answered
-//! in one of these.
+//! Scene state: everything that changes between queries. Its scene and its robot model stay the same.
 
 use std::collections::BTreeMap;
 
@@ -10,33 +9,33 @@ use smol_str::SmolStr;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::robot_model::{HandModel, RobotModel};
 
-/// The world after some steps.
+/// Scene state: robot configuration, moved objects, held object and open containers.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SceneState {
-    /// Where the robot is.
+    /// Configuration of the robot.
     pub robot: Configuration,
-    /// Where things are that have moved since the scene was made: the pose of their shape's centre.
+    /// Poses of the objects that moved since the scene was read: the centre of their shape, in the map.
     pub moved: BTreeMap<SmolStr, Isometry3<f64>>,
-    /// What is in the hand, and where in the tip's frame.
+    /// Held object and its pose in the tip's frame.
     pub held: Option<(SmolStr, Isometry3<f64>)>,
-    /// Which containers are open or closed, where that differs from the scene.
+    /// Containers whose state differs from the scene: `true` where open.
     pub open: BTreeMap<SmolStr, bool>,
 }
 
-/// A thing in the hand.
+/// Held object with its hand.
 #[derive(Clone, Debug)]
 pub(crate) struct HeldObject<'a> {
     pub(crate) id: SmolStr,
     pub(crate) tip_from_object: Isometry3<f64>,
     pub(crate) hand: &'a HandModel,
     pub(crate) shape: crate::collision::Shape,
-    /// How wide it is between the fingers, in m.
+    /// Width between the fingers, in m.
     pub(crate) width: f64,
 }
 
 impl SceneState {
-    /// The world as a scene gives it. Joints that it does not name are at rest; of a thing in the hand it is not known how it
-    /// is held, so it is taken to stand upright where a grasp from the side would put it.
+    /// State that a scene describes. Joints that it does not name are at rest. A scene does not give the
+    /// grasp of a held object: it is upright, as a grasp from the side holds it.
     #[must_use]
     pub fn new(model: &RobotModel, scene: &Scene) -> Self {
         let mut joints = model.rest().to_vec();
@@ -56,7 +55,7 @@ impl SceneState {
             };
             let points = Vector3::from(hand.card.points);
             let closes = Vector3::from(hand.card.closes);
-            // Upright in the hand: its z is square to both directions of the hand.
+            // Upright in the hand: its z axis is square to both directions of the hand.
             let axes = Matrix3::from_columns(&[points, closes, points.cross(&closes)]);
             let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
             let depth = (hand.palm + half).max(0.0);
@@ -71,14 +70,15 @@ impl SceneState {
         }
     }
 
-    /// The pose of an entity's centre: of its shape, or of the entity where it has none. `None` where it is not known.
+    /// Pose of an entity's centre: of its shape, or of the entity itself without one. `None` where it is
+    /// not known.
     #[must_use]
     pub fn pose(&self, entity: &Entity) -> Option<Isometry3<f64>> {
         if let Some(pose) = self.moved.get(&entity.id) {
             return Some(*pose);
         }
         let pose = isometry(entity.pose.as_ref()?);
-        // The pose of a person is that of the feet.
+        // The scene gives the pose of a person's feet.
         let lifted = match (&entity.shape, entity.kind.as_str()) {
             (Some(EntityShape::Cylinder { height, .. }), "Person") => height / 2.0,
             (Some(EntityShape::Capsule { radius, height }), "Person") => height / 2.0 + radius,
@@ -88,7 +88,7 @@ impl SceneState {
         Some(pose * Translation3::new(0.0, 0.0, lifted))
     }
 
-    /// All that tells this world from another of the same robot and scene, bit for bit.
+    /// Fingerprint of the state: equal, bit for bit, for equal states of one robot and scene.
     #[must_use]
     pub fn fingerprint(&self) -> Vec<u8> {
         let mut key = self.key_without_base();
@@ -96,7 +96,7 @@ impl SceneState {
         key
     }
 
-    /// The same but for where the base is.
+    /// Fingerprint without the pose of the base.
     pub(crate) fn key_without_base(&self) -> Vec<u8> {
         let mut key = Vec::with_capacity(256);
         let numbers = |key: &mut Vec<u8>, values: &[f64]| {
@@ -121,26 +121,26 @@ impl SceneState {
         key
     }
 
-    /// Whether a container is open.
+    /// Checks whether a container is open.
     #[must_use]
     pub fn is_open(&self, entity: &Entity) -> bool {
         self.open.get(&entity.id).copied().or(entity.open).unwrap_or(false)
     }
 
-    /// What is held.
+    /// Checks whether the hand holds an entity.
     #[must_use]
     pub fn holds(&self, id: &str) -> bool {
         self.held.as_ref().is_some_and(|(held, _)| held == id)
     }
 }
 
-/// A pose as numbers: x, y and z in m, and the unit quaternion x, y, z, w.
+/// Components of a pose: x, y and z in m, and the unit quaternion as x, y, z, w.
 #[must_use]
 pub fn components(pose: &Isometry3<f64>) -> ([f64; 3], [f64; 4]) {
     (pose.translation.vector.into(), pose.rotation.coords.into())
 }
 
-/// A scene's placement: roll, pitch and yaw about fixed axes, with one sine for every machine.
+/// Pose of a scene's placement: roll, pitch and yaw about fixed axes, with a portable sine.
 pub(crate) fn isometry(placement: &Placement) -> Isometry3<f64> {
     use crate::trigonometry::turn;
     let [x, y, z] = placement.xyz;
@@ -148,4 +148,19 @@ pub(crate) fn isometry(placement: &Placement) -> Isometry3<f64> {
     let rotation =
         turn(&Vector3::z_axis(), yaw) * turn(&Vector3::y_axis(), pitch) * turn(&Vector3::x_axis(), roll);
     Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+}
+
+/// Solid shape of an entity; `None` for a mesh or without a shape.
+pub(crate) fn solid_shape(entity: &Entity) -> Option<crate::collision::Shape> {
+    Some(match entity.shape.as_ref()? {
+        EntityShape::Box([x, y, z]) => crate::collision::Shape::Box(Vector3::new(x / 2.0, y / 2.0, z / 2.0)),
+        EntityShape::Cylinder { radius, height } => {
+            crate::collision::Shape::Cylinder { radius: *radius, half: height / 2.0 }
+        }
+        EntityShape::Sphere { radius } => crate::collision::Shape::Capsule { radius: *radius, half: 0.0 },
+        EntityShape::Capsule { radius, height } => {
+            crate::collision::Shape::Capsule { radius: *radius, half: height / 2.0 }
+        }
+        EntityShape::Mesh { .. } => return None,
+    })
 }

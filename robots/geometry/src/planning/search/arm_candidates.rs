@@ -1,43 +1,43 @@
-//! States of the whole robot that put the hand's tip at a pose, one after the other in an order that spreads over all.
+//! Arm candidates: configurations that put the tip at a pose, in a low-discrepancy order.
 
 use std::f64::consts::{PI, TAU};
 
-use motet_robots::card::Drive;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::inverse::{Tolerance, numeric};
-use crate::kinematics::{KinematicChain, planar, quasi_random};
+use crate::kinematics::{KinematicChain, quasi_random};
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 
-/// Steps of the hand from in front of a thing to it, where the arm has to follow a line.
+/// Steps of a straight hand path that the arm follows.
 const STEPS: usize = 5;
 
-/// Steps after which a solution is found from most starts from which one is found at all.
+/// Iterations within which most solvable starts converge.
 const CLOSES: usize = 14;
 
-/// So many candidates of an arm with seven joints are found by steps, the others in closed form.
+/// Number of candidates of a seven-joint arm that come from the numeric solver; the others are closed-form.
 const BY_STEPS: usize = 4;
-/// Solutions in closed form for one value of the last joint, the nearest to how the arm is.
+/// Closed-form solutions per value of the last joint, the nearest to the current one first.
 const MOST: usize = 2;
 
-/// The root of x² = x + 1.
+/// Root of x² = x + 1: ratio of the one-dimensional sequence.
 const LINE: f64 = 1.618_033_988_749_895;
-/// The root of x³ = x + 1.
+/// Root of x³ = x + 1: ratio of the two-dimensional sequence.
 pub(crate) const PLANE: f64 = 1.324_717_957_244_746;
-/// The root of x⁴ = x + 1.
+/// Root of x⁴ = x + 1: ratio of the three-dimensional sequence.
 pub(crate) const SPACE: f64 = 1.220_744_084_605_759_5;
 
-/// The fraction of `at` times the `n`-th power of the inverse of the root of x^(d+1) = x + 1 (Roberts 2018).
+/// Element `at` of coordinate `n` of the R_d sequence, in 0..1: the fraction of 0.5 + `at`·`ratio`⁻ⁿ
+/// (Roberts 2018).
 pub(crate) fn part(at: usize, n: i32, ratio: f64) -> f64 {
     let value = 0.5 + at as f64 * (0..n).fold(1.0, |power, _| power / ratio);
     value - libm::floor(value)
 }
 
-impl QueryContext<'_> {
-    /// Candidate `at` for a pose of the tip: no state, or some.
+impl PlanningScene<'_> {
+    /// Candidates of number `at` for a tip pose; may be none.
     pub(crate) fn candidates(
         &self,
         hand: &HandModel,
@@ -56,7 +56,7 @@ impl QueryContext<'_> {
         let values: Vec<Vec<f64>> = match &hand.solver {
             IkSolver::Parallel(arm) => arm.solve(&base_from_tip).into_iter().map(Into::into).collect(),
             IkSolver::Lift(_) => vec![],
-            // By steps first, which leave it free where the elbow goes; then along a family for one value of the last joint.
+            // The numeric solver leaves the elbow free; the closed form samples the last joint.
             IkSolver::Seven(arm) if at >= BY_STEPS => {
                 let (lower, upper) = arm.last_span();
                 let last = lower + part(at, 1, LINE) * (upper - lower);
@@ -77,19 +77,19 @@ impl QueryContext<'_> {
         values.into_iter().map(|values| self.with(hand, base, &values)).collect()
     }
 
-    /// Where the arm is.
+    /// Current values of the arm's joints.
     fn now(&self, chain: &KinematicChain) -> Vec<f64> {
         let joints = &self.state.robot.joints;
         chain.in_tree.iter().map(|at| joints.get(*at).copied().unwrap_or_default()).collect()
     }
 
-    /// Where the base of candidate `at` is for an arm that does not place it itself: most often behind the hand and facing
-    /// what it reaches for, but anywhere around in the end.
+    /// Base pose of candidate `at` for an arm that does not place the base itself: mostly behind the hand
+    /// and facing the target, and anywhere around it in the limit.
     pub(crate) fn base_at(&self, hand: &HandModel, map_from_tip: &Isometry3<f64>, at: usize) -> [f64; 3] {
         if !self.model.drives() {
             return self.state.robot.base;
         }
-        // Half of all within a quarter of the range on either side.
+        // Half of all samples are within a quarter of the range on either side.
         let aside = |part: f64| (2.0 * part - 1.0) * (2.0 * part - 1.0).abs() * PI;
         let reach = hand.card.reach_m + self.model.card().base.radius_m;
         let towards = self.heading(hand, map_from_tip) + aside(part(at, 1, SPACE));
@@ -99,19 +99,8 @@ impl QueryContext<'_> {
         [x, y, towards + aside(part(at, 3, SPACE))]
     }
 
-    /// The direction in which the base is likely to face with the tip at a pose: that of the fingers, or from where the robot
-    /// is where they point down.
-    pub(crate) fn heading(&self, hand: &HandModel, map_from_tip: &Isometry3<f64>) -> f64 {
-        let points = map_from_tip.rotation * Vector3::from(hand.card.points);
-        if points.x * points.x + points.y * points.y > 0.1 {
-            return libm::atan2(points.y, points.x);
-        }
-        let ([x, y, _], at) = (self.state.robot.base, map_from_tip.translation);
-        libm::atan2(at.y - y, at.x - x)
-    }
-
-    /// States on the straight line of the hand that ends at `state`, the first `back` m before it; `None` where the arm cannot
-    /// follow. `state` itself is the last.
+    /// Configurations of a straight hand path along the pointing direction, from `back` m before the goal;
+    /// the goal itself is the last. `None` where the arm cannot follow.
     pub(crate) fn approach(
         &self,
         hand: &HandModel,
@@ -123,8 +112,8 @@ impl QueryContext<'_> {
         self.line(hand, configuration, map_from_tip, &away)
     }
 
-    /// States on the straight line of the hand from `shift`, in m in the map, to `state`, the hand turned alike; `None` where
-    /// the arm cannot follow. `state` itself is the last.
+    /// Configurations of a straight hand path from `shift`, in m in the map, to the goal, with a constant
+    /// rotation; the goal itself is the last. `None` where the arm cannot follow.
     pub(crate) fn line(
         &self,
         hand: &HandModel,
@@ -133,7 +122,7 @@ impl QueryContext<'_> {
         shift: &Vector3<f64>,
     ) -> Option<Vec<Configuration>> {
         if let IkSolver::Lift(arm) = &hand.solver {
-            // With all else still, the base and the lift alone move the hand along any line.
+            // Base and lift alone move the hand along any line.
             let chain = hand.solver.chain();
             let (joint, dof) = (chain.joints.first()?, chain.dofs.first()?);
             let mut first = configuration.clone();
@@ -147,19 +136,14 @@ impl QueryContext<'_> {
             return Some(vec![first, configuration.clone()]);
         }
         let along = self.follows(hand, configuration, map_from_tip, shift, &Vector3::zeros());
-        // A base that drives anywhere takes the arm along, which has to lift the hand only.
+        // A base that drives in every direction carries the arm, which only has to lift the hand.
         let level = Vector3::new(shift.x, shift.y, 0.0);
         along.or_else(|| {
             self.slides().then(|| self.follows(hand, configuration, map_from_tip, shift, &level))?
         })
     }
 
-    /// Whether the base goes in every direction.
-    pub(crate) fn slides(&self) -> bool {
-        self.model.drives() && self.model.card().base.drive != Drive::Differential
-    }
-
-    /// The states on that line with the base coming from `by`, in m in the map and level.
+    /// Configurations of that path with the base moving along `by`, in m in the map.
     fn follows(
         &self,
         hand: &HandModel,
@@ -185,24 +169,5 @@ impl QueryContext<'_> {
         }
         configurations.reverse();
         Some(configurations)
-    }
-
-    /// The robot as it is, with the base elsewhere, the hand open, and values of the arm's joints.
-    pub(crate) fn with(&self, hand: &HandModel, base: [f64; 3], values: &[f64]) -> Configuration {
-        let now = &self.state.robot.joints;
-        // Around something the fingers stay as they are.
-        let mut joints = if self.state.held.is_some() { now.clone() } else { hand.opened(now) };
-        for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
-            if let Some(slot) = joints.get_mut(*at) {
-                *slot = *value;
-            }
-        }
-        Configuration { base, joints }
-    }
-
-    /// The pose of the base's link.
-    pub(crate) fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
-        let height = self.model.card().model.as_ref().map_or(0.0, |model| model.height_m);
-        planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
     }
 }

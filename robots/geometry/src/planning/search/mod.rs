@@ -1,7 +1,6 @@
-//! Search for paths of the whole robot.
+//! Search for paths of the whole robot: goal configurations, and routes to them.
 
 pub(crate) mod arm_candidates;
-pub(crate) mod context;
 pub(crate) mod goal_search;
 pub(crate) mod path;
 pub(crate) mod prefilter_arm;

@@ -1,94 +1,31 @@
-//! Ways of the whole robot: the base drives with the arm as it is, then the arm unfolds, then the base drives in.
-
-use std::collections::BTreeMap;
+//! Paths of the whole robot: the base drives with the arm as it is, the arm unfolds, and the base drives
+//! in.
 
 use motet_robots::card::Drive;
-use smol_str::{SmolStr, format_smolstr};
 
 use crate::planning::base::base_map::BaseMap;
 use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::query::answer::{ContactShare, ITSELF, Infeasible, InfeasibleReason, MotionAnswer};
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::context::QueryContext;
+use crate::planning::query::contact_tally::ContactTally;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::{AllowedCollisions, Contact};
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::goal_search::LAST;
 
-/// How far before the goal the arm unfolds, in m: where there is room, most often, first.
+/// Greatest distance between the base at the goal and at the start of the approach, in m.
+pub(crate) const LAST: f64 = 0.65;
+/// Distances before the goal at which the arm unfolds, in m, the most promising first.
 const BACK: [f64; 4] = [0.2, 0.45, 0.0, 0.1];
 
-/// Why no way leads along a line.
+/// Failure of a path along an approach line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PathError {
-    /// The line itself is not free.
+    /// The approach line itself is blocked.
     Line,
-    /// None of the ways that are tried leads to where it begins.
+    /// No route leads to the start of the line.
     Route,
 }
 
-/// What is met, and how often.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ContactTally {
-    others: BTreeMap<SmolStr, usize>,
-    /// Of the robot itself, by the two links.
-    own: BTreeMap<[SmolStr; 2], usize>,
-}
-
-impl ContactTally {
-    pub(crate) fn add(&mut self, contact: &Contact) {
-        if contact.is_own {
-            *self.own.entry([contact.link.clone(), contact.other.clone()]).or_default() += 1;
-        } else {
-            self.add_entity(contact.other.clone());
-        }
-    }
-
-    pub(crate) fn add_entity(&mut self, name: SmolStr) {
-        *self.others.entry(name).or_default() += 1;
-    }
-
-    /// What is met most often; of equals the first by name. The robot itself counts as one, and is told with the links that meet
-    /// most often.
-    pub(crate) fn most(&self) -> Option<SmolStr> {
-        self.counted().map(|(name, _)| name)
-    }
-
-    /// That no pose is free of those whose touches these are: what most of them touch, and how many of how many.
-    pub(crate) fn none_free(&self) -> InfeasibleReason {
-        let (by, touching) = self.counted().unzip();
-        let tried = self.others.values().chain(self.own.values()).sum();
-        InfeasibleReason::NoFreePose { by, share: touching.map(|touching| ContactShare { touching, tried }) }
-    }
-
-    fn counted(&self) -> Option<(SmolStr, usize)> {
-        let own: usize = self.own.values().sum();
-        match first_most(&self.others) {
-            Some((name, count)) if count >= own => Some((name.clone(), count)),
-            _ => first_most(&self.own)
-                .map(|([one, other], _)| (format_smolstr!("{ITSELF} (`{one}` and `{other}`)"), own)),
-        }
-    }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.others.is_empty() && self.own.is_empty()
-    }
-}
-
-/// The key that is counted most often, the first of equals.
-fn first_most<K>(counts: &BTreeMap<K, usize>) -> Option<(&K, usize)> {
-    counts.iter().fold(None, |most, (name, count)| match most {
-        Some((_, known)) if known >= *count => most,
-        Some(_) | None => Some((name, *count)),
-    })
-}
-
-/// The answer of a search that ends without a way: what is in the way where a state was found, else what leaves none free.
-pub(crate) fn exhausted(found: bool, poses: &ContactTally, ways: &ContactTally) -> MotionAnswer {
-    let reason = if found { InfeasibleReason::BlockedPath { by: ways.most() } } else { poses.none_free() };
-    MotionAnswer::Infeasible(Infeasible::exhausted(reason))
-}
-
 impl QueryContext<'_> {
-    /// A way from where the robot is to the beginning of a line, as [`CollisionChecker::route_to`] finds one, and then along the line.
+    /// Path from the start to the beginning of a line and along it; see [`CollisionChecker::route_to`].
     pub(crate) fn route_along(
         &self,
         line: &[Configuration],
@@ -100,7 +37,7 @@ impl QueryContext<'_> {
         checker.route_along(line, inwards, allowed, met)
     }
 
-    /// The arm from one configuration to another with the base still; both are free.
+    /// Arm motion between two free configurations with the base still.
     pub(crate) fn unfold(
         &self,
         from: &Configuration,
@@ -111,7 +48,7 @@ impl QueryContext<'_> {
         self.around([x, y], 0.01).unfold(from, to, met)
     }
 
-    /// Whether the base, with the arm as it is at the start, can drive to any place within a step of one. Not exact.
+    /// Checks whether the base can drive near to a place with the arm as at the start; approximate.
     pub(crate) fn is_near_drivable(&self, [x, y, _]: [f64; 3]) -> bool {
         let Some(map) = self.map() else { return true };
         let homes = self.homes(map);
@@ -133,12 +70,12 @@ impl QueryContext<'_> {
             })
     }
 
-    /// Whether ways lead to a place, about.
+    /// Checks whether the start's component of the map holds a place; approximate.
     pub(crate) fn is_at_home(&self, place: [f64; 2]) -> bool {
         self.map().is_none_or(|map| map.is_among(place, self.homes(map)))
     }
 
-    /// Whether the base can drive to a state with the arm as it is.
+    /// Checks whether the base can drive to a configuration with the arm as it is.
     pub(crate) fn is_drivable(&self, to: &Configuration) -> bool {
         let (start, goal) = (plane(&self.state.robot), plane(to));
         match self.map() {
@@ -150,7 +87,7 @@ impl QueryContext<'_> {
         }
     }
 
-    /// The way of the base to a state with the arm as it is.
+    /// Route of the base to a configuration with the arm as it is.
     pub(crate) fn drive(&self, to: &Configuration) -> Option<Vec<Configuration>> {
         let start = &self.state.robot;
         let Some(map) = self.map() else { return Some(vec![start.clone()]) };
@@ -199,7 +136,8 @@ impl QueryContext<'_> {
         Some(path)
     }
 
-    /// The way of the base to the first of some states, which the arm is folded in, and then along them.
+    /// Route of the base to the first configuration, which has the arm as at the start, and then along all
+    /// of them.
     pub(crate) fn driven(&self, configurations: Vec<Configuration>) -> Option<Vec<Configuration>> {
         let folded = configurations.first()?;
         let mut path = self.drive(folded)?;
@@ -208,7 +146,7 @@ impl QueryContext<'_> {
         Some(path)
     }
 
-    /// Makes what is otherwise made when it is first asked for.
+    /// Fills the caches.
     pub(crate) fn prepare(&self) {
         self.start_contact();
         self.batch_model();
@@ -217,12 +155,12 @@ impl QueryContext<'_> {
         }
     }
 
-    /// Straight ways out of where the robot is, where it has no room to turn: some, nearest first.
+    /// Edges out of the start where it has no room to turn, the nearest first.
     pub(crate) fn escapes(&self, map: &BaseMap) -> &[(Configuration, [f64; 2])] {
         self.escapes.get_or_init(|| self.ways_out(map))
     }
 
-    /// Components of the map to which ways lead from where the robot is.
+    /// Components of the map that the base can reach from the start.
     fn homes(&self, map: &BaseMap) -> &[u32] {
         self.homes.get_or_init(|| {
             let places = [plane(&self.state.robot)].into_iter();
@@ -244,7 +182,7 @@ impl QueryContext<'_> {
             [0.1, 0.2, 0.3, 0.45, 0.6, 0.8].into_iter().flat_map(|far| (0..16).map(move |step| (far, step)));
         let [x, y, yaw] = start.base;
         let out = ways.filter_map(|(far, step)| {
-            // In the robot's frame, so that a room that is turned with it has the same.
+            // In the robot's frame, so that the result does not depend on the map's axes.
             let (sin, cos) = libm::sincos(yaw + std::f64::consts::TAU * f64::from(step) / 16.0);
             let out = start.at([x + cos * far, y + sin * far, yaw]);
             let place = plane(&out);
@@ -253,20 +191,10 @@ impl QueryContext<'_> {
         });
         out.take(4).collect()
     }
-
-    /// The variable that lifts the arm and its highest value, where the arm has one.
-    fn lift(&self) -> Option<(usize, f64)> {
-        let crate::planning::scene::ik_solver::IkSolver::Lift(arm) = &self.model.hand()?.solver else {
-            return None;
-        };
-        let chain = arm.chain();
-        let (lower, upper) = chain.dofs.first()?.limits?;
-        Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
-    }
 }
 
 impl CollisionChecker<'_, '_> {
-    /// A way from where the robot is to the beginning of a line, as [`CollisionChecker::route_to`] finds one, and then along the line.
+    /// Path from the start to the beginning of a line and along it; checks the line's configurations first.
     pub(crate) fn route_along(
         &self,
         line: &[Configuration],
@@ -281,12 +209,12 @@ impl CollisionChecker<'_, '_> {
         self.route_to(line, inwards, allowed, met).ok()
     }
 
-    /// The same with a line of states that touch nothing but what is allowed. `inwards` is the direction in the plane in which the robot
-    /// comes to the first; of length 1.
+    /// Path from the start along a line of free configurations. `inwards` is the unit direction in the
+    /// plane in which the robot approaches.
     ///
     /// # Errors
     ///
-    /// What is in the way.
+    /// The blocked part.
     pub(crate) fn route_to(
         &self,
         line: &[Configuration],
@@ -300,7 +228,7 @@ impl CollisionChecker<'_, '_> {
             let [x, y, yaw] = first.base;
             first.at([x - inwards[0] * back, y - inwards[1] * back, yaw])
         };
-        // Before the line nothing may touch.
+        // Before the line no contact is permitted.
         let outsides: Vec<Configuration> = std::iter::once(&0.0).chain(backs).map(outside).collect();
         let contacts = self.contacts(&outsides.iter().collect::<Vec<_>>(), AllowedCollisions::default());
         let mut contacts = contacts.into_iter();
@@ -316,7 +244,7 @@ impl CollisionChecker<'_, '_> {
         for ((outside, contact), back) in outsides {
             let Some(mut path) = self.route(&outside, contact, first, met) else { continue };
             let shifted = (*back > 0.0).then_some(first).into_iter().chain(rest);
-            // The way may end some full turns from where it was asked to.
+            // The route may end some full turns away.
             let turns = path.last().map_or(0.0, |last| last.base[2] - first.base[2]);
             path.extend(shifted.map(|configuration| configuration.turned(turns)));
             return Ok(path);
@@ -324,8 +252,8 @@ impl CollisionChecker<'_, '_> {
         Err(PathError::Route)
     }
 
-    /// A way from where the robot is to a state, both included, from which a straight way without a turn leads to another one that is
-    /// free. `touch` is what the state touches.
+    /// Route from the start to a configuration, both included, from which a pure translation leads to the
+    /// goal. `touch` is the contact of that configuration.
     fn route(
         &self,
         outside: &Configuration,
@@ -350,8 +278,8 @@ impl CollisionChecker<'_, '_> {
         context.driven(self.unfold(&folded, outside, met)?)
     }
 
-    /// The arm from one configuration to another with the base still: straight, by way of a raised lift, or by way of a
-    /// posture. Both are free.
+    /// Arm motion between two free configurations with the base still: straight, over a raised lift, or
+    /// over a posture.
     pub(crate) fn unfold(
         &self,
         from: &Configuration,
@@ -394,9 +322,4 @@ impl CollisionChecker<'_, '_> {
             .map(|joints| Configuration { base: from.base, joints })
             .find_map(|by| is_free(&[from, &by, to]).then(|| vec![from.clone(), by, to.clone()]))
     }
-}
-
-pub(crate) fn plane(configuration: &Configuration) -> [f64; 2] {
-    let [x, y, _] = configuration.base;
-    [x, y]
 }

@@ -1,5 +1,5 @@
-//! Candidates of an arm on a lift, eight at a time in `f32`: most touch something for certain, and only the others are worth a
-//! solution in `f64`.
+//! Broad phase for candidates of an arm on a lift: eight at a time in `f32`. Most are in contact for
+//! certain; only the others are solved in `f64`.
 
 use std::f64::consts::TAU;
 
@@ -14,10 +14,10 @@ use crate::planning::scene::robot_model::HandModel;
 use crate::planning::search::arm_candidates::{PLANE, part};
 use crate::simd::BatchModel;
 
-/// How far a value of a solution in `f64` may be from the draft's, in rad or m.
+/// Greatest difference between the solutions in `f64` and in `f32`, in rad or m.
 const SAME: f64 = 1e-3;
 
-/// What looks at candidates.
+/// Prefilter for the candidates of one goal search.
 pub(crate) struct ArmPrefilter<'a, 'r, 'w> {
     checker: &'a CollisionChecker<'r, 'w>,
     batch_model: &'a BatchModel,
@@ -25,42 +25,41 @@ pub(crate) struct ArmPrefilter<'a, 'r, 'w> {
     arm: &'a LiftArm,
     manifold: BatchSolver<'a>,
     allowed: AllowedCollisions,
-    /// The robot with the hand as it reaches.
+    /// Configuration with the hand as it approaches.
     still: Configuration,
-    /// Between which values the shoulder moves.
+    /// Range of the shoulder joint, in rad.
     shoulders: [f64; 2],
 }
 
-/// Eight poses of the tip or fewer, each with its index.
+/// Up to eight tip poses with their indices.
 pub(crate) struct PoseBatch {
     tips: Vec<(usize, Isometry3<f64>)>,
     poses: TipBatch,
 }
 
-/// A candidate for a pose, in `f32`.
+/// Candidate in `f32`.
 #[derive(Clone, Copy)]
 pub(crate) struct ArmDraft {
-    /// Index of the pose.
+    /// Index of its tip pose.
     pub(crate) at: usize,
     pub(crate) tip: Isometry3<f64>,
     yaw: f64,
     shoulder: f64,
-    /// From the origin of the neighbourhood.
+    /// Offset of the base from the checker's origin, in m.
     base: [f64; 2],
     values: [f64; 5],
 }
 
-/// What is known of a draft.
+/// Result of the broad phase for one draft.
 pub(crate) enum DraftCheck {
-    /// It touches nothing.
     Free,
-    /// It comes near something.
+    /// Undecided: near to another body.
     Open,
     Touches(Contact),
 }
 
 impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
-    /// `None` where the robot is not simple enough.
+    /// Prefilter of an arm; `None` where the robot has no batch model.
     pub(crate) fn new(
         checker: &'a CollisionChecker<'r, 'w>,
         hand: &'a HandModel,
@@ -80,14 +79,14 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
         })
     }
 
-    /// Poses of the tip, at most eight.
+    /// Batch of up to eight tip poses.
     pub(crate) fn group(&self, tips: Vec<(usize, Isometry3<f64>)>) -> PoseBatch {
         let facing: Vec<_> =
             tips.iter().map(|(_, tip)| (*tip, self.checker.context.heading(self.hand, tip))).collect();
         PoseBatch { poses: self.manifold.poses(&facing, self.checker.place()), tips }
     }
 
-    /// Adds the candidates of a round for some poses, as [`QueryContext::candidates`](super::room::Room) has them.
+    /// Appends the candidates of one round for a batch of poses, the same as [`PlanningScene::candidates`].
     pub(crate) fn drafts(&self, group: &PoseBatch, round: usize, drafts: &mut Vec<ArmDraft>) {
         let [lower, upper] = self.shoulders;
         let shoulder = lower + part(round, 2, PLANE) * (upper - lower);
@@ -117,7 +116,7 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
         }
     }
 
-    /// What is known of drafts, at most eight.
+    /// Checks up to eight drafts.
     pub(crate) fn seen(&self, drafts: &[ArmDraft]) -> Vec<DraftCheck> {
         let look = || {
             let mut batch = self.batch_model.batch();
@@ -145,7 +144,7 @@ impl<'a, 'r, 'w> ArmPrefilter<'a, 'r, 'w> {
         (0..drafts.len()).map(seen).collect()
     }
 
-    /// The state of a draft, to what `f64` can tell.
+    /// Solution of a draft in `f64`.
     pub(crate) fn configuration(&self, draft: &ArmDraft) -> Option<Configuration> {
         let placed = self.arm.solve(&draft.tip, draft.yaw, draft.shoulder);
         let is_same = |values: &[f64; 5]| {

@@ -1,22 +1,22 @@
-//! Ways to where a line of the hand begins, searched for when nothing simple does. Base and arm move together where the base goes in every
-//! direction: out of a drawer, or between what stands closer than the robot is wide when it is taken for a disc.
+//! Escape from a tight pre-grasp pose: RRT-Connect from open space to the beginning of an approach line,
+//! where no simple path leads there. Base and arm move together where the base drives in every direction:
+//! out of a drawer, or between obstacles closer than the base's disc is wide.
 
 use std::f64::consts::TAU;
 
 use crate::planning::checking::collision_checker::CollisionChecker;
-use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::configuration::{Configuration, plane};
 use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::search::path::plane;
 use crate::planning::search::rrt_connect::{PlannedJoints, RrtEffort};
 
-/// How far from where the line begins the base stands with the arm as it was, in m.
+/// Distances in m from the line at which the base stands with the arm folded.
 const OUT: [f64; 11] = [0.3, 0.45, 0.6, 0.2, 0.1, 0.0, 0.8, 1.0, 1.3, 1.6, 2.0];
-/// Directions in which that may be.
+/// Directions of these places around the line.
 const DIRECTIONS: usize = 16;
 
 impl CollisionChecker<'_, '_> {
-    /// A way from where the robot is to the beginning of a line of states, which is free, and then along the line. The robot comes from
-    /// where the line leads `inwards`, most often.
+    /// Path from the start to the beginning of a free line and along it; the robot usually comes along
+    /// `inwards`.
     pub(crate) fn lead(
         &self,
         line: &[Configuration],
@@ -40,7 +40,7 @@ impl CollisionChecker<'_, '_> {
         context.driven(configurations)
     }
 
-    /// A place near a state to which the base drives with the arm as it was.
+    /// Place near a configuration to which the base drives with the arm as at the start.
     fn landing(&self, near: &Configuration, [x, y]: [f64; 2]) -> Option<Configuration> {
         let context = self.context;
         let [near_x, near_y, yaw] = near.base;

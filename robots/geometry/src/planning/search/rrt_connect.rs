@@ -1,30 +1,30 @@
-//! RRT-Connect (Kuffner and LaValle 2000) for the arm with the base still, or for both: two trees of certified edges towards samples of
-//! a low-discrepancy sequence, so that the same question has the same answer.
+//! RRT-Connect (Kuffner and LaValle 2000) for the arm, or for base and arm: two trees of certified edges
+//! that grow towards a low-discrepancy sequence, so that the search is deterministic.
 
 use crate::kinematics::{Dof, quasi_random_in};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 
-/// What the trees move.
+/// Degrees of freedom of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PlannedJoints {
     /// The arm, with the base still.
     Arm,
-    /// The base with the arm.
+    /// Base and arm.
     All,
 }
 
-/// How long a search goes on.
+/// Effort of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum RrtEffort {
-    /// As long as most that find something take.
+    /// Long enough for most searches that succeed.
     Short,
     Long,
 }
 
 impl RrtEffort {
-    /// Samples that the trees grow towards.
+    /// Number of samples.
     fn samples(self) -> usize {
         match self {
             Self::Short => 80,
@@ -34,7 +34,7 @@ impl RrtEffort {
 }
 
 impl PlannedJoints {
-    /// The greatest length of an edge.
+    /// Greatest length of an edge.
     fn step(self) -> f64 {
         match self {
             Self::Arm => 0.7,
@@ -42,7 +42,8 @@ impl PlannedJoints {
         }
     }
 
-    /// How far apart two states are: of the arm alone the largest change of a joint, in rad or m; else as a length, where a turn or the change of a joint counts a third.
+    /// Distance of two configurations: for the arm the largest change of a joint, in rad or m; for base and
+    /// arm a length in m that weighs a turn or a joint by a third.
     fn far(self, from: &Configuration, to: &Configuration) -> f64 {
         let changes = from.joints.iter().zip(&to.joints).map(|(a, b)| (a - b).abs());
         match self {
@@ -59,20 +60,20 @@ impl PlannedJoints {
     }
 }
 
-/// How far beside both ends the base goes, in m.
+/// Margin of the base samples beside both ends, in m.
 const ASIDE: f64 = 0.8;
 
-/// A tree of states, each with the index of the one before it.
+/// Tree of configurations, each with the index of its parent.
 struct RrtTree(Vec<(Configuration, usize)>);
 
-/// Samples between two states.
+/// Sample sequence between two configurations.
 struct SampleSequence<'a> {
     moving: PlannedJoints,
     from: &'a Configuration,
     to: &'a Configuration,
-    /// Between which values: of the base where it moves, then of the arm.
+    /// Sampled ranges: of the base where it moves, then of the arm.
     ranges: Vec<(f64, f64)>,
-    /// Which joints the last of them are.
+    /// Indices of the arm's joints in a configuration.
     joints: &'a [usize],
 }
 
@@ -92,7 +93,7 @@ impl<'a> SampleSequence<'a> {
         Self { moving, from, to, ranges, joints }
     }
 
-    /// A state to grow towards. In the open the arm need not move, and often not while the base does.
+    /// Sample of the sequence. Some keep the arm or the goal's arm: in open space the arm need not move.
     fn aim(&self, sample: usize) -> Option<Configuration> {
         let mut aim = self.to.clone();
         let values = quasi_random_in(self.ranges.iter().copied(), sample);
@@ -112,7 +113,7 @@ impl<'a> SampleSequence<'a> {
 }
 
 impl CollisionChecker<'_, '_> {
-    /// A way between two free states, both included.
+    /// Path between two free configurations, both included.
     pub(crate) fn connect(
         &self,
         from: &Configuration,
@@ -143,7 +144,7 @@ impl CollisionChecker<'_, '_> {
         None
     }
 
-    /// One step of a tree towards a state: the new state, where the way to it is free.
+    /// Extends a tree by one step towards a sample; the new configuration where its edge is free.
     fn grow(&self, tree: &mut RrtTree, aim: &Configuration, moving: PlannedJoints) -> Option<Configuration> {
         let best = tree.0.iter().map(|(configuration, _)| moving.far(configuration, aim)).enumerate();
         let (at, way) = best.reduce(|best, next| if next.1 < best.1 { next } else { best })?;
@@ -161,7 +162,7 @@ impl CollisionChecker<'_, '_> {
         Some(next)
     }
 
-    /// The same way without corners that can be cut.
+    /// Path with its corners cut.
     fn shortened(&self, path: Vec<Configuration>) -> Vec<Configuration> {
         let mut kept: Vec<Configuration> = Vec::new();
         let mut rest = path.as_slice();
@@ -179,7 +180,7 @@ impl CollisionChecker<'_, '_> {
 }
 
 impl RrtTree {
-    /// The states from the last one back to the root.
+    /// Configurations from the last one back to the root.
     fn back(&self) -> Vec<Configuration> {
         let mut configurations = Vec::new();
         let mut at = self.0.len().saturating_sub(1);

@@ -1,28 +1,28 @@
-//! What an arm reaches whatever stands around, from the numbers of its chain alone.
+//! Workspace of an arm: an outer bound of its reach from the lengths of its chain alone, whatever the
+//! obstacles.
 
 use nalgebra::{Isometry3, Vector3};
 
 use crate::inverse::LiftArm;
 use crate::inverse::interval::DisplacementBound;
 use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::motions::reach::certain;
-use crate::planning::query::answer::{InfeasibleReason, MotionAnswer};
+use crate::planning::query::answer::{InfeasibleReason, MotionAnswer, certain};
 use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::planning_scene::PlanningScene;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
 
-/// Poses of the tip that are not out of reach for certain.
+/// Reach envelope: tip poses outside of it are unreachable for certain.
 pub(crate) enum ReachEnvelope<'a> {
-    /// With the wrist between two heights, in m.
+    /// Wrist heights of an arm on a lift, in m; the base drives anywhere.
     Heights(&'a LiftArm, [f64; 2]),
-    /// Within a distance of the shoulder, in m.
-    CollisionChecker(Vector3<f64>, f64),
-    /// The base drives to it, and the arm is not known well enough.
+    /// Ball around the shoulder, with its radius in m.
+    Ball(Vector3<f64>, f64),
+    /// No bound: the base drives to the pose.
     Anywhere,
 }
 
-impl QueryContext<'_> {
-    /// What a hand reaches.
+impl PlanningScene<'_> {
+    /// Reach envelope of a hand.
     pub(crate) fn span<'h>(&self, hand: &'h HandModel) -> ReachEnvelope<'h> {
         if let IkSolver::Lift(arm) = &hand.solver {
             return ReachEnvelope::Heights(arm, arm.heights());
@@ -41,27 +41,27 @@ impl QueryContext<'_> {
             })
         });
         let reach = links.chain(slides).sum::<f64>() + chain.last_from_tip.translation.vector.norm();
-        ReachEnvelope::CollisionChecker(shoulder.coords, reach)
+        ReachEnvelope::Ball(shoulder.coords, reach)
     }
 }
 
 impl ReachEnvelope<'_> {
-    /// Whether a pose is not out of reach for certain.
+    /// Checks whether a pose may be reachable.
     pub(crate) fn holds(&self, map_from_tip: &Isometry3<f64>) -> bool {
         match self {
             Self::Heights(arm, [least, greatest]) => {
                 let height = arm.centre(map_from_tip).z;
-                // Rounding takes nothing away.
+                // Spare for rounding.
                 (least - 1e-6..=greatest + 1e-6).contains(&height)
             }
-            Self::CollisionChecker(shoulder, reach) => {
+            Self::Ball(shoulder, reach) => {
                 (map_from_tip.translation.vector - shoulder).norm() <= reach + 1e-6
             }
             Self::Anywhere => true,
         }
     }
 
-    /// Whether all poses that are near to one, by no more than what is told of it, are out of reach for certain.
+    /// Checks whether all poses within a drift of one are unreachable.
     pub(crate) fn is_beyond(&self, map_from_tip: &Isometry3<f64>, drift: &DisplacementBound) -> bool {
         match self {
             Self::Heights(arm, [least, greatest]) => {
@@ -69,7 +69,7 @@ impl ReachEnvelope<'_> {
                 let off = drift.point(&centre, 0.0) + 1e-6;
                 centre.z + off < *least || centre.z - off > *greatest
             }
-            Self::CollisionChecker(shoulder, reach) => {
+            Self::Ball(shoulder, reach) => {
                 let tip = map_from_tip.translation.vector;
                 (tip - shoulder).norm() > reach + drift.point(&tip, 0.0) + 1e-6
             }
@@ -77,7 +77,8 @@ impl ReachEnvelope<'_> {
         }
     }
 
-    /// That no arm configuration brings the hand to a thing at a place, where that is certain if it is of all other holds as of these.
+    /// Answer for an object out of reach of all grasp candidates; `None` where one may be reachable. The
+    /// caller proves it for the other grasps.
     pub(crate) fn beyond(
         &self,
         place: &Vector3<f64>,
@@ -88,7 +89,7 @@ impl ReachEnvelope<'_> {
         self.beyond_all(place, &format!("`{id}`"), &tips).map(|(reason, change)| certain(reason, change))
     }
 
-    /// Why no arm configuration brings the hand to any of some poses, and by how much `what`, which is at a place, is off.
+    /// Reason and change for a target at `place`, called `what`, none of whose tip poses is reachable.
     pub(crate) fn beyond_all(
         &self,
         place: &Vector3<f64>,
@@ -105,8 +106,8 @@ impl ReachEnvelope<'_> {
                     if height > *greatest { height - greatest } else { height - least }
                 });
                 let off = off.reduce(|one, other| if other.abs() < one.abs() { other } else { one })?;
-                // In terms of the thing's height: the wrist is so much above or below it. That is not enough for a hand to have
-                // room there, and nothing stands below the floor.
+                // In terms of the object's height: the wrist is off by this much. Being in reach is not
+                // enough for being feasible, and nothing is below the floor.
                 let change = (place.z - off > 0.0).then(|| {
                     let least = whole_centimetres(off.abs());
                     let change = if off > 0.0 { "lower" } else { "higher" };
@@ -116,7 +117,7 @@ impl ReachEnvelope<'_> {
                     InfeasibleReason::OutOfReach { what: "height", needs: place.z, reach: place.z - off };
                 Some((reason, change))
             }
-            Self::CollisionChecker(shoulder, reach) => {
+            Self::Ball(shoulder, reach) => {
                 let needs = tips.iter().map(|tip| (tip.translation.vector - shoulder).norm());
                 let needs = needs.fold(f64::INFINITY, f64::min);
                 Some((InfeasibleReason::OutOfReach { what: "distance", needs, reach: *reach }, None))
@@ -126,7 +127,7 @@ impl ReachEnvelope<'_> {
     }
 }
 
-/// A length in m, rounded up to whole centimetres.
+/// Length in m, rounded up to whole centimetres.
 pub(crate) fn whole_centimetres(metres: f64) -> f64 {
     libm::ceil(metres * 100.0) / 100.0
 }

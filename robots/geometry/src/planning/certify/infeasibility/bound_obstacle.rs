@@ -1,9 +1,10 @@
-//! Whether a part of the robot touches something in all of a cell, by how far its line goes along each direction of that, and not by how far
-//! anything goes at most: an arm that turns beside a wall goes far along it and hardly away from it.
+//! Directional bound for a part beside an obstacle: contact throughout a cell, by the part's motion along
+//! each axis of the obstacle instead of its greatest motion. An arm that turns beside a wall moves far
+//! along it and hardly away from it.
 //!
-//! A line goes, as its solid does, so that what a point on it goes lies between what its ends do. Where a place on it is in the middle of a
-//! cell it stays as near to the box as the sum of squares says; where its ends stay on both sides of a plane through the middle of the box, it
-//! leads through that plane somewhere.
+//! The motion of a point on a line is a convex combination of its ends' motions. A point in the middle of a
+//! cell stays as near to the box as the sum of squares gives; a line whose ends stay on both sides of a
+//! plane through the box's middle crosses that plane.
 
 use nalgebra::Vector3;
 
@@ -12,25 +13,25 @@ use crate::inverse::interval::DisplacementBound;
 use crate::planning::certify::deflate::SLACK;
 use crate::planning::scene::contact::MIN_CLEARANCE;
 
-/// Places on a line that are tried, each nearer to the best.
+/// Number of points on a line that are tried, each nearer to the best.
 const PLACES: usize = 6;
 
-/// What is told of a solid's line along the directions of a box.
+/// Line of a solid in the axes of a box.
 struct BoxLine {
-    /// Where the ends are, seen from the middle of the box.
+    /// Ends of the line relative to the box's centre.
     ends: [[f64; 3]; 2],
-    /// How far they go.
+    /// Motion bounds of the ends along each axis.
     gone: [[f64; 3]; 2],
     half: [f64; 3],
 }
 
-/// How far something goes.
+/// Directional motion bound of a solid over a cell.
 pub(super) trait MotionExtent {
-    /// How far a point goes at most along a direction of length 1, in m. Of the points of a line none goes farther than those before and
-    /// after it, by their shares.
+    /// Greatest motion in m of a point along a unit direction. On a line it is at most the interpolation of
+    /// the ends' bounds.
     fn along(&self, point: &Vector3<f64>, direction: &Vector3<f64>) -> f64;
 
-    /// Whether what stands upright does so still.
+    /// Checks whether an upright solid stays upright.
     fn stays_upright(&self) -> bool;
 }
 
@@ -44,7 +45,7 @@ impl MotionExtent for DisplacementBound {
     }
 }
 
-/// What goes by a share of what another does.
+/// Motion scaled by a share.
 pub(super) struct ScaledMotion<'a, T>(pub(super) f64, pub(super) &'a T);
 
 impl<T: MotionExtent> MotionExtent for ScaledMotion<'_, T> {
@@ -57,7 +58,7 @@ impl<T: MotionExtent> MotionExtent for ScaledMotion<'_, T> {
     }
 }
 
-/// What is within a solid for certain: all that is so near to half of its line to both sides, by no more than a share of that from its centre.
+/// Certain core of a solid: a ball that slides along half of its line to both sides, up to a share of it.
 struct InnerLine {
     step: Vector3<f64>,
     radius: f64,
@@ -81,7 +82,7 @@ impl InnerLine {
     }
 }
 
-/// Whether a solid touches another wherever it goes.
+/// Checks whether a solid is in contact with another one throughout its motion.
 #[inline]
 pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid) -> bool {
     let Some(inside) = InnerLine::new(solid) else { return false };
@@ -105,14 +106,15 @@ pub(super) fn is_in(solid: &Solid, goes: &impl MotionExtent, other: &Solid) -> b
     }
 }
 
-/// A cylinder with a rim around it.
+/// Cylinder with a rim around it.
 struct RoundBody {
     radius: f64,
     half: f64,
     rim: f64,
 }
 
-/// Whether the place on a solid's line that is nearest to what is round stays as near to it: away from its axis, about it and along it.
+/// Checks contact with a round solid: the nearest point of the line stays near, away from the axis, about
+/// it and along it.
 fn is_in_round(
     solid: &Solid,
     inside: &InnerLine,
@@ -146,7 +148,7 @@ fn is_in_round(
         };
         let place = point + other.centre;
         let gone = |axis: &Vector3<f64>| goes.along(&place, axis) + SLACK;
-        // What goes too far in one direction needs no look at the others.
+        // One direction beyond the bound decides.
         let wide = round.radius + near;
         let away_by = far + gone(&away);
         if away_by.is_nan() || away_by > wide {
@@ -158,14 +160,15 @@ fn is_in_round(
         }
         let (out, up) =
             ((libm::hypot(away_by, about) - round.radius).max(0.0), up.abs() + gone(z) - round.half);
-        // What is not known is nothing.
+        // An unknown bound is NaN or infinite.
         up.is_finite() && out * out + up.max(0.0) * up.max(0.0) <= near * near
     };
     let places = nearest(&between, &inside.step, z, round.half);
     places.into_iter().any(|at| is_near(at.clamp(-inside.share, inside.share)))
 }
 
-/// Places on a line, −1 and 1 its ends, that are near to another through the origin: to its middle, and to it.
+/// Parameters, with −1 and 1 the ends, of the points of a line nearest to another line: to its middle, and
+/// to all of it.
 fn nearest(between: &Vector3<f64>, step: &Vector3<f64>, z: &Vector3<f64>, half: f64) -> [f64; 2] {
     let long = step.norm_squared();
     if long < 1e-12 {
@@ -174,12 +177,12 @@ fn nearest(between: &Vector3<f64>, step: &Vector3<f64>, z: &Vector3<f64>, half: 
     let (slope, up) = (step.dot(z), between.dot(z));
     let square = long - slope * slope;
     let level = if square > 1e-9 { (slope * up - step.dot(between)) / square } else { 0.0 };
-    // Beyond its ends it is those that are near.
+    // Beyond the other line's ends, its end is nearest.
     let end = z * (up + slope * level.clamp(-1.0, 1.0)).clamp(-half, half);
     [(end - between).dot(step) / long, level]
 }
 
-/// The same for a box.
+/// Checks contact with a box.
 fn is_in_box(
     solid: &Solid,
     inside: &InnerLine,
@@ -195,7 +198,7 @@ fn is_in_box(
     for (((axis, half), first), last) in board.axes.iter().zip(half).zip(first).zip(last) {
         let (at, by) = (between.dot(axis), step.dot(axis));
         (*first, *last) = (at - by, at + by);
-        // Even in the middle it does not come near.
+        // Apart even in the middle of the cell.
         if first.min(*last) > half + near || first.max(*last) < -half - near {
             return false;
         }
@@ -205,19 +208,19 @@ fn is_in_box(
     for (((first, last), (gone, other)), (axis, half)) in sides {
         *gone = goes.along(&(solid.centre - step), axis) + SLACK;
         *other = goes.along(&(solid.centre + step), axis) + SLACK;
-        // All of it goes too far in this direction, and it does not lead through the middle either.
+        // Too far in this direction, and not across the middle either.
         let is_through = *first * *last < 0.0 && first.abs() > *gone && last.abs() > *other;
         let least = gone.min(*other);
         if !gone.is_finite() || !other.is_finite() || (!is_through && least > half + near) {
             return false;
         }
     }
-    // At the ends of what is not round there is no ball within.
+    // Only a round solid has a ball at the ends of its line.
     line.stays(inside.share, near)
         || line.leads_through(if inside.is_round { near } else { MIN_CLEARANCE - SLACK })
 }
 
-/// The same for an upright cylinder that stays upright: what its axis does is all there is.
+/// Checks contact of an upright cylinder that stays upright with a box, by the motion of its axis alone.
 fn is_in_upright(
     solid: &Solid,
     radius: f64,
@@ -255,7 +258,8 @@ fn is_upright(axis: &Vector3<f64>) -> bool {
     axis.x.abs() < 1e-9 && axis.y.abs() < 1e-9
 }
 
-/// Half of the longest line along the axes of a box through its centre, and the radius of a ball that goes along it.
+/// Half of the longest line along a box's axes through its centre, and the radius of a ball that slides
+/// along it.
 fn longest(solid: &Solid) -> (Vector3<f64>, f64) {
     let Shape::Box(half) = solid.shape else { return (Vector3::zeros(), 0.0) };
     let [x, y, z] = &solid.axes;
@@ -271,7 +275,7 @@ fn longest(solid: &Solid) -> (Vector3<f64>, f64) {
 }
 
 impl BoxLine {
-    /// The square of how far a place on the line can be from the box, but for one direction: −1 and 1 are its ends.
+    /// Squared distance bound of a point of the line from the box, without one axis.
     fn off(&self, at: f64, but: Option<usize>) -> f64 {
         let (share, rest) = (0.5 + 0.5 * at, 0.5 - 0.5 * at);
         let ([first, last], [gone, goes]) = (&self.ends, &self.gone);
@@ -286,9 +290,9 @@ impl BoxLine {
         sum
     }
 
-    /// Whether a place on it, by no more than a share from its middle, stays so near to the box.
+    /// Checks whether a point within a share of the line's middle stays within `near` of the box.
     fn stays(&self, share: f64, near: f64) -> bool {
-        // It is farther from the box the farther it is from where that is least.
+        // The bound is convex along the line.
         let (mut low, mut high, near) = (-share, share, near * near);
         let (mut at, mut off) = (0.0, self.off(0.0, None));
         if off <= near {
@@ -311,7 +315,7 @@ impl BoxLine {
         false
     }
 
-    /// Whether it leads through one of the planes through the middle of the box, always near to the box there.
+    /// Checks whether the line crosses a middle plane of the box within `near` of it.
     fn leads_through(&self, near: f64) -> bool {
         let ([first, last], [gone, goes]) = (&self.ends, &self.gone);
         let mut all = first.iter().zip(last).zip(gone.iter().zip(goes)).zip(0..);
@@ -319,7 +323,7 @@ impl BoxLine {
             if first * last >= 0.0 || first.abs() <= *gone || last.abs() <= *goes {
                 return false;
             }
-            // The first end as far out as can be with the second as far in, and the other way round.
+            // Each end as far out as possible with the other as far in.
             let [one, other] = [1.0, -1.0].map(|to| {
                 let (first, last) = (first.abs() + to * gone, last.abs() - to * goes);
                 2.0 * first / (first + last) - 1.0
@@ -352,7 +356,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(8192))]
 
-        /// What is said to be in a board, or in what is round, touches it wherever it is moved within its drift.
+        /// The directional bound is sound: contact holds for every motion within the drift.
         #[test]
         fn what_is_in_something_touches_it_wherever_it_goes(
             at in [-0.3..0.3_f64, -0.3..0.3_f64, -0.2..0.2_f64], turn in [-1.5..1.5_f64, -1.5..1.5_f64, -1.5..1.5_f64],
@@ -367,7 +371,7 @@ mod tests {
                 1 | 2 => Shape::Cylinder { radius, half },
                 _ => Shape::Box(Vector3::new(radius, half, 0.7 * radius)),
             };
-            // One that stands upright and stays so is looked at by another rule.
+            // An upright solid that stays upright has a bound of its own.
             let is_upright = kind == 2;
             let own = solid(at, if is_upright { [0.0, 0.0, turn[2]] } else { turn }, shape);
             let [long, wide, _] = board;
@@ -397,7 +401,7 @@ mod tests {
         }
     }
 
-    /// An arm through a thin board, which turns along it, is in it however far it turns.
+    /// An arm that turns along a thin board is in contact throughout.
     #[test]
     fn an_arm_through_a_board_is_in_it() {
         let arm = solid([0.0; 3], [0.0; 3], Shape::Capsule { radius: 0.05, half: 0.3 });

@@ -1,27 +1,18 @@
-//! What two parts of the robot do in a cell, seen from each other.
+//! Bounds for pairs of the robot's own parts over a cell, in the frame of one of them.
 
 use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
 use super::bound_obstacle::{ScaledMotion, is_in};
-use super::cover::{BodyPair, CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
-use super::relative::{PairGroup, RelativeAxis, RelativeChains};
+use super::cover::{CellModel, CellPart, CellPlacement, FAR, FEWER, kept};
+use super::relative::{BodyPair, PairGroup, RelativeChains};
 use crate::collision::{Shape, Solid};
 use crate::planning::certify::deflate::{DeflatedPart, SLACK};
 use crate::planning::scene::contact::MIN_CLEARANCE;
 
-/// The robot by itself in the middle of a cell, where that was asked for.
-#[derive(Default)]
-pub(super) struct RelativePlacement {
-    pub(super) axes: Vec<RelativeAxis>,
-    /// From any place to the frames, where those in the map do not tell.
-    pub(super) frames: Vec<Isometry3<f64>>,
-    pub(super) parts: Vec<Option<Solid>>,
-}
-
 impl CellModel<'_, '_, '_> {
-    /// The pairs of parts that may not touch.
+    /// Pairs of parts that may not be in contact.
     pub(super) fn pair_groups(&self) -> Rc<[PairGroup]> {
         let mut pair_groups: Vec<([usize; 2], Vec<[u16; 2]>)> = Vec::new();
         let frame = |part: usize| self.limbs.get(part).map(|limb| limb.frame);
@@ -48,11 +39,11 @@ impl CellModel<'_, '_, '_> {
         pair_groups.collect()
     }
 
-    /// What of the parts of two frames may touch; `None` where they are as they were.
+    /// Pairs of two frames that may be in contact; `None` where nothing changed.
     ///
     /// # Errors
     ///
-    /// What touches throughout.
+    /// A pair in contact throughout.
     pub(super) fn pair_group(
         &self,
         placing: &mut CellPlacement,
@@ -75,7 +66,7 @@ impl CellModel<'_, '_, '_> {
             if is_fewer && own.is_apart(other, drift) {
                 continue;
             }
-            // What is not near in the middle does not touch throughout.
+            // A pair that is apart in the middle is not in contact throughout.
             if own.is_near(other) && self.touches_by(placing, [own, other], 1.0) {
                 return Err(BodyPair::RelativePlacement(part, at));
             }
@@ -86,12 +77,12 @@ impl CellModel<'_, '_, '_> {
         Ok(is_fewer.then(|| PairGroup { drift, pairs: kept(left, &pair_group.pairs), ..*pair_group }))
     }
 
-    /// Whether two parts of any touch in the middle.
+    /// Checks whether two parts are in contact in the middle.
     pub(super) fn is_folded_in_middle(&self, placing: &mut CellPlacement, pair_groups: &[PairGroup]) -> bool {
         pair_groups.iter().flat_map(PairGroup::pairs).any(|pair| self.touches_in_middle(placing, pair))
     }
 
-    /// Two parts where they are to each other in the middle of a cell, where that was asked for.
+    /// Two parts relative to each other in the middle of a cell, where placed.
     pub(super) fn both<'p>(
         &'p self,
         placing: &'p CellPlacement,
@@ -105,7 +96,7 @@ impl CellModel<'_, '_, '_> {
         Some((joined(part)?, joined(at)?))
     }
 
-    /// Whether two parts touch wherever the joints between them put them, by no more than a share of how far those go.
+    /// Checks whether two parts are in contact throughout a share of their relative motion.
     pub(super) fn touches_by(
         &self,
         placing: &CellPlacement,
@@ -116,12 +107,12 @@ impl CellModel<'_, '_, '_> {
         let pair_groups =
             [(from, to), (to, from)].map(|(from, to)| self.pair_groups.relative(from, to, &placing.own.axes));
         let [Some(relative), Some(back)] = pair_groups else { return false };
-        // Most that are near do not even touch in the middle.
+        // Most near pairs are apart even in the middle.
         if !one.solid.is_nearer(other.solid, MIN_CLEARANCE) {
             return false;
         }
         if let Some(step) = relative.slide() {
-            // What touches at both ends of a straight way touches on all of it.
+            // Contact at both ends of a slide holds between them.
             let ends =
                 [step, -step].map(|step| Solid { centre: other.solid.centre + step * share, ..*other.solid });
             return ends.iter().all(|end| one.solid.is_nearer(end, MIN_CLEARANCE - SLACK));
@@ -136,14 +127,14 @@ impl CellModel<'_, '_, '_> {
         one.touches(other, share * relative.drift(other.solid))
     }
 
-    /// The same of any two.
+    /// Checks contact throughout a share of the relative motion of two parts.
     pub(super) fn own_touches(&self, placing: &mut CellPlacement, part: u16, at: u16, share: f64) -> bool {
         self.ensure_both(placing, part, at);
         let both = self.both(placing, part, at);
         both.is_some_and(|(one, other)| one.is_near(other) && self.touches_by(placing, [one, other], share))
     }
 
-    /// How far the second of two parts can be off, seen from the first.
+    /// Drift of the second part in the frame of the first.
     pub(super) fn own_off(&self, placing: &mut CellPlacement, part: u16, at: u16) -> f64 {
         self.ensure_both(placing, part, at);
         let Some((one, other)) = self.both(placing, part, at) else { return 0.0 };
@@ -151,7 +142,7 @@ impl CellModel<'_, '_, '_> {
         relative.map_or(0.0, |relative| relative.drift(other.solid))
     }
 
-    /// Puts the joints where they are to each other.
+    /// Places the frames relative to each other.
     pub(super) fn join(&self, placing: &mut CellPlacement) {
         if !placing.own.axes.is_empty() {
             return;
@@ -170,14 +161,14 @@ impl CellModel<'_, '_, '_> {
         placing.own.axes = RelativeChains::axes(&self.reduced, &placing.own.frames, &offs);
     }
 
-    /// Puts two parts where the joints do.
+    /// Places two parts relative to each other.
     pub(super) fn ensure_both(&self, placing: &mut CellPlacement, part: u16, at: u16) {
         self.join(placing);
         self.ensure_own(placing, part);
         self.ensure_own(placing, at);
     }
 
-    /// Puts a part where the joints do.
+    /// Places a part by the joints.
     fn ensure_own(&self, placing: &mut CellPlacement, part: u16) {
         let at = usize::from(part);
         let Some(slot @ None) = placing.own.parts.get_mut(at) else { return };
@@ -186,7 +177,7 @@ impl CellModel<'_, '_, '_> {
     }
 }
 
-/// A part where the joints put it.
+/// Part placed by the joints.
 #[derive(Clone, Copy)]
 pub(super) struct RelativePart<'p> {
     pub(super) limb: &'p CellPart,
@@ -194,19 +185,19 @@ pub(super) struct RelativePart<'p> {
 }
 
 impl RelativePart<'_> {
-    /// Whether the balls around two are so near that they may touch.
+    /// Checks whether the bounding balls of two parts are near.
     pub(super) fn is_near(&self, other: RelativePart<'_>) -> bool {
         let near = self.limb.reach + other.limb.reach + MIN_CLEARANCE;
         (self.solid.centre - other.solid.centre).norm_squared() <= near * near
     }
 
-    /// Whether two touch, wherever they are by so much.
+    /// Checks whether two parts are in contact throughout a drift.
     pub(super) fn touches(&self, other: RelativePart<'_>, drift: f64) -> bool {
         let own = DeflatedPart { solid: *self.solid, inner: self.limb.inner, reach: self.limb.reach, drift };
         own.touches(other.solid, other.limb.inner, other.limb.reach, drift)
     }
 
-    /// Whether two are apart, wherever they are by so much.
+    /// Checks whether two parts are apart throughout a drift.
     pub(super) fn is_apart(&self, other: RelativePart<'_>, drift: f64) -> bool {
         let far = self.limb.reach + other.limb.reach + MIN_CLEARANCE + drift + SLACK;
         (self.solid.centre - other.solid.centre).norm_squared() > far * far
@@ -216,7 +207,7 @@ impl RelativePart<'_> {
 #[cfg(test)]
 #[allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "a test fails by panicking")]
 impl CellModel<'_, '_, '_> {
-    /// By how much parts are farther off from each other than is said of two, with all where they are in a state and the links at poses.
+    /// Excess of the parts' relative motion in a configuration over the bound.
     pub(super) fn beyond_ties(
         &self,
         placing: &mut CellPlacement,

@@ -1,25 +1,23 @@
-//! What is known of one cell of states: where each part of the robot is, how far it can be from there, and what it touches.
+//! Model of one cell: poses and drifts of the robot's parts, and the contacts that hold throughout.
 
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::ArmFamily;
+use super::arm_family::ArmFamily;
 use super::bound_obstacle::{ScaledMotion, is_in};
-use super::bound_pair::RelativePlacement;
-use super::relative::RelativeChains;
+use super::relative::{BodyPair, RelativeChains, RelativePlacement};
 use crate::collision::Solid;
 use crate::inverse::interval::{CellEnclosure, DisplacementBound, PoseSet};
 use crate::kinematics::ReducedModel;
 use crate::planning::certify::deflate::{DeflatedPart, SLACK, inner};
-use crate::planning::checking::collision_checker::{CollisionChecker, above_floor};
-use crate::planning::scene::contact::AllowedCollisions;
-use crate::planning::scene::contact::MIN_CLEARANCE;
+use crate::planning::checking::collision_checker::CollisionChecker;
+use crate::planning::scene::contact::{AllowedCollisions, MIN_CLEARANCE, above_floor};
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::HandModel;
 
-/// What is needed to look at cells.
+/// Robot, hand and obstacles of one certificate.
 pub(super) struct CellModel<'a, 'r, 'w> {
     pub(super) checker: &'a CollisionChecker<'r, 'w>,
     pub(super) hand: &'a HandModel,
@@ -27,66 +25,56 @@ pub(super) struct CellModel<'a, 'r, 'w> {
     pub(super) allowed: AllowedCollisions,
     pub(super) reduced: ReducedModel,
     pub(super) pair_groups: RelativeChains,
-    /// The robot's joints with the hand as it reaches.
+    /// Joint values with the hand as it approaches.
     joints: Vec<f64>,
-    /// For each frame of the rig but the first the joint of the arm that it is, if it is one.
+    /// Arm joint of each frame of the reduced model but the first; `None` for other joints.
     arm: Vec<Option<usize>>,
-    /// The frame of the tip, and the tip in it.
+    /// Index of the tip's frame.
     last: usize,
     frame_from_tip: Isometry3<f64>,
     pub(super) limbs: Vec<CellPart>,
-    /// Of the things the radius of the greatest ball within, about.
+    /// Approximate radius of the largest ball within each obstacle.
     obstacles: Vec<f64>,
 }
 
-/// A part of the robot.
+/// Part of the robot in its frame.
 pub(super) struct CellPart {
     pub(super) frame: usize,
-    /// In the frame.
     pub(super) solid: Solid,
     pub(super) inner: f64,
     pub(super) reach: f64,
 }
 
-/// Two that may not touch: a part and a thing, the floor or another part.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum BodyPair {
-    Obstacle(u16, u16),
-    Floor(u16),
-    RelativePlacement(u16, u16),
-}
-
-/// What a part may touch in a cell.
+/// Bodies that a part may touch in a cell.
 #[derive(Clone)]
 pub(super) struct ContactGroup {
     part: u16,
-    /// How far it could be off when others were last left out.
+    /// Drift at the last reduction of the list.
     drift: f64,
     is_above_floor: bool,
-    /// Those first that the largest balls are in.
+    /// Obstacle indices, the thickest first.
     obstacles: Rc<[u16]>,
 }
 
 impl ContactGroup {
-    /// One after the other.
+    /// Iterates over the pairs in order.
     pub(super) fn pairs(&self) -> impl Iterator<Item = BodyPair> + '_ {
         let obstacles = self.obstacles.iter().map(|at| BodyPair::Obstacle(self.part, *at));
         obstacles.chain(self.is_above_floor.then_some(BodyPair::Floor(self.part)))
     }
 }
 
-/// Where a part can be off by less than this share of what it could when it was last looked for what it cannot touch, that
-/// is done again.
+/// Ratio of the drift to the one at the last reduction, below which the list is reduced again.
 pub(super) const FEWER: f64 = 0.6;
-/// Before it can be off by less than this, in m, it is not looked for at all.
+/// Drift in m below which the list is reduced at all.
 pub(super) const FAR: f64 = 0.8;
 
-/// The robot in a cell: the frames of the rig, and those of its parts that were asked for.
+/// Robot in a cell: the frames of the reduced model, and the parts placed so far.
 #[derive(Default)]
 pub(super) struct CellPlacement {
     pub(super) frames: Vec<(Isometry3<f64>, DisplacementBound)>,
     parts: Vec<Option<DeflatedPart>>,
-    /// Of each joint of the rig its position, and how far its variable can be off; nothing where that is not known.
+    /// Position and drift of each joint; NaN where unknown.
     pub(super) steps: Vec<[f64; 2]>,
     pub(super) is_joined: bool,
     pub(super) own: RelativePlacement,
@@ -99,7 +87,7 @@ impl CellPlacement {
 }
 
 impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
-    /// `None` where the robot is not simple enough.
+    /// Model of a hand; `None` where the robot has no reduced model.
     pub(super) fn new(
         checker: &'a CollisionChecker<'r, 'w>,
         hand: &'a HandModel,
@@ -139,7 +127,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
             limbs.push(CellPart { frame: *frame, solid, inner: inner(&solid), reach: solid.reach() });
         }
         let obstacles: Vec<f64> = checker.obstacles.iter().map(|near| inner(&near.solid)).collect();
-        // More than any robot or neighbourhood has.
+        // Indices fit 16 bits: no robot or neighbourhood has more bodies.
         let is_small = limbs.len() < usize::from(u16::MAX) && obstacles.len() < usize::from(u16::MAX);
         let cover = Self {
             checker,
@@ -158,7 +146,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         is_small.then_some(cover)
     }
 
-    /// What the hand may touch of what stands around, and all else that the arm or the base moves against each other.
+    /// Pairs of the hand with obstacles, and all other pairs that arm or base move.
     pub(super) fn groups(&self) -> [Rc<[ContactGroup]>; 2] {
         let (mut hand, mut others) = (vec![], vec![]);
         for ((limb, own), part) in self.checker.limbs.iter().zip(&self.limbs).zip(0..) {
@@ -177,11 +165,11 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         [hand.into(), others.into()]
     }
 
-    /// What of a group may touch; `None` where the group is as it was.
+    /// Reduced list of a group; `None` where nothing changed.
     ///
     /// # Errors
     ///
-    /// What touches throughout.
+    /// A pair in contact throughout.
     pub(super) fn left_of(
         &self,
         placing: &mut CellPlacement,
@@ -214,7 +202,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         Ok(Some(ContactGroup { drift, obstacles: kept(obstacles, &group.obstacles), ..*group }))
     }
 
-    /// How far a pair can be off.
+    /// Drift of a pair, in m.
     pub(super) fn off_by(&self, placing: &mut CellPlacement, pair: BodyPair) -> f64 {
         match pair {
             BodyPair::Obstacle(part, _) | BodyPair::Floor(part) => {
@@ -224,12 +212,12 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         }
     }
 
-    /// Whether something of some groups touches in the middle.
+    /// Checks whether a pair of some groups is in contact in the middle.
     pub(super) fn is_stuck_in_middle(&self, placing: &mut CellPlacement, groups: &[ContactGroup]) -> bool {
         groups.iter().flat_map(ContactGroup::pairs).any(|pair| self.touches_in_middle(placing, pair))
     }
 
-    /// Puts the hand alone where its tip is at any of some poses; what is elsewhere is not known to be anywhere.
+    /// Places the hand alone over a set of tip poses; the other parts are unknown.
     pub(super) fn place_hand(&self, tips: &PoseSet, placing: &mut CellPlacement) {
         let pose = tips.map_from_tip * self.frame_from_tip.inverse();
         placing.frames.clear();
@@ -240,7 +228,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         self.forget(placing);
     }
 
-    /// Puts the robot where it is in a cell.
+    /// Places the robot in a cell.
     pub(super) fn place(&self, enclosure: &CellEnclosure, placing: &mut CellPlacement) {
         let chain = self.hand.solver.chain();
         let root = (self.checker.context.model.map_from_root(enclosure.base), enclosure.base_displacement);
@@ -251,7 +239,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         for (joint, arm) in self.reduced.joints.iter().zip(&self.arm) {
             let mut values = chain.in_tree.iter().zip(&enclosure.values).zip(&chain.dofs);
             let known = values.find(|((at, _), _)| **at == joint.coupling.dof);
-            // Values that differ by full turns are one for the arm, and not for what follows it.
+            // Full turns do not matter to the arm, but to the joints that follow it.
             let turns = known.is_some_and(|(_, dof)| {
                 !dof.is_prismatic && dof.limits.is_none_or(|(lower, upper)| upper - lower > TAU)
             });
@@ -264,7 +252,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
                 placing.frames.push(*frame);
                 continue;
             }
-            // What follows a joint of the arm elsewhere.
+            // Mimic joints of the arm's joints.
             let (parent, drift) = placing.frames.get(joint.parent).copied().unwrap_or(root);
             let off = off * joint.coupling.multiplier;
             let pose = parent * joint.before * joint.motion(position);
@@ -287,7 +275,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         placing.own.parts.resize(self.limbs.len(), None);
     }
 
-    /// A part where it is in the middle of a cell, and how far it can be from there.
+    /// Part in the middle of a cell with its drift.
     pub(super) fn part<'p>(&self, placing: &'p mut CellPlacement, part: u16) -> Option<&'p DeflatedPart> {
         self.ensure(placing, part);
         placing.part(part)
@@ -302,7 +290,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         *slot = Some(DeflatedPart { solid, inner: limb.inner, reach: limb.reach, drift: drift.of(&solid) });
     }
 
-    /// Whether a pair touches wherever both go by no more than a share of how far they can be off.
+    /// Checks whether a pair is in contact throughout a share of its drift.
     pub(super) fn touches(&self, placing: &mut CellPlacement, pair: BodyPair, share: f64) -> bool {
         match pair {
             BodyPair::Obstacle(part, at) => {
@@ -322,7 +310,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         }
     }
 
-    /// Whether a part touches a thing throughout.
+    /// Checks whether a part is in contact with an obstacle throughout.
     fn is_in(&self, placing: &CellPlacement, own: &DeflatedPart, part: u16, at: u16, share: f64) -> bool {
         let at = usize::from(at);
         let Some((near, inner)) = self.checker.obstacles.get(at).zip(self.obstacles.get(at)) else {
@@ -337,7 +325,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
             || own.touches(&near.solid, *inner, near.reach, share * own.drift)
     }
 
-    /// Whether a part is on the floor throughout, by the lowest point of it in the middle.
+    /// Checks whether a part is in contact with the floor throughout, by its lowest point in the middle.
     fn is_on_floor(&self, placing: &CellPlacement, own: &DeflatedPart, part: u16, share: f64) -> bool {
         let frame = self.limbs.get(usize::from(part)).and_then(|limb| placing.frames.get(limb.frame));
         let Some((_, drift)) = frame else { return false };
@@ -346,7 +334,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
         lowest.z - own.solid.rim() + share * drift.along(&lowest, &up) + SLACK <= MIN_CLEARANCE
     }
 
-    /// Whether a pair touches in the middle; what is not known to be anywhere touches nothing.
+    /// Checks whether a pair is in contact in the middle; an unknown part has no contact.
     pub(super) fn touches_in_middle(&self, placing: &mut CellPlacement, pair: BodyPair) -> bool {
         match pair {
             BodyPair::Obstacle(part, at) => {
@@ -370,7 +358,7 @@ impl<'a, 'r, 'w> CellModel<'a, 'r, 'w> {
     }
 }
 
-/// What is left of all, which stays what it is where that is all.
+/// Remaining items; shares the list where all remain.
 pub(super) fn kept<T: Copy>(left: Vec<T>, all: &Rc<[T]>) -> Rc<[T]> {
     if left.len() == all.len() { Rc::clone(all) } else { left.into() }
 }

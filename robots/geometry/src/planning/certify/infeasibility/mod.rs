@@ -1,39 +1,37 @@
-//! That no state of the robot in which its hand holds a thing is free, proven: all ways to grip the thing are covered by patches, and
-//! for each the family of all solutions of the arm by cells, and in each a joint is beyond its limits throughout, or two solids
-//! touch throughout.
+//! Infeasibility certificate: proves that no collision-free grasp configuration exists, by branch and bound
+//! over grasps (patches of the grasp manifold) and solutions of the arm (cells).
 //!
-//! Two solids touch in all of a cell where they do in its middle, each smaller by as much as it can be off. Let a point
-//! of the one go no farther than `d` and one of the other no farther than `e`. If a point is so deep within both that the depths add
-//! up to `d + e`, then the balls of these depths around it, which go along with their solids, still meet. What counts as a
-//! touch is what does for a state of a way, [`MIN_CLEARANCE`] between everything.
+//! A cell is closed where a joint is beyond its limits throughout, or two solids are in contact throughout.
+//! The latter holds where they are in contact in its middle, each deflated by its drift: let one solid's
+//! points move at most `d` and the other's at most `e`; if a point is so deep within both that the depths
+//! add up to `d + e`, the balls of these depths around it still meet after the motion. The padding is the
+//! one of all checks, [`MIN_CLEARANCE`].
 //!
-//! A cell of which that is not known is cut across the parameter that keeps what is nearest to closing it from doing so (`culprit`), or for which
-//! most moves; where that is the patch, this is cut, and what is left of its cells is looked at for each half (`look`). A free state that is met is
-//! handed over. It ends where nothing is left, or where as many cells as were allowed have been looked at. What is not near a part of the robot
-//! in a cell is not in its halves, and not looked at there; and what touched lately is looked at first.
+//! An undecided cell is split along the parameter that contributes most to keeping the nearly closing
+//! constraint open (`split`), or that moves the robot most; where that is the patch, the patch is split,
+//! and its remaining cells are searched for each half (`search`). A free configuration is handed to the
+//! caller. The search ends where nothing is open, or where the budget of cells is spent. Bodies that are
+//! far from a part in a cell are not checked in its halves, and the pairs that closed recent cells come
+//! first.
 //!
-//! That is so of any two. Of a part beside a thing more is known by which way it goes (`board`), and of two parts of the robot by the joints
-//! between them (`joined`, `tie`).
+//! Beside an obstacle the bound is directional (`bound_obstacle`); between two parts of the robot it counts
+//! only the joints between them (`bound_pair`, `relative`). Related: Basch 2001; Li and Dantam 2023.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use nalgebra::Isometry3;
+use cover::CellModel;
+use search::{BranchAndBound, CellNode, OpenPatch, PatchOutcome};
 
-use crate::inverse::interval::{IkCell, IntervalSolution, PoseSet};
-use crate::inverse::{LiftArm, ParallelArm, SevenArm};
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::grasp::candidates::GraspCandidate;
-use crate::planning::grasp::manifold::{GraspManifold, GraspPatch};
+use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::robot_model::HandModel;
 
-use cover::{CellModel, ContactGroup};
-use relative::PairGroup;
-use search::{BranchAndBound, PatchOutcome};
-
+mod arm_family;
 mod bound_obstacle;
 mod bound_pair;
 mod cover;
@@ -41,83 +39,20 @@ mod relative;
 mod search;
 mod split;
 
-/// An arm whose solutions have cells.
-#[derive(Clone, Copy)]
-enum ArmFamily<'a> {
-    Lift(&'a LiftArm),
-    /// With the height of the base's link above the floor.
-    Parallel(&'a ParallelArm, f64),
-    /// With where the base's link is, and the base.
-    Seven(&'a SevenArm, Isometry3<f64>, [f64; 3]),
-    /// None that is known: nothing is told but of the hand alone.
-    Any,
-}
-
-impl ArmFamily<'_> {
-    fn cells(self) -> Vec<IkCell> {
-        match self {
-            Self::Lift(arm) => arm.cells(),
-            Self::Parallel(arm, _) => arm.cells(),
-            Self::Seven(arm, ..) => arm.cells(),
-            Self::Any => vec![IkCell { branch: 0, middle: [0.0; 3], half: [0.0; 3] }],
-        }
-    }
-
-    fn weights(self) -> [f64; 3] {
-        match self {
-            Self::Lift(arm) => arm.weights(),
-            Self::Parallel(arm, _) => arm.weights(),
-            Self::Seven(arm, ..) => arm.weights(),
-            Self::Any => [0.0; 3],
-        }
-    }
-
-    fn over(self, tips: &PoseSet, cell: &IkCell) -> IntervalSolution {
-        match self {
-            Self::Lift(arm) => arm.enclose(tips, cell),
-            Self::Parallel(arm, height) => arm.enclose(tips, height, cell),
-            Self::Seven(arm, map_from_base, base) => arm.enclose(tips, &map_from_base, base, cell),
-            Self::Any => IntervalSolution::Unknown,
-        }
-    }
-}
-
-/// What is known of all states in which a hand holds a thing.
+/// Verdict of a certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Certificate {
-    /// None is free, for certain.
+    /// No configuration is free, for certain.
     Nowhere,
-    /// Some are, which were handed over.
+    /// Free configurations exist; they were handed over.
     Somewhere,
-    /// Not as much.
+    /// Not decided.
     Open,
 }
 
-/// A cell, and what may touch in it.
-#[derive(Clone)]
-struct CellNode {
-    cell: IkCell,
-    groups: Rc<[ContactGroup]>,
-    pair_groups: Rc<[PairGroup]>,
-}
-
-impl CellNode {
-    /// Its halves, cut across a parameter.
-    fn halves(&self, across: usize) -> [Self; 2] {
-        self.cell.halves(across).map(|cell| Self { cell, ..self.clone() })
-    }
-}
-
-/// A patch, what the hand may touch in it, and what of its cells is left to look at.
-struct OpenPatch {
-    patch: GraspPatch,
-    hand: Rc<[ContactGroup]>,
-    nodes: Rc<[CellNode]>,
-}
-
 impl CollisionChecker<'_, '_> {
-    /// What cells tell of the states in which a hand grips a thing in any way there is, at most so many cells. A free state that is
-    /// found is handed over, with how the thing is held in it: it ends there, or goes on where the least is known.
+    /// Covers all grasps of a manifold with up to `cells` cells. Each free configuration is handed to
+    /// `is_enough` with its grasp, which ends the search or lets it go on where least is known.
     pub(crate) fn covered(
         &self,
         hand: &HandModel,
@@ -152,7 +87,7 @@ impl CollisionChecker<'_, '_> {
                     if is_enough(&hold, configuration).is_break() {
                         return covered;
                     }
-                    // Beside it the next would be much the same.
+                    // Its neighbours would be much the same.
                     open.rotate_left(1.min(open.len()));
                 }
             }

@@ -1,39 +1,37 @@
-//! How far two parts of a robot can be off from where they are to each other in the middle of a cell: only by what the joints between them
-//! move, wherever both of them are.
+//! Relative motion of two parts over a cell: bounded by the joints between them alone, wherever both are.
 
 use std::rc::Rc;
 
 use nalgebra::{Isometry3, Vector3};
 
 use super::bound_obstacle::MotionExtent;
-use super::cover::BodyPair;
 use crate::collision::Solid;
 use crate::inverse::interval::{RotationBound, farthest};
 use crate::kinematics::ReducedModel;
 
-/// The joints between any two frames of a rig.
+/// Joint chains between all pairs of frames of a reduced model.
 pub(super) struct RelativeChains {
-    /// The frames whose joints are between two, from the second to the first, by the first and then the second.
+    /// Chain from the second frame to the first, by the first and then the second.
     between: Vec<Vec<Rc<[ChainJoint]>>>,
 }
 
-/// A joint between two frames.
+/// Joint of a chain.
 #[derive(Clone, Copy, Debug)]
 struct ChainJoint {
-    /// Of the rig's joints.
+    /// Index in the reduced model.
     joint: usize,
-    /// −1 where it carries the first of both.
+    /// −1 where it carries the first frame, else 1.
     sign: f64,
 }
 
-/// A joint where it is in the middle of a cell.
+/// Joint axis in the middle of a cell.
 #[derive(Clone, Copy)]
 pub(super) struct RelativeAxis {
     slides: bool,
-    /// By which variable it is moved, and how far it goes for that.
+    /// Driving variable, with the joint's motion per unit of it.
     dof: usize,
     scale: f64,
-    /// How far the variable can be off.
+    /// Drift of the variable.
     off: f64,
     direction: Vector3<f64>,
     at: Vector3<f64>,
@@ -63,7 +61,7 @@ impl RelativeChains {
         Self { between: between.collect() }
     }
 
-    /// The joints of a rig where its frames are, with how far their variables can be off.
+    /// Axes of the joints at given frames, with the drifts of their variables.
     pub(super) fn axes(reduced: &ReducedModel, frames: &[Isometry3<f64>], offs: &[f64]) -> Vec<RelativeAxis> {
         let joints = reduced.joints.iter().zip(frames.iter().skip(1)).zip(offs);
         let axes = joints.map(|((joint, frame), off)| RelativeAxis {
@@ -77,7 +75,7 @@ impl RelativeChains {
         axes.collect()
     }
 
-    /// What a part that one frame carries does, seen from another.
+    /// Relative motion of a part of one frame, seen from another.
     pub(super) fn relative<'t>(
         &'t self,
         from: usize,
@@ -88,17 +86,17 @@ impl RelativeChains {
     }
 }
 
-/// What a part that one frame carries does, seen from another. Joints farther out move first, so that those nearer in find it where it was,
-/// off by no more than it went.
+/// Relative motion along a chain. Outer joints move first, so that inner ones act on a part that is off by
+/// no more than the outer motion.
 pub(super) struct RelativeChain<'t> {
     path: &'t [ChainJoint],
     axes: &'t [RelativeAxis],
 }
 
-/// What a joint, or some that slide by one variable, does.
+/// Motion of one joint, or of several that slide by one variable.
 enum AxisMotion {
     Turns(RotationBound),
-    /// By no more than this forwards or backwards.
+    /// Slide of at most this vector, in either direction.
     Slides(Vector3<f64>),
 }
 
@@ -115,7 +113,7 @@ impl RelativeChain<'_> {
                 let angle = axis.off * axis.scale.abs();
                 return Some(AxisMotion::Turns(RotationBound { angle, axis: axis.direction, at: axis.at }));
             }
-            // What one variable slides on both sides goes along with itself.
+            // Slides by one variable on both sides cancel.
             let mut step = axis.direction * (axis.scale * first.sign);
             while let Some((next, more)) = rest.split_first()
                 && let Some(other) = self.axes.get(next.joint)
@@ -129,12 +127,12 @@ impl RelativeChain<'_> {
         })
     }
 
-    /// How far a solid goes at most, in m: the axis of a capsule, and every point of anything else.
+    /// Greatest motion of a solid in m: of a capsule's axis, and of every point of another shape.
     pub(super) fn drift(&self, solid: &Solid) -> f64 {
         farthest(solid, None, |point, rim| self.point(point, rim))
     }
 
-    /// The same for what is so near to a point.
+    /// Greatest motion of the ball of radius `rim` around a point, in m.
     pub(super) fn point(&self, point: &Vector3<f64>, rim: f64) -> f64 {
         self.moves().fold(0.0, |gone, step| match step {
             AxisMotion::Turns(spin) => gone + spin.far(point, rim, gone),
@@ -142,7 +140,7 @@ impl RelativeChain<'_> {
         })
     }
 
-    /// How it slides, where it only does that by one variable.
+    /// Slide of the chain, where it only slides by one variable.
     pub(super) fn slide(&self) -> Option<Vector3<f64>> {
         let mut moves = self.moves();
         match (moves.next(), moves.next()) {
@@ -173,21 +171,38 @@ impl MotionExtent for RelativeChain<'_> {
     }
 }
 
-/// Parts that two frames carry and that may touch.
+/// Pairs of parts of two frames that may be in contact.
 #[derive(Clone)]
 pub(super) struct PairGroup {
-    /// Both frames; the second has moved when its parts are looked at from the first.
+    /// Both frames; the second moves, seen from the first.
     pub(super) frames: [usize; 2],
-    /// The radius of a ball about its origin that holds the parts of the second.
+    /// Radius of a ball about its origin that holds the second frame's parts, in m.
     pub(super) reach: f64,
-    /// How far that could be off when others were last left out.
+    /// Drift at the last reduction of the list.
     pub(super) drift: f64,
     pub(super) pairs: Rc<[[u16; 2]]>,
 }
 
 impl PairGroup {
-    /// One after the other.
+    /// Iterates over the pairs in order.
     pub(super) fn pairs(&self) -> impl Iterator<Item = BodyPair> + '_ {
         self.pairs.iter().map(|[part, at]| BodyPair::RelativePlacement(*part, *at))
     }
+}
+
+/// Pair of bodies that may not be in contact: a part, and an obstacle, the floor or another part.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum BodyPair {
+    Obstacle(u16, u16),
+    Floor(u16),
+    RelativePlacement(u16, u16),
+}
+
+/// Robot placed by its joints alone, in the middle of a cell; filled where needed.
+#[derive(Default)]
+pub(super) struct RelativePlacement {
+    pub(super) axes: Vec<RelativeAxis>,
+    /// Frames relative to an arbitrary origin.
+    pub(super) frames: Vec<Isometry3<f64>>,
+    pub(super) parts: Vec<Option<Solid>>,
 }

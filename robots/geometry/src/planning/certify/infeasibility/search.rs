@@ -1,54 +1,76 @@
-//! The look at one patch after the other, and at the cells of each.
+//! Branch-and-bound search over patches, and over the cells of each.
 
 use std::rc::Rc;
 
 use nalgebra::Isometry3;
 
-use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
-use super::relative::PairGroup;
+use super::arm_family::ArmFamily;
+use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::relative::{BodyPair, PairGroup};
 use super::split::{SplitCause, SplitGain, TRUSTED};
-use super::{ArmFamily, CellNode, OpenPatch};
 use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::{GraspManifold, GraspPatch, widest};
 use crate::planning::scene::configuration::Configuration;
 
-/// Poses of the tip are looked at together where none is farther than this from the middle, in m, about.
+/// Spread in m of tip poses that are covered together.
 const COARSE: f64 = 0.6;
-/// Patches in which the hand alone is looked at are cut no smaller, in m, about.
+/// Least size in m of patches in which the hand alone is checked.
 const FINE: f64 = 0.03;
-/// Cells are cut no smaller than so many times a patch before that is cut, where nothing is known to be to blame.
+/// Ratio of cell to patch size above which a cell is split before the patch, where no split cause is known.
 const WIDER: f64 = 2.0;
-/// So much smaller than the largest side of a cell another one may be cut because it is to blame.
+/// Minimum ratio between the side chosen for splitting and the longest side.
 const SLIM: f64 = 8.0;
-/// Below this a cell is looked at for a free state, in m that something goes in it.
+/// Motion in m below which a cell is sampled for a free configuration.
 const SMALL: f64 = 0.05;
-/// So many pairs that touched lately are looked at before all others.
+/// Number of recent contact pairs that are checked first.
 const KNOWN: usize = 8;
-/// Below this a cell is given up.
+/// Motion in m below which a cell is given up.
 const LEAST: f64 = 5e-4;
 
-/// What is known of a patch.
+/// Cell with the bodies that may be in contact in it.
+#[derive(Clone)]
+pub(super) struct CellNode {
+    pub(super) cell: IkCell,
+    pub(super) groups: Rc<[ContactGroup]>,
+    pub(super) pair_groups: Rc<[PairGroup]>,
+}
+
+impl CellNode {
+    /// Halves across a parameter.
+    pub(super) fn halves(&self, across: usize) -> [Self; 2] {
+        self.cell.halves(across).map(|cell| Self { cell, ..self.clone() })
+    }
+}
+
+/// Patch with the bodies that the hand may touch, and its open cells.
+pub(super) struct OpenPatch {
+    pub(super) patch: GraspPatch,
+    pub(super) hand: Rc<[ContactGroup]>,
+    pub(super) nodes: Rc<[CellNode]>,
+}
+
+/// Outcome of one patch.
 pub(super) enum PatchOutcome {
-    /// No state is free.
+    /// No configuration is free.
     Done,
-    /// Not as much of its halves.
+    /// Undecided halves.
     Halves([OpenPatch; 2]),
-    /// One is.
+    /// A free configuration.
     Free(Box<GraspCandidate>, Configuration),
-    /// It cannot be told, or the budget is spent.
+    /// Undecidable, or the budget is spent.
     Unclear,
 }
 
-/// A look at patches and cells.
+/// State of the branch and bound.
 pub(super) struct BranchAndBound<'c, 'a, 'r, 'w> {
     cover: CellModel<'a, 'r, 'w>,
     manifold: &'c GraspManifold<'c>,
-    /// So many may be looked at.
+    /// Remaining budget of cells.
     cells: usize,
     known: RecentPairs,
     placing: CellPlacement,
-    /// To look at something else in between.
+    /// Placement for a check in between.
     aside: CellPlacement,
 }
 
@@ -58,7 +80,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         Self { cover, manifold, cells, known: RecentPairs::default(), placing, aside }
     }
 
-    /// Whether the hand alone touches something wherever it may be, told without a look at small patches.
+    /// Checks whether the hand alone is in contact for all grasps, without splitting far.
     pub(super) fn is_hand_stuck(&mut self, groups: &Rc<[ContactGroup]>) -> bool {
         let patches = self.manifold.patches().into_iter();
         let mut open: Vec<(GraspPatch, Rc<[ContactGroup]>)> =
@@ -76,7 +98,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         true
     }
 
-    /// What is known of a patch.
+    /// Outcome of a patch: closed, or split into halves.
     pub(super) fn halves(&mut self, OpenPatch { patch, hand, nodes }: OpenPatch) -> PatchOutcome {
         if self.is_spent() {
             return PatchOutcome::Unclear;
@@ -92,7 +114,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             let hold = self.manifold.hold(&patch).filter(|hold| self.is_hand_free(hold, &hand));
             match (self.cover.family, &hold) {
                 (ArmFamily::Any, Some(_)) => return PatchOutcome::Unclear,
-                // In a smaller patch it may touch throughout.
+                // A smaller patch may be in contact throughout.
                 (ArmFamily::Any, None) => nodes,
                 (ArmFamily::Lift(_) | ArmFamily::Parallel(..) | ArmFamily::Seven(..), _) => {
                     match self.left(&tips, hold.as_ref(), WIDER * size, &nodes) {
@@ -123,7 +145,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         fewer.is_none()
     }
 
-    /// What of some groups may touch; `None` where something does throughout.
+    /// Reduced lists of some groups; `None` where a pair is in contact throughout.
     fn left_of(&mut self, groups: &Rc<[ContactGroup]>) -> Option<Rc<[ContactGroup]>> {
         let Self { cover, known, placing, .. } = self;
         if known.any(|pair| cover.touches(placing, pair, 1.0)) {
@@ -132,21 +154,20 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         fewer(groups, known, |group| cover.left_of(placing, group))
     }
 
-    /// The same of the robot's parts.
+    /// Reduced lists of the robot's own pairs; `None` where a pair is in contact throughout.
     fn pair_group(&mut self, pair_groups: &Rc<[PairGroup]>) -> Option<Rc<[PairGroup]>> {
         let Self { cover, known, placing, .. } = self;
         fewer(pair_groups, known, |pair_group| cover.pair_group(placing, pair_group))
     }
 
-    /// Whether the hand alone is free, of what it may touch.
+    /// Checks whether the hand alone is free at a grasp.
     fn is_hand_free(&mut self, hold: &GraspCandidate, groups: &[ContactGroup]) -> bool {
         let tips = PoseSet::new(hold.map_from_tip, DisplacementBound::none());
         self.cover.place_hand(&tips, &mut self.placing);
         !self.cover.is_stuck_in_middle(&mut self.placing, groups)
     }
 
-    /// What is left of some cells: the parts, no larger than the tips are far from each other, of which it is not known that no state is
-    /// free.
+    /// Open parts of some cells, split down to the size of the patch.
     fn left(
         &mut self,
         tips: &PoseSet,
@@ -165,7 +186,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
                 CellOutcome::Closed => {}
                 CellOutcome::Free(configuration) => return Remaining::Free(configuration),
                 CellOutcome::Unclear => return Remaining::Unclear,
-                CellOutcome::OpenPatch(node, split_gain) => {
+                CellOutcome::Open(node, split_gain) => {
                     match self.across(&node.cell, split_gain.as_ref(), enough) {
                         Some(across) => {
                             let split_gain = split_gain.map(|split_gain| split_gain.halved(across));
@@ -179,7 +200,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         Remaining::Nodes(left)
     }
 
-    /// What is known of a cell, with what was to blame for it before.
+    /// Outcome of a cell, given the split cause of its parent.
     fn seen(
         &mut self,
         tips: &PoseSet,
@@ -194,17 +215,17 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             IntervalSolution::Enclosed(enclosure) => enclosure,
         };
         self.cover.place(&enclosure, &mut self.placing);
-        // What will close its parts soon needs no look at anything else.
+        // A part that is about to close needs no other check.
         if let Some(split_gain) = split_gain
             && self.cover.closes(&mut self.placing, &enclosure, split_gain.split_cause, TRUSTED)
         {
             return match split_gain.split_cause {
-                SplitCause::BodyPair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => {
+                SplitCause::Pair(pair) if self.cover.touches(&mut self.placing, pair, 1.0) => {
                     CellOutcome::Closed
                 }
-                // Of joints and the arm's length all is told already, with what rounding may take.
-                SplitCause::BodyPair(_) | SplitCause::Joint(_) | SplitCause::Short => {
-                    CellOutcome::OpenPatch(CellNode { cell, groups, pair_groups }, Some(split_gain))
+                // Joint limits and the arm's length are exact up to rounding.
+                SplitCause::Pair(_) | SplitCause::Joint(_) | SplitCause::Short => {
+                    CellOutcome::Open(CellNode { cell, groups, pair_groups }, Some(split_gain))
                 }
             };
         }
@@ -226,10 +247,10 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             let (split_cause, share) = cover.split_cause(placing, &enclosure, &groups, &pair_groups)?;
             Some(cover.split_gain(aside, tips, &cell, split_cause, share))
         });
-        CellOutcome::OpenPatch(CellNode { cell, groups, pair_groups }, split_gain)
+        CellOutcome::Open(CellNode { cell, groups, pair_groups }, split_gain)
     }
 
-    /// Across which parameter a cell is to be cut; nothing where the patch is.
+    /// Parameter across which to split a cell; `None` to split the patch.
     fn across(&self, cell: &IkCell, split_gain: Option<&SplitGain>, enough: f64) -> Option<usize> {
         let sizes = self.sizes(cell);
         let (size, wide) = widest(&sizes);
@@ -238,7 +259,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         };
         let (off, across) = widest(&split_gain.cell);
         if off < split_gain.patch {
-            // Nor is a cell so much larger than its patch that others could be to blame.
+            // A cell much larger than its patch is split in any case.
             return (size >= (SLIM * enough).max(LEAST)).then_some(wide);
         }
         match sizes.get(across) {
@@ -247,7 +268,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         }
     }
 
-    /// How far something goes for the half of each side of a cell, about, in m.
+    /// Approximate motion in m over half of each side of a cell.
     fn sizes(&self, cell: &IkCell) -> [f64; 3] {
         let weights = self.cover.family.weights();
         std::array::from_fn(|at: usize| {
@@ -255,7 +276,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         })
     }
 
-    /// A free state in the middle of a cell, or with the base there.
+    /// Free configuration at the middle of a cell, if any.
     fn free_in(
         &self,
         tip: &Isometry3<f64>,
@@ -285,26 +306,26 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
     }
 }
 
-/// What is known of a cell.
+/// Outcome of one cell.
 enum CellOutcome {
-    /// No state is free.
+    /// No configuration is free.
     Closed,
-    /// One is.
+    /// A free configuration.
     Free(Configuration),
-    /// It cannot be told.
+    /// Undecidable.
     Unclear,
-    /// Not as much, with what may touch, and what is to blame for that, if something is.
-    OpenPatch(CellNode, Option<SplitGain>),
+    /// Undecided, with the remaining bodies and the gain of a split.
+    Open(CellNode, Option<SplitGain>),
 }
 
-/// What is left of cells.
+/// Remaining cells of a patch.
 enum Remaining {
     Nodes(Vec<CellNode>),
     Free(Configuration),
     Unclear,
 }
 
-/// What is left of each of some; `None`, with what it is noted, where something touches throughout.
+/// Reduces each list; `None` where a pair is in contact throughout, which is recorded.
 fn fewer<T: Clone>(
     all: &Rc<[T]>,
     known: &mut RecentPairs,
@@ -327,7 +348,7 @@ fn fewer<T: Clone>(
     Some(left.map_or_else(|| Rc::clone(all), Into::into))
 }
 
-/// Pairs that touched lately; those that did often stand at the end.
+/// Recent contact pairs, the most frequent last.
 #[derive(Default)]
 struct RecentPairs(Vec<BodyPair>);
 
@@ -339,7 +360,7 @@ impl RecentPairs {
         self.0.push(pair);
     }
 
-    /// Whether one of them is so.
+    /// Checks whether a predicate holds for one of them, and moves it back.
     fn any(&mut self, mut is: impl FnMut(BodyPair) -> bool) -> bool {
         let Some(at) = self.0.iter().rposition(|pair| is(*pair)) else { return false };
         let next = (at + 1).min(self.0.len() - 1);

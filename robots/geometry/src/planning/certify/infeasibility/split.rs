@@ -1,52 +1,53 @@
-//! What is nearest to closing a cell, and by which of its parameters that is kept from doing so: across that one it is cut. A hand that is turned
-//! beyond its wrist is so whatever the base's yaw, so that this needs no cutting.
+//! Choice of the split parameter: finds the constraint that is nearest to closing a cell, and the parameter
+//! that keeps it open most. A hand turned beyond its wrist is so at any yaw of the base, so that a split of
+//! the yaw is useless.
 //!
-//! Near to it is what would close the cell if all went by a share only of how far it may go: half of it is one cut away. What is nowhere near
-//! that is no culprit, since at the edge of where it touches no cell is small enough.
+//! A constraint is near where it closes the cell for a share of the motion: at a half, one split is enough.
+//! Constraints that are nowhere near are no causes, since at their boundary no cell is small enough.
 
-use super::cover::{BodyPair, CellModel, CellPlacement, ContactGroup};
-use super::relative::PairGroup;
+use super::cover::{CellModel, CellPlacement, ContactGroup};
+use super::relative::{BodyPair, PairGroup};
 use crate::inverse::interval::{CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet};
 
-/// The shares by which all may go for a culprit to be one, the farthest from closing a cell first.
+/// Shares of the motion at which a constraint counts, the farthest from closing first.
 const SHARES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
-/// By this share nothing else is looked at until the culprit has closed the cell, or has not.
+/// Share from which on the cause is trusted until it has closed the cell or failed.
 pub(super) const TRUSTED: f64 = 0.25;
-/// Less than this is rounding, in rad or m, for what is beyond a limit.
+/// Excess beyond a limit that is more than rounding, in rad or m.
 const BEYOND: f64 = 1e-4;
-/// Below this a culprit is not off at all, in rad or m.
+/// Drift below which a cause is exact, in rad or m.
 const STILL: f64 = 1e-3;
 
-/// What is so in the middle of a cell and would close it if it were so throughout.
+/// Constraint that closes the middle of a cell.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum SplitCause {
-    /// A variable of the arm is beyond its limits, by its index.
+    /// Variable of the arm beyond its limits, by index.
     Joint(usize),
-    /// The arm is too short.
+    /// Arm too short.
     Short,
-    /// Two touch.
-    BodyPair(BodyPair),
+    /// Pair in contact.
+    Pair(BodyPair),
 }
 
-/// What keeps a culprit from closing a cell.
+/// Gain of a split for a constraint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SplitGain {
     pub(super) split_cause: SplitCause,
-    /// By which it closes the cell.
+    /// Share of the motion at which it closes the cell.
     pub(super) share: f64,
-    /// How far it can be off by each parameter of the cell alone, in rad or m.
+    /// Drift by each parameter of the cell alone, in rad or m.
     pub(super) cell: [f64; 3],
-    /// The same by the patch alone.
+    /// Drift by the patch alone, in rad or m.
     pub(super) patch: f64,
 }
 
 impl SplitGain {
-    /// Whether something is to blame at all.
+    /// Checks whether any parameter contributes.
     pub(super) fn tells(&self) -> bool {
         self.cell.iter().fold(self.patch, |most, off| most.max(*off)) > STILL
     }
 
-    /// The same in a half of the cell.
+    /// Gain in a half of the cell.
     pub(super) fn halved(mut self, across: usize) -> Self {
         self.cell.get_mut(across).into_iter().for_each(|off| *off *= 0.5);
         self
@@ -54,8 +55,8 @@ impl SplitGain {
 }
 
 impl CellModel<'_, '_, '_> {
-    /// Whether a culprit would close a cell in which all goes by no more than a share of how far it may go. Of joints and the arm's length that
-    /// is about so, and no proof.
+    /// Checks whether a constraint closes a cell for a share of the motion. For joint limits and the arm's
+    /// length the result is approximate, and no proof.
     pub(super) fn closes(
         &self,
         placing: &mut CellPlacement,
@@ -76,11 +77,11 @@ impl CellModel<'_, '_, '_> {
                 let [short, off] = enclosure.short;
                 is_beyond(short, off)
             }
-            SplitCause::BodyPair(pair) => self.touches(placing, pair, share),
+            SplitCause::Pair(pair) => self.touches(placing, pair, share),
         }
     }
 
-    /// What is nearest to closing a cell, and by which share of how far all may go it does.
+    /// Constraint nearest to closing a cell, with its share.
     pub(super) fn split_cause(
         &self,
         placing: &mut CellPlacement,
@@ -92,7 +93,7 @@ impl CellModel<'_, '_, '_> {
         let pairs =
             groups.iter().flat_map(ContactGroup::pairs).chain(pair_groups.iter().flat_map(PairGroup::pairs));
         let mut best: Option<(SplitCause, f64)> = None;
-        for split_cause in limits.chain(pairs.map(SplitCause::BodyPair)) {
+        for split_cause in limits.chain(pairs.map(SplitCause::Pair)) {
             for share in SHARES {
                 if best.is_some_and(|(_, most)| share <= most) {
                     continue;
@@ -106,7 +107,7 @@ impl CellModel<'_, '_, '_> {
         best
     }
 
-    /// What keeps a culprit from closing a cell, with the share by which it does.
+    /// Gain of a split for a constraint and its share.
     pub(super) fn split_gain(
         &self,
         placing: &mut CellPlacement,
@@ -132,7 +133,7 @@ impl CellModel<'_, '_, '_> {
         split_gain
     }
 
-    /// How far a culprit can be off in a cell, whatever the limits of joints; 0 where that is not known, so that nothing is cut for it.
+    /// Drift of a constraint in a cell; 0 where it is unknown, so that nothing is split for it.
     fn off(
         &self,
         placing: &mut CellPlacement,
@@ -144,7 +145,7 @@ impl CellModel<'_, '_, '_> {
         match split_cause {
             SplitCause::Joint(at) => enclosure.values.get(at).map_or(0.0, |[_, off]| *off),
             SplitCause::Short => enclosure.short[1],
-            SplitCause::BodyPair(pair) => {
+            SplitCause::Pair(pair) => {
                 self.place(&enclosure, placing);
                 self.off_by(placing, pair)
             }

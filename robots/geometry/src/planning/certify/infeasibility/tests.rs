@@ -1,26 +1,29 @@
-//! What cells say of a robot holds for every one of its states, and what is covered has no free one.
+//! Soundness of cells and certificates: bounds hold for every configuration of a cell, and a covered scene
+//! has no free one.
 
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 
+use super::arm_family::ArmFamily;
 use super::cover::{CellModel, CellPlacement, ContactGroup};
 use super::relative::PairGroup;
 use super::split::SplitCause;
-use super::{ArmFamily, Certificate, GraspManifold};
 use crate::collision::{Shape, Solid};
 use crate::inverse::interval::{DisplacementBound, IkCell, IntervalSolution, PoseSet};
 use crate::planning::certify::deflate::DeflatedPart;
+use crate::planning::certify::infeasibility::Certificate;
+use crate::planning::context::QueryContext;
+use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::robot_model::{HandModel, RobotModel};
 use crate::planning::scene::scene_state::SceneState;
-use crate::planning::search::context::QueryContext;
 use crate::trigonometry::wrapped;
 
 mod grips;
 
-/// A state with the arm's joints at shares of their ranges.
+/// Configuration with the arm's joints at shares of their ranges.
 fn configuration(
     context: &QueryContext<'_>,
     hand: &HandModel,
@@ -39,18 +42,18 @@ fn configuration(
     (context.with(hand, base, &values), values)
 }
 
-/// The free parameters of a state, and whether each is an angle of which full turns do not matter.
+/// Free parameters of a configuration, each with a flag for angles modulo full turns.
 fn parameters(family: ArmFamily<'_>, yaw: f64, values: &[f64]) -> [f64; 3] {
     match family {
         ArmFamily::Lift(_) => [yaw, values[1], 0.0],
-        // All axes of the Z1's parallel joints point alike.
+        // All parallel axes of the Z1 point the same way.
         ArmFamily::Parallel(..) => [wrapped(yaw + values[0]), wrapped(values[1] + values[2]), yaw],
         ArmFamily::Seven(..) => [values[6], 0.0, 0.0],
         ArmFamily::Any => [0.0; 3],
     }
 }
 
-/// How far the farthest point of a part is off where a cell puts it.
+/// Distance of the farthest point of a part from its place in a cell.
 fn off(one: &DeflatedPart, other: &DeflatedPart) -> f64 {
     let along = |solid: &Solid| match solid.shape {
         Shape::Capsule { half, .. } | Shape::Cylinder { half, .. } => solid.axes[2] * half,
@@ -63,7 +66,7 @@ fn off(one: &DeflatedPart, other: &DeflatedPart) -> f64 {
     ends[0].max(ends[1])
 }
 
-/// `tilt` is how far the tip is turned and shifted from where the cell is about.
+/// Checks that a configuration is in its cell; `tilt` turns and shifts the tip from the cell's middle.
 fn a_state_is_in_its_cell(
     name: &str,
     base: [f64; 3],
@@ -88,7 +91,7 @@ fn a_state_is_in_its_cell(
     let turned = nalgebra::UnitQuaternion::from_scaled_axis(axis * tilt);
     let at = about + turned * (tip.translation.vector - about) + axis * (0.2 * tilt);
     let map_from_tip = Isometry3::from_parts(at.into(), turned * tip.rotation);
-    // Along the axis about which it is turned, so that the order does not matter.
+    // Along the axis of the turn, so that the order does not matter.
     let still = DisplacementBound::none();
     let drift = match x > 0.0 {
         true => still.shifted(0.2 * tilt).turned(about, tilt),
@@ -129,7 +132,7 @@ fn a_state_is_in_its_cell(
     assert!(nearest.0 < 1e-5, "{name}, {values:?}: {} m or rad beyond, {}", nearest.0, nearest.1);
 }
 
-/// A can in a box without a front: walls, a floor and a ceiling, so wide, high and deep inside, and so high above the floor.
+/// Can in a box without a front, with inner width, height and depth, at a height above the floor.
 fn niche([wide, high, deep]: [f64; 3], [ahead, up]: [f64; 2], [x, y]: [f64; 2]) -> Scene {
     let mut scene = Scene::default();
     let mut add = |id: &str, kind: &str, xyz: [f64; 3], shape: EntityShape| {
@@ -157,7 +160,7 @@ fn niche([wide, high, deep]: [f64; 3], [ahead, up]: [f64; 2], [x, y]: [f64; 2]) 
     scene
 }
 
-/// Poses in which the hand alone is free.
+/// Tip poses in which the hand alone is free.
 fn poses(
     context: &QueryContext<'_>,
     hand: &HandModel,
@@ -166,7 +169,7 @@ fn poses(
     let (index, _, entity) = scene.entities.get_full("can").unwrap();
     let allowed = AllowedCollisions { hand: Some(index), held: None };
     let pose = context.state.pose(entity).unwrap();
-    let object = Solid::new(&pose, crate::planning::scene::obstacle::solid_shape(entity).unwrap());
+    let object = Solid::new(&pose, crate::planning::scene::scene_state::solid_shape(entity).unwrap());
     let (holds, _) =
         crate::planning::grasp::candidates::grasp_candidates(hand, &object, None, context.state.robot.base);
     let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
@@ -174,7 +177,7 @@ fn poses(
     (tips.into_iter().filter(|tip| palm.contact(tip).is_none()).collect(), allowed, object)
 }
 
-/// Whether it is covered that no state is free in a niche, with so many cells; draws states at random to contradict it.
+/// Verdict of a certificate in a niche; random configurations try to contradict it.
 fn covered(name: &str, scene: &Scene, cells: usize, draws: &[[f64; 4]]) -> Option<bool> {
     let model = RobotModel::embedded(name);
     let state = SceneState::new(&model, scene);
@@ -263,7 +266,7 @@ proptest! {
         draws in prop::collection::vec([0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64], 60),
         name in prop::sample::select(vec!["hsr", "anymal_z1", "panda"]),
     ) {
-        // The Panda stands still on its bench.
+        // The Panda stands on its bench.
         let at = if name == "panda" { [0.3, 0.6 + 0.5 * up] } else { [1.5, up] };
         covered(name, &niche(size, at, place), 20_000, &draws);
     }
@@ -282,7 +285,7 @@ fn what_no_arm_gets_into_is_covered_and_what_one_does_is_not() {
             })
         })
         .collect();
-    // Low and deep: the hand has room, and what carries it has none.
+    // Low and deep: room for the hand, none for the arm.
     let deep = niche([0.6, 0.4, 1.8], [1.5, 0.3], [1.0, 0.5]);
     assert_eq!(covered("hsr", &deep, 200_000, &draws), Some(true));
     assert_eq!(covered("hsr", &deep, 20, &draws), None);
@@ -309,8 +312,8 @@ fn what_a_panda_does_not_get_to_is_covered_and_what_it_does_is_not() {
     assert_eq!(covered("panda", &near, 100_000, &draws), Some(false));
 }
 
-/// What closes a cell does so however much less all goes in it, what is said to be nearest to that is, and nothing goes farther by one
-/// parameter than by all.
+/// Split causes are consistent: a cell closed for a share is closed for every smaller one, the cause is the
+/// nearest, and no parameter moves a body more than all do.
 fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: [f64; 3], size: f64) -> bool {
     let model = RobotModel::embedded(name);
     let state = SceneState::new(&model, scene);
@@ -333,7 +336,7 @@ fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: 
     let pairs =
         groups.iter().flat_map(ContactGroup::pairs).chain(pair_groups.iter().flat_map(PairGroup::pairs));
     let limits = (0..enclosure.values.len()).map(SplitCause::Joint).chain([SplitCause::Short]);
-    for split_cause in limits.chain(pairs.map(SplitCause::BodyPair)) {
+    for split_cause in limits.chain(pairs.map(SplitCause::Pair)) {
         let mut closes = |share: f64| cover.closes(&mut placing, &enclosure, split_cause, share);
         let shares = [1.0, 0.5, 0.25, 0.125, 0.0625];
         assert!(shares.windows(2).all(|pair| !closes(pair[0]) || closes(pair[1])), "{name}: {split_cause:?}");
@@ -348,7 +351,7 @@ fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: 
     let all = match split_cause {
         SplitCause::Joint(at) => enclosure.values[at][1],
         SplitCause::Short => enclosure.short[1],
-        SplitCause::BodyPair(pair) => cover.off_by(&mut placing, pair),
+        SplitCause::Pair(pair) => cover.off_by(&mut placing, pair),
     };
     assert!(
         split_gain.cell.iter().all(|off| *off <= all + 1e-9) && split_gain.patch <= all + 1e-9,

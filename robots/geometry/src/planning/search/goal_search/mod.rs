@@ -1,6 +1,8 @@
-//! The search for a way of the hand to one of some poses: the poses in the order in which they are given, for each one
-//! candidate for the base and the arm after the other. Which ways are looked for to a candidate, and what is tried where there is none, is
-//! in `trial`.
+//! Goal search: samples configurations with the tip at one of some poses and searches a path to each free
+//! one.
+//!
+//! Poses come in the given order; for each one candidate of base and arm after the other. The trials of a
+//! free configuration are in `trial`.
 
 use std::ops::{ControlFlow, Range};
 
@@ -9,100 +11,102 @@ use nalgebra::{Isometry3, Vector3};
 use crate::inverse::batch::LANES;
 use crate::planning::checking::collision_checker::CollisionChecker;
 use crate::planning::checking::hand_check::HandChecker;
+use crate::planning::context::QueryContext;
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::query::answer::{MotionAnswer, SearchBudget};
+use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
 use crate::planning::scene::contact::AllowedCollisions;
 use crate::planning::scene::ik_solver::IkSolver;
 use crate::planning::scene::robot_model::HandModel;
-use crate::planning::search::context::QueryContext;
-use crate::planning::search::path::ContactTally;
 use crate::planning::search::prefilter_arm::{ArmDraft, ArmPrefilter, DraftCheck, PoseBatch};
 
 mod trial;
 
-use trial::ApproachLine;
-
-/// So many poses have the candidates of a budget each; more share them. Where the base is not placed by the arm's own solver,
-/// most candidates have no solution at all, and the poses that were given have more.
+/// Number of poses that get a full sample budget each; beyond it they share one. The second is for arms
+/// that do not place the base, where most candidates have no solution.
 const SHARED: [usize; 2] = [8, 32];
 /// Rounds after which a short proof is tried, where a round takes long.
 const FEW: usize = 9;
-/// How far the base comes from where it stands in the end while the hand reaches, in m.
-pub(crate) const LAST: f64 = 0.65;
-/// States that are looked at at a time for what they touch.
+/// Number of configurations checked at a time.
 const BATCH: usize = 8;
 
-/// Where the hand is wanted.
+/// Goal of the hand.
 pub(crate) struct GoalSpec<'a, 'r, 'w> {
     pub(crate) hand: &'a HandModel,
-    /// Poses of its tip in the map, the likeliest first.
+    /// Tip poses in the map, the likeliest first.
     pub(crate) tips: Vec<Isometry3<f64>>,
-    /// All ways in which the hand may hold something, of which the poses are some, where these are all that are considered: so it is
-    /// proven that there is no way where the hand alone is free in none.
+    /// Manifold that the poses sample, where it is complete: then infeasibility can be proven.
     pub(crate) manifold: Option<&'a GraspManifold<'a>>,
-    /// What may touch there and on the last line to it.
+    /// Permitted contacts at the goal and on the approach.
     pub(crate) allowed: AllowedCollisions,
     pub(crate) checker: &'a CollisionChecker<'r, 'w>,
-    /// From a pose of the tip back to where the last straight line to it begins, in m in the map: the best first.
+    /// Offsets from a tip pose back to the start of the approach, in m in the map, the best first.
     pub(crate) backs: &'a dyn Fn(&Isometry3<f64>) -> Vec<Vector3<f64>>,
 }
 
-/// Where the hand is in the end.
+/// Pose of the hand at the goal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum GoalPose {
-    /// At a pose that was given, by its index.
+    /// Index of a given pose.
     Tip(usize),
-    /// At another, between those or where a proof found room for it.
-    GraspCandidate(GraspCandidate),
+    /// Another pose of the manifold: between the given ones, or found by a proof.
+    Grasp(GraspCandidate),
 }
 
-/// A state with the tip at a pose.
+/// Approach line: configurations of a straight hand path to the goal.
+pub(crate) struct ApproachLine {
+    at: GoalPose,
+    line: Vec<Configuration>,
+    inwards: [f64; 2],
+}
+
+/// Goal configuration with its tip pose.
 struct GoalCandidate {
     at: GoalPose,
     tip: Isometry3<f64>,
     configuration: Configuration,
 }
 
-/// Where the hand is, with the way to it.
+/// Goal pose and the path to it.
 type FoundPath = (GoalPose, Vec<Configuration>);
 
-/// What ends a search through candidates: a way, or that as many were tried as may be.
+/// Control flow of the search: breaks with a path, or without one where the budget is spent.
 type SearchFlow = ControlFlow<Option<FoundPath>>;
 
-/// Which rounds of candidates are gone through.
+/// Rounds of candidates to visit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Rounds {
-    /// All; in the first it is found out in which poses the hand alone is free.
+    /// All; the first round also checks the hand alone.
     First,
-    /// The first few of them, likewise.
+    /// The first few, likewise.
     Few,
-    /// The others.
+    /// The rest after `Few`.
     Rest,
-    /// All once more, with a budget so many times as large.
+    /// All again, with a budget this many times as large.
     Again(usize),
-    /// Those that come after them with a budget so many times as large.
+    /// Rounds beyond the first budget, up to this many times as large.
     More(usize),
 }
 
 impl Rounds {
-    /// Whether it is found out in the first round in which poses the hand alone is free.
+    /// Checks whether the first round also checks the hand alone.
     fn begins(self) -> bool {
         matches!(self, Self::First | Self::Few)
     }
 }
 
-/// Which places of the base are looked at.
+/// Region of the base's places.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum BaseRegion {
-    /// To which a way leads, about, with the arm as it was and the base taken for a disc.
+    /// Places to which a route leads, approximately, with the arm as it was.
     Open,
-    /// The others.
+    /// All other places.
     CutOff,
 }
 
-/// What is known of the hand alone in a pose.
+/// Result of the hand-only check at a pose.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum HandCheckState {
     Unknown,
@@ -110,33 +114,33 @@ enum HandCheckState {
     Blocked,
 }
 
-/// What was tried of a budget, and what was met.
+/// State of one goal search.
 struct GoalSearch<'a, 'r, 'w> {
     goal: &'a GoalSpec<'a, 'r, 'w>,
     budget: SearchBudget,
-    /// The poses by their index; after the first round without those in which the hand alone is not free.
+    /// Poses with their indices; after the first round without those that the hand-only check excludes.
     tips: Vec<(usize, Isometry3<f64>, HandCheckState)>,
-    /// What they are, where they are none of those that were given.
+    /// Finer poses of the manifold, where the search has moved on to them.
     finer: Option<Vec<GraspCandidate>>,
     hand_checker: HandChecker<'r, 'w>,
-    /// Free states that were tried since the last time that as many began to be tried as may be.
+    /// Free configurations tried in this phase.
     tried: usize,
-    /// Of these so many to which the hand comes straight.
+    /// Number of those with a free approach line.
     lined: usize,
-    /// Whether as many were tried as may be.
+    /// Set where the budget is spent.
     is_spent: bool,
     hands: ContactTally,
     poses: ContactTally,
     ways: ContactTally,
-    /// Whether a candidate was passed over because no way leads near to where its base is.
+    /// Set where a candidate was skipped because no route leads near its base.
     is_cut_off: bool,
-    /// States to look at.
+    /// Candidates to check together.
     batch: Vec<GoalCandidate>,
-    /// Free states to which the hand comes straight, and no simple way leads.
+    /// Approach lines without a simple path, for a short search.
     left: Vec<ApproachLine>,
-    /// Some of those to which a short search led nowhere.
+    /// Approach lines without a short search's path, for a long one.
     searched: Vec<ApproachLine>,
-    /// A free state.
+    /// First free goal configuration.
     met: Option<Configuration>,
 }
 
@@ -162,7 +166,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
         }
     }
 
-    /// Whether the hand alone is free in a pose. Where that is not known it is found out for the next ones as well.
+    /// Checks the hand alone at a pose; unknown ones in batches.
     fn is_free(&mut self, at: usize) -> bool {
         if self.tips.get(at).is_some_and(|(_, _, known)| *known == HandCheckState::Unknown) {
             let next =
@@ -177,8 +181,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
         self.tips.get(at).is_some_and(|(_, _, known)| *known == HandCheckState::Free)
     }
 
-    /// Leaves out the poses in which the hand alone is known not to be free: so many rounds are left for the others, with a budget so many times as
-    /// large.
+    /// Drops the poses that the hand-only check excludes, and computes the number of rounds for the rest.
     fn rounds(&mut self, times: usize) -> usize {
         self.tips.retain(|(_, _, known)| *known != HandCheckState::Blocked);
         let [few, many] = SHARED;
@@ -199,14 +202,14 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
 
     fn at(&self, index: usize) -> GoalPose {
         let finer = self.finer.as_ref().and_then(|holds| holds.get(index));
-        finer.map_or(GoalPose::Tip(index), |hold| GoalPose::GraspCandidate(*hold))
+        finer.map_or(GoalPose::Tip(index), |hold| GoalPose::Grasp(*hold))
     }
 
     fn places_base(&self) -> bool {
         matches!(self.goal.hand.solver, IkSolver::Lift(_))
     }
 
-    /// Goes through all candidates, those of a round for all poses before the next; what ends the search.
+    /// Visits candidates one by one, a round for all poses before the next.
     fn one_by_one(&mut self, places: BaseRegion, times: Rounds) -> SearchFlow {
         let (goal, context) = (self.goal, self.goal.checker.context);
         let places_base = self.places_base();
@@ -240,7 +243,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
         self.tries_batch()
     }
 
-    /// The same candidates, eight at a time.
+    /// Visits candidates in batches of eight.
     fn by_eights(&mut self, prefilter: &ArmPrefilter<'_, '_, '_>, times: Rounds) -> SearchFlow {
         let mut drafts: Vec<ArmDraft> = Vec::new();
         let mut groups: Vec<PoseBatch> = Vec::new();
@@ -268,8 +271,8 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
         self.tries_batch()
     }
 
-    /// Looks at drafts while there are at least so many: the free ones are tried at once, those that come near something when
-    /// there are enough of them.
+    /// Checks drafts while there are at least `least`: tries the free ones at once and collects the
+    /// undecided ones.
     fn screened(
         &mut self,
         prefilter: &ArmPrefilter<'_, '_, '_>,
@@ -302,7 +305,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
         ControlFlow::Continue(())
     }
 
-    /// A draft to what `f64` can tell, where a way may lead to it.
+    /// Solves a draft in `f64`; `None` where no route leads near its base.
     fn solved(
         &mut self,
         prefilter: &ArmPrefilter<'_, '_, '_>,
@@ -322,7 +325,7 @@ impl<'a, 'r, 'w> GoalSearch<'a, 'r, 'w> {
 }
 
 impl QueryContext<'_> {
-    /// A way from where the robot is to one of the poses: which, and the states.
+    /// Searches a path from the start to one of the goal's poses.
     ///
     /// # Errors
     ///
@@ -339,7 +342,7 @@ impl QueryContext<'_> {
         GoalSearch::new(goal, budget).all(prefilter.as_ref())
     }
 
-    /// How far the base can be from the tip of a hand, in m.
+    /// Greatest distance of the base from the tip of a hand, in m.
     pub(crate) fn farthest(&self, hand: &HandModel) -> f64 {
         match &hand.solver {
             IkSolver::Lift(arm) => arm.reach(),

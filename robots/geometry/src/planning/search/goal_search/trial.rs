@@ -1,5 +1,6 @@
-//! What is tried of a free state in which the hand is where it is wanted: simple ways to it, and for some a search. Where all of that
-//! leads nowhere: finer poses of the hand, places of the base that are cut off for a disc, a proof that there is nothing, and more candidates.
+//! Trials of a free goal configuration: simple paths to it and, for some, RRT-Connect. Where all fail:
+//! finer grasps, places of the base that the map cuts off, an infeasibility certificate, and more
+//! candidates.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -7,49 +8,44 @@ use std::ops::ControlFlow;
 use nalgebra::Isometry3;
 
 use super::{
-    BaseRegion, FoundPath, GoalCandidate, GoalPose, GoalSearch, GoalSpec, HandCheckState, Rounds, SearchFlow,
+    ApproachLine, BaseRegion, FoundPath, GoalCandidate, GoalPose, GoalSearch, GoalSpec, HandCheckState,
+    Rounds, SearchFlow,
 };
 use crate::planning::certify::infeasibility::Certificate;
 use crate::planning::grasp::candidates::GraspCandidate;
 use crate::planning::grasp::manifold::GraspManifold;
 use crate::planning::query::answer::{Infeasible, InfeasibleReason, MotionAnswer, UnknownReason};
+use crate::planning::query::contact_tally::ContactTally;
 use crate::planning::scene::configuration::Configuration;
-use crate::planning::search::path::{ContactTally, PathError};
+use crate::planning::search::path::PathError;
 use crate::planning::search::prefilter_arm::ArmPrefilter;
 use crate::planning::search::rrt_connect::RrtEffort;
 
-/// After so many free states without a simple way to any, a way is searched for to some of them, and after as many more again.
+/// Number of free configurations without a simple path after which a search is tried.
 const SIMPLE: usize = 6;
-/// To so many, shortly.
+/// Approach lines per short search.
 const SEARCHED: usize = 3;
-/// States that are kept for a longer search in the end.
+/// Approach lines kept for the long search.
 const LEFT: usize = 8;
-/// So many states to which the hand does not come straight count as one to which it does: they take as long.
+/// Number of configurations without an approach line that cost as much as one with a line.
 const CHEAP: usize = 8;
-/// Many proofs are short: so many cells are looked at after the first candidates, and so many after all for the poses that were given.
+/// Cells of the first and of the second proof; most proofs are short.
 const SHORT: usize = 128;
 const LONGER: usize = 1024;
-/// Free states that a proof meets to which ways are looked for, simple ones and by a short search.
+/// Free configurations of a proof that are tried.
 const MET: usize = 8;
-/// Finer poses of the hand are so near to each other, in m that any of its points goes from one to the next, about; where they are few, so
-/// near.
+/// Spacing of finer grasps: the motion of any point of the hand between neighbours, in m. The second is for
+/// small manifolds.
 const FINE: [f64; 2] = [0.05, 0.005];
-/// Fewer are few; and about the most of them.
+/// Least number of finer grasps, and about the greatest.
 const POSES: [usize; 2] = [128, 1024];
-/// So many times as many candidates are tried where the base is cut off, of which most are of no use.
+/// Budget factor where the map cuts the base off: most of these candidates are useless.
 const CUT_OFF: usize = 4;
-/// So many times as many are tried in the end, where it is known that there is a free state, or nothing is.
+/// Budget factor of the last phase.
 const MORE: usize = 8;
 
-/// States along which the hand comes straight to where it is wanted.
-pub(crate) struct ApproachLine {
-    at: GoalPose,
-    line: Vec<Configuration>,
-    inwards: [f64; 2],
-}
-
 impl GoalSearch<'_, '_, '_> {
-    /// A way, or the answer where there is none.
+    /// Runs the search to a path or to the answer without one.
     pub(crate) fn all(
         &mut self,
         prefilter: Option<&ArmPrefilter<'_, '_, '_>>,
@@ -60,13 +56,13 @@ impl GoalSearch<'_, '_, '_> {
         }
     }
 
-    /// A way; else whether there is none for certain.
+    /// Runs the phases of the search; continues with `true` where infeasibility is proven.
     fn found(&mut self, prefilter: Option<&ArmPrefilter<'_, '_, '_>>) -> ControlFlow<FoundPath, bool> {
         if prefilter.is_some() {
             self.is_spent = self.goes(prefilter, BaseRegion::Open, Rounds::First)?;
         } else {
             self.is_spent = self.goes(prefilter, BaseRegion::Open, Rounds::Few)?;
-            // Candidates that are solved one by one take as long as cells do.
+            // A numeric candidate costs as much as a cell.
             if self.proves(SHORT)? == Certificate::Nowhere {
                 return ControlFlow::Continue(true);
             }
@@ -79,7 +75,7 @@ impl GoalSearch<'_, '_, '_> {
         if self.proves(LONGER)? == Certificate::Nowhere {
             return ControlFlow::Continue(true);
         }
-        // What is tried beyond the poses that were given takes nothing away.
+        // Trials beyond the given poses do not weaken an answer.
         self.refines(manifold);
         self.goes(prefilter, BaseRegion::Open, Rounds::First)?;
         if self.is_cut_off {
@@ -97,7 +93,7 @@ impl GoalSearch<'_, '_, '_> {
         ControlFlow::Continue(false)
     }
 
-    /// Goes through candidates; whether more are left than may be tried.
+    /// Visits candidates; continues with `true` where the budget is spent.
     fn goes(
         &mut self,
         prefilter: Option<&ArmPrefilter<'_, '_, '_>>,
@@ -119,7 +115,7 @@ impl GoalSearch<'_, '_, '_> {
         }
     }
 
-    /// Goes on to poses of the hand between those that were given: indices are of these then.
+    /// Moves on to finer grasps of the manifold.
     fn refines(&mut self, manifold: &GraspManifold<'_>) {
         let goal = self.goal;
         let finer = finer(manifold);
@@ -130,8 +126,8 @@ impl GoalSearch<'_, '_, '_> {
         self.finer = Some(finer);
     }
 
-    /// What so many cells at most tell of all ways to grip the thing, or a way to a free state that they meet. Where one was found before
-    /// there is nothing to prove.
+    /// Runs an infeasibility certificate of up to `cells` cells, or finds a path to a free configuration
+    /// that it meets. Skipped where a free one is known.
     fn proves(&mut self, cells: usize) -> ControlFlow<FoundPath, Certificate> {
         let goal = self.goal;
         let Some(manifold) = goal.manifold.filter(|_| self.met.is_none()) else {
@@ -151,7 +147,7 @@ impl GoalSearch<'_, '_, '_> {
         }
     }
 
-    /// The answer where no way was found.
+    /// Answer without a path.
     fn none(&mut self, is_proven: bool) -> MotionAnswer {
         let none_free =
             |search: &Self| if search.poses.is_empty() { &search.hands } else { &search.poses }.none_free();
@@ -170,13 +166,13 @@ impl GoalSearch<'_, '_, '_> {
         MotionAnswer::Infeasible(Infeasible { configuration, ..Infeasible::exhausted(reason) })
     }
 
-    /// Tries what is left of the candidates that were to be tried together.
+    /// Tries the collected candidates.
     pub(crate) fn tries_batch(&mut self) -> SearchFlow {
         let batch = std::mem::take(&mut self.batch);
         self.tries(batch)
     }
 
-    /// Tries candidates one after the other; what ends the search.
+    /// Tries candidates one by one.
     pub(crate) fn tries(&mut self, batch: Vec<GoalCandidate>) -> SearchFlow {
         let goal = self.goal;
         let configurations: Vec<&Configuration> =
@@ -190,7 +186,7 @@ impl GoalSearch<'_, '_, '_> {
             if let Some(way) = self.simple(candidate) {
                 return ControlFlow::Break(Some(way));
             }
-            // Where nothing simple does for some, a search may.
+            // A search may succeed where simple paths fail.
             if self.tried.is_multiple_of(SIMPLE)
                 && let Some(way) = self.searches()
             {
@@ -204,7 +200,7 @@ impl GoalSearch<'_, '_, '_> {
         ControlFlow::Continue(())
     }
 
-    /// A simple way to a free state.
+    /// Simple path to a free configuration.
     fn simple(&mut self, GoalCandidate { at, tip, configuration }: GoalCandidate) -> Option<FoundPath> {
         self.tried += 1;
         let way = self.goal.way_to(&tip, &configuration, &mut self.ways);
@@ -223,21 +219,20 @@ impl GoalSearch<'_, '_, '_> {
         None
     }
 
-    /// Tries a free state that a proof met.
+    /// Tries a free configuration that a proof met.
     fn meets(
         &mut self,
         hold: &GraspCandidate,
         configuration: Configuration,
         found: &mut Option<FoundPath>,
     ) -> ControlFlow<()> {
-        let candidate =
-            GoalCandidate { at: GoalPose::GraspCandidate(*hold), tip: hold.map_from_tip, configuration };
+        let candidate = GoalCandidate { at: GoalPose::Grasp(*hold), tip: hold.map_from_tip, configuration };
         self.is_cut_off |= !self.goal.checker.context.is_near_drivable(candidate.configuration.base);
         *found = self.simple(candidate).or_else(|| self.searches());
         if found.is_none() && self.tried < MET { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// A way that a short search finds to one of some states that are left.
+    /// Short searches to the collected approach lines.
     fn searches(&mut self) -> Option<FoundPath> {
         for lined in self.left.drain(..) {
             if let Some(path) = self.goal.checker.lead(&lined.line, lined.inwards, RrtEffort::Short) {
@@ -250,7 +245,7 @@ impl GoalSearch<'_, '_, '_> {
         None
     }
 
-    /// The same with a long one, to all of them.
+    /// Long searches to the remaining approach lines.
     fn searches_long(&mut self) -> ControlFlow<FoundPath> {
         let checker = self.goal.checker;
         let mut left = self.searched.drain(..).chain(self.left.drain(..)).take(LEFT);
@@ -261,7 +256,7 @@ impl GoalSearch<'_, '_, '_> {
     }
 }
 
-/// Poses in the middle of patches that are cut until they are small.
+/// Grasps at the middles of small patches.
 fn finer(manifold: &GraspManifold<'_>) -> Vec<GraspCandidate> {
     let ([near, nearer], [few, most]) = (FINE, POSES);
     let mut open = VecDeque::from(manifold.patches());
@@ -279,11 +274,11 @@ fn finer(manifold: &GraspManifold<'_>) -> Vec<GraspCandidate> {
 }
 
 impl GoalSpec<'_, '_, '_> {
-    /// A way from where the robot is to a free state with the tip at a pose.
+    /// Path from the start to a free goal configuration.
     ///
     /// # Errors
     ///
-    /// A line along which the hand comes straight to it, where there is one to which no way was found.
+    /// An approach line to which no route was found, where there is one.
     fn way_to(
         &self,
         tip: &Isometry3<f64>,
@@ -304,7 +299,7 @@ impl GoalSpec<'_, '_, '_> {
         Err(left)
     }
 
-    /// A way from where the robot is along a line.
+    /// Path from the start along an approach line.
     fn along(
         &self,
         tip: &Isometry3<f64>,
@@ -348,7 +343,7 @@ mod tests {
             let (coarse, _) = grasp_candidates(hand, &object, None, base);
             assert!(fine.len() >= 64 && fine.len() <= 2 * POSES[1], "{shape:?}: {}", fine.len());
             for hold in &coarse {
-                // A point of the hand as far from the thing as the wrist is.
+                // The wrist: a point of the hand about as far from the object as the arm begins.
                 let wrist = |pose: &Isometry3<f64>| {
                     pose * nalgebra::Point3::from(Vector3::from(hand.card.points) * -0.2)
                 };

@@ -1,0 +1,111 @@
+//! Query context: a planning scene with everything that its queries compute once and share.
+//!
+//! The caches fill at first use, behind shared references, so that a context can be used from several threads.
+
+use std::collections::BTreeMap;
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use motet_robots::scene::Scene;
+
+use crate::planning::base::base_map::BaseMap;
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::Contact;
+use crate::planning::scene::planning_scene::PlanningScene;
+use crate::planning::scene::robot_model::RobotModel;
+use crate::planning::scene::scene_state::SceneState;
+use crate::simd::BatchModel;
+
+/// Query context: a planning scene and the caches of its queries. Built in O(entities); the map of the
+/// floor costs O(obstacles × cells) at its first use. `Send` and `Sync`.
+#[derive(Clone, Debug)]
+pub struct QueryContext<'w> {
+    pub(crate) planning: PlanningScene<'w>,
+    /// Map of the floor, built at first use or taken from [`BaseMapCache`]; `None` inside for a base that does not drive.
+    map: OnceLock<Option<Arc<BaseMap>>>,
+    maps: Option<&'w BaseMapCache>,
+    /// Straight edges out of the start where it has no room to turn.
+    pub(crate) escapes: OnceLock<Vec<(Configuration, [f64; 2])>>,
+    /// Components of the map that the base can reach from the start.
+    pub(crate) homes: OnceLock<Vec<u32>>,
+    /// Contact at the start.
+    pub(crate) start_contact: OnceLock<Option<Contact>>,
+    /// Batch model of the robot, and for each variable whether the model moves it.
+    pub(crate) batch_model: OnceLock<Option<(BatchModel, Vec<bool>)>>,
+}
+
+/// Cache of base maps, shared by the contexts of one robot and scene. A map does not depend on the base's
+/// pose.
+#[derive(Debug, Default)]
+pub struct BaseMapCache(Mutex<BTreeMap<Vec<u8>, Arc<BaseMap>>>);
+
+impl BaseMapCache {
+    /// Greatest number of maps; beyond it, all are dropped.
+    const MOST: usize = 64;
+
+    fn get(&self, key: &[u8], make: impl Fn() -> Arc<BaseMap>) -> Arc<BaseMap> {
+        // A poisoned lock only loses cached maps.
+        if let Some(known) = self.0.lock().ok().and_then(|maps| maps.get(key).cloned()) {
+            return known;
+        }
+        let map = make();
+        if let (true, Ok(mut maps)) = (map.is_anywhere(), self.0.lock()) {
+            if maps.len() >= Self::MOST {
+                maps.clear();
+            }
+            maps.insert(key.to_vec(), Arc::clone(&map));
+        }
+        map
+    }
+}
+
+impl<'w> QueryContext<'w> {
+    /// Context of a robot in a scene and a state; O(entities). Everything else is computed at first use.
+    #[must_use]
+    pub fn new(model: &'w RobotModel, scene: &'w Scene, state: &'w SceneState) -> Self {
+        Self {
+            planning: PlanningScene::new(model, scene, state),
+            map: OnceLock::new(),
+            maps: None,
+            escapes: OnceLock::new(),
+            homes: OnceLock::new(),
+            start_contact: OnceLock::new(),
+            batch_model: OnceLock::new(),
+        }
+    }
+
+    /// Shares base maps with the other contexts of the same robot and scene.
+    #[must_use]
+    pub fn with_base_maps(self, maps: &'w BaseMapCache) -> Self {
+        Self { maps: Some(maps), ..self }
+    }
+
+    /// Context of the same robot, scene and maps in another state.
+    pub(crate) fn in_state<'o>(&self, state: &'o SceneState) -> QueryContext<'o>
+    where
+        'w: 'o,
+    {
+        let context = QueryContext::new(self.model, self.scene, state);
+        QueryContext { maps: self.maps, ..context }
+    }
+
+    /// Map of the floor with the arm as it is; `None` for a base that does not drive.
+    pub(crate) fn map(&self) -> Option<&BaseMap> {
+        let make = || Arc::new(BaseMap::new(&self.planning, &self.state.robot.joints));
+        let map = self.map.get_or_init(|| {
+            self.model.drives().then(|| match self.maps {
+                Some(maps) => maps.get(&self.state.key_without_base(), make),
+                None => make(),
+            })
+        });
+        map.as_deref()
+    }
+}
+
+impl<'w> Deref for QueryContext<'w> {
+    type Target = PlanningScene<'w>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.planning
+    }
+}

@@ -1,0 +1,259 @@
+//! Planning scene: robot model, obstacles and permitted contacts, as plain data.
+//!
+//! It holds nothing that is computed lazily; a [`QueryContext`](crate::planning::QueryContext) keeps that.
+
+use motet_robots::card::Drive;
+use motet_robots::scene::{Entity, EntityShape, Scene};
+use nalgebra::{Isometry3, Translation3, Vector3};
+use smol_str::SmolStr;
+
+use crate::collision::{CollisionModel, LinkSolid, Shape, Solid};
+use crate::kinematics::planar;
+use crate::planning::scene::articulation::Articulation;
+use crate::planning::scene::configuration::Configuration;
+use crate::planning::scene::contact::{Contact, ContactTarget, MIN_CLEARANCE};
+use crate::planning::scene::grid_index::{Obstacle, ObstacleIndex};
+use crate::planning::scene::ik_solver::IkSolver;
+use crate::planning::scene::robot_model::{HandModel, RobotModel};
+use crate::planning::scene::scene_state::{HeldObject, SceneState, solid_shape};
+
+/// Distance at which the base counts as being at a place, in m.
+const AT_PLACE: f64 = 0.5;
+
+/// A robot in a scene: its model, the scene and its state, the robot's body with the held object, and the obstacles.
+#[derive(Clone, Debug)]
+pub struct PlanningScene<'w> {
+    pub(crate) model: &'w RobotModel,
+    pub(crate) scene: &'w Scene,
+    pub(crate) state: &'w SceneState,
+    /// The robot's body, with the held object as its last part.
+    pub(crate) body: CollisionModel,
+    /// Index of the part that is held.
+    pub(crate) held: Option<usize>,
+    pub(crate) obstacles: ObstacleIndex,
+    /// Index of the container that is about to open or close, whose moving parts are not among the obstacles.
+    pub(crate) opening: Option<usize>,
+    /// Entities whose shape is a mesh.
+    unseen: Vec<SmolStr>,
+}
+
+impl<'w> PlanningScene<'w> {
+    /// Scene of a robot in a state; O(entities).
+    #[must_use]
+    pub fn new(model: &'w RobotModel, scene: &'w Scene, state: &'w SceneState) -> Self {
+        let mut obstacles = Vec::new();
+        for (entity, at) in scene.entities.values().zip(0..) {
+            let parts = solids(entity, state).into_iter();
+            obstacles.extend(parts.map(|solid| Obstacle::new(at, solid)));
+        }
+        let mut body = model.body().clone();
+        let mut held = None;
+        if let (Some((id, tip_from_object)), Some(hand)) = (&state.held, model.hand())
+            && let Some(shape) = scene.entities.get(id).and_then(solid_shape)
+        {
+            held = Some(body.parts().len());
+            let part = LinkSolid { link: hand.tip, solid: Solid::new(tip_from_object, shape) };
+            body = body.with_attached(part, |link| hand.members.get(link) == Some(&true));
+        }
+        let is_mesh = |entity: &&Entity| matches!(entity.shape, Some(EntityShape::Mesh { .. }));
+        let unseen = scene.entities.values().filter(is_mesh).map(|entity| entity.id.clone()).collect();
+        Self {
+            model,
+            scene,
+            state,
+            body,
+            held,
+            obstacles: ObstacleIndex::new(obstacles),
+            opening: None,
+            unseen,
+        }
+    }
+
+    /// Model of the robot.
+    #[must_use]
+    pub fn model(&self) -> &RobotModel {
+        self.model
+    }
+
+    /// Configuration of the robot.
+    #[must_use]
+    pub fn start(&self) -> &Configuration {
+        &self.state.robot
+    }
+
+    /// Obstacles by entity id, in the scene's order. An entity may have several solids.
+    pub fn obstacles(&self) -> impl Iterator<Item = (SmolStr, &Solid)> {
+        self.obstacles.iter().map(|obstacle| (self.name(obstacle.entity), &obstacle.solid))
+    }
+
+    /// Solids of the robot and of the held object in a configuration.
+    #[must_use]
+    pub fn robot_at(&self, configuration: &Configuration) -> Vec<Solid> {
+        self.body.placed(&self.model.map_from_links(configuration))
+    }
+
+    /// Reason for which no query can be answered: the shape of a body is not known.
+    pub(crate) fn blind_spot(&self) -> Option<String> {
+        if let Some(entity) = self.unseen.first() {
+            return Some(format!("the shape of `{entity}` is a mesh, which is not read"));
+        }
+        let link =
+            self.body.uncovered_links().first().and_then(|link| self.model.tree().links().get(*link))?;
+        Some(format!("the shape of the robot's link `{link}` is a mesh, which is not read"))
+    }
+
+    /// Entity with its index.
+    pub(crate) fn entity(&self, id: &str) -> Option<(usize, &'w Entity)> {
+        let (at, _, entity) = self.scene.entities.get_full(id)?;
+        Some((at, entity))
+    }
+
+    /// Solids of an entity in the current state.
+    pub(crate) fn solids_of(&self, entity: usize) -> impl Iterator<Item = &Solid> {
+        self.obstacles
+            .iter()
+            .filter(move |obstacle| obstacle.entity == entity)
+            .map(|obstacle| &obstacle.solid)
+    }
+
+    /// Id of an entity by its index.
+    pub(crate) fn name(&self, entity: usize) -> SmolStr {
+        self.scene.entities.get_index(entity).map(|(id, _)| id.clone()).unwrap_or_default()
+    }
+
+    pub(crate) fn told(&self, part: usize, other: ContactTarget) -> Contact {
+        let link = |part: usize| {
+            let link = self.body.parts().get(part).map_or(0, |part| part.link);
+            self.model.tree().links().get(link).cloned().unwrap_or_default()
+        };
+        let (other, is_own) = match other {
+            ContactTarget::Obstacle(at) => {
+                (self.obstacles.get(at).map_or_else(SmolStr::default, |it| self.name(it.entity)), false)
+            }
+            ContactTarget::Part(at) => (link(at), true),
+            ContactTarget::Floor => (SmolStr::new_static("floor"), false),
+        };
+        Contact { link: link(part), other, is_own }
+    }
+
+    /// Checks whether no part of the robot turns along an edge.
+    pub(crate) fn is_straight(&self, from: &Configuration, to: &Configuration) -> bool {
+        let ([_, _, yaw], [_, _, to_yaw]) = (from.base, to.base);
+        let values = from.joints.iter().zip(&to.joints).zip(self.model.turning());
+        yaw == to_yaw && values.into_iter().all(|((one, other), turns)| one == other || !turns)
+    }
+
+    /// Variable of the arm's lift and its highest value; `None` for an arm without one.
+    pub(crate) fn lift(&self) -> Option<(usize, f64)> {
+        let IkSolver::Lift(arm) = &self.model.hand()?.solver else {
+            return None;
+        };
+        let chain = arm.chain();
+        let (lower, upper) = chain.dofs.first()?.limits?;
+        Some((*chain.in_tree.first()?, if arm.up > 0.0 { upper } else { lower }))
+    }
+
+    /// Current configuration with the base elsewhere, the hand open and the arm's joints at `values`.
+    pub(crate) fn with(&self, hand: &HandModel, base: [f64; 3], values: &[f64]) -> Configuration {
+        let now = &self.state.robot.joints;
+        // Fingers around a held object stay closed.
+        let mut joints = if self.state.held.is_some() { now.clone() } else { hand.opened(now) };
+        for (at, value) in hand.solver.chain().in_tree.iter().zip(values) {
+            if let Some(slot) = joints.get_mut(*at) {
+                *slot = *value;
+            }
+        }
+        Configuration { base, joints }
+    }
+
+    /// Pose of the base's link with the base at a pose on the floor.
+    pub(crate) fn map_from_base(&self, [x, y, yaw]: [f64; 3]) -> Isometry3<f64> {
+        let height = self.model.card().model.as_ref().map_or(0.0, |model| model.height_m);
+        planar(x, y, yaw) * Translation3::new(0.0, 0.0, height)
+    }
+
+    /// Checks whether the base drives in every direction.
+    pub(crate) fn slides(&self) -> bool {
+        self.model.drives() && self.model.card().base.drive != Drive::Differential
+    }
+
+    /// Likely heading of the base with the tip at a pose: the one of the fingers or, where they point down,
+    /// the direction from the robot.
+    pub(crate) fn heading(&self, hand: &HandModel, map_from_tip: &Isometry3<f64>) -> f64 {
+        let points = map_from_tip.rotation * Vector3::from(hand.card.points);
+        if points.x * points.x + points.y * points.y > 0.1 {
+            return libm::atan2(points.y, points.x);
+        }
+        let ([x, y, _], at) = (self.state.robot.base, map_from_tip.translation);
+        libm::atan2(at.y - y, at.x - x)
+    }
+
+    /// Distance function in the plane to an entity centred at a point. An object or place counts by its
+    /// centre; furniture, containers and people by their outline.
+    pub(crate) fn far_from(
+        &self,
+        index: usize,
+        entity: &Entity,
+        [x, y]: [f64; 2],
+    ) -> impl Fn(f64, f64) -> f64 + use<> {
+        let is_point = matches!(entity.kind.as_str(), "Object" | "Place");
+        let outline: Vec<Solid> = if is_point { vec![] } else { self.solids_of(index).copied().collect() };
+        move |at_x, at_y| {
+            let solids = outline.iter().map(|solid| beside(solid, at_x, at_y));
+            solids.reduce(f64::min).unwrap_or_else(|| libm::hypot(at_x - x, at_y - y))
+        }
+    }
+
+    /// Greatest distance in m from which the base serves an entity.
+    pub(crate) fn served_within(&self, entity: &Entity) -> f64 {
+        match (entity.kind.as_str(), self.model.hand()) {
+            ("Place", _) | (_, None) => AT_PLACE,
+            (_, Some(hand)) => hand.card.reach_m,
+        }
+    }
+
+    /// Held object, where its id is `id`.
+    pub(crate) fn held_thing(&self, id: &str) -> Option<HeldObject<'_>> {
+        let (held, tip_from_object) = self.state.held.as_ref().filter(|(held, _)| held == id)?;
+        let (hand, (_, entity)) = (self.model.hand()?, self.entity(held)?);
+        let shape = solid_shape(entity)?;
+        let closes = tip_from_object.rotation.inverse() * Vector3::from(hand.card.closes);
+        let width = 2.0 * Solid::new(&Isometry3::identity(), shape).extent(&closes);
+        Some(HeldObject { id: held.clone(), tip_from_object: *tip_from_object, hand, shape, width })
+    }
+
+    /// Supporting entity of another one: the first within the padding of it.
+    pub(crate) fn support(&self, entity: usize) -> Option<usize> {
+        let own: Vec<&Solid> = self.solids_of(entity).collect();
+        let gap = MIN_CLEARANCE + 0.001;
+        let is_near = |obstacle: &Obstacle| own.iter().any(|own| !own.is_farther(&obstacle.solid, gap));
+        let all =
+            own.iter().flat_map(|own| self.obstacles.near([own.centre.x, own.centre.y], own.reach() + gap));
+        let others = all.filter(|(_, obstacle)| obstacle.entity != entity && is_near(obstacle));
+        others.min_by_key(|(index, _)| *index).map(|(_, obstacle)| obstacle.entity)
+    }
+}
+
+/// Solids of an entity; none where it has no shape or no known pose, or is held.
+///
+/// A closed container is as solid as its shape. An open drawer is a box without a lid, moved by its travel;
+/// a container with an open door is a box without one face, and the door turned outwards.
+pub(crate) fn solids(entity: &Entity, state: &SceneState) -> Vec<Solid> {
+    let (Some(pose), Some(shape)) = (state.pose(entity), solid_shape(entity)) else { return vec![] };
+    if state.holds(&entity.id) {
+        return vec![];
+    }
+    let opening = state.is_open(entity).then(|| Articulation::new(entity, state)).flatten();
+    opening.map_or_else(|| vec![Solid::new(&pose, shape)], |opening| opening.solids(1.0))
+}
+
+/// Horizontal distance from a point to a solid, whatever its height.
+fn beside(solid: &Solid, x: f64, y: f64) -> f64 {
+    let up = solid.extent(&Vector3::z());
+    let vertical = Solid {
+        centre: Vector3::new(x, y, solid.centre.z),
+        axes: [Vector3::x(), Vector3::y(), Vector3::z()],
+        shape: Shape::Capsule { radius: 0.0, half: up },
+    };
+    solid.distance(&vertical).max(0.0)
+}
