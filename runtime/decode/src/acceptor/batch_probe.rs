@@ -10,7 +10,7 @@ use super::machine::Machine;
 use super::memo::Question;
 use super::oracle::{Argument, CallSite};
 use super::proof_cursor::Transcript;
-use crate::automaton::NodeKind;
+use crate::grammar::NodeKind;
 
 /// As few as these are asked one by one.
 const FEW: usize = 2;

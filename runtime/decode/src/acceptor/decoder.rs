@@ -4,11 +4,10 @@ use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
 use super::byte_set::ByteSet;
-use super::digits::Digits;
 use super::machine::Machine;
 use super::{Acceptor, AcceptorFactory};
 use crate::automaton::Op;
-use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
+use crate::subset::{Digits, MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
 use crate::vocabulary::{Node, Tokens, Tree, Vocabulary};
 
 /// What may follow in a policy that is being written, token by token.

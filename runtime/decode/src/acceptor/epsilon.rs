@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
 use super::machine::Machine;
-use crate::automaton::{Action, BlockRole, ConditionUse, NodeKind, Op, OpId};
+use crate::automaton::{Op, OpId};
+use crate::grammar::{Action, BlockRole, ConditionUse, NodeKind};
 
 impl Machine {
     /// Goes on at `op`, past all that takes no byte.
@@ -101,7 +102,7 @@ impl Machine {
                 let flags = flags.without(Flags::GOAL).without(Flags::NEGATED);
                 let flags = match asks {
                     ConditionUse::Goal => flags.with(Flags::GOAL),
-                    ConditionUse::Anything => flags,
+                    ConditionUse::Branch => flags,
                     ConditionUse::Wait if flags.has(Flags::SHARED) => {
                         let flags = flags.with(Flags::STRICT);
                         if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }

@@ -1,7 +1,8 @@
 //! What a machine remembers, in lists that only grow and are cut back: who called the rule, what was said, what was bound.
 //! A state of a machine names a place in each, so it is a small value, and going back is forgetting it.
 
-use crate::automaton::{BlockRole, Constant, NodeKind, OpId};
+use crate::automaton::OpId;
+use crate::grammar::{BlockRole, Constant, NodeKind};
 
 /// A place in an arena; the first entry of each is the bottom.
 pub(crate) type Id = u32;

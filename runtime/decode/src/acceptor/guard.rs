@@ -7,7 +7,8 @@ use super::event_log::{Event, Flags, Id, State};
 use super::machine::{Machine, is_ruled_out};
 use super::oracle::{Argument, CallSite, MOST_SHARED};
 use super::word::BOUND;
-use crate::automaton::{BlockRole, BoundNames, Guard, NodeKind, Op, OpId, WordList, WordRole};
+use crate::automaton::{BoundNames, Op, OpId, WordList};
+use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
 
 impl Machine {

@@ -4,7 +4,7 @@
 
 use super::event_log::{Event, Id};
 use super::machine::Machine;
-use crate::automaton::NodeKind;
+use crate::grammar::NodeKind;
 
 /// Something with parts, as far as it was said.
 struct OpenNode {

@@ -4,7 +4,7 @@ use motet_syntax::Syntax;
 
 use super::event_log::{Event, Id, Name, State};
 use super::machine::Machine;
-use crate::automaton::NameUse;
+use crate::grammar::NameUse;
 use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
 
 impl Machine {

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use motet_compiler::Session;
 use rustc_hash::FxHashSet;
 
-use super::digits::Digits;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
 use super::memo::Memo;
 use super::oracle::Oracle;
 use super::word::WordStep;
-use crate::automaton::{Automaton, Guard, Meaning, Op, OpId};
+use crate::automaton::{Automaton, Meaning, Op, OpId};
+use crate::grammar::Guard;
+use crate::subset::Digits;
 
 /// ByteSet that are kept free beside the shortest completion: where a condition has to be one that refutes nothing, the
 /// shortest of all may not do, and it may have to stand under `not`.

@@ -3,7 +3,6 @@
 mod batch_probe;
 mod byte_set;
 mod decoder;
-mod digits;
 mod epsilon;
 mod event_log;
 mod guard;
@@ -25,10 +24,10 @@ use motet_compiler::Session;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Syntax};
 
 pub use self::decoder::Decoder;
-pub(crate) use self::digits::Digits;
 use self::machine::{Context, Machine};
 use self::memo::Memo;
 use crate::automaton::Automaton;
+use crate::grammar::Grammar;
 use crate::subset::Subset;
 
 /// What all acceptors of one session share: made once for a robot, a scene and a state.
@@ -46,7 +45,7 @@ impl AcceptorFactory {
     /// no argument for what the motion of the callable is about. What is not known is left out.
     #[must_use]
     pub fn with_verdicts(session: &Session, subset: Subset, infeasible: &[(&str, &str)]) -> Self {
-        let automaton = Automaton::new(session, subset);
+        let automaton = Automaton::new(session, &Grammar::new(&session.signatures(), subset));
         let number = |(callable, entity): &(&str, &str)| {
             let signatures = &automaton.signatures;
             let callable = signatures.callables.iter().position(|known| known.name == *callable)?;

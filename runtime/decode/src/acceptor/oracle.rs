@@ -9,7 +9,8 @@ use super::event_log::{Event, Id, mix};
 use super::machine::Machine;
 use super::memo::Question;
 use super::proof_cursor::{ProofCursor, Transcript};
-use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+use crate::automaton::{Automaton, Meaning, Op};
+use crate::grammar::{Constant, NodeKind};
 
 /// The drafts of a machine, and how far they are.
 #[derive(Clone, Debug, Default)]

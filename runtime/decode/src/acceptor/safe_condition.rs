@@ -7,7 +7,8 @@ use super::event_log::{Event, Flags, Id, State, mix};
 use super::machine::Machine;
 use super::memo::Question;
 use super::oracle::meaning;
-use crate::automaton::{Meaning, NodeKind};
+use crate::automaton::Meaning;
+use crate::grammar::NodeKind;
 use crate::subset::MAX_CONDITION_DEPTH;
 
 /// Each value of an argument that is tried takes a proof of all that is open. Behind the one in question these are `any`, what is

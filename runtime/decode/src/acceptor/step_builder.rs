@@ -11,7 +11,8 @@ use smol_str::SmolStr;
 
 use super::event_log::{Arenas, Event};
 use super::placeholder::{argument, closed, end, expr, fail, named};
-use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+use crate::automaton::{Automaton, Meaning, Op};
+use crate::grammar::{Constant, NodeKind};
 use crate::subset::{Decimal, Modifiers, Relation};
 
 /// Reads events.

@@ -2,7 +2,8 @@
 
 use super::event_log::{Event, Id, Name, State, UNSEEN};
 use super::machine::{Machine, StateRef};
-use crate::automaton::{BoundNames, WordEnd, WordList, WordRole};
+use crate::automaton::{BoundNames, WordEnd, WordList};
+use crate::grammar::WordRole;
 
 /// The entry of a list that is a name which was bound: its number, and this.
 pub(crate) const BOUND: u32 = 1 << 31;

@@ -1,8 +1,8 @@
 //! Putting operations in a row, and finding the shortest completion of each.
 
-use super::{
-    Action, Alternative, BoundNames, Entry, Guard, NameUse, Op, OpId, OptionalPart, WordList, WordRole,
-};
+use super::lowering::Way;
+use super::{BoundNames, Branch, Op, OpId, OptionalPart, Word, WordList};
+use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::MAX_NAME_CHARS;
 
 /// A automaton in the making.
@@ -45,8 +45,8 @@ impl Assembler {
         }
     }
 
-    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[(&str, OpId, Guard)]) {
-        let made = alternatives.iter().map(|(text, to, guard)| Alternative {
+    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[Way]) {
+        let made = alternatives.iter().map(|(text, to, guard)| Branch {
             bytes: text.as_bytes().into(),
             to: *to,
             guard: *guard,
@@ -56,7 +56,7 @@ impl Assembler {
     }
 
     /// What may be left out, at a place that was kept for it.
-    pub(crate) fn maybe(
+    pub(crate) fn optional(
         &mut self,
         at: OpId,
         (text, then, guard): (&str, OpId, Guard),
@@ -168,7 +168,7 @@ fn is_always_open(guard: Guard) -> bool {
 /// The way through a list of keywords that is always open; among conditions, where one has to be found that refutes
 /// nothing, the longest of the fluents, and where there are calls only, the longest of these.
 fn keyword(words: &WordList, rest: &[u32]) -> u32 {
-    let way = |entry: &Entry| {
+    let way = |entry: &Word| {
         let to = rest.get(entry.to.unwrap_or(words.next) as usize).copied().unwrap_or(ENDLESS);
         len(entry.name.as_bytes()).saturating_add(to)
     };

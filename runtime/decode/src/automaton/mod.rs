@@ -7,14 +7,13 @@
 
 mod assembler;
 mod callable;
-mod compiler;
-mod json;
-mod text;
+mod conditions;
+mod lowering;
+mod values;
 mod word_table;
 
 use std::sync::Arc;
 
-use motet_compiler::Session;
 use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::Syntax;
 use motet_syntax::unit::Unit;
@@ -23,7 +22,8 @@ use smol_str::SmolStr;
 
 pub(crate) use self::assembler::Assembler;
 pub(crate) use self::callable::Callable;
-pub(crate) use self::word_table::{Entry, Meaning, WordTable};
+pub(crate) use self::word_table::{Meaning, Word, WordTable};
+use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::{NumberRange, Subset};
 
 /// The place of an operation.
@@ -35,7 +35,7 @@ pub(crate) enum Op {
     /// These bytes.
     Literal(Box<[u8]>),
     /// One of several literals; no two begin with the same bytes.
-    Choose(Box<[Alternative]>),
+    Choose(Box<[Branch]>),
     /// One of a list of words that depends on the policy so far.
     Word(WordList),
     /// If the next byte is this one and the word at `then` has an alternative, that; otherwise `other`.
@@ -60,9 +60,9 @@ pub(crate) enum Op {
     Accept,
 }
 
-/// One alternative of a choice.
+/// An alternative of a choice.
 #[derive(Clone, Debug)]
-pub(crate) struct Alternative {
+pub(crate) struct Branch {
     pub(crate) bytes: Box<[u8]>,
     pub(crate) to: OpId,
     pub(crate) guard: Guard,
@@ -77,82 +77,6 @@ pub(crate) struct OptionalPart {
     pub(crate) other: OpId,
     /// When it may be left out.
     pub(crate) absent: Guard,
-}
-
-/// When an alternative is open.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Guard {
-    /// Always.
-    Open,
-    /// Where less than so many of the rule's members are there.
-    Below(u8),
-    /// Where the block may end: nothing that follows from it is refuted.
-    Close,
-    /// Where the block may be empty and may end.
-    Empty,
-    /// Where some callable may be called.
-    Call,
-    /// Where one more step with blocks may begin.
-    Nest,
-    /// As `Nest`, for what is proved to a fixed point.
-    Fix,
-    /// Where some condition may be waited for.
-    Wait,
-    /// Where the goal is not refuted, so that the policy may be done.
-    Done,
-    /// As `Done`, of a monitor.
-    DoneWhen,
-    /// Where this reaction refutes nothing.
-    React(NodeKind),
-    /// Where a condition may be several, all of which hold.
-    All,
-    /// Where it may be several, one of which holds.
-    Any,
-    /// Where it may stand under `not`.
-    Not,
-    /// Where some fluent may be asked for.
-    Is,
-    /// Where a condition need not say more than that it is one.
-    Loose,
-    /// Where a loop needs no test.
-    NoTest,
-    /// Always, but it need not lead anywhere.
-    Rare,
-    /// In no policy.
-    Never,
-    /// Where this callable may be called.
-    Callable(u16),
-    /// Where some callable with a result may be called.
-    Let,
-    /// Where this fluent may be asked for.
-    Fluent(u16),
-    /// Where `and` may stand behind a condition.
-    And,
-    /// Where `or` may.
-    Or,
-    /// Where so many conditions more may stand in one another, of which nothing is asked.
-    Paren(u8),
-    /// Where a comparison or several conditions may stand under `not`.
-    NotParen,
-    /// Where several conditions may stand in these parentheses.
-    Several,
-    /// Behind a comparison.
-    Compared,
-}
-
-/// What a new name is for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum NameUse {
-    /// The policy.
-    Policy,
-    /// A group.
-    Group,
-    /// A result, of the type with this number.
-    Result(u16),
-    /// The item of a loop, of the type of the elements of its list.
-    Item,
-    /// A result of which the type is not known yet.
-    Let,
 }
 
 /// A list of words: static ones, and the names that the policy has bound.
@@ -190,130 +114,6 @@ pub(crate) enum BoundNames {
     Lists,
 }
 
-/// What a word is in.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum WordRole {
-    /// What a step calls.
-    Callable,
-    /// The argument of a call with this number.
-    Argument(u8),
-    /// A fluent.
-    Fluent,
-    /// An argument of a fluent.
-    Of,
-    /// An entity of the kind of the first of its list.
-    Alike,
-    /// A measure or a field: what it is called says what follows.
-    Head,
-    /// What follows: each has a guard of its own, and says nothing by itself.
-    Keyword,
-    /// Anything else: each is as good as the other.
-    Free,
-}
-
-/// What is meant where no byte is taken.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Action {
-    Open(NodeKind),
-    Close,
-    /// A value that needs no word.
-    Constant(Constant),
-    /// One more member of the rule.
-    Count,
-    /// The rule is a block of this sort.
-    Enter(BlockRole),
-    /// The block ends.
-    Leave,
-    /// A step of a block ends.
-    StepDone,
-    /// Everything before the steps is said.
-    Head,
-    /// The condition that follows is one of these.
-    Condition(ConditionUse),
-    /// It stands in another one.
-    Deeper,
-    /// It stands under `not`.
-    Negate,
-    /// It tells nothing of the facts by itself.
-    Loosen,
-    /// The item of a loop is of the kind of the list that was written out.
-    BindItem,
-    /// The item of a loop is no longer known.
-    Forget,
-    /// The name that was given before the call is bound to what it results in, of this type.
-    Bind(u16),
-    /// Another condition follows, of which all hold, or any.
-    Join(NodeKind),
-}
-
-/// For what a condition is asked.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ConditionUse {
-    /// The goal: it need not be observable.
-    Goal,
-    /// `if`, `when`: it refutes nothing by itself.
-    Anything,
-    /// `wait`
-    Wait,
-    /// `until`
-    Until,
-}
-
-/// A value that needs no word.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) enum Constant {
-    Null,
-    True,
-    False,
-}
-
-/// A block.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum BlockRole {
-    Body,
-    Group,
-    Then,
-    Else,
-    Try,
-    Catch,
-    During,
-    Reaction,
-    Loop,
-    Branch,
-}
-
-/// What has parts.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) enum NodeKind {
-    Do(u16),
-    Sequence,
-    If,
-    Wait,
-    Monitor,
-    When,
-    Pause,
-    Restart,
-    Resume,
-    Done,
-    Fail,
-    Replan,
-    Try,
-    Catch,
-    Repeat,
-    Each,
-    Parallel,
-    Block,
-    Is(u16),
-    Not,
-    All,
-    Any,
-    Get(u16),
-    Field(u16),
-    List,
-    /// Conditions in parentheses.
-    Group,
-}
-
 /// A byte automaton.
 #[derive(Clone, Debug)]
 pub(crate) struct Automaton {
@@ -336,14 +136,6 @@ pub(crate) struct Automaton {
 }
 
 impl Automaton {
-    /// Compiles the automaton of a session. O(declarations × entities).
-    pub(crate) fn new(session: &Session, subset: Subset) -> Self {
-        match subset.syntax {
-            Syntax::Json => json::compile(session, subset),
-            Syntax::Text => text::compile(session, subset),
-        }
-    }
-
     pub(crate) fn op(&self, id: OpId) -> &Op {
         self.ops.get(id as usize).unwrap_or(&Op::Accept)
     }

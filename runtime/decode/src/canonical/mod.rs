@@ -9,7 +9,7 @@ mod json;
 mod text;
 mod value;
 
-pub use complete::complete;
+use complete::complete;
 
 use motet_compiler::Signatures;
 use motet_syntax::ast::Policy;
@@ -19,20 +19,20 @@ use crate::subset::Subset;
 
 /// Why a policy has no spelling on the model subset.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Outside {
+pub struct OutsideSubset {
     /// What is outside of it.
     pub span: Span,
     /// Why, in a clause.
     pub why: String,
 }
 
-impl std::fmt::Display for Outside {
+impl std::fmt::Display for OutsideSubset {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.why)
     }
 }
 
-impl std::error::Error for Outside {}
+impl std::error::Error for OutsideSubset {}
 
 /// A policy as a language model writes it: one line without a line break at its end. Reading it gives the same policy
 /// but for what is filled in, and printing that gives the same line. O(policy × declarations).
@@ -40,7 +40,7 @@ impl std::error::Error for Outside {}
 /// # Errors
 ///
 /// The first thing in the policy that the subset cannot say.
-pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, Outside> {
+pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, OutsideSubset> {
     let document = complete(policy, signatures, subset)?;
     Ok(match subset.syntax {
         Syntax::Json => json::print(&document, subset),

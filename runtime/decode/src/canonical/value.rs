@@ -6,13 +6,18 @@ use motet_syntax::ast::{Call, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
-use super::Outside;
+use super::OutsideSubset;
 use super::complete::Completer;
 use crate::subset::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
 
 impl Completer<'_> {
     /// A value of a type; `card` bounds a number.
-    pub(super) fn value(&self, expr: &Expr, ty: &Type, card: Option<(f64, f64)>) -> Result<Value, Outside> {
+    pub(super) fn value(
+        &self,
+        expr: &Expr,
+        ty: &Type,
+        card: Option<(f64, f64)>,
+    ) -> Result<Value, OutsideSubset> {
         match (&expr.kind, ty) {
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
@@ -59,13 +64,19 @@ impl Completer<'_> {
         }
     }
 
-    fn number(&self, value: f64, expr: &Expr, ty: &Type, card: Option<(f64, f64)>) -> Result<Value, Outside> {
+    fn number(
+        &self,
+        value: f64,
+        expr: &Expr,
+        ty: &Type,
+        card: Option<(f64, f64)>,
+    ) -> Result<Value, OutsideSubset> {
         let range = NumberRange::of(ty, card);
         let number = range.and_then(|range| Some(Value::Number(range.nearest(value)?, range.unit)));
         number.ok_or_else(|| outside(expr, format!("{value} is beyond the numbers of the model subset")))
     }
 
-    fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, Outside> {
+    fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
         if subset::is_text(text) {
             return Ok(Value::Text(text.clone()));
         }
@@ -76,7 +87,7 @@ impl Completer<'_> {
         ))
     }
 
-    fn named(&self, name: &SmolStr, expr: &Expr, ty: &Type) -> Result<Value, Outside> {
+    fn named(&self, name: &SmolStr, expr: &Expr, ty: &Type) -> Result<Value, OutsideSubset> {
         if self.is_bound(name) {
             return self.binding(name, expr);
         }
@@ -102,12 +113,12 @@ impl Completer<'_> {
         }
     }
 
-    pub(super) fn binding(&self, name: &SmolStr, expr: &Expr) -> Result<Value, Outside> {
+    pub(super) fn binding(&self, name: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
         self.new_name(name, expr.span).map(Value::Binding)
     }
 
     /// The list of an `each`: a name, or entities of one kind, since the first decides what the others may be.
-    pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, Outside> {
+    pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, OutsideSubset> {
         const ROOT: usize = 0;
         let list = self.value(expr, &Type::List(Box::new(Type::Entity(ROOT))), None)?;
         let kind = |value: &Value| match value {
@@ -129,7 +140,7 @@ impl Completer<'_> {
     }
 
     /// A number of seconds.
-    pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, Outside> {
+    pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, OutsideSubset> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
             Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(number),
             _ => Err(outside(expr, "a time is a number of seconds on the model subset".into())),
@@ -137,7 +148,7 @@ impl Completer<'_> {
     }
 
     /// A whole number.
-    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, Outside> {
+    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, OutsideSubset> {
         let whole = match &expr.kind {
             ExprKind::Number(value) => NumberRange::whole(least, greatest).nearest(*value),
             _ => None,
@@ -149,7 +160,7 @@ impl Completer<'_> {
     }
 
     /// A condition, `depth` of which may still stand in one another.
-    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, Outside> {
+    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, OutsideSubset> {
         let within = || {
             depth.checked_sub(1).ok_or_else(|| {
                 let most = subset::MAX_CONDITION_DEPTH;
@@ -197,7 +208,7 @@ impl Completer<'_> {
         }
     }
 
-    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Condition, Outside> {
+    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Condition, OutsideSubset> {
         let (subject, ty) = match &of.kind {
             ExprKind::Call(call) => {
                 let measure = self
@@ -233,10 +244,10 @@ impl Completer<'_> {
         call: &Call,
         params: &[(SmolStr, Type)],
         takes_any: bool,
-    ) -> Result<Vec<(SmolStr, Value)>, Outside> {
+    ) -> Result<Vec<(SmolStr, Value)>, OutsideSubset> {
         let value = |(index, (name, ty)): (usize, &(SmolStr, Type))| {
             let arg = super::complete::argument(call, index, name);
-            let arg = arg.ok_or_else(|| Outside {
+            let arg = arg.ok_or_else(|| OutsideSubset {
                 span: call.span,
                 why: format!("`{}` lacks `{name}`", call.name.text),
             })?;
@@ -247,7 +258,7 @@ impl Completer<'_> {
             Ok((name.clone(), value))
         };
         if call.args.len() > params.len() {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: call.span,
                 why: format!("`{}` has too many arguments", call.name.text),
             });
@@ -256,19 +267,29 @@ impl Completer<'_> {
     }
 
     /// A name that the policy gives to something, or uses.
-    pub(super) fn new_name(&self, name: &SmolStr, span: motet_syntax::Span) -> Result<SmolStr, Outside> {
+    pub(super) fn new_name(
+        &self,
+        name: &SmolStr,
+        span: motet_syntax::Span,
+    ) -> Result<SmolStr, OutsideSubset> {
         if !subset::is_name(name) {
             let most = subset::MAX_NAME_CHARS;
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span,
                 why: format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
             });
         }
         if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
-            return Err(Outside { span, why: format!("`{name}` is an entity, which no name may hide") });
+            return Err(OutsideSubset {
+                span,
+                why: format!("`{name}` is an entity, which no name may hide"),
+            });
         }
         if self.subset.syntax == Syntax::Text && self.is_taken(name) {
-            return Err(Outside { span, why: format!("`{name}` means something else in the text form") });
+            return Err(OutsideSubset {
+                span,
+                why: format!("`{name}` means something else in the text form"),
+            });
         }
         Ok(name.clone())
     }
@@ -280,6 +301,6 @@ impl Completer<'_> {
     }
 }
 
-pub(super) fn outside(expr: &Expr, why: String) -> Outside {
-    Outside { span: expr.span, why }
+pub(super) fn outside(expr: &Expr, why: String) -> OutsideSubset {
+    OutsideSubset { span: expr.span, why }
 }

@@ -6,12 +6,16 @@
 //! literals, texts outside printable ASCII or with `"` or `\`, and what is beyond the bounds below.
 
 mod decimal;
+mod digits;
 mod number;
 mod tree;
 
-pub use decimal::Decimal;
-pub use number::NumberRange;
-pub use tree::{Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When};
+pub(crate) use decimal::Decimal;
+pub(crate) use digits::Digits;
+pub(crate) use number::NumberRange;
+pub(crate) use tree::{
+    Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When,
+};
 
 use motet_syntax::Syntax;
 

@@ -6,8 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rustc_hash::FxHashMap;
 use toktrie::{TokTrie, TrieNode};
 
-use crate::acceptor::Digits;
-use crate::subset::NumberRange;
+use crate::subset::{Digits, NumberRange};
 
 /// A byte of tokens.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Numbers, digit by digit: which digits may follow so that the number can still be in its range and in its one spelling,
 //! without a leading zero, a trailing one behind the point, or `-0`.
 
-use crate::subset::NumberRange;
+use super::NumberRange;
 
 /// The digits of a number so far.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
