@@ -1,9 +1,9 @@
-//! What a policy can be spelled like, compiled for one robot, scene and state: a byte automaton. It says which bytes may
-//! follow which and what they mean; which of its choices are open in a given policy is [`crate::acceptor`]'s to say.
+//! The byte automaton: a grammar lowered to operations for one robot, scene and state.
 //!
-//! A automaton is a list of operations. One of them takes bytes (a literal, a choice, a word, a text, a name, a number), or
-//! none (an event, a call of a rule, a return). Every operation knows the length of its shortest completion, so that a
-//! walk can be held within a number of bytes.
+//! An operation takes bytes (a literal, a choice, a word, a text, a name, a number) or none (an action, a
+//! rule call, a return). Which alternatives are open in a given policy is decided by [`crate::acceptor`].
+//! Every operation knows the length of its shortest completion, so that a policy can be held within a
+//! budget of bytes.
 
 mod assembler;
 mod callable;
@@ -26,41 +26,42 @@ pub(crate) use self::word_table::{Meaning, Word, WordTable};
 use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::{NumberRange, Subset};
 
-/// The place of an operation.
+/// The index of an operation.
 pub(crate) type OpId = u32;
 
-/// One operation.
+/// An operation of the automaton.
 #[derive(Clone, Debug)]
 pub(crate) enum Op {
-    /// These bytes.
+    /// Takes these bytes.
     Literal(Box<[u8]>),
-    /// One of several literals; no two begin with the same bytes.
+    /// Takes one of several literals, none of which begins another.
     Choose(Box<[Branch]>),
-    /// One of a list of words that depends on the policy so far.
+    /// Takes one of a list of words that depends on the policy so far.
     Word(WordList),
-    /// If the next byte is this one and the word at `then` has an alternative, that; otherwise `other`.
+    /// Goes to `then` if the next byte is this one and the word there has an alternative, else to `other`.
     Fork { byte: u8, then: OpId, other: OpId },
-    /// These bytes and on at `then`, or nothing and on at `other`, whose first bytes may be the same.
+    /// Takes a literal and goes to `then`, or takes nothing and goes to `other`, whose first bytes may be
+    /// the same.
     Optional(OptionalPart),
-    /// The characters of a text and the quote behind it. `arg`: of which argument of a call.
+    /// Takes the characters of a text and the quote behind it; `arg` is the argument of a call that it is.
     Text { arg: Option<u8> },
-    /// A new name and what ends it: a quote, in text a space.
+    /// Takes a new name and what ends it: a quote, in text a space.
     Name(NameUse),
-    /// A number.
+    /// Takes a number.
     Number(NumberRange),
-    /// Nothing: something is meant.
+    /// Carries out an action.
     Action(Action),
-    /// A rule, then the next operation.
+    /// Calls a rule, then goes to the next operation.
     Call(OpId),
-    /// On at another place.
+    /// Goes to another operation.
     Jump(OpId),
-    /// Back to behind the call.
+    /// Returns to behind the call.
     Return,
-    /// The end of the document.
+    /// Ends the document.
     Accept,
 }
 
-/// An alternative of a choice.
+/// An alternative of [`Op::Choose`].
 #[derive(Clone, Debug)]
 pub(crate) struct Branch {
     pub(crate) bytes: Box<[u8]>,
@@ -68,57 +69,57 @@ pub(crate) struct Branch {
     pub(crate) guard: Guard,
 }
 
-/// What may be left out.
+/// The alternatives of [`Op::Optional`].
 #[derive(Clone, Debug)]
 pub(crate) struct OptionalPart {
     pub(crate) bytes: Box<[u8]>,
     pub(crate) then: OpId,
     pub(crate) guard: Guard,
     pub(crate) other: OpId,
-    /// When it may be left out.
+    /// When the part may be absent.
     pub(crate) absent: Guard,
 }
 
-/// A list of words: static ones, and the names that the policy has bound.
+/// A list of words: static ones, and names that the policy has bound.
 #[derive(Clone, Debug)]
 pub(crate) struct WordList {
     pub(crate) table: Arc<WordTable>,
-    /// Names of this type.
+    /// The bound names among them.
     pub(crate) bound: BoundNames,
     pub(crate) role: WordRole,
     pub(crate) ends: WordEnd,
-    /// Where to go on, unless the word says so itself.
+    /// The next operation, unless the word names one.
     pub(crate) next: OpId,
 }
 
-/// Where a word begins and ends.
+/// The extent of a word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WordEnd {
-    /// In quotes, both of which are part of it.
+    /// Both quotes are part of it.
     Quoted,
     /// The quote behind it is part of it.
     Tail,
-    /// Where no letter follows.
+    /// It ends where no letter follows.
     Bare,
-    /// Where it is whole: none begins another.
+    /// It ends where it is whole: none begins another.
     Whole,
 }
 
-/// Which names that the policy has bound are among the words.
+/// The names bound by the policy that are among the words.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum BoundNames {
     None,
-    /// Those of the type with this number, or of one below it.
+    /// Names of the type with this number, or of one below it.
     Type(u16),
-    /// Those of a list.
+    /// Names of lists.
     Lists,
 }
 
-/// A byte automaton.
+/// The automaton of one grammar.
 #[derive(Clone, Debug)]
 pub(crate) struct Automaton {
     pub(crate) ops: Vec<Op>,
-    /// By operation: how many bytes lead from before it to the end of its rule, at the shortest.
+    /// The length of the shortest path from before each operation to the end of its rule, in bytes.
     pub(crate) rest: Vec<u32>,
     pub(crate) start: OpId,
     pub(crate) signatures: Arc<Signatures>,
@@ -126,12 +127,12 @@ pub(crate) struct Automaton {
     pub(crate) callables: Vec<Callable>,
     /// The operations of the arguments of each fluent.
     pub(crate) fluents: Vec<Vec<OpId>>,
-    /// By fluent its bit among those that a callable speaks of.
+    /// The bit of each fluent in the masks of callables.
     pub(crate) fluent_bits: Vec<u64>,
-    /// Whether a condition can be about a measure.
+    /// A condition can be about a measure.
     pub(crate) measures: bool,
     pub(crate) subset: Subset,
-    /// What no new name may be.
+    /// Names that a policy may not give.
     pub(crate) taken: FxHashSet<SmolStr>,
 }
 
@@ -144,7 +145,7 @@ impl Automaton {
         self.rest.get(id as usize).copied().unwrap_or(0)
     }
 
-    /// How many decimals a number has that is spelled in a range: percents have two less than what they say.
+    /// The number of decimals of a number spelled in a range: a percentage has two more than it shows.
     pub(crate) fn decimals(&self, range: &NumberRange) -> u8 {
         let is_percent = range.unit == Some(Unit::Percent) && self.subset.syntax == Syntax::Text;
         range.decimals + if is_percent { 2 } else { 0 }

@@ -1,4 +1,4 @@
-//! From a policy of either form to the tree of the model subset.
+//! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
@@ -14,11 +14,11 @@ use crate::subset::{
     Modifiers, Reaction, Step, Subset, When,
 };
 
-/// A policy as a tree of the model subset.
+/// Completes a policy to a tree of the canonical subset.
 ///
 /// # Errors
 ///
-/// The first thing in the policy that the subset cannot say.
+/// The first part of the policy that is outside of the subset.
 pub(super) fn complete(
     policy: &Policy,
     signatures: &Signatures,
@@ -50,9 +50,9 @@ pub(super) fn complete(
 pub(super) struct Completer<'a> {
     pub(super) signatures: &'a Signatures,
     pub(super) subset: Subset,
-    /// What is bound here, in the order of binding.
+    /// The bindings in scope, in order.
     bound: Vec<SmolStr>,
-    /// What is bound anywhere.
+    /// Every name that is bound anywhere in the policy.
     names: FxHashSet<SmolStr>,
     fresh: usize,
 }
@@ -62,7 +62,7 @@ impl Completer<'_> {
         self.bound.iter().any(|bound| bound == name)
     }
 
-    /// A block of at least so many steps, with so many levels of blocks below it.
+    /// A block of at least `least` steps; blocks may be nested `depth` levels below it.
     fn block(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, OutsideSubset> {
         if !(least..=MAX_STEPS).contains(&block.steps.len()) {
             return Err(OutsideSubset {
@@ -264,7 +264,7 @@ impl Completer<'_> {
         self.seconds(within).map(Some)
     }
 
-    /// A place that only a subset with modifiers has.
+    /// A modifier, which only a subset with modifiers has.
     fn modifier(&self, expr: &Expr) -> Result<(), OutsideSubset> {
         match self.subset.modifiers {
             Modifiers::Written => Ok(()),

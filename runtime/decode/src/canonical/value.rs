@@ -1,4 +1,4 @@
-//! Values by the types that are asked for, and conditions.
+//! Completion of values, by the types that are asked for, and of conditions.
 
 use motet_compiler::signature::Type;
 use motet_syntax::Syntax;
@@ -11,7 +11,7 @@ use super::complete::Completer;
 use crate::subset::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
 
 impl Completer<'_> {
-    /// A value of a type; `card` bounds a number.
+    /// A value of a type; `card` bounds a number, in SI units.
     pub(super) fn value(
         &self,
         expr: &Expr,
@@ -94,11 +94,11 @@ impl Completer<'_> {
         if self.is_known(name, ty) {
             return Ok(Value::Name(name.clone()));
         }
-        // Whether it is bound is not for the printer to say.
+        // An unknown name is the checker's business.
         self.binding(name, expr)
     }
 
-    /// Whether a name is an entity or a case of the type that is asked for.
+    /// The name is an entity or a case of the type.
     fn is_known(&self, name: &str, ty: &Type) -> bool {
         match ty {
             Type::Entity(kind) => self
@@ -139,7 +139,7 @@ impl Completer<'_> {
         if is_alike { Ok(list) } else { Err(outside(expr, why.into())) }
     }
 
-    /// A number of seconds.
+    /// A time in seconds.
     pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, OutsideSubset> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
             Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(number),
@@ -147,7 +147,7 @@ impl Completer<'_> {
         }
     }
 
-    /// A whole number.
+    /// A whole number from `least` to `greatest`.
     pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, OutsideSubset> {
         let whole = match &expr.kind {
             ExprKind::Number(value) => NumberRange::whole(least, greatest).nearest(*value),
@@ -159,7 +159,7 @@ impl Completer<'_> {
         })
     }
 
-    /// A condition, `depth` of which may still stand in one another.
+    /// A condition; `depth` more may be nested in it.
     pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, OutsideSubset> {
         let within = || {
             depth.checked_sub(1).ok_or_else(|| {
@@ -266,7 +266,7 @@ impl Completer<'_> {
         params.iter().enumerate().map(value).collect()
     }
 
-    /// A name that the policy gives to something, or uses.
+    /// A name that the policy gives or uses.
     pub(super) fn new_name(
         &self,
         name: &SmolStr,
@@ -294,7 +294,7 @@ impl Completer<'_> {
         Ok(name.clone())
     }
 
-    /// Whether a name is a word of the language or a case.
+    /// The name is a word of the language or a case.
     fn is_taken(&self, name: &str) -> bool {
         motet_syntax::print::identifier(name) != name
             || self.signatures.enums.iter().any(|def| def.cases.iter().any(|case| case == name))

@@ -1,5 +1,5 @@
-//! A policy of the model subset: every argument given and in order, every value of one kind, nothing left to a default
-//! but by name. [`crate::canonical`] makes it from a policy and prints it.
+//! The tree of a policy in the canonical subset: every argument given and in order, every value of one
+//! kind, every default named. [`crate::canonical`] makes it from a policy and prints it.
 
 use motet_syntax::ast::{CompareOp, EndKind};
 use motet_syntax::unit::Unit;

@@ -17,10 +17,10 @@ pub fn environment(tokens: &[Vec<u8>], end: u32) -> TokEnv {
 pub struct Peer(Matcher);
 
 impl Peer {
-    /// The engine on the grammar in Lark, the one notation with all bounds of the surface.
-    pub fn new(environment: &TokEnv, session: &Session, surface: Subset) -> Self {
+    /// The engine on the grammar in Lark, the one notation with all bounds of the subset.
+    pub fn new(environment: &TokEnv, session: &Session, subset: Subset) -> Self {
         let lark =
-            export(&Grammar::new(&session.signatures(), surface), Format::Lark, Header::Llguidance).unwrap();
+            export(&Grammar::new(&session.signatures(), subset), Format::Lark, Header::Llguidance).unwrap();
         let factory = ParserFactory::new_simple(environment).unwrap();
         let matcher = Matcher::new(factory.create_parser(TopLevelGrammar::from_lark(lark)));
         assert!(!matcher.is_error(), "{:?}", matcher.get_error());
