@@ -1,7 +1,8 @@
-//! What a mask costs with the vocabulary o200k, in both surfaces: at each token of the examples and of policies that were
-//! written at random, 200 to 600 tokens long; beside it what it costs llguidance on the exported grammar. And what preparing a
-//! scene costs, what 5,000 entities cost, and which share of the bytes of the examples must come next whatever the model means.
-//! A time is of the mask alone; taking the token is told apart.
+//! What a mask costs with the vocabulary o200k, in both surfaces: at each token of the examples and of
+//! policies that were written at random, 200 to 600 tokens long; beside it what it costs llguidance on the
+//! exported grammar. And what preparing a scene costs, what 5,000 entities cost, and which share of the
+//! bytes of the examples must come next whatever the model means. A time is of the mask alone; taking the
+//! token is told apart.
 
 #![allow(
     clippy::unwrap_used,

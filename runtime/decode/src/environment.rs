@@ -15,7 +15,8 @@ use thiserror::Error;
 /// ```
 /// use motet_decode::Environment;
 ///
-/// let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }.session()?;
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
 /// assert_eq!(session.signatures().robot, "hsr");
 /// # Ok::<(), motet_decode::EnvironmentError>(())
 /// ```

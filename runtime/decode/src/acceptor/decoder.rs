@@ -16,11 +16,13 @@ use crate::vocabulary::{Node, Tokens, Tree, Vocabulary};
 /// ```
 /// use motet_decode::{AcceptorFactory, Environment, Subset, Vocabulary};
 ///
-/// let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }.session()?;
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
 /// let factory = AcceptorFactory::new(&session, Subset::default());
 /// // A vocabulary of single bytes; the last token ends the sequence.
 /// let tokens: Vec<Vec<u8>> = (0..=255).map(|byte| vec![byte]).chain([Vec::new()]).collect();
-/// let mut decoder = factory.decoder(&Vocabulary::new(&tokens, 256), 4000).expect("a policy fits 4000 bytes");
+/// let vocabulary = Vocabulary::new(&tokens, 256);
+/// let mut decoder = factory.decoder(&vocabulary, 4000).expect("a policy fits 4000 bytes");
 /// let is_allowed = |mask: &[u32], token: usize| mask[token / 32] >> (token % 32) & 1 == 1;
 /// assert!(is_allowed(decoder.mask(), usize::from(b'{')));
 /// assert!(decoder.accept(u32::from(b'{')));

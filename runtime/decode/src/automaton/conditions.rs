@@ -1,7 +1,7 @@
 //! Lowering of conditions: fluents, comparisons, and what joins them.
 //!
-//! In JSON an operator stands first, so a condition is one rule. In text `and` and `or` stand between what they join, so the
-//! first of several is a condition of its own until one of them follows.
+//! In JSON an operator stands first, so a condition is one rule. In text `and` and `or` stand between what
+//! they join, so the first of several is a condition of its own until one of them follows.
 
 use smol_str::SmolStr;
 
@@ -116,7 +116,8 @@ impl Lowering<'_> {
         self.land(negated, negated_at);
 
         let (and, or) = (self.joined_anew(NodeKind::All, member), self.joined_anew(NodeKind::Any, member));
-        // Parentheses around a whole condition would say nothing: another one follows, and both are in what joins them.
+        // Parentheses around a whole condition would say nothing: another one follows, and both are in
+        // what joins them.
         let first = self.act(Action::Deeper);
         self.asm.put(Op::Call(group));
         let choice = self.later();

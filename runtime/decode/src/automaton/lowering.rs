@@ -1,8 +1,8 @@
 //! Lowering of a grammar to operations.
 //!
-//! Most parts become one operation or a few in a row. Three things need more: a repetition is a rule of its own, whose call
-//! frame counts its members; the steps of a block are one rule that all blocks call; and conditions are rules that call each
-//! other ([`super::conditions`]).
+//! Most parts become one operation or a few in a row. Three things need more: a repetition is a rule of its
+//! own, whose call frame counts its members; the steps of a block are one rule that all blocks call; and
+//! conditions are rules that call each other ([`super::conditions`]).
 
 use std::sync::Arc;
 
@@ -91,7 +91,8 @@ impl Automaton {
     }
 }
 
-/// Names that a policy may not give: entities, and in text words of the language and cases, which they would hide.
+/// Names that a policy may not give: entities, and in text words of the language and cases, which they
+/// would hide.
 fn taken(signatures: &Signatures, subset: Subset) -> FxHashSet<SmolStr> {
     let entities = signatures.entities.iter().map(|row| row.0.clone());
     if subset.syntax == Syntax::Json {
@@ -253,6 +254,13 @@ impl Lowering<'_> {
         let start = self.asm.here();
         self.parts(item);
         self.act(Action::Count);
+        // In text the separator of blocks begins what ends them: the brace behind it tells them apart.
+        let is_block = matches!(item.as_slice(), [Part::Block(..)]) && !self.is_json();
+        let (separator, start) = if is_block {
+            (format_smolstr!("{separator}{{ "), start + 1)
+        } else {
+            (separator.clone(), start)
+        };
         self.next_member([separator.as_str(), end.as_str()], start, most - least + 1);
         self.asm.set(call, Op::Call(rule));
         self.land_here(over);
@@ -315,8 +323,8 @@ impl Lowering<'_> {
 
     /// The steps of a block behind what opens it, with what ends it.
     ///
-    /// No step behind an ending is ever reached, so nothing that follows from the end of the block can be refuted there: the
-    /// block may always end.
+    /// No step behind an ending is ever reached, so nothing that follows from the end of the block can be
+    /// refuted there: the block may always end.
     fn block_steps(&mut self) -> OpId {
         let is_json = self.is_json();
         let start = self.later();

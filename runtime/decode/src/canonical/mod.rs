@@ -43,8 +43,9 @@ impl std::error::Error for OutsideSubset {}
 /// use motet_decode::{Environment, Subset, canonical};
 /// use motet_syntax::{FileId, Source};
 ///
-/// let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }.session()?;
-/// let source = Source::new("p.motet", "policy p { go(to: kitchen_table) }");
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
+/// let source = Source::new("p.motet", "policy p { go(kitchen_table) }");
 /// let file = motet_syntax::read(&source, FileId(0)).file;
 /// let policy = file.policies().next().expect("the document has a policy");
 /// assert_eq!(

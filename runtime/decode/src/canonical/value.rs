@@ -117,7 +117,8 @@ impl Completer<'_> {
         self.new_name(name, expr.span).map(Value::Binding)
     }
 
-    /// The list of an `each`: a name, or entities of one kind, since the first decides what the others may be.
+    /// The list of an `each`: a name, or entities of one kind, since the first decides what the others may
+    /// be.
     pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, OutsideSubset> {
         const ROOT: usize = 0;
         let list = self.value(expr, &Type::List(Box::new(Type::Entity(ROOT))), None)?;

@@ -60,8 +60,8 @@ fn fraction(low: u64, high: u64, width: u32) -> EbnfExpr {
     if low == 0 { digits.optional() } else { digits }
 }
 
-/// Digits that do not end in 0 and that, filled up with zeros to the width, lie between two numbers; also no digit at all
-/// where the lower number is 0.
+/// Digits that do not end in 0 and that, filled up with zeros to the width, lie between two numbers; also
+/// no digit at all where the lower number is 0.
 fn decimals(low: u64, high: u64, width: u32) -> EbnfExpr {
     if width == 0 || high == 0 {
         return EbnfExpr::Seq(Vec::new());

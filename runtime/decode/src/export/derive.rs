@@ -1,8 +1,9 @@
-//! Derivation of a grammar in EBNF: actions and guards are left out, and the recursion of blocks and conditions is written out
-//! to the depth of the subset.
+//! Derivation of a grammar in EBNF: actions and guards are left out, and the recursion of blocks and
+//! conditions is written out to the depth of the subset.
 //!
-//! In text, words and the spaces between them become literals of their own, so that a lexer that takes the longest literal is
-//! never misled by two that begin alike. In JSON neighbouring literals become one, except for `[`.
+//! In text, words and the spaces between them become literals of their own, so that a lexer that takes the
+//! longest literal is never misled by two that begin alike. In JSON neighbouring literals become one,
+//! except for `[`.
 
 use motet_syntax::Syntax;
 use motet_syntax::print::identifier;
@@ -261,7 +262,9 @@ impl Deriver<'_> {
         let failure = self.rule("failure".into(), Expr::choice(failures));
         let several = self.list(failure, [1, MAX_MEMBERS]);
         let brackets = if self.is_json { ["[", "]"] } else { ["", ""] };
-        let any = self.bracketed(brackets, self.word("any"));
+        // As a keyword, which is no name.
+        let any = Expr::literal(if self.is_json { "\"any\"" } else { "any" });
+        let any = self.bracketed(brackets, any);
         let several = self.bracketed(brackets, several);
         self.rule("failures".into(), Expr::choice(vec![any, several]))
     }

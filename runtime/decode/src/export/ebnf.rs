@@ -1,5 +1,5 @@
-//! A context-free grammar without recursion: literals, classes of characters, sequences, choices, bounded repetition,
-//! and rules. The first rule is the root. What the notations print.
+//! A context-free grammar without recursion: literals, classes of characters, sequences, choices, bounded
+//! repetition, and rules. The first rule is the root. What the notations print.
 
 /// The place of a rule in its grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

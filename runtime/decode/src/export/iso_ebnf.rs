@@ -1,5 +1,6 @@
-//! EBNF after ISO/IEC 14977, with neither character classes nor regular expressions: a class is the choice of its characters,
-//! a bounded repetition a number of times the thing and a number of times the thing or nothing.
+//! EBNF after ISO/IEC 14977, with neither character classes nor regular expressions: a class is the choice
+//! of its characters, a bounded repetition a number of times the thing and a number of times the thing or
+//! nothing.
 
 use super::ebnf::{EbnfExpr, EbnfGrammar, RuleId};
 use super::notation::{Level, Notation};

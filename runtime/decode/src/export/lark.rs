@@ -1,4 +1,5 @@
-//! Lark, as llguidance reads it: rules in lower case, what is a word of its own as a terminal with a regular expression.
+//! Lark, as llguidance reads it: rules in lower case, what is a word of its own as a terminal with a
+//! regular expression.
 
 use super::ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 use super::notation::{Level, Notation, times};

@@ -1,11 +1,11 @@
 //! Grammars of the canonical subset for servers that constrain a model.
 //!
-//! All are derived from one [`Grammar`](crate::Grammar): [`json_schema`] and [`ebnf`] leave out the actions and guards of the
-//! automaton and write recursion out to the depth of the subset, so that whatever a model writes comes to an end. GBNF, Lark
-//! and ISO EBNF are notations of the latter.
+//! All are derived from one [`Grammar`](crate::Grammar): [`json_schema`] and [`ebnf`] leave out the actions
+//! and guards of the automaton and write recursion out to the depth of the subset, so that whatever a model
+//! writes comes to an end. GBNF, Lark and ISO EBNF are notations of the latter.
 //!
-//! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is right in names and
-//! types but for that.
+//! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is
+//! right in names and types but for that.
 
 mod char_class;
 mod decimal_range;
@@ -42,7 +42,8 @@ pub enum Format {
     RegexFreeEbnf,
 }
 
-/// Writes a grammar in a notation; `None` for a JSON Schema of the text syntax. `header` is used by Lark only.
+/// Writes a grammar in a notation; `None` for a JSON Schema of the text syntax. `header` is used by Lark
+/// only.
 ///
 /// The same grammar gives the same bytes. O(declarations + entities) for each level of the subset's depth.
 ///
@@ -50,7 +51,8 @@ pub enum Format {
 /// use motet_decode::export::{Format, Header, export};
 /// use motet_decode::{Environment, Grammar, Subset};
 ///
-/// let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }.session()?;
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
 /// let grammar = Grammar::new(&session.signatures(), Subset::default());
 /// let gbnf = export(&grammar, Format::Gbnf, Header::None).expect("GBNF takes both syntaxes");
 /// assert!(gbnf.starts_with("root ::= "));

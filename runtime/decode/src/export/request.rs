@@ -32,8 +32,9 @@ pub struct Prompt<'p> {
     pub user: &'p str,
 }
 
-/// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request. None where a
-/// server cannot be held to the form: Ollama and OpenAI take a JSON Schema only, so not the text form.
+/// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request.
+/// None where a server cannot be held to the form: Ollama and OpenAI take a JSON Schema only, so not the
+/// text form.
 #[must_use]
 pub fn request_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
     let named = |schema: Value| json!({"type": "json_schema", "json_schema": {"name": "motet_policy", "strict": true, "schema": schema}});
@@ -55,8 +56,9 @@ pub fn request_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> 
     })
 }
 
-/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the backend `guidance`, of SGLang
-/// with `llguidance`, and of a server of llama.cpp that was built with it. None for servers that take neither.
+/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the
+/// backend `guidance`, of SGLang with `llguidance`, and of a server of llama.cpp that was built with it.
+/// None for servers that take neither.
 #[must_use]
 pub fn lark_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
     let lark = || lark::print(&ebnf(grammar), Header::Llguidance);
@@ -86,9 +88,9 @@ fn body(prompt: Prompt<'_>, constraint: Value) -> Value {
     Value::Object(body)
 }
 
-/// The body of a request that asks for a plain word under a grammar that allows only one JSON object, which has no place
-/// for it. An answer that is that object shows that the server holds the model to grammars; any other, that it does not.
-/// The answer that the grammar demands comes with the body.
+/// The body of a request that asks for a plain word under a grammar that allows only one JSON object, which
+/// has no place for it. An answer that is that object shows that the server holds the model to grammars;
+/// any other, that it does not. The answer that the grammar demands comes with the body.
 #[must_use]
 pub fn probe_body(dialect: Dialect, model: &str) -> (Value, Value) {
     let schema = json!({

@@ -1,9 +1,9 @@
-//! Derivation of a JSON Schema from the grammar of the JSON syntax, in the subset that every server takes: objects with all
-//! keys required and no others, strings with `const`, `enum` or an anchored pattern, `anyOf`, `$ref` alone in its object,
-//! arrays and numbers with bounds.
+//! Derivation of a JSON Schema from the grammar of the JSON syntax, in the subset that every server takes:
+//! objects with all keys required and no others, strings with `const`, `enum` or an anchored pattern,
+//! `anyOf`, `$ref` alone in its object, arrays and numbers with bounds.
 //!
-//! The productions of the grammar spell objects as bytes. They are read as a template: the literals between two values hold
-//! the end of one key and the beginning of the next.
+//! The productions of the grammar spell objects as bytes. They are read as a template: the literals between
+//! two values hold the end of one key and the beginning of the next.
 
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
@@ -36,7 +36,8 @@ struct Deriver<'g> {
     grammar: &'g Grammar,
     defs: Map<String, Value>,
     values: Vec<(ValueSet, Value)>,
-    /// References to definitions by what they define: an engine compiles a schema faster by far, the less it repeats.
+    /// References to definitions by what they define: an engine compiles a schema faster by far, the less
+    /// it repeats.
     known: FxHashMap<String, Value>,
 }
 

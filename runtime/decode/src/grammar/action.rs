@@ -1,5 +1,5 @@
-//! The vocabulary by which a grammar talks to the automaton: actions between bytes, guards of alternatives, and the kinds of
-//! nodes, blocks, names and conditions that they are about.
+//! The vocabulary by which a grammar talks to the automaton: actions between bytes, guards of alternatives,
+//! and the kinds of nodes, blocks, names and conditions that they are about.
 
 /// An action of the automaton at a place where no byte is taken.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,6 +1,8 @@
-//! The canonical subset in JSON: no white space, the key that tells what an object is first, all keys in one order.
+//! The canonical subset in JSON: no white space, the key that tells what an object is first, all keys in
+//! one order.
 //!
-//! A step and a condition are alternatives behind their `{"`, which belongs to the block or the condition around them.
+//! A step and a condition are alternatives behind their `{"`, which belongs to the block or the condition
+//! around them.
 
 use super::{
     Action, Alternative, BlockRole, ChoiceStyle, ConditionUse, Constant, Grammar, Guard, NameUse, NodeKind,

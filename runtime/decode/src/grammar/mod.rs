@@ -1,9 +1,11 @@
-//! The grammar of the canonical subset in one syntax: the single description of what a constrained model may write.
+//! The grammar of the canonical subset in one syntax: the single description of what a constrained model
+//! may write.
 //!
-//! Built from the signatures of a session. The byte automaton ([`crate::automaton`]) and the grammars for servers
-//! ([`crate::export`]) derive from it. The automaton carries out the [`Action`]s between the bytes and evaluates the
-//! [`Guard`]s of alternatives against the checker; an exported grammar has neither, and writes recursion out to the depth of
-//! the subset. [`json`] and [`text`] say how a syntax spells each step; everything else is said here, for both.
+//! Built from the signatures of a session. The byte automaton ([`crate::automaton`]) and the grammars for
+//! servers ([`crate::export`]) derive from it. The automaton carries out the [`Action`]s between the bytes
+//! and evaluates the [`Guard`]s of alternatives against the checker; an exported grammar has neither, and
+//! writes recursion out to the depth of the subset. [`json`] and [`text`] say how a syntax spells each
+//! step; everything else is said here, for both.
 
 mod action;
 mod json;
@@ -25,18 +27,20 @@ pub(crate) use self::part::{Alternative, ChoiceStyle, Part, Repeat, ValuePlace};
 pub(crate) use self::value_set::ValueSet;
 use crate::subset::{MAX_RETRIES, Modifiers, NumberRange, Subset};
 
-/// Above this number of entities and cases an exported name of the text syntax may be one of theirs: a grammar that excludes
-/// them all would be larger than the rest of it.
+/// Above this number of entities and cases an exported name of the text syntax may be one of theirs: a
+/// grammar that excludes them all would be larger than the rest of it.
 pub(crate) const MAX_EXCLUDED: usize = 1_000;
 
 /// The grammar of the canonical subset for the signatures of one session.
 ///
-/// Two grammars are equal if they were built from the same signatures (the same allocation) for the same subset.
+/// Two grammars are equal if they were built from the same signatures (the same allocation) for the same
+/// subset.
 ///
 /// ```
 /// use motet_decode::{Environment, Grammar, Subset, export};
 ///
-/// let session = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() }.session()?;
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
 /// let grammar = Grammar::new(&session.signatures(), Subset::default());
 /// let schema = export::json_schema(&grammar).expect("the JSON syntax has a schema");
 /// assert_eq!(schema["type"], "object");
@@ -107,8 +111,8 @@ impl Grammar {
         self.subset
     }
 
-    /// Names and words that a name given by the policy may not be in the text syntax. Entities and cases are left out where
-    /// they are more than [`MAX_EXCLUDED`].
+    /// Names and words that a name given by the policy may not be in the text syntax. Entities and cases
+    /// are left out where they are more than [`MAX_EXCLUDED`].
     pub(crate) fn excluded_names(&self) -> Vec<SmolStr> {
         let mut words: Vec<SmolStr> = RESERVED.iter().map(|word| SmolStr::new_static(word)).collect();
         let cases = self.signatures.enums.iter().flat_map(|def| def.cases.iter());
@@ -284,7 +288,8 @@ impl Grammar {
                     parts.extend(self.comparison("", &field.ty));
                     (self.applied(&field.name, Guard::Loose, number, parts), has_one)
                 }
-                // The field stands behind the entity: the automaton would have to tell it from a fluent only there.
+                // The field stands behind the entity: the automaton would have to tell it from a fluent
+                // only there.
                 Syntax::Text => {
                     let lead = format!(".{} ", motet_syntax::print::identifier(&field.name));
                     let mut parts = vec![Part::open(NodeKind::Field(number)), of];

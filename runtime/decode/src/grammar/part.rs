@@ -6,7 +6,8 @@ use smol_str::SmolStr;
 use super::{Action, BlockRole, ConditionUse, Guard, NameUse, NodeKind, WordRole};
 use crate::subset::NumberRange;
 
-/// An element of a production. Values, names, conditions and blocks are spelled as the syntax of the grammar spells them.
+/// An element of a production. Values, names, conditions and blocks are spelled as the syntax of the
+/// grammar spells them.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
     /// These bytes.
@@ -127,8 +128,8 @@ impl Alternative {
         Self { is_ending: true, ..self }
     }
 
-    /// Alternatives of which none begins with a choice of its own, behind a prefix: the literals of a choice at the beginning of
-    /// an alternative become part of its own.
+    /// Alternatives of which none begins with a choice of its own, behind a prefix: the literals of a
+    /// choice at the beginning of an alternative become part of its own.
     pub(crate) fn flattened(alternatives: &[Self], prefix: &str) -> Vec<Self> {
         let mut flat = Vec::new();
         for way in alternatives {

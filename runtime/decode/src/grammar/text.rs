@@ -1,4 +1,5 @@
-//! The canonical subset in text: one line, one space between words and around braces, `when` always in braces, no `else if`.
+//! The canonical subset in text: one line, one space between words and around braces, `when` always in
+//! braces, no `else if`.
 
 use motet_compiler::signature::Type;
 use motet_syntax::print::identifier;

@@ -26,7 +26,8 @@ pub const MAX_NAME_CHARS: usize = 32;
 pub const MAX_TEXT_CHARS: usize = 200;
 /// The most steps of one block.
 pub const MAX_STEPS: usize = 64;
-/// The most branches of a `parallel`, conditions of a `monitor`, handlers of a `try`, kinds of failure of a handler.
+/// The most branches of a `parallel`, conditions of a `monitor`, handlers of a `try`, kinds of failure of a
+/// handler.
 pub const MAX_MEMBERS: usize = 4;
 /// The most values of a list that is written out.
 pub const MAX_ITEMS: usize = 8;

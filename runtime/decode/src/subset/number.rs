@@ -58,7 +58,8 @@ impl NumberRange {
         (least <= greatest).then_some(Self { least, greatest, decimals, unit })
     }
 
-    /// The range as the text syntax spells its digits: percents are a hundred times the value, with two decimals less.
+    /// The range as the text syntax spells its digits: percents are a hundred times the value, with two
+    /// decimals less.
     pub(crate) fn spelled_in_text(&self) -> Self {
         match self.unit {
             Some(Unit::Percent) => Self { decimals: self.decimals.saturating_sub(2), ..*self },

@@ -1,5 +1,5 @@
-//! The acceptor against the checker: what it lets a model write checks without an error, every walk ends, and every
-//! canonical policy that checks is accepted, byte by byte.
+//! The acceptor against the checker: what it lets a model write checks without an error, every walk ends,
+//! and every canonical policy that checks is accepted, byte by byte.
 
 use crate::common::dice::Dice;
 use crate::common::tokens::{END, tokens};

@@ -1,4 +1,5 @@
-//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the grammar allows as well.
+//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the
+//! grammar allows as well.
 
 use crate::common::dice::Dice;
 use crate::common::peer::{Peer, environment};

@@ -1,5 +1,5 @@
-//! Tests of the acceptor against the checker, against an engine that knows the exported grammar only, and of the readers of
-//! vocabularies.
+//! Tests of the acceptor against the checker, against an engine that knows the exported grammar only, and
+//! of the readers of vocabularies.
 
 #![allow(
     clippy::unwrap_used,

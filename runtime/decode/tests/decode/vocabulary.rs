@@ -28,7 +28,8 @@ fn vocabulary_reads_byte_level_tokens() {
 
 #[test]
 fn vocabulary_reads_every_byte_level_character() {
-    // The table of GPT-2, built the other way around: printable bytes stand for themselves, the others follow from U+0100.
+    // The table of GPT-2, built the other way around: printable bytes stand for themselves, the others
+    // follow from U+0100.
     let mut next = 0x100;
     let mut vocab = serde_json::Map::new();
     for byte in 0..=255u32 {

@@ -15,8 +15,8 @@ pub enum Ended {
     Stuck(String),
 }
 
-/// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another one follows as
-/// a rule, until there are `steps`.
+/// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another
+/// one follows as a rule, until there are `steps`.
 pub fn walk(factory: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
     let mut acceptor = factory.acceptor(budget)?;
     loop {
@@ -34,8 +34,8 @@ pub fn walk(factory: &AcceptorFactory, budget: usize, steps: usize, dice: &mut D
     }
 }
 
-/// So many policies that are written at random and fit, by walks of a session of their own, so that no answer is known
-/// beforehand.
+/// So many policies that are written at random and fit, by walks of a session of their own, so that no
+/// answer is known beforehand.
 pub fn written(session: &Session, subset: Subset, count: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let (factory, mut dice) = (AcceptorFactory::new(session, subset), Dice::new(7));
     let mut found = Vec::new();
