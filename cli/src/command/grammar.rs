@@ -159,13 +159,13 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     let text = match args.request {
         Some(server) => {
             let prompt = Prompt { model: &args.model, system: SYSTEM, user: &args.ask };
-            let body = request_body(dialect(server), &offer, prompt)
+            let body = request_body(dialect(server), &grammar, prompt)
                 .ok_or_else(|| needs_json("this server takes"))?;
             format!("{body}\n")
         }
         None => {
             let header = if args.llguidance { Header::Llguidance } else { Header::None };
-            export::export(&signatures, surface, notation(args), header)
+            export::export(&grammar, notation(args), header)
                 .ok_or_else(|| needs_json("`--format json-schema` is"))?
         }
     };
