@@ -11,14 +11,13 @@ use super::token::{Token, stands};
 use super::verb::{begins, is_want, verb};
 use crate::english::SPOKEN_I_MEAN;
 
-/// What somebody says beside what they ask for.
+/// A clause beside the commands of a request.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Statement {
-    /// The tokens.
     pub(super) tokens: Vec<Token>,
 }
 
-/// What a request comes to.
+/// The commands and statements of a request.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Spoken {
     pub(super) commands: Vec<Command>,
@@ -26,7 +25,7 @@ pub(super) struct Spoken {
 }
 
 /// Reads a request. An error is the part that is not understood.
-pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
+pub(super) fn parse(tokens: &[Token]) -> Result<Spoken, String> {
     let mut spoken = Spoken::default();
     let mut asked_whether = false;
     let mut at = 0;
@@ -145,7 +144,7 @@ pub(super) fn spoken(tokens: &[Token]) -> Result<Spoken, String> {
     Ok(spoken)
 }
 
-/// What somebody needs who then says, behind a `so`, what shall be done with it; where that begins.
+/// Reads what somebody needs who then says, behind a `so`, what shall be done with it; where that begins.
 fn only_needs(tokens: &[Token], begin: usize) -> Option<usize> {
     if !is_want(tokens, begin) {
         return None;
