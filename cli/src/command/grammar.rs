@@ -5,8 +5,8 @@ mod probe;
 pub(super) use probe::key;
 
 use clap::{Args, Subcommand, ValueEnum};
-use motet_decode::export::{self, Dialect, Format as Notation, Header, Offer, Prompt, request_body};
-use motet_decode::{Modifiers, Subset};
+use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, request_body};
+use motet_decode::{Grammar, Modifiers, Subset};
 
 use crate::error::{CliError, Exit};
 use crate::flags::{DiagnosticFormat, EnvironmentArgs, SyntaxArg};
@@ -149,23 +149,23 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,
     };
-    let offer = Offer::new(&signatures, surface);
+    let grammar = Grammar::new(&signatures, surface);
     if args.llguidance && (args.request.is_some() || notation(args) != Notation::Lark) {
         return Err(CliError::Message("`--llguidance` needs `--format lark`".to_owned()));
     }
-    for warning in export::warnings(&offer).iter().filter(|warning| concerns(args, warning.server)) {
+    for warning in export::warnings(&grammar).iter().filter(|warning| concerns(args, warning.server)) {
         note(&format!("warning: {}", warning.text));
     }
     let text = match args.request {
         Some(server) => {
             let prompt = Prompt { model: &args.model, system: SYSTEM, user: &args.ask };
-            let body = request_body(dialect(server), &offer, prompt)
+            let body = request_body(dialect(server), &grammar, prompt)
                 .ok_or_else(|| needs_json("this server takes"))?;
             format!("{body}\n")
         }
         None => {
             let header = if args.llguidance { Header::Llguidance } else { Header::None };
-            export::export(&signatures, surface, notation(args), header)
+            export::export(&grammar, notation(args), header)
                 .ok_or_else(|| needs_json("`--format json-schema` is"))?
         }
     };

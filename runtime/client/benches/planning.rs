@@ -18,8 +18,8 @@ use common::server::{Act, Server};
 use common::world::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, ClientSettings};
 use motet_compiler::{Session, State};
-use motet_decode::export::{Dialect, Offer, request_constraint};
-use motet_decode::{AcceptorFactory as Acceptors, Subset};
+use motet_decode::export::{Dialect, request_constraint};
+use motet_decode::{AcceptorFactory as Acceptors, Grammar, Subset};
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator};
 use motet_planner::model::{self, ModelPlanner, ReplyVerdict, Start, StreamReader, judge};
 use motet_planner::prompt::{Prompt, StaticPrompt, TIME, TOKENS};
@@ -95,7 +95,7 @@ fn overhead() {
 struct Kept {
     session: Session,
     lasting: StaticPrompt,
-    offer: Offer,
+    grammar: Grammar,
     constraint: String,
     acceptors: Acceptors,
 }
@@ -103,13 +103,13 @@ struct Kept {
 impl Kept {
     fn new(setting: &DialogueSetup) -> Self {
         let session = session(setting);
-        let offer = Offer::new(&session.signatures(), Subset::default());
-        let constraint = request_constraint(Dialect::Vllm, &offer).unwrap().to_string();
+        let grammar = Grammar::new(&session.signatures(), Subset::default());
+        let constraint = request_constraint(Dialect::Vllm, &grammar).unwrap().to_string();
         Self {
             lasting: StaticPrompt::new(&session, &setting.robot, &setting.scene),
             acceptors: Acceptors::new(&session, Subset::default()),
             session,
-            offer,
+            grammar,
             constraint,
         }
     }
@@ -147,8 +147,8 @@ fn once(setting: &DialogueSetup, kept: &Kept, request: &str, reply: &str) -> Vec
     };
     let _ = prompt.write(request);
     lap("prompt");
-    // As a client does before it sends what it made for the same offer.
-    assert!(kept.offer == kept.offer.clone() && !kept.constraint.is_empty());
+    // As a client does before it sends what it made for the same grammar.
+    assert!(kept.grammar == kept.grammar.clone() && !kept.constraint.is_empty());
     lap("constraint");
     let mut reading = StreamReader::new(&session, kept.acceptors.elsewhere(&session).acceptor(16_000));
     let letters: Vec<char> = reply.chars().collect();

@@ -1,6 +1,7 @@
 //! The body of a chat request, in a server's dialect.
 
-use motet_decode::export::{Dialect, Offer, lark_constraint, request_constraint};
+use motet_decode::Grammar;
+use motet_decode::export::{Dialect, lark_constraint, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
 use motet_runtime::CameraImage as Picture;
 use serde_json::{Map, Value, json};
@@ -22,15 +23,15 @@ pub(crate) fn chat(
     Ok(Value::Object(body))
 }
 
-/// What holds a reply to an offer, in the server's dialect; none where it has none.
+/// What holds a reply to an grammar, in the server's dialect; none where it has none.
 pub(crate) fn constraint(
     settings: &ClientSettings,
-    offer: &Offer,
+    grammar: &Grammar,
 ) -> Result<Option<Map<String, Value>>, ModelError> {
     let Some(dialect) = settings.dialect else { return Ok(None) };
     let constraint = match settings.notation {
-        Notation::Usual => request_constraint(dialect, offer),
-        Notation::Lark => lark_constraint(dialect, offer),
+        Notation::Usual => request_constraint(dialect, grammar),
+        Notation::Lark => lark_constraint(dialect, grammar),
     };
     match constraint {
         Some(Value::Object(fields)) => Ok(Some(fields)),

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
 
-use motet_decode::export::Offer;
+use motet_decode::Grammar;
 use motet_planner::model::{Message, Model, ModelError, News, Reply};
 use motet_planner::vision::Pointer;
 use motet_runtime::CameraImage as Picture;
@@ -40,7 +40,7 @@ pub struct Client {
     settings: Arc<ClientSettings>,
     runtime: Option<Runtime>,
     /// The latest offer, and what holds a reply to it: a room offers the same for many requests.
-    held: Option<(Offer, Option<Map<String, Value>>)>,
+    held: Option<(Grammar, Option<Map<String, Value>>)>,
 }
 
 impl Client {
@@ -108,7 +108,7 @@ impl Drop for Client {
 }
 
 impl Model for Client {
-    fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError> {
+    fn ask(&mut self, chat: &[Message], constraint: &Grammar) -> Result<Box<dyn Reply>, ModelError> {
         if self.held.as_ref().is_none_or(|(offer, _)| offer != constraint) {
             self.held = Some((constraint.clone(), body::constraint(&self.settings, constraint)?));
         }

@@ -8,8 +8,8 @@ use std::time::Duration;
 use common::server::{Act, Server};
 use common::world::{brisk, session, setting};
 use motet_client::{Client, ClientSettings, EncodedImage, ImageError, Notation, ServerUrl};
-use motet_decode::Subset;
-use motet_decode::export::{Dialect, Offer};
+use motet_decode::export::Dialect;
+use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
 
 fn chat() -> Vec<Message> {
@@ -20,9 +20,9 @@ fn chat() -> Vec<Message> {
 /// Asks, and gives the text, how often it was tried again, and the ending.
 fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) {
     let setting = setting();
-    let offer = Offer::new(&session(&setting).signatures(), Subset::default());
+    let grammar = Grammar::new(&session(&setting).signatures(), Subset::default());
     let mut client = Client::new(settings).unwrap();
-    let mut reply = match client.ask(&chat(), &offer) {
+    let mut reply = match client.ask(&chat(), &grammar) {
         Ok(reply) => reply,
         Err(why) => return (String::new(), 0, Err(why)),
     };
@@ -181,9 +181,9 @@ fn addresses_with_a_password_are_refused() {
 fn who_drops_a_reply_hangs_up() {
     let server = Server::new(vec![Act::Endless { text: "on and on ".to_owned() }]);
     let setting = setting();
-    let offer = Offer::new(&session(&setting).signatures(), Subset::default());
+    let grammar = Grammar::new(&session(&setting).signatures(), Subset::default());
     let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
-    let mut reply = client.ask(&chat(), &offer).unwrap();
+    let mut reply = client.ask(&chat(), &grammar).unwrap();
     while !matches!(reply.next(Duration::from_millis(20)), News::Piece(_)) {}
     drop(reply);
     // The server stops writing once nobody listens, so it hears the next request to its end.

@@ -9,8 +9,7 @@ use std::time::Duration;
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, carry_out, carry_out_with, planner, right, session, setting};
 use motet_client::Client;
-use motet_decode::export::Offer;
-use motet_decode::{AcceptorFactory, Subset};
+use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_planner::builtin::{self, PlannedRequest};
 use motet_planner::dialogue::{Conversation, DialogueObserver, NoOperator, Outcome, Person, Problem};
 use motet_planner::model::{
@@ -281,7 +280,7 @@ impl Told {
 }
 
 impl Model for Told {
-    fn ask(&mut self, _: &[Message], _: &Offer) -> Result<Box<dyn Reply>, ModelError> {
+    fn ask(&mut self, _: &[Message], _: &Grammar) -> Result<Box<dyn Reply>, ModelError> {
         Ok(Box::new(Bits(self.0.pop_front().unwrap().into_iter())))
     }
 

@@ -1,7 +1,8 @@
-//! What a mask costs with the vocabulary o200k, in both surfaces: at each token of the examples and of policies that were
-//! written at random, 200 to 600 tokens long; beside it what it costs llguidance on the exported grammar. And what preparing a
-//! scene costs, what 5,000 entities cost, and which share of the bytes of the examples must come next whatever the model means.
-//! A time is of the mask alone; taking the token is told apart.
+//! What a mask costs with the vocabulary o200k, in both surfaces: at each token of the examples and of
+//! policies that were written at random, 200 to 600 tokens long; beside it what it costs llguidance on the
+//! exported grammar. And what preparing a scene costs, what 5,000 entities cost, and which share of the
+//! bytes of the examples must come next whatever the model means. A time is of the mask alone; taking the
+//! token is told apart.
 
 #![allow(
     clippy::unwrap_used,
@@ -12,7 +13,7 @@
     reason = "a benchmark that cannot be set up has failed"
 )]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/decode/common/mod.rs"]
 mod common;
 
 use std::time::{Duration, Instant};
@@ -36,26 +37,26 @@ fn main() {
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = common::peer::environment(&tokens, END);
-    for form in [Syntax::Json, Syntax::Text] {
-        println!("{form:?}");
-        let surface = Subset { modifiers: Modifiers::Written, syntax: form, ..Subset::default() };
+    for syntax in [Syntax::Json, Syntax::Text] {
+        println!("{syntax:?}");
+        let subset = Subset { modifiers: Modifiers::Written, syntax, ..Subset::default() };
         let (mut examples, mut written) = (Times::default(), Times::default());
         let (mut forced, mut all) = (0, 0);
         for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
             let session = common::session(robot, scene);
             let mut taken: Vec<Duration> =
-                (0..21).map(|_| time(|| AcceptorFactory::new(&session, surface)).1).collect();
+                (0..21).map(|_| time(|| AcceptorFactory::new(&session, subset)).1).collect();
             taken.sort_unstable();
             println!("{robot} in {scene}: prepared in {:?} at the median of 21", taken[10]);
-            let prepared = AcceptorFactory::new(&session, surface);
-            let (peer, taken) = time(|| Peer::new(&environment, &session, surface));
+            let prepared = AcceptorFactory::new(&session, subset);
+            let (peer, taken) = time(|| Peer::new(&environment, &session, subset));
             println!("{robot} in {scene}: llguidance prepared in {taken:?}");
-            for policy in canonical_examples(&session, surface) {
+            for policy in canonical_examples(&session, subset) {
                 follow((&prepared, &peer), &vocabulary, &encoding.encode_ordinary(&policy), &mut examples);
                 forced += forced_bytes(&prepared, &policy);
                 all += policy.len();
             }
-            for policy in common::walks::written(&session, surface, WRITTEN, |policy| {
+            for policy in common::walks::written(&session, subset, WRITTEN, |policy| {
                 (200..=600).contains(&encoding.encode_ordinary(policy).len())
             }) {
                 follow((&prepared, &peer), &vocabulary, &encoding.encode_ordinary(&policy), &mut written);
@@ -64,7 +65,7 @@ fn main() {
         examples.print("examples");
         written.print("written at random");
         println!("{forced} of {all} bytes of the examples are forced");
-        many_entities(surface);
+        many_entities(subset);
     }
 }
 
@@ -163,8 +164,8 @@ fn follow(
     }
 }
 
-/// The examples that check for a session, as the surface spells them.
-fn canonical_examples(session: &Session, surface: Subset) -> Vec<String> {
+/// The examples that check for a session, as the subset spells them.
+fn canonical_examples(session: &Session, subset: Subset) -> Vec<String> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
@@ -174,7 +175,7 @@ fn canonical_examples(session: &Session, surface: Subset) -> Vec<String> {
         let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
         let policy = parsed.file.policies().next().unwrap();
         if common::errors(session, &text).is_empty() {
-            found.extend(canonical(policy, &session.signatures(), surface));
+            found.extend(canonical(policy, &session.signatures(), subset));
         }
     }
     found
@@ -193,7 +194,7 @@ fn forced_bytes(prepared: &AcceptorFactory, policy: &str) -> usize {
     forced
 }
 
-fn many_entities(surface: Subset) {
+fn many_entities(subset: Subset) {
     let names: Vec<String> = (0..5000).map(|index| format!("thing_{index}")).collect();
     let domain = format!("entity {}: Object\n", names.join(", "));
     let mut sources = Sources::default();
@@ -203,7 +204,7 @@ fn many_entities(surface: Subset) {
     let (session, said) = Session::new(None, &[domain], None, None, Options::default(), &mut sources);
     assert!(said.is_empty(), "{said:?}");
     let mut taken: Vec<Duration> =
-        (0..21).map(|_| time(|| AcceptorFactory::new(&session, surface)).1).collect();
+        (0..21).map(|_| time(|| AcceptorFactory::new(&session, subset)).1).collect();
     taken.sort_unstable();
     println!("5,000 entities: prepared in {:?} at the median of 21", taken[10]);
 }

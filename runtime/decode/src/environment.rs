@@ -1,4 +1,4 @@
-//! What a policy is written for, given by names and texts: how hosts of another language open a session.
+//! Environments from names and texts, for hosts in other languages.
 
 use indexmap::IndexMap;
 use motet_compiler::{Options, Session, State};
@@ -9,51 +9,59 @@ use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render, suggest};
 use thiserror::Error;
 
-/// A robot, a room and what else is known. What is not given is not there: without a robot all primitives of the standard
-/// library are offered. Motions are left to the run.
+/// The texts from which a session is opened. Everything is optional: without a robot all primitives of the
+/// standard library are offered. Motions are deferred to the run.
+///
+/// ```
+/// use motet_decode::Environment;
+///
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
+/// assert_eq!(session.signatures().robot, "hsr");
+/// # Ok::<(), motet_decode::EnvironmentError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Environment<'t> {
-    /// The name of a robot that is built in, or the text of a `robot.toml`.
+    /// Name of a built-in robot, or text of a `robot.toml`.
     pub robot: Option<&'t str>,
-    /// The text of the `primitives.motet` beside it.
+    /// Text of the `primitives.motet` beside it.
     pub declarations: Option<&'t str>,
-    /// The name of a scene that is built in, or the text of one in JSON.
+    /// Name of a built-in scene, or text of one in JSON.
     pub scene: Option<&'t str>,
-    /// What is known at the start, as in `{"holding(mug_1)": true}`.
+    /// Facts at the start, in JSON: `{"holding(mug_1)": true}`.
     pub state: Option<&'t str>,
-    /// Further declarations.
+    /// Text of further declarations.
     pub domain: Option<&'t str>,
 }
 
-/// Why a world cannot be used.
+/// The reason why an environment was refused.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum EnvironmentError {
-    /// A name that nothing has.
+    /// No built-in robot or scene has the name.
     #[error("there is no {what} `{name}`; built in: {known}")]
     Unknown {
         /// `robot` or `scene`.
         what: &'static str,
-        /// As given.
         name: String,
-        /// What there is.
+        /// The names that are built in.
         known: String,
     },
-    /// A text with mistakes.
+    /// A text has errors.
     #[error("the {what} cannot be used: {diagnostics}")]
     Wrong {
-        /// `robot`, `scene`, `state`, `domain`, or how they fit.
+        /// `robot`, `scene`, `state`, `domain`, or their combination.
         what: &'static str,
-        /// The diagnostics, in sentences.
+        /// The diagnostics as sentences.
         diagnostics: String,
     },
 }
 
 impl Environment<'_> {
-    /// Opens a session.
+    /// Reads the texts and opens a session.
     ///
     /// # Errors
     ///
-    /// A name is not known, or a text has a mistake.
+    /// A name is unknown, or a text has an error.
     pub fn session(&self) -> Result<Session, EnvironmentError> {
         let mut sources = Sources::default();
         sources.add(Source::new("", ""));
@@ -118,7 +126,7 @@ fn add(name: &str, text: &str, sources: &mut Sources) -> (Source, FileId) {
     (source, file)
 }
 
-/// What was read, where nothing is wrong with it.
+/// The value read, unless a diagnostic is an error.
 fn right<T>(
     what: &'static str,
     read: Option<T>,

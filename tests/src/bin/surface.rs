@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Subset, canonical};
+use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
@@ -32,7 +32,7 @@ fn main() {
         let key = (robot, scene);
         worlds.entry(key.clone()).or_default().extend(lines.map(|lines| (name, lines)));
         grammars.entry(key).or_insert_with(|| {
-            let of = |form, format| export(&signatures, surface(form), format, Header::None);
+            let of = |form, format| export(&Grammar::new(&signatures, surface(form)), format, Header::None);
             json!({
                 "schema": of(Syntax::Json, Format::JsonSchema),
                 "json_gbnf": of(Syntax::Json, Format::Gbnf),

@@ -1,6 +1,6 @@
 //! Random derivations of a grammar.
 
-use motet_decode::export::{Expr, Grammar, RuleId};
+use motet_decode::export::{EbnfExpr as Expr, EbnfGrammar as Grammar, RuleId};
 
 /// A generator of pseudo-random numbers: SplitMix64 (Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]

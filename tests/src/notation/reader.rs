@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use motet_decode::export::{Expr, Grammar, Rule, RuleId};
+use motet_decode::export::{EbnfExpr as Expr, EbnfGrammar as Grammar, EbnfRule as Rule, RuleId};
 
 /// A notation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -4,7 +4,7 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::ApproximateTokEnv;
 use llguidance::{Matcher, ParserFactory};
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Subset, canonical};
+use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
@@ -36,9 +36,10 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
         for form in [Syntax::Json, Syntax::Text] {
             let surface = Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
             let line = canonical(policy, &signatures, surface).unwrap();
-            let lark = export(&signatures, surface, Format::Lark, Header::Llguidance).unwrap();
+            let grammar = Grammar::new(&signatures, surface);
+            let lark = export(&grammar, Format::Lark, Header::Llguidance).unwrap();
             let mut engines = vec![engine(&factory, TopLevelGrammar::from_lark(lark))];
-            if let Some(schema) = export(&signatures, surface, Format::JsonSchema, Header::None) {
+            if let Some(schema) = export(&grammar, Format::JsonSchema, Header::None) {
                 let schema = serde_json::from_str(&schema).unwrap();
                 engines.push(engine(&factory, TopLevelGrammar::from_json_schema(schema)));
             }

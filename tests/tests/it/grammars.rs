@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use motet_compiler::{Session, Signatures};
-use motet_decode::export::{Format, Grammar, Header, Offer, export, grammar};
-use motet_decode::{Modifiers, Subset, canonical};
+use motet_decode::export::{EbnfGrammar, Format, Header, ebnf, export};
+use motet_decode::{Grammar, Modifiers, Subset, canonical};
 use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
 use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
 use motet_tests::setup;
@@ -85,7 +85,7 @@ fn walk(
     session: &Session,
     signatures: &Signatures,
     surface: Subset,
-    grammar: &Grammar,
+    grammar: &EbnfGrammar,
     seed: u64,
 ) -> BTreeMap<String, usize> {
     let mut found = BTreeMap::new();
@@ -108,8 +108,9 @@ fn what_a_grammar_generates_is_read_and_typed() {
     let mut count = 0;
     for (at, (session, signatures)) in settings().iter().enumerate() {
         for surface in surfaces() {
-            let export = |format| export(signatures, surface, format, Header::default());
-            let own = grammar(&Offer::new(signatures, surface));
+            let grammar = Grammar::new(signatures, surface);
+            let export = |format| export(&grammar, format, Header::default());
+            let own = ebnf(&grammar);
             let mut grammars = vec![own];
             for (format, notation) in [
                 (Format::Gbnf, Notation::Gbnf),

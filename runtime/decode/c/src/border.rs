@@ -8,8 +8,8 @@ thread_local! {
     static LAST: RefCell<Option<CString>> = const { RefCell::new(None) };
 }
 
-/// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid until the
-/// thread calls the next function of this library.
+/// Why the last function that was called by this thread failed, in words; null where it did not fail. Valid
+/// until the thread calls the next function of this library.
 #[unsafe(no_mangle)]
 pub extern "C" fn motet_last_error() -> *const c_char {
     LAST.with_borrow(|last| last.as_ref().map_or(std::ptr::null(), |last| last.as_ptr()))

@@ -86,12 +86,13 @@ pub unsafe extern "C" fn motet_decoder_free(decoder: *mut MotetDecoder) {
     unsafe { free(decoder) };
 }
 
-/// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many words as
-/// `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
+/// Writes which tokens may follow: token `t` where bit `t % 32` of word `t / 32` is set. Takes as many
+/// words as `motet_vocabulary_mask_words` says, or more, of which the rest becomes 0.
 ///
 /// # Safety
 ///
-/// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count` words.
+/// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count`
+/// words.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn motet_decoder_mask(
     decoder: *mut MotetDecoder,
@@ -147,7 +148,8 @@ pub unsafe extern "C" fn motet_decoder_rollback(decoder: *mut MotetDecoder, toke
     })
 }
 
-/// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may follow.
+/// Whether what was written so far is a whole policy: then, and only then, the end of the sequence may
+/// follow.
 ///
 /// # Safety
 ///
@@ -161,8 +163,8 @@ pub unsafe extern "C" fn motet_decoder_is_accepting(decoder: *mut MotetDecoder) 
     })
 }
 
-/// The text that must come next, whatever is meant; empty where there is a choice. Freed with `motet_string_free`. Null
-/// on an error.
+/// The text that must come next, whatever is meant; empty where there is a choice. Freed with
+/// `motet_string_free`. Null on an error.
 ///
 /// # Safety
 ///
@@ -190,8 +192,9 @@ pub unsafe extern "C" fn motet_decoder_text(decoder: *mut MotetDecoder) -> *mut 
     })
 }
 
-/// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may follow, or where it
-/// is only their spelling that is refused. Freed with `motet_string_free`. Null on an error.
+/// What the checker says of bytes that may not follow: JSON objects, one a line; none where they may
+/// follow, or where it is only their spelling that is refused. Freed with `motet_string_free`. Null on an
+/// error.
 ///
 /// # Safety
 ///

@@ -1,8 +1,9 @@
 //! What a language model may write next, for hosts in C: `include/motet.h` says what there is.
 //!
-//! What is here only carries values over the border. Handles are opaque; a null pointer or a wrong length is an error and
-//! no crash; a panic does not leave the library, and what it may have left half done is not used again. An error is told by
-//! what a function returns, and in words by [`motet_last_error`], a thread at a time.
+//! What is here only carries values over the border. Handles are opaque; a null pointer or a wrong length
+//! is an error and no crash; a panic does not leave the library, and what it may have left half done is not
+//! used again. An error is told by what a function returns, and in words by [`motet_last_error`], a thread
+//! at a time.
 //!
 //! A world and a vocabulary can be used by many threads at once, a decoder by one at a time.
 

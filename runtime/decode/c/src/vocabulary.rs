@@ -20,8 +20,8 @@ pub struct MotetBytes {
 /// The tokens of a language model.
 pub struct MotetVocabulary(pub(crate) Vocabulary);
 
-/// A vocabulary of so many tokens in the order of their numbers; one without bytes is special, and never allowed. `end`
-/// is the token that ends a sequence. Null on an error.
+/// A vocabulary of so many tokens in the order of their numbers; one without bytes is special, and never
+/// allowed. `end` is the token that ends a sequence. Null on an error.
 ///
 /// # Safety
 ///
@@ -43,8 +43,8 @@ pub unsafe extern "C" fn motet_vocabulary_new(
     })
 }
 
-/// A vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines in base64 such as tiktoken's ranks.
-/// `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an error.
+/// A vocabulary from a file: `tokenizer.json` of Hugging Face, a list in JSON, or lines in base64 such as
+/// tiktoken's ranks. `end` is the token that ends a sequence, or [`MOTET_END_KNOWN`]. Null on an error.
 ///
 /// # Safety
 ///

@@ -7,8 +7,8 @@ use motet_syntax::{FileId, Source, Sources, Syntax, render};
 
 use crate::border::{free, guarded, handle, shared, slice, string, string_out};
 
-/// What a policy is written for. Each string is UTF-8 that ends with a null byte; null is not given. A world without a
-/// robot offers all primitives of the standard library. Motions are left to the run.
+/// What a policy is written for. Each string is UTF-8 that ends with a null byte; null is not given. A
+/// world without a robot offers all primitives of the standard library. Motions are left to the run.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MotetWorldTexts {
@@ -73,8 +73,8 @@ pub unsafe extern "C" fn motet_world_free(world: *mut MotetWorld) {
     unsafe { free(world) };
 }
 
-/// What the checker says of a whole policy in either form: JSON objects, one a line, none where nothing is to be said.
-/// Freed with [`motet_string_free`](crate::motet_string_free). Null on an error.
+/// What the checker says of a whole policy in either form: JSON objects, one a line, none where nothing is
+/// to be said. Freed with [`motet_string_free`](crate::motet_string_free). Null on an error.
 ///
 /// # Safety
 ///

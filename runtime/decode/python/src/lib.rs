@@ -1,5 +1,5 @@
-//! The native part of the Python module `motet`: worlds, vocabularies and decoders as they are. What is convenient in
-//! Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
+//! The native part of the Python module `motet`: worlds, vocabularies and decoders as they are. What is
+//! convenient in Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{EndToken, Modifiers, AcceptorFactory, Session, Subset, Environment as Texts};
@@ -14,8 +14,8 @@ struct Vocabulary(motet_decode::Vocabulary);
 
 #[pymethods]
 impl Vocabulary {
-    /// Reads tokenizer.json, a list in JSON or lines in base64. `end` is the name or the number of the token that ends a
-    /// sequence; without it the one that is known to.
+    /// Reads tokenizer.json, a list in JSON or lines in base64. `end` is the name or the number of the
+    /// token that ends a sequence; without it the one that is known to.
     #[staticmethod]
     #[pyo3(signature = (file, end = None))]
     fn from_file(file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {

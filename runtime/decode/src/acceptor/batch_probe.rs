@@ -1,5 +1,7 @@
-//! Many questions answered by one proof. What runs at once is proved as a whole for each call that is tried; where a proof in
-//! which any of them may stand refutes nothing, none of them is refuted.
+//! Batch probing: many questions to the checker answered by one proof.
+//!
+//! Concurrent steps are proved together for each call that is tried. If a proof in which any of the calls
+//! may stand refutes nothing, none of them is refuted; otherwise halves of them are asked.
 
 use std::sync::Arc;
 
@@ -10,14 +12,14 @@ use super::machine::Machine;
 use super::memo::Question;
 use super::oracle::{Argument, CallSite};
 use super::proof_cursor::Transcript;
-use crate::automaton::NodeKind;
+use crate::grammar::NodeKind;
 
-/// As few as these are asked one by one.
+/// Up to this many are asked one by one.
 const FEW: usize = 2;
 
 impl Machine {
-    /// Answers for all primitives that may stand at a place beside what runs at once, as far as one proof can. A policy does more and
-    /// is refuted more often: it is asked alone.
+    /// Probes all primitives that may stand at a place beside concurrent steps. Policies do more and are
+    /// refuted more often, so they are asked alone.
     pub(super) fn probe_callables(&mut self, site: CallSite) {
         let key = self.key(Question::Probed, site.event, None);
         if self.known(key).is_some() {
@@ -35,7 +37,7 @@ impl Machine {
         self.probe((site.event, site.event), &calls);
     }
 
-    /// The same for the values of an argument.
+    /// Probes the values of an argument of a call.
     pub(super) fn probe_values(
         &mut self,
         callable: u16,
@@ -55,7 +57,7 @@ impl Machine {
         self.probe((site.event, site.event), &calls);
     }
 
-    /// The same for the values of an argument of a fluent that is waited for, the last one.
+    /// Probes the values of the last argument of a fluent that is waited for.
     pub(super) fn probe_conditions(&mut self, state: &State, values: &[Event]) {
         let event = state.event;
         let Some((fluent, place)) = self.fluent_so_far(event) else { return };
@@ -69,7 +71,7 @@ impl Machine {
         self.probe((wait, event), &ways);
     }
 
-    /// The event before the `wait` whose condition is being written and no other.
+    /// The event before the `wait` whose condition is being written.
     fn open_wait(&self, event: Id) -> Option<Id> {
         let mut at = event;
         loop {
@@ -83,8 +85,8 @@ impl Machine {
         }
     }
 
-    /// Answers whether the step of the body is no error with each of some ways to go on behind `event`, where a proof of many of
-    /// them tells. They are steps that begin behind `from`.
+    /// Verifies the current step with each of several continuations behind `event`, as far as common proofs
+    /// tell. The continuations are steps that begin behind `from`.
     fn probe(&mut self, (from, event): (Id, Id), ways: &[Vec<Event>]) {
         let mut open: Vec<(u64, &[Event])> = Vec::new();
         for way in ways {
@@ -107,8 +109,8 @@ impl Machine {
         }
     }
 
-    /// Whether the step of the body that is being written is no error, whichever of some ways goes on behind `event`; where it
-    /// is one, that may be due to some of them.
+    /// Verifies the current step with all continuations at once. If that fails, some of them may still be
+    /// right.
     fn permits_any<'c>(&mut self, (from, event): (Id, Id), ways: impl Iterator<Item = &'c [Event]>) -> bool {
         let before = self.arenas.entry(from).map_or(0, |said| said.before);
         let mut events = self.arenas.between(before, from);

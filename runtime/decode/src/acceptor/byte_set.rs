@@ -1,17 +1,18 @@
-//! Which bytes may come next, as far as that is seen without taking one: what tokens are tried by.
+//! Candidate bytes: a superset of the bytes that may come next, found without taking one. Tokens are
+//! filtered by it.
 
 use super::event_log::State;
 use super::machine::{Machine, StateRef};
 use crate::automaton::{Op, WordEnd};
 
-/// A set of bytes.
+/// A set of bytes as a bit mask.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ByteSet([u64; 4]);
 
 impl ByteSet {
     pub(super) const ALL: Self = Self([u64::MAX; 4]);
     const NONE: Self = Self([0; 4]);
-    /// What a number has, and what may stand behind one: no letter does.
+    /// The bytes of numbers and those that may follow one: no letters.
     const OF_NUMBERS: Self = Self([u64::MAX, !0x07ff_fffe_07ff_fffe, 0, 0]);
 
     pub(super) fn has(&self, byte: u8) -> bool {
@@ -26,7 +27,7 @@ impl ByteSet {
 }
 
 impl Machine {
-    /// The bytes that may come next, and perhaps some that may not.
+    /// The candidate bytes of the current state.
     pub(super) fn candidate_bytes(&mut self) -> ByteSet {
         self.candidate_bytes_of(self.state(), StateRef::Current)
     }
@@ -49,7 +50,7 @@ impl Machine {
                 }
                 let (mut at, end) = self.range(&state, origin, words);
                 if self.whole(&state, words).is_some() {
-                    // No letter follows a name that is over.
+                    // No letter follows a name that has ended.
                     bytes = ByteSet::OF_NUMBERS;
                     at += 1;
                 }
@@ -63,7 +64,7 @@ impl Machine {
                     };
                     let Some(byte) = letter(self, at) else { break };
                     bytes.add(byte);
-                    // The words are in the order of their bytes.
+                    // The words are sorted by their bytes.
                     at = super::word::search(at, end, |index| letter(self, index) <= Some(byte));
                 }
             }

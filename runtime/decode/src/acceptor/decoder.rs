@@ -1,22 +1,39 @@
-//! From bytes to tokens: which of a vocabulary may follow.
+//! Token masks: which tokens of a vocabulary may come next.
 
 use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
 use super::byte_set::ByteSet;
-use super::digits::Digits;
 use super::machine::Machine;
 use super::{Acceptor, AcceptorFactory};
 use crate::automaton::Op;
-use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
+use crate::subset::{Digits, MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
 use crate::vocabulary::{Node, Tokens, Tree, Vocabulary};
 
-/// What may follow in a policy that is being written, token by token.
+/// Follows a policy token by token and computes token masks. One policy, one thread at a time; clone it to
+/// branch.
+///
+/// ```
+/// use motet_decode::{AcceptorFactory, Environment, Subset, Vocabulary};
+///
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
+/// let factory = AcceptorFactory::new(&session, Subset::default());
+/// // A vocabulary of single bytes; the last token ends the sequence.
+/// let tokens: Vec<Vec<u8>> = (0..=255).map(|byte| vec![byte]).chain([Vec::new()]).collect();
+/// let vocabulary = Vocabulary::new(&tokens, 256);
+/// let mut decoder = factory.decoder(&vocabulary, 4000).expect("a policy fits 4000 bytes");
+/// let is_allowed = |mask: &[u32], token: usize| mask[token / 32] >> (token % 32) & 1 == 1;
+/// assert!(is_allowed(decoder.mask(), usize::from(b'{')));
+/// assert!(decoder.accept(u32::from(b'{')));
+/// assert!(!is_allowed(decoder.mask(), usize::from(b'x')));
+/// # Ok::<(), motet_decode::EnvironmentError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Decoder {
     vocabulary: Vocabulary,
     acceptor: Acceptor,
-    /// How many bytes there were before each token.
+    /// The number of bytes before each token.
     before: Vec<usize>,
     is_over: bool,
     set: Mask,
@@ -32,7 +49,7 @@ impl std::fmt::Debug for Mask {
 }
 
 impl AcceptorFactory {
-    /// A decoder for a policy of at most `budget` bytes; none where no policy is that short.
+    /// A decoder for a policy of at most `budget` bytes; `None` if no policy is that short.
     #[must_use]
     pub fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> Option<Decoder> {
         let set = Mask(vocabulary.tokens().trie.alloc_token_set());
@@ -42,7 +59,8 @@ impl AcceptorFactory {
 }
 
 impl Decoder {
-    /// Which tokens may follow, one a bit, the lowest first. After the end none may.
+    /// Computes the mask of tokens that may come next: token `t` is bit `t % 32` of word `t / 32`. Empty
+    /// after the end.
     pub fn mask(&mut self) -> &[u32] {
         let Self { vocabulary, acceptor, set, is_over, .. } = self;
         let set = &mut set.0;
@@ -80,7 +98,7 @@ impl Decoder {
         set.as_slice()
     }
 
-    /// Takes a token, where it may follow.
+    /// Takes a token if it may come next; otherwise nothing changes.
     pub fn accept(&mut self, token: u32) -> bool {
         let before = self.acceptor.bytes().len();
         let tokens = self.vocabulary.tokens();
@@ -104,7 +122,7 @@ impl Decoder {
         true
     }
 
-    /// Takes back the last tokens.
+    /// Takes back the last tokens, or all if there are fewer.
     pub fn rollback(&mut self, tokens: usize) {
         for _ in 0..tokens {
             let Some(before) = self.before.pop() else { return };
@@ -114,23 +132,27 @@ impl Decoder {
         }
     }
 
-    /// The acceptor of the bytes.
+    /// The acceptor of the bytes below the tokens.
     pub fn acceptor(&mut self) -> &mut Acceptor {
         &mut self.acceptor
     }
 }
 
-/// Where nearly all may follow.
+/// A place where nearly all tokens may follow.
 #[derive(Clone, Copy, Debug)]
 enum Free {
-    /// So many bytes in.
-    Text { pos: usize },
-    /// So many bytes in, with room for at most so many.
-    Name { pos: usize, most: usize },
+    Text {
+        pos: usize,
+    },
+    /// `most`: the number of bytes that fit the name.
+    Name {
+        pos: usize,
+        most: usize,
+    },
 }
 
 impl Machine {
-    /// Whether the machine is in a text or a name, with room for any token.
+    /// The free text or name that the machine is in, if any token fits it.
     fn free_text(&self, longest: usize) -> Option<Free> {
         let state = self.state();
         let automaton = &self.context.automaton;
@@ -140,7 +162,7 @@ impl Machine {
             Op::Text { .. } if pos + longest <= MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => {
-                // Where a name of the greatest length is taken, one byte is kept to become another.
+                // If a name of the greatest length is taken, one byte is reserved to tell this one apart.
                 let bound = self.arenas.in_scope(state.scope).map(|(_, name)| name.len as usize);
                 let taken = automaton.taken.iter().map(|name| name.len());
                 let reserved = usize::from(bound.chain(taken).any(|len| len == MAX_NAME_CHARS));
@@ -154,7 +176,7 @@ impl Machine {
 }
 
 impl Machine {
-    /// The tokens that may follow where a text goes on.
+    /// Adds the tokens that continue or end a text.
     fn mask_text(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
         set.or(&tokens.text);
         if self.text_matters() {
@@ -168,7 +190,7 @@ impl Machine {
         }
         let tails = &tokens.text_tails;
         let mut open = tails.trie.alloc_token_set();
-        // Any character of a text: one is there where it ends.
+        // A text must have a character before it can end: take any.
         let before = self.bytes.len();
         if pos > 0 || self.push(b'a') {
             tails.trie.add_bias(&mut Stepper(self), &mut open, &[]);
@@ -182,7 +204,7 @@ impl Machine {
         }
     }
 
-    /// The tokens that may follow where most may not.
+    /// Adds the tokens that may follow where most may not.
     fn mask_few(&mut self, tokens: &Tokens, set: &mut SimpleVob) {
         let tree = &tokens.tree;
         let Some(root) = tree.root() else { return };
@@ -195,7 +217,7 @@ impl Machine {
         self.tokens_from(tree, root, is_left, set);
     }
 
-    /// The tokens that begin with a space, where a name follows it that has room for any of them; false where none does.
+    /// Adds the tokens that begin with a space before a name; `false` if no name follows.
     fn mask_spaced_name(&mut self, tokens: &Tokens, set: &mut SimpleVob) -> bool {
         let before = self.bytes.len();
         if self.context.automaton.subset.syntax == Syntax::Json || !self.push(b' ') {
@@ -209,12 +231,12 @@ impl Machine {
             set.or(names);
             tokens.spaced_name_ends.add_bias(&mut Stepper(self), set, b" ");
         }
-        // Behind a prefix the trie leaves the last bytes where they are.
+        // The trie leaves the bytes of the prefix on the machine.
         self.pop(self.bytes.len().saturating_sub(before));
         names.is_some()
     }
 
-    /// The range and the digits so far, where a number is what comes or goes on, whatever else may.
+    /// The range and the digits so far, if a number begins or goes on here.
     fn number(&self) -> Option<(NumberRange, Digits)> {
         let state = self.state();
         let automaton = &self.context.automaton;
@@ -229,7 +251,7 @@ impl Machine {
         }
     }
 
-    /// The tokens below a node of the tree, by those of its children that are asked for.
+    /// Adds the tokens below a node of the tree, through the children that are wanted.
     fn tokens_from(&mut self, tree: &Tree, node: &Node, wanted: impl Fn(&Node) -> bool, set: &mut SimpleVob) {
         let children = tree.children(node);
         let seen = if children.len() > MANY { self.candidate_bytes() } else { ByteSet::ALL };
@@ -240,7 +262,7 @@ impl Machine {
             if let Some(token) = child.token() {
                 set.allow_token(token);
             }
-            // A token has at most `LONGEST_TOKEN` bytes, and so many levels this goes down.
+            // A token has at most `LONGEST_TOKEN` bytes, which bounds the recursion.
             if child.has_children() {
                 self.below(tree, child, set);
             }
@@ -253,10 +275,10 @@ impl Machine {
     }
 }
 
-/// More children than this are worth a look at what may come.
+/// For more children than this the candidate bytes are computed first.
 const MANY: usize = 4;
 
-/// Steps through a trie of tokens.
+/// An adapter by which `toktrie` walks the machine through its trie.
 struct Stepper<'w>(&'w mut Machine);
 
 impl Recognizer for Stepper<'_> {

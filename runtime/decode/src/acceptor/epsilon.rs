@@ -1,13 +1,15 @@
-//! What is meant where no byte is taken: rules begin and end, names are bound, blocks are entered and left.
+//! Epsilon transitions: rule calls and returns, and the actions that open nodes, bind names, and enter and
+//! leave blocks.
 
 use std::sync::Arc;
 
 use super::event_log::{CallFrame, Event, Flags, Id, Name, State, UNSEEN};
 use super::machine::Machine;
-use crate::automaton::{Action, BlockRole, ConditionUse, NodeKind, Op, OpId};
+use crate::automaton::{Op, OpId};
+use crate::grammar::{Action, BlockRole, ConditionUse, NodeKind};
 
 impl Machine {
-    /// Goes on at `op`, past all that takes no byte.
+    /// Moves to `op` and on to the next operation that takes a byte.
     pub(super) fn follow_epsilon(&mut self, mut state: State, op: OpId) -> State {
         let context = Arc::clone(&self.context);
         state.op = op;
@@ -101,7 +103,7 @@ impl Machine {
                 let flags = flags.without(Flags::GOAL).without(Flags::NEGATED);
                 let flags = match asks {
                     ConditionUse::Goal => flags.with(Flags::GOAL),
-                    ConditionUse::Anything => flags,
+                    ConditionUse::Branch => flags,
                     ConditionUse::Wait if flags.has(Flags::SHARED) => {
                         let flags = flags.with(Flags::STRICT);
                         if self.verify_beside(state.event, &[]) { flags.with(Flags::LOOSE) } else { flags }
@@ -165,7 +167,7 @@ impl Machine {
         }
     }
 
-    /// Whether a reaction of the monitor of which everything but its body was said may be refuted by what the body does.
+    /// The body of the monitor that ends the log may refute one of the monitor's reactions.
     fn reacts_inside(&self, event: Id, flags: Flags) -> bool {
         let mut at = event;
         let mut nested = 0usize;

@@ -1,18 +1,23 @@
-//! What a machine remembers, in lists that only grow and are cut back: who called the rule, what was said, what was bound.
-//! A state of a machine names a place in each, so it is a small value, and going back is forgetting it.
+//! The event log of a machine and its other arenas: rule calls, events, bindings, word lists and lookahead
+//! states.
+//!
+//! Arenas only grow and are truncated. A [`State`] holds an index into each of them, so it is small, and
+//! going back is forgetting it.
 
-use crate::automaton::{BlockRole, Constant, NodeKind, OpId};
+use crate::automaton::OpId;
+use crate::grammar::{BlockRole, Constant, NodeKind};
 
-/// A place in an arena; the first entry of each is the bottom.
+/// An index into an arena; entry 0 is the bottom.
 pub(crate) type Id = u32;
 
-/// A place in a machine.
+/// A state of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
     pub(crate) op: OpId,
-    /// How far into it; of a number, what it has so far.
+    /// The number of bytes taken of the operation; of a number, its packed digits.
     pub(crate) pos: u32,
-    /// Of a word the range of the list that is left, of a choice what is known and what is open, of a number its digits.
+    /// Of a word, the range of its list that is left; of a choice, which alternatives are known and which
+    /// are open; of a number, its packed digits.
     pub(crate) lo: u32,
     pub(crate) hi: u32,
     pub(crate) frame: Id,
@@ -20,11 +25,11 @@ pub(crate) struct State {
     pub(crate) scope: Id,
 }
 
-/// `lo` and `hi` of a word or a choice at which nobody has looked yet.
+/// `lo` and `hi` of a word or a choice that was not evaluated yet.
 pub(crate) const UNSEEN: u32 = u32::MAX;
 
 impl State {
-    /// Of what may be left out: the state beside it, where it is.
+    /// The lookahead state of an optional part.
     pub(crate) fn lookahead(&self) -> Option<Id> {
         if self.lo == UNSEEN { None } else { (self.hi >> 2).checked_sub(1) }
     }
@@ -39,43 +44,43 @@ impl State {
     }
 }
 
-/// A rule that was called.
+/// The call frame of a rule.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CallFrame {
     pub(crate) below: Id,
     pub(crate) ret: OpId,
-    /// How many bytes follow its end at least.
+    /// The number of bytes that follow its end at least.
     pub(crate) rest: u32,
-    /// How many members it has.
+    /// The number of its members.
     pub(crate) count: u8,
-    /// How many blocks it is in, below the policy's own.
+    /// The number of blocks around it, without the policy's own.
     pub(crate) depth: u8,
-    /// How many of them are proved to a fixed point.
+    /// The number of those that are proved to a fixed point.
     pub(crate) fix: u8,
-    /// How many conditions it is in.
+    /// The number of conditions around it.
     pub(crate) conditions: u8,
     pub(crate) flags: Flags,
     pub(crate) slot: BlockRole,
-    /// What was bound where it began.
+    /// The scope at its beginning.
     pub(crate) scope: Id,
 }
 
-/// What is so in a rule and in all that it calls.
+/// Properties of a rule and of everything that it calls.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Flags(u8);
 
 impl Flags {
-    /// What a step does may refute what stands elsewhere: in another branch, or in a reaction.
+    /// The effects of a step may refute steps elsewhere: in another branch, or in a reaction.
     pub(crate) const SHARED: Self = Self(1);
-    /// In the body of a `try`.
+    /// The body of a `try`.
     pub(crate) const TRIED: Self = Self(2);
-    /// The condition has to be one that refutes nothing.
+    /// The condition must refute nothing.
     pub(crate) const STRICT: Self = Self(4);
-    /// Under one `not`.
+    /// The condition stands under one `not`.
     pub(crate) const NEGATED: Self = Self(8);
     /// The condition need not be observable.
     pub(crate) const GOAL: Self = Self(16);
-    /// A condition that tells nothing of the facts refutes nothing.
+    /// A condition that says nothing about facts refutes nothing.
     pub(crate) const LOOSE: Self = Self(32);
 
     pub(crate) fn has(self, flag: Self) -> bool {
@@ -91,66 +96,66 @@ impl Flags {
     }
 }
 
-/// Something that was said.
+/// An event of the log: the policy as its parser would report it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Event {
-    /// Something with parts begins.
+    /// A node begins.
     Open(NodeKind),
-    /// It ends.
+    /// The innermost node ends.
     Close,
     /// A word of the list of an operation.
     Word(OpId, u32),
-    /// A name that is bound.
+    /// A use of a binding.
     Bound(Id),
-    /// A text: these bytes of the machine.
+    /// A text: the start and length of its bytes.
     Text(u32, u32),
-    /// A new name: these bytes of the machine.
+    /// A new name: the start and length of its bytes.
     Name(u32, u32),
-    /// A number: units, and how many decimals they are.
+    /// A number: units of the last decimal, and the number of decimals.
     Number(i64, u8),
-    /// A value that needs no bytes.
+    /// A value without a word of its own.
     Constant(Constant),
-    /// A text that describes nothing, where any would do.
+    /// A text that describes no entity; any would do.
     AnyText,
-    /// Where the next step will stand.
+    /// The place of the next step.
     Hole,
-    /// Another condition follows beside the one before, of which all hold, or any.
+    /// Another condition follows, joined by `and` or `or`.
     Joined(NodeKind),
 }
 
-/// Something that was said, and what was said before.
+/// An entry of the event log.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogEntry {
     pub(crate) below: Id,
     pub(crate) event: Event,
-    /// The last event before the step of the policy's body in which this is.
+    /// The last event before the step of the body that contains this one.
     pub(crate) before: Id,
-    /// A hash of everything that was said up to here. What is said again after a way back has the same.
+    /// The hash of all events up to here; the same events after a rollback have the same hash.
     pub(crate) hash: u64,
 }
 
-/// A name that was bound.
+/// A binding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Name {
     pub(crate) below: Id,
-    /// Its bytes in the machine.
+    /// The start of its bytes.
     pub(crate) start: u32,
     pub(crate) len: u32,
     pub(crate) ty: u16,
 }
 
-/// The arenas.
+/// The arenas of one machine.
 #[derive(Clone, Debug)]
 pub(crate) struct Arenas {
     pub(crate) frames: Vec<CallFrame>,
     pub(crate) said: Vec<LogEntry>,
     pub(crate) names: Vec<Name>,
     pub(crate) lists: Vec<u32>,
-    /// What goes on where something was left out, beside the machine that wrote it.
+    /// The lookahead states.
     pub(crate) lookaheads: Vec<State>,
 }
 
-/// How long the arenas were.
+/// The lengths of the arenas at some moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArenaMark {
     frames: usize,
@@ -161,7 +166,7 @@ pub(crate) struct ArenaMark {
 }
 
 impl CallFrame {
-    /// Where nothing is open.
+    /// The frame below all rules.
     pub(crate) fn bottom() -> Self {
         Self {
             below: 0,
@@ -232,7 +237,7 @@ impl Arenas {
         id
     }
 
-    /// Says something in the same step of the body; `content` is a hash of it.
+    /// Appends an event within the same step of the body; `content` is its hash.
     pub(crate) fn record(&mut self, below: Id, event: Event, content: u64) -> Id {
         let (before, hash) = self.entry(below).map_or((0, 0), |said| (said.before, said.hash));
         let id = end(&self.said);
@@ -240,7 +245,7 @@ impl Arenas {
         id
     }
 
-    /// The last event of a step of the body: the next one begins another.
+    /// Appends the last event of a step of the body: the next event begins another step.
     pub(crate) fn record_step_end(&mut self, below: Id) -> Id {
         let id = self.record(below, Event::Close, LAST);
         if let Some(said) = self.said.get_mut(id as usize) {
@@ -274,17 +279,17 @@ impl Arenas {
         events
     }
 
-    /// The names from the latest on.
+    /// The bindings in scope, the latest first.
     pub(crate) fn in_scope(&self, scope: Id) -> impl Iterator<Item = (Id, &Name)> + '_ {
         let first = self.name(scope).map(|name| (scope, name));
         std::iter::successors(first, |(_, name)| self.name(name.below).map(|below| (name.below, below)))
     }
 }
 
-/// The content of the event that ends a step of the body.
+/// The hash of the event that ends a step of the body.
 const LAST: u64 = 0x6c61_7374;
 
-/// A hash with one thing more behind it (the finaliser of splitmix64).
+/// Extends a hash (the finaliser of splitmix64).
 pub(crate) fn mix(hash: u64, more: u64) -> u64 {
     let mut mixed = hash.rotate_left(17).wrapping_add(0x9e37_79b9_7f4a_7c15) ^ more;
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

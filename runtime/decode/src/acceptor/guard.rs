@@ -1,5 +1,4 @@
-//! Which choices are open: names in scope of the right type, calls that nothing refutes, endings that reach the goal,
-//! brackets that may close.
+//! Evaluation of guards: which alternatives and which words are open in the current state.
 
 use motet_compiler::MAX_FIXPOINTS;
 
@@ -7,7 +6,8 @@ use super::event_log::{Event, Flags, Id, State};
 use super::machine::{Machine, is_ruled_out};
 use super::oracle::{Argument, CallSite, MOST_SHARED};
 use super::word::BOUND;
-use crate::automaton::{BlockRole, BoundNames, Guard, NodeKind, Op, OpId, WordList, WordRole};
+use crate::automaton::{BoundNames, Op, OpId, WordList};
+use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
 use crate::subset::{MAX_CONDITION_DEPTH, MAX_STEPS};
 
 impl Machine {
@@ -16,13 +16,13 @@ impl Machine {
         CallSite { event, scope: state.scope, shared, tries: MOST_SHARED }
     }
 
-    /// Whether an alternative that is guarded like this is open.
+    /// Evaluates a guard.
     pub(crate) fn allows(&mut self, state: &State, guard: Guard) -> bool {
         let frame = self.frame(state.frame);
         let flags = frame.flags;
         let is_strict = flags.has(Flags::STRICT);
         let may_be_loose = !is_strict || flags.has(Flags::LOOSE);
-        // The last place of a block is for its end.
+        // The last step of a block is reserved for its ending.
         let has_room = usize::from(frame.count) + 1 < MAX_STEPS;
         let may_nest = has_room && usize::from(frame.depth) < self.context.automaton.subset.depth;
         let may_fix = may_nest && usize::from(frame.fix) < MAX_FIXPOINTS;
@@ -104,12 +104,12 @@ impl Machine {
         }
     }
 
-    /// Whether a block may end where it is.
+    /// The block may end here.
     fn may_close(&mut self, state: &State, slot: BlockRole, flags: Flags) -> bool {
         let close = [Event::Close];
         match slot {
             BlockRole::Body => self.may_be_done(state.event),
-            // What comes back to the head of a loop; a test may keep it away.
+            // The next iteration must not be refuted; a test may prevent it.
             BlockRole::Loop => {
                 self.may_iterate(state.event)
                     || (self.is_repeat(state.event)
@@ -127,7 +127,7 @@ impl Machine {
         }
     }
 
-    /// Whether the block that is open is the body of a `repeat`.
+    /// The open block is the body of a `repeat`.
     fn is_repeat(&self, event: Id) -> bool {
         let mut at = event;
         let mut closed = 0usize;
@@ -144,10 +144,10 @@ impl Machine {
         false
     }
 
-    /// Whether anything can be called, or anything with a result.
+    /// Some callable can be called; with `has_result`, one that has a result.
     fn can_call_something(&mut self, state: &State, has_result: bool) -> bool {
         let site = self.site(state, state.event);
-        // Policies take a proof of all their steps: they come last.
+        // Policies need a proof of all their steps: they come last.
         let context = std::sync::Arc::clone(&self.context);
         let results = context.automaton.signatures.callables.iter().map(|callable| callable.result.is_some());
         let callables = context.automaton.callables.iter().zip(0..).zip(results);
@@ -158,7 +158,7 @@ impl Machine {
         order.into_iter().any(|(_, callable)| self.can_be_called(callable, site))
     }
 
-    /// Every word of an operation, in the order of the list.
+    /// Every word of an operation, in the order of its list.
     pub(crate) fn words_of(&self, op: OpId, scope: Id, arg: Option<(usize, usize)>) -> Vec<Event> {
         let Op::Word(words) = self.context.automaton.op(op) else { return Vec::new() };
         let ruled_out = |index: u32| {
@@ -173,7 +173,7 @@ impl Machine {
         own.chain(self.bound_words(words, scope).map(Event::Bound)).collect()
     }
 
-    /// The names in scope that are among the words of a list.
+    /// The bindings in scope that are among the words of a list.
     fn bound_words<'w>(&'w self, words: &WordList, scope: Id) -> impl Iterator<Item = Id> + use<'w> {
         use motet_compiler::signature::Type;
         let automaton = &self.context.automaton;
@@ -191,7 +191,8 @@ impl Machine {
         self.arenas.in_scope(scope).filter(move |(_, name)| fits(name.ty)).map(|(id, _)| id)
     }
 
-    /// The words of an operation that are open, as a range of the list arena.
+    /// Evaluates the words of an operation; returns the open ones as a range of the list arena, sorted by
+    /// their bytes.
     pub(crate) fn list(&mut self, state: &State, words: &WordList) -> (u32, u32) {
         let mut call = match words.role {
             WordRole::Argument(_) => self.call_so_far(state.event),
@@ -290,12 +291,13 @@ impl Machine {
         (lo, u32::try_from(self.arenas.lists.len()).unwrap_or(u32::MAX))
     }
 
-    /// The kind of an entity.
+    /// The kind of an entity of the scene.
     fn kind_of(&self, entity: u16) -> Option<usize> {
         self.context.automaton.signatures.entities.get(usize::from(entity)).map(|(_, kind)| *kind)
     }
 
-    /// The kind of the entities of the list that is being written, or that was just written; none before the first.
+    /// The kind of the entities of the list that is being written or was just written; `None` before the
+    /// first.
     pub(crate) fn kind_of_list(&self, event: Id) -> Option<usize> {
         let mut at = event;
         while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
@@ -314,7 +316,7 @@ impl Machine {
         None
     }
 
-    /// The fluent of the condition that is being written, and how many arguments it has so far.
+    /// The fluent that is being written, and the number of its arguments so far.
     pub(super) fn fluent_so_far(&self, event: Id) -> Option<(u16, usize)> {
         let mut at = event;
         let mut given = 0;
@@ -329,7 +331,7 @@ impl Machine {
         None
     }
 
-    /// Whether it may depend on what the text that is being written says whether it can stand where it does.
+    /// The contents of the text that is being written may decide if it can stand there.
     pub(crate) fn text_matters(&mut self) -> bool {
         let state = self.state();
         let op = match self.context.automaton.op(state.op) {
@@ -344,7 +346,8 @@ impl Machine {
             || self.site_of(callable, site).is_none_or(|site| site.shared)
     }
 
-    /// Whether a text may be an argument of the call that is being written: what it describes may matter there.
+    /// A text can be an argument of the call that is being written; the entity that it describes may
+    /// matter.
     pub(crate) fn permits_text(&mut self, state: &State, text: Event) -> bool {
         let Some((callable, mut given, before)) = self.call_so_far(state.event) else { return true };
         let made = self.context.automaton.callables.get(usize::from(callable));
@@ -354,7 +357,7 @@ impl Machine {
             return true;
         }
         let Some(site) = self.site_of(callable, site) else { return false };
-        // A policy may ask what a text says.
+        // The needs of a policy may compare a text.
         let is_plain = made.is_some_and(|made| made.template.as_ref().is_none_or(|made| !made.compares()));
         let text = if is_plain { self.plain_text(text) } else { text };
         given.push(Argument::One(text));

@@ -1,38 +1,40 @@
-//! Whether what is being written can matter to what stands beside it. What runs at once, and what a monitor's reaction
-//! may do at any moment, is proved together; where the two speak of different fluents neither can refute the other, and
-//! that is seen without a proof.
+//! Independence of concurrent steps.
+//!
+//! Branches that run at once, and reactions that may run at any moment, are proved together. If two of them
+//! touch different fluents neither can refute the other, and no proof is needed.
 
 use super::event_log::{Event, Id};
 use super::machine::Machine;
-use crate::automaton::NodeKind;
+use crate::grammar::NodeKind;
 
-/// Something with parts, as far as it was said.
+/// A node that is still open.
 struct OpenNode {
     kind: NodeKind,
-    /// The fluents that it speaks of, as bits; several may share one.
+    /// The fluents that it mentions, as bits; several may share one.
     fluents: u64,
-    /// Of a `parallel` the fluents of its whole branches; of a monitor those of its whole reactions.
+    /// Of a `parallel`, the fluents of its finished branches; of a monitor, those of its finished
+    /// reactions.
     beside: u64,
-    /// Of a `parallel` what its whole branches use.
+    /// Of a `parallel`, the resources of its finished branches.
     taken: u64,
-    /// What it uses.
+    /// The resources that it uses.
     uses: u64,
-    /// Of a condition of a monitor, or of the monitor itself: what its reaction does.
+    /// Of a monitor or one of its conditions: the effect of its reaction.
     reacts: Reacts,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Reacts {
-    /// It leaves the policy, or only waits.
+    /// Leaves the policy, or only waits.
     Outside,
-    /// It runs something, or is done.
+    /// Runs steps, or is done.
     Inside,
-    /// It begins the body again.
+    /// Restarts the body.
     Again,
 }
 
 impl Machine {
-    /// Whether nothing that stands beside the place behind `event` can tell that `more` stands there.
+    /// Nothing concurrent to the place behind `event` depends on `more` standing there.
     pub(crate) fn is_independent(&self, event: Id, more: &[Event]) -> bool {
         let open = self.frames(event, more);
         open.windows(2).all(|pair| match pair {
@@ -43,7 +45,7 @@ impl Machine {
                     Reacts::Inside => inner.fluents & outer.beside == 0,
                     Reacts::Again => inner.fluents == 0,
                 },
-                // A reaction may run again in what it left.
+                // A reaction may run again in the state that it left.
                 (NodeKind::Resume, NodeKind::Block) => inner.fluents == 0,
                 _ => true,
             },
@@ -51,14 +53,14 @@ impl Machine {
         })
     }
 
-    /// What the branches use that stand beside those around an event.
+    /// The resources held by branches concurrent to an event.
     pub(crate) fn resources_taken(&self, event: Id) -> u64 {
         let open = self.frames(event, &[]);
         let parallel = open.iter().filter(|frame| frame.kind == NodeKind::Parallel);
         parallel.fold(0, |taken, frame| taken | frame.taken)
     }
 
-    /// All that is open behind `event` and `more`, the outermost first.
+    /// The open nodes behind `event` and `more`, the outermost first.
     fn frames(&self, last: Id, more: &[Event]) -> Vec<OpenNode> {
         let automaton = &self.context.automaton;
         let before = self.arenas.entry(last).map_or(0, |said| said.before);
@@ -101,7 +103,7 @@ impl Machine {
                         (NodeKind::Resume, NodeKind::When) => outer.reacts = Reacts::Inside,
                         (NodeKind::Done, NodeKind::When) => {
                             outer.reacts = Reacts::Inside;
-                            // The goal is asked for there.
+                            // `done` asks for the goal.
                             outer.fluents |= self.goal(last);
                         }
                         (NodeKind::When, NodeKind::Monitor) => {
@@ -119,7 +121,7 @@ impl Machine {
         open
     }
 
-    /// The fluents of the goal.
+    /// The fluents of the goal, as bits.
     fn goal(&self, event: Id) -> u64 {
         let automaton = &self.context.automaton;
         let (mut at, mut fluents) = (event, 0);

@@ -1,10 +1,10 @@
-//! Texts and names, letter by letter.
+//! Recognition of texts and of new names, letter by letter.
 
 use motet_syntax::Syntax;
 
 use super::event_log::{Event, Id, Name, State};
 use super::machine::Machine;
-use crate::automaton::NameUse;
+use crate::grammar::NameUse;
 use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS, is_text_char};
 
 impl Machine {
@@ -29,7 +29,7 @@ impl Machine {
 
     pub(super) fn name(&mut self, mut state: State, naming: NameUse, byte: u8) -> Option<State> {
         let next = state.op + 1;
-        // What a policy or a group is called is bound nowhere.
+        // The name of a policy or a sequence is bound nowhere.
         let scope = match naming {
             NameUse::Result(_) | NameUse::Item | NameUse::Let => state.scope,
             NameUse::Policy | NameUse::Group => 0,
@@ -45,7 +45,7 @@ impl Machine {
             }
             let ty = match naming {
                 NameUse::Result(ty) => Some(ty),
-                // It is no name of anything yet, but taken.
+                // It is not bound yet, but taken.
                 NameUse::Let => Some(u16::MAX),
                 NameUse::Policy | NameUse::Group | NameUse::Item => None,
             };
@@ -60,7 +60,7 @@ impl Machine {
             return None;
         }
         let pos = state.pos as usize;
-        // A name that is taken needs room to become another.
+        // A taken name needs room to become another one.
         let can_grow = pos + 1 < MAX_NAME_CHARS && self.fits(4, next, state.frame);
         if !can_grow {
             let can_end = pos < MAX_NAME_CHARS && self.fits(2, next, state.frame);
@@ -73,13 +73,13 @@ impl Machine {
         Some(state)
     }
 
-    /// The place of the last bytes of the machine.
+    /// The start and length of the last `count` bytes.
     fn written(&self, count: u32) -> Option<(u32, u32)> {
         let start = u32::try_from(self.bytes.len()).ok()?.checked_sub(count)?;
         Some((start, count))
     }
 
-    /// Whether a name, with one more byte behind it, is bound, or means something else.
+    /// A name, with one more byte behind it, is bound already or means something else.
     fn is_taken(&self, scope: Id, start: u32, len: u32, more: Option<u8>) -> bool {
         let bytes =
             |start: u32, len: u32| self.bytes.get(start as usize..(start + len) as usize).unwrap_or_default();

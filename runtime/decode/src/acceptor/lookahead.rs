@@ -1,4 +1,5 @@
-//! What may be left out: the machine goes on beside it, side by side with what is left out, for as long as both may be meant.
+//! Lookahead over optional parts: the machine follows a literal and the bytes behind its absence side by
+//! side until only one of them fits.
 
 use std::sync::Arc;
 
@@ -7,7 +8,7 @@ use super::machine::{Machine, StateRef};
 use crate::automaton::{Op, OptionalPart};
 
 impl Machine {
-    /// A state where it is kept.
+    /// The stored state behind a reference.
     pub(super) fn state_mut(&mut self, origin: StateRef) -> Option<&mut State> {
         match origin {
             StateRef::Current => self.states.last_mut(),
@@ -16,8 +17,7 @@ impl Machine {
         }
     }
 
-    /// Cuts the arenas back to what they were before something was tried; what is known of the last state, and of those
-    /// beside it, is kept.
+    /// Truncates the arenas to a mark, keeping the findings about the last state and its lookahead states.
     pub(crate) fn restore(&mut self, mark: ArenaMark) {
         let context = Arc::clone(&self.context);
         let (mut origin, mut lists) = (StateRef::Current, Vec::new());
@@ -31,7 +31,7 @@ impl Machine {
                 Op::Optional(_) => match state.lookahead() {
                     Some(id) if (id as usize) < mark.lookaheads => origin = StateRef::Lookahead(id),
                     Some(_) => {
-                        // What was said on the way there is forgotten.
+                        // The log on the way there is gone.
                         self.state_mut(origin).into_iter().for_each(State::drop_lookahead);
                         break;
                     }
@@ -52,7 +52,7 @@ impl Machine {
         }
     }
 
-    /// What may be left out, and what goes on where it is: side by side for as long as both may be meant.
+    /// Takes a byte of an optional part, of what follows its absence, or of both.
     pub(super) fn maybe(
         &mut self,
         state: State,
@@ -80,14 +80,15 @@ impl Machine {
         Some(state)
     }
 
-    /// Whether what may be left out may be there.
+    /// The optional part may be present.
     pub(super) fn has_literal(&mut self, state: &State, origin: StateRef, maybe: &OptionalPart) -> bool {
         state.pos > 0 || self.is_open(state, origin, 1, (maybe.bytes.len(), maybe.then), maybe.guard)
     }
 
-    /// The state where it is left out and as many bytes were taken as of it; none where that leads nowhere.
+    /// The state in which the part is absent and as many bytes were taken as of the part; `None` if absence
+    /// leads nowhere.
     pub(super) fn lookahead(&mut self, state: &State, origin: StateRef, maybe: &OptionalPart) -> Option<Id> {
-        // What is kept may know more than the copy.
+        // The stored state may know more than the copy.
         let known = self.state_mut(origin).map_or(*state, |state_mut| *state_mut);
         if known.lookahead().is_some() || state.pos > 0 {
             return known.lookahead();

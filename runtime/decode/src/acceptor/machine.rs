@@ -1,48 +1,49 @@
-//! The machine itself: a byte in, a state out, or none where no policy goes on like that.
+//! The pushdown machine that runs the automaton: takes a byte and moves to the next state, or refuses it.
 
 use std::sync::Arc;
 
 use motet_compiler::Session;
 use rustc_hash::FxHashSet;
 
-use super::digits::Digits;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
 use super::memo::Memo;
 use super::oracle::Oracle;
 use super::word::WordStep;
-use crate::automaton::{Automaton, Guard, Meaning, Op, OpId};
+use crate::automaton::{Automaton, Meaning, Op, OpId};
+use crate::grammar::Guard;
+use crate::subset::Digits;
 
-/// ByteSet that are kept free beside the shortest completion: where a condition has to be one that refutes nothing, the
-/// shortest of all may not do, and it may have to stand under `not`.
+/// Bytes reserved beyond the shortest completion: a condition that may refute nothing can need more than
+/// the shortest one, and a `not` around it.
 const SLACK: usize = 16;
 
-/// What all machines of one session share.
+/// The part that all machines of one session share.
 #[derive(Debug)]
 pub(crate) struct Context {
     pub(crate) automaton: Arc<Automaton>,
     pub(crate) session: Session,
-    /// Callables and entities of which a motion query found that there is no motion.
+    /// Pairs of a callable and an entity for which a motion query found no motion.
     pub(crate) infeasible: FxHashSet<(usize, u16)>,
     pub(crate) memo: Memo,
 }
 
-/// Where a state is kept, so that what is found of it can be kept there too.
+/// The place where a state is stored, so that findings about it can be stored there too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum StateRef {
-    /// As the last of the machine.
+    /// The last state of the machine.
     Current,
-    /// Beside it, where something was left out.
+    /// A lookahead state beside it.
     Lookahead(Id),
-    /// Nowhere.
+    /// A copy that is not stored.
     Detached,
 }
 
-/// A machine through the automaton.
+/// A run of the automaton over one policy. Going back is truncating its lists.
 #[derive(Clone, Debug)]
 pub(crate) struct Machine {
     pub(crate) context: Arc<Context>,
     pub(crate) arenas: Arenas,
-    /// The state before each byte, and after the last.
+    /// The state before each byte, and the one after the last.
     pub(crate) states: Vec<State>,
     pub(crate) bytes: Vec<u8>,
     pub(crate) budget: usize,
@@ -50,7 +51,7 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// A machine that has taken nothing yet; none where not even the shortest policy has at most `budget` bytes.
+    /// A machine at the start; `None` if not even the shortest policy fits `budget` bytes.
     pub(crate) fn new(context: Arc<Context>, budget: usize) -> Option<Self> {
         let start = context.automaton.start;
         let least = context.automaton.rest(start) as usize + SLACK;
@@ -76,12 +77,12 @@ impl Machine {
         self.arenas.frame(id).copied().unwrap_or_else(CallFrame::bottom)
     }
 
-    /// Whether the bytes so far are a whole policy.
+    /// The bytes so far are a whole policy.
     pub(crate) fn is_accepting(&self) -> bool {
         matches!(self.context.automaton.op(self.state().op), Op::Accept)
     }
 
-    /// Takes a byte, where one may follow.
+    /// Takes a byte if it may come next.
     pub(crate) fn push(&mut self, byte: u8) -> bool {
         match self.advance(self.state(), StateRef::Current, byte) {
             Some(next) => {
@@ -93,7 +94,7 @@ impl Machine {
         }
     }
 
-    /// Forgets the last bytes.
+    /// Takes back the last `count` bytes.
     pub(crate) fn pop(&mut self, count: usize) {
         let state_mut = self.bytes.len().saturating_sub(count);
         self.bytes.truncate(state_mut);
@@ -104,7 +105,7 @@ impl Machine {
         self.arenas.mark()
     }
 
-    /// The byte that must come next, where there is only one.
+    /// The only byte that may come next, if there is only one.
     pub(crate) fn only_byte(&mut self) -> Option<u8> {
         self.only_byte_of(self.state(), StateRef::Current)
     }
@@ -169,7 +170,7 @@ impl Machine {
         only
     }
 
-    /// Whether it is seen at once that a byte does not follow: most that are tried do not.
+    /// Refuses a byte without evaluating guards; most bytes that are tried end here.
     fn refuses(&self, state: &State, byte: u8) -> bool {
         let pos = state.pos as usize;
         match self.context.automaton.op(state.op) {
@@ -185,7 +186,7 @@ impl Machine {
         }
         let context = Arc::clone(&self.context);
         let automaton = &context.automaton;
-        // A number ends, and a fork leads on, without a byte of their own.
+        // The end of a number, and a fork, take no byte: they go on in this loop.
         loop {
             match automaton.op(state.op) {
                 Op::Literal(bytes) => {
@@ -266,13 +267,13 @@ impl Machine {
         }
     }
 
-    /// Whether so many bytes more fit, with all that has to follow.
+    /// So many more bytes fit the budget, with everything that has to follow.
     pub(super) fn fits(&self, more: usize, op: OpId, frame: Id) -> bool {
         let rest = self.context.automaton.rest(op) as usize + self.frame(frame).rest as usize;
         self.bytes.len() + more + rest + SLACK <= self.budget
     }
 
-    /// Whether an alternative of a choice is open; what was found is kept with the state.
+    /// Evaluates an alternative of a choice and caches the answer with the state.
     pub(super) fn is_open(
         &mut self,
         state: &State,
@@ -285,7 +286,7 @@ impl Machine {
             return state.hi & bit != 0;
         }
         let is_open = self.fits(len, to, state.frame) && self.allows(state, guard);
-        // The state may be the one of a fork or of a number that has just ended, which is kept nowhere.
+        // The state behind a fork or a number that just ended is not stored.
         if let Some(top) = self.state_mut(origin) {
             let (known, open) = if top.lo == UNSEEN { (0, 0) } else { (top.lo, top.hi) };
             top.lo = known | bit;
@@ -295,7 +296,7 @@ impl Machine {
     }
 }
 
-/// Whether a word of a list is a value that a motion query ruled out.
+/// A word is an argument that a motion query ruled out.
 pub(crate) fn is_ruled_out(context: &Context, callable: usize, arg: usize, meaning: Meaning) -> bool {
     let Meaning::Entity(entity) = meaning else { return false };
     let target = context.automaton.callables.get(callable).and_then(|callable| callable.target);

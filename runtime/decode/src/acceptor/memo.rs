@@ -1,5 +1,5 @@
-//! What was asked before: the answers of the checker, by everything that they depend on. All machines of a session share them,
-//! so a question that comes again, behind a token that crosses a choice or after a way back, costs a look-up.
+//! A memo of the checker's answers, keyed by hashes of everything that they depend on. All machines of a
+//! session share it, so a question that comes again, after a rollback or for another token, costs a lookup.
 
 use std::hash::{Hash, Hasher};
 use std::sync::{Mutex, PoisonError};
@@ -9,33 +9,33 @@ use rustc_hash::{FxHashMap, FxHasher};
 use super::event_log::{Event, Id, mix};
 use super::machine::Machine;
 
-/// Answers beyond this many are forgotten, all at once.
+/// The memo is cleared when it has this many answers.
 const MOST: usize = 1 << 18;
 
-/// Answers, by hashes of what was said and of what was asked.
+/// Answers by hashes of the log and the question.
 #[derive(Debug, Default)]
 pub(crate) struct Memo(Mutex<FxHashMap<u64, bool>>);
 
-/// What was asked of a place.
+/// A question about a place of the log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Question {
-    /// Whether the step of the body is no error.
+    /// The current step is no error.
     Verify = 1,
-    /// Whether the policy may be done.
+    /// The policy may be done.
     Done,
-    /// Whether a call can be completed.
+    /// A call can be completed.
     Call,
-    /// The same, beside what runs at once.
+    /// A call beside concurrent steps can be completed.
     SharedCall,
-    /// Whether nothing refutes a call at its place, with the arguments so far.
+    /// Nothing refutes a call at its place, with the arguments so far.
     Permitted,
-    /// Whether a test keeps a loop's back edge from being wrong.
+    /// A test keeps a loop's back edge from being refuted.
     Test,
-    /// Whether a loop may come round where its body ends.
+    /// A loop may iterate.
     Round,
-    /// Whether what can be called was asked of all that runs at once.
+    /// All callables were probed in a batch.
     Probed,
-    /// Whether all is well beside a loop where some test leaves certain facts.
+    /// Everything beside a loop is right with a test that leaves certain facts.
     Beside,
 }
 
@@ -54,9 +54,9 @@ impl Memo {
 }
 
 impl Machine {
-    /// Says something: puts it behind what was said.
+    /// Appends an event to the log.
     pub(crate) fn record(&mut self, below: Id, event: Event) -> Id {
-        // What a policy is called tells nothing, unless it is called like one that its steps could call.
+        // The name of the policy decides nothing, unless a callable has the same name.
         let is_title =
             matches!(event, Event::Name(start, len) if below == 0 && !self.is_callable(start, len));
         let content = if is_title { 0 } else { self.content(event) };
@@ -68,7 +68,7 @@ impl Machine {
         self.context.automaton.signatures.callables.iter().any(|callable| callable.name.as_bytes() == name)
     }
 
-    /// A hash of what an event says, wherever in the machine its bytes stand.
+    /// The hash of an event's content, wherever its bytes stand.
     fn content(&self, event: Event) -> u64 {
         let mut hasher = FxHasher::default();
         let mut spelled = |sort: u8, start: u32, len: u32| {
@@ -95,7 +95,7 @@ impl Machine {
         mix(hasher.finish(), 0)
     }
 
-    /// A question about what was said up to an event, with `more` behind it.
+    /// The key of a question about the log up to an event, with `more` behind it.
     pub(crate) fn key(&self, question: Question, event: Id, more: impl IntoIterator<Item = Event>) -> u64 {
         let said =
             more.into_iter().fold(self.arenas.hash(event), |hash, event| mix(hash, self.content(event)));
@@ -107,7 +107,7 @@ impl Machine {
         self.context.memo.get(key)
     }
 
-    /// The answer to a question, asked only where it is not known.
+    /// The answer to a question; asks the checker only if it is not known.
     pub(crate) fn answer(&mut self, key: u64, ask: impl FnOnce(&mut Self) -> bool) -> bool {
         if let Some(answer) = self.context.memo.get(key) {
             return answer;

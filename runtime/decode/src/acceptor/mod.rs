@@ -1,9 +1,12 @@
-//! The acceptor: bytes in, and whether a policy can go on like that.
+//! The acceptor: the automaton together with the checker, fed byte by byte ([`Acceptor`]) or token by token
+//! ([`Decoder`]).
+//!
+//! [`machine`] runs the automaton and keeps its log of events; [`oracle`] asks the checker what the log
+//! means; the other modules each answer one question about the next byte.
 
 mod batch_probe;
 mod byte_set;
 mod decoder;
-mod digits;
 mod epsilon;
 mod event_log;
 mod guard;
@@ -25,28 +28,30 @@ use motet_compiler::Session;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Syntax};
 
 pub use self::decoder::Decoder;
-pub(crate) use self::digits::Digits;
 use self::machine::{Context, Machine};
 use self::memo::Memo;
 use crate::automaton::Automaton;
+use crate::grammar::Grammar;
 use crate::subset::Subset;
 
-/// What all acceptors of one session share: made once for a robot, a scene and a state.
+/// The shared, immutable part of all acceptors of one session: the automaton, the session, and the memo of
+/// the checker's answers. Made once for a robot, a scene and a state. Cloning is cheap, and threads may
+/// share it.
 #[derive(Clone, Debug)]
 pub struct AcceptorFactory(Arc<Context>);
 
 impl AcceptorFactory {
-    /// Compiles the automaton of a session's policies. O(declarations × entities).
+    /// Lowers the grammar of a session's policies. O(declarations × entities).
     #[must_use]
     pub fn new(session: &Session, subset: Subset) -> Self {
         Self::with_verdicts(session, subset, &[])
     }
 
-    /// The same, where motion queries found for some callables and entities that there is no motion: such an entity is then
-    /// no argument for what the motion of the callable is about. What is not known is left out.
+    /// As [`new`](Self::new), excluding arguments for which a motion query found no motion: `infeasible`
+    /// lists pairs of a callable and an entity. Unknown names are ignored.
     #[must_use]
     pub fn with_verdicts(session: &Session, subset: Subset, infeasible: &[(&str, &str)]) -> Self {
-        let automaton = Automaton::new(session, subset);
+        let automaton = Automaton::new(session, &Grammar::new(&session.signatures(), subset));
         let number = |(callable, entity): &(&str, &str)| {
             let signatures = &automaton.signatures;
             let callable = signatures.callables.iter().position(|known| known.name == *callable)?;
@@ -58,8 +63,8 @@ impl AcceptorFactory {
         Self(Arc::new(Context { automaton, session, infeasible, memo }))
     }
 
-    /// The same for another session, without verdicts. O(1) where that came from this one's by [`Session::elsewhere`] and has
-    /// the same entities: the automaton does not depend on what is true.
+    /// A factory for another session, without verdicts. O(1) if that session came from this one's by
+    /// [`Session::elsewhere`] and has the same entities, because the automaton does not depend on facts.
     #[must_use]
     pub fn elsewhere(&self, session: &Session) -> Self {
         let automaton = &self.0.automaton;
@@ -70,32 +75,33 @@ impl AcceptorFactory {
         Self(Arc::new(Context { automaton, session, infeasible: Default::default(), memo: Memo::default() }))
     }
 
-    /// An acceptor of a policy of at most `budget` bytes; none where no policy is that short.
+    /// An acceptor for a policy of at most `budget` bytes; `None` if no policy is that short.
     #[must_use]
     pub fn acceptor(&self, budget: usize) -> Option<Acceptor> {
         Machine::new(Arc::clone(&self.0), budget).map(|machine| Acceptor { machine })
     }
 }
 
-/// What may follow in a policy that is being written, byte by byte.
+/// Follows a policy byte by byte and knows which bytes may come next, such that the policy can still be
+/// completed and will check without an error. One policy, one thread at a time; clone it to branch.
 #[derive(Clone, Debug)]
 pub struct Acceptor {
     machine: Machine,
 }
 
 impl Acceptor {
-    /// Takes bytes, as many as may follow; how many were taken.
+    /// Takes bytes until one may not follow; returns how many it took.
     pub fn accept(&mut self, bytes: &[u8]) -> usize {
         bytes.iter().take_while(|byte| self.machine.push(**byte)).count()
     }
 
-    /// Forgets the last bytes.
+    /// Takes back the last `count` bytes.
     pub fn forget(&mut self, count: usize) {
         self.machine.pop(count);
     }
 
-    /// The bytes that must come next, whatever is meant: none where there is a choice. A host can write them without asking
-    /// the model.
+    /// The bytes that must come next whatever the model means; empty if there is a choice. A host can
+    /// append them without asking the model.
     #[must_use]
     pub fn forced(&mut self) -> Vec<u8> {
         let (before, mark) = (self.machine.bytes.len(), self.machine.mark());
@@ -110,8 +116,8 @@ impl Acceptor {
         forced
     }
 
-    /// What the checker says of bytes that may not follow: of the policy so far with them behind it, closed where it is
-    /// open. Empty where it is only the spelling that is not the one of the subset, or where they may follow.
+    /// The checker's errors for the policy so far with `bytes` behind it, closed where it is open. Empty if
+    /// the bytes may follow, or if only their spelling is not canonical.
     #[must_use]
     pub fn why_not(&self, bytes: &[u8]) -> Vec<Diagnostic> {
         let mut attempt = self.clone();
@@ -128,19 +134,19 @@ impl Acceptor {
         diagnostics.filter(|diagnostic| diagnostic.severity == Severity::Error).collect()
     }
 
-    /// Whether the bytes so far are a whole policy.
+    /// The bytes so far are a whole policy.
     #[must_use]
     pub fn is_accepting(&self) -> bool {
         self.machine.is_accepting()
     }
 
-    /// The bytes so far.
+    /// The bytes taken so far.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.machine.bytes
     }
 
-    /// The bytes that may follow next.
+    /// The bytes that may come next, in ascending order.
     pub fn next_bytes(&mut self) -> Vec<u8> {
         let mark = self.machine.mark();
         let (mut found, seen) = (Vec::new(), self.machine.candidate_bytes());
@@ -150,13 +156,13 @@ impl Acceptor {
                 found.push(byte);
             }
         }
-        // What the state itself was found to allow stays.
+        // The facts found about the current state stay.
         self.machine.restore(mark);
         found
     }
 }
 
-/// A policy that breaks off, with its strings, brackets and braces closed.
+/// Closes the strings, brackets and braces of a policy that breaks off.
 fn closed(text: &str, form: Syntax) -> String {
     let (mut open, mut in_string, mut escaped) = (Vec::new(), false, false);
     for character in text.chars() {

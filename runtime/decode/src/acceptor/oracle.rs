@@ -1,5 +1,8 @@
-//! What the checker says of a place of a machine. Two drafts follow the machine: one stands where the next step will stand and
-//! is asked of calls, the other is asked whether steps that are closed for the time being are errors.
+//! The checker as the machine asks it: may this call stand here, is this step an error, may the policy be
+//! done.
+//!
+//! Two incremental proofs follow the machine ([`ProofCursor`]). One stands where the next step will stand
+//! and judges calls; the other verifies whole steps, closed for the time being.
 
 use motet_compiler::Session;
 use motet_compiler::draft::{Draft, Test, Value};
@@ -9,46 +12,47 @@ use super::event_log::{Event, Id, mix};
 use super::machine::Machine;
 use super::memo::Question;
 use super::proof_cursor::{ProofCursor, Transcript};
-use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+use crate::automaton::{Automaton, Meaning, Op};
+use crate::grammar::{Constant, NodeKind};
 
-/// The drafts of a machine, and how far they are.
+/// The incremental proofs of a machine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Oracle {
-    /// Oracle of calls.
+    /// Judges calls.
     place: ProofCursor,
-    /// Oracle of whole steps.
+    /// Verifies whole steps.
     pub(super) verifier: ProofCursor,
-    /// The hash of what was said up to where the first of them stands.
+    /// The hash of the log up to where `place` stands.
     stands: Option<u64>,
 }
 
-/// Where a call takes a proof of all that runs at once, so many values are tried of the argument behind those that are given, of
-/// values that nothing refutes at the place; of those behind it one. What is open here is open when its turn comes, so what is
-/// begun can still be completed.
+/// Number of values tried for the next argument of a call that must be proved together with concurrent
+/// steps; for each argument behind that, one value is tried. The values are those that nothing refutes
+/// locally. An argument that is open here is open when its turn comes, so every call that is begun can be
+/// completed.
 pub(super) const MOST_SHARED: usize = 3;
 
-/// An argument that is tried.
+/// An argument of a call that is tried.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Argument {
-    /// A value.
     One(Event),
-    /// A list of this one value.
+    /// A list of one value.
     List(Event),
 }
 
-/// Where a call is tried: the event before it, and what is bound there.
+/// The place of a call: the event before it and the scope.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CallSite {
     pub(crate) event: Id,
     pub(crate) scope: Id,
-    /// Whether what the call does may refute what stands elsewhere.
+    /// The effects of the call may refute steps elsewhere.
     pub(crate) shared: bool,
-    /// How many values of the next argument are tried where it may.
+    /// The number of values tried for the next argument, if `shared`.
     pub(crate) tries: usize,
 }
 
 impl Machine {
-    /// Whether the step of the body that is being written is no error, with `more` behind what was said and closed.
+    /// Verifies the current step of the body with `more` appended to the log and everything closed.
     pub(crate) fn verify(&mut self, event: Id, more: &[Event]) -> bool {
         let key = self.key(Question::Verify, event, more.iter().copied());
         self.answer(key, |machine| {
@@ -67,12 +71,13 @@ impl Machine {
         })
     }
 
-    /// Whether what stands beside the place behind `event` is no error either, with `more` at the place.
+    /// As [`verify`](Self::verify), skipping the proof if `more` is independent of everything that runs
+    /// concurrently.
     pub(crate) fn verify_beside(&mut self, event: Id, more: &[Event]) -> bool {
         self.is_independent(event, more) || self.verify(event, more)
     }
 
-    /// The draft where the next step will stand, behind `event`.
+    /// The proof at the place of the next step, behind `event`.
     fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session)> {
         let before = self.arenas.entry(event).map_or(0, |said| said.before);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
@@ -93,14 +98,15 @@ impl Machine {
         Some((self.oracle.place.draft.as_mut()?, &self.context.session))
     }
 
-    /// What a test with this fluent and these arguments tells at the end of a loop's body, which is behind `event`.
+    /// Evaluates a loop test, a fluent with arguments, at the end of the loop's body, which is behind
+    /// `event`.
     pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> Test {
         let values = args.iter().map(|event| match meaning(&self.context.automaton, *event) {
             Some(Meaning::Any) => Some(None),
             Some(meaning) => Some(Some(meaning.value())),
             None => None,
         });
-        // A name may be one of several entities.
+        // A binding may stand for one of several entities.
         let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
         let context = std::sync::Arc::clone(&self.context);
         let Some(name) =
@@ -111,8 +117,9 @@ impl Machine {
         self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
     }
 
-    /// Whether the loop whose body ends behind `event` may come round, as far as its own steps tell. Its test is a fluent, whether
-    /// it stands under `not`, and its arguments. Where it may, a number that tests share which leave the same facts.
+    /// Lets a loop iterate, as far as its own steps tell; its body ends behind `event`. The test is a
+    /// fluent, whether it stands under `not`, and its arguments. Returns a number shared by tests that
+    /// leave the same facts, or `None` if the next iteration is refuted.
     pub(crate) fn permits_round(&mut self, event: Id, test: Option<(u16, bool, &[Event])>) -> Option<u64> {
         let context = std::sync::Arc::clone(&self.context);
         let Some((fluent, negated, args)) = test else {
@@ -130,7 +137,7 @@ impl Machine {
         self.place(event).and_then(|(draft, session)| draft.permits_round(session, test))
     }
 
-    /// Whether the policy may be done where the next step will stand.
+    /// The policy may be done where the next step will stand.
     pub(crate) fn may_be_done(&mut self, event: Id) -> bool {
         let key = self.key(Question::Done, event, None);
         self.answer(key, |machine| {
@@ -138,7 +145,7 @@ impl Machine {
         })
     }
 
-    /// Where a call can be tried; none where what runs at once uses what it uses.
+    /// The site of a call; `None` if a concurrent branch holds a resource that the callable needs.
     pub(crate) fn site_of(&self, callable: u16, site: CallSite) -> Option<CallSite> {
         let made = self.context.automaton.callables.get(usize::from(callable))?;
         if !site.shared {
@@ -149,7 +156,7 @@ impl Machine {
         is_free.then(|| CallSite { shared: !self.is_independent(site.event, &call), ..site })
     }
 
-    /// Whether a callable can be called with some arguments.
+    /// Some arguments complete a call of the callable.
     pub(crate) fn can_be_called(&mut self, callable: u16, site: CallSite) -> bool {
         let Some(own) = self.site_of(callable, site) else { return false };
         if own.shared {
@@ -158,7 +165,7 @@ impl Machine {
         self.completes_call(callable, &mut Vec::new(), own)
     }
 
-    /// Whether a call can be completed from the arguments that are given.
+    /// Some arguments complete a call whose first arguments are given.
     pub(crate) fn completes_call(
         &mut self,
         callable: u16,
@@ -185,7 +192,7 @@ impl Machine {
             return !site.shared || self.verify(site.event, &events);
         };
         for (tried, option) in options.into_iter().enumerate() {
-            // Where the first does not do, it may be that none does.
+            // If the first value fails, perhaps none can succeed: one proof tells.
             if tried == 1
                 && made.primitive.is_none()
                 && !self.place(site.event).is_some_and(|(draft, session)| {
@@ -204,7 +211,7 @@ impl Machine {
         false
     }
 
-    /// The arguments of a call, as many as are given, where nothing refutes it at its place.
+    /// The arguments given so far as values of the checker; `None` if the call is refuted at its place.
     fn permitted(&mut self, callable: u16, given: &[Argument], site: CallSite) -> Option<Vec<Option<Value>>> {
         let context = std::sync::Arc::clone(&self.context);
         let made = context.automaton.callables.get(usize::from(callable))?;
@@ -221,7 +228,7 @@ impl Machine {
             })
         };
         let permits = if site.shared {
-            // It is asked of a value when that is picked, and again when it is tried.
+            // Asked once when a value is picked and again when it is tried.
             let key = self.key(Question::Permitted, site.event, of_call(callable, given));
             self.answer(key, ask)
         } else {
@@ -230,8 +237,8 @@ impl Machine {
         permits.then_some(args)
     }
 
-    /// The call that is the first to be asked of all that runs at once, with these arguments and some behind them: nothing
-    /// refutes it at its place.
+    /// The first completion of a call that nothing refutes at its place: the best candidate for a proof
+    /// with concurrent steps.
     pub(super) fn likely_call(
         &mut self,
         callable: u16,
@@ -250,7 +257,7 @@ impl Machine {
         })
     }
 
-    /// A text, or what stands for any where it describes nothing and so is as good as any other that does not.
+    /// A text, or [`Event::AnyText`] if it describes no entity and so is as good as any other.
     pub(crate) fn plain_text(&self, text: Event) -> Event {
         let Event::Text(start, len) = text else { return text };
         let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
@@ -261,7 +268,7 @@ impl Machine {
         }
     }
 
-    /// What is tried as an argument; none behind the last.
+    /// The values to try for the next argument; `None` behind the last.
     fn options(&mut self, callable: u16, given: &mut Vec<Argument>, site: CallSite) -> Option<Vec<Argument>> {
         let index = usize::from(callable);
         let context = std::sync::Arc::clone(&self.context);
@@ -270,7 +277,7 @@ impl Machine {
         if !site.shared {
             return Some(options);
         }
-        // Names of the policy's own stand last, and are what is meant more often.
+        // Bindings stand last in the list and are meant more often.
         let mut tried = Vec::with_capacity(site.tries);
         for option in options.into_iter().rev() {
             given.push(option);
@@ -285,7 +292,8 @@ impl Machine {
         Some(tried)
     }
 
-    /// What can be tried as an argument: every word, and one of all values between which no contract tells.
+    /// Candidate values of an argument: every word, and one representative where no contract tells values
+    /// apart.
     fn values_of(&self, callable: usize, place: usize, ty: &Type, site: CallSite) -> Vec<Argument> {
         let made = self.context.automaton.callables.get(callable);
         let word = made.and_then(|made| made.words.get(place).copied().flatten());
@@ -316,7 +324,7 @@ impl Machine {
         }
     }
 
-    /// A value that is tried, as the checker knows it.
+    /// A candidate as a value of the checker.
     fn value_of(&mut self, given: Argument, site: CallSite) -> Option<Value> {
         let event = match given {
             Argument::List(_) => return Some(Value::unknown()),
@@ -342,7 +350,7 @@ impl Machine {
         })
     }
 
-    /// The arguments of the call that is being written, and the place before it.
+    /// The call that is being written: its callable, the arguments so far, and the event before it.
     pub(crate) fn call_so_far(&self, event: Id) -> Option<(u16, Vec<Argument>, Id)> {
         let mut given = Vec::new();
         let mut at = event;
@@ -353,7 +361,7 @@ impl Machine {
                     given.reverse();
                     return Some((callable, given, at));
                 }
-                // A list: nothing depends on what is in it.
+                // The contents of a list decide nothing.
                 Event::Close => {
                     while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
                         at = said.below;
@@ -370,7 +378,7 @@ impl Machine {
     }
 }
 
-/// A call as it is said.
+/// The events of a call.
 fn of_call(callable: u16, given: &[Argument]) -> impl Iterator<Item = Event> {
     let open = Event::Open(NodeKind::Do(callable));
     let args = given.iter().flat_map(|given| match given {
@@ -380,7 +388,7 @@ fn of_call(callable: u16, given: &[Argument]) -> impl Iterator<Item = Event> {
     std::iter::once(open).chain(args.flatten()).chain([Event::Close])
 }
 
-/// What a word means.
+/// The meaning of a word event.
 pub(super) fn meaning(automaton: &Automaton, event: Event) -> Option<Meaning> {
     let Event::Word(op, index) = event else { return None };
     let Op::Word(words) = automaton.op(op) else { return None };

@@ -1,4 +1,4 @@
-//! Pieces of abstract syntax without places, and what stands in for those that were not written yet.
+//! Pieces of syntax trees without spans, and placeholders for parts that were not written yet.
 
 use motet_syntax::Span;
 use motet_syntax::ast::{Arg, Block, End, EndKind, Expr, ExprKind, Name, Step, StepKind};
@@ -25,7 +25,7 @@ pub(super) fn fail() -> Step {
     Step { kind: StepKind::End(end(EndKind::Fail)), span: Span::default() }
 }
 
-/// A block that no way leads out of.
+/// A block that no path leaves: it ends with `fail`.
 pub(super) fn closed(mut steps: Vec<Step>) -> Block {
     steps.push(fail());
     Block { steps, span: Span::default() }

@@ -1,4 +1,4 @@
-//! Drafts that follow a machine: from what was said to the steps of a policy that the checker has proved.
+//! Incremental proofs that follow the machine: events become steps, and the checker proves them one by one.
 
 use motet_compiler::draft::Draft;
 use motet_syntax::ast::{self, Policy, Step};
@@ -8,17 +8,17 @@ use super::event_log::{Arenas, Event, Id};
 use super::machine::Context;
 use super::step_builder::Builder;
 
-/// A draft that follows a machine.
+/// An incremental proof that follows a machine. Steps that the log shares with the last call are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ProofCursor {
     pub(super) draft: Option<Draft>,
-    /// The hash of what was said up to the end of what stands before the steps.
+    /// The hash of the log up to the first step.
     head: u64,
-    /// The same of each step.
+    /// The hash of the log up to the end of each proved step.
     steps: Vec<u64>,
 }
 
-/// What a machine has said, for a follower to read.
+/// The log of a machine, to be read as syntax.
 pub(super) struct Transcript<'w> {
     pub(super) context: &'w Context,
     pub(super) arenas: &'w Arenas,
@@ -30,13 +30,13 @@ impl Transcript<'_> {
         self.step_with(events, &[])
     }
 
-    /// The same with any of some steps in its hole.
+    /// As [`step`](Self::step), with a choice of steps in place of the hole.
     pub(super) fn step_with(&self, events: &[Event], choice: &[Step]) -> Option<Step> {
         let Self { context, arenas, bytes } = self;
         Builder { automaton: &context.automaton, arenas, bytes, events, choice }.step()
     }
 
-    /// Name, robot and goal of the policy, from what was said before its steps.
+    /// The name, robot and goal of the policy, from the events before its steps.
     fn head(&self, last: Id) -> Policy {
         let events = self.arenas.between(0, last);
         let Self { context, arenas, bytes } = self;
@@ -65,7 +65,7 @@ impl Transcript<'_> {
 }
 
 impl ProofCursor {
-    /// Follows the machine to the end of the last whole step of the body before `last`, which is the event that ended it.
+    /// Advances the proof to the last whole step of the body; `last` is the event that ended it.
     pub(super) fn follow(&mut self, transcript: &Transcript<'_>, last: Id) -> Option<&mut Draft> {
         let hash = transcript.arenas.hash(last);
         let latest = self.steps.last().copied().unwrap_or(self.head);

@@ -1,5 +1,5 @@
-//! Conditions that have to refute nothing: the test of a loop whose back edge is wrong without one, and what is waited for
-//! beside something that runs at once.
+//! Conditions that must refute nothing: the test of a loop whose back edge is refuted without one, and the
+//! condition of a `wait` beside concurrent steps.
 
 use motet_compiler::draft::Test;
 
@@ -7,26 +7,27 @@ use super::event_log::{Event, Flags, Id, State, mix};
 use super::machine::Machine;
 use super::memo::Question;
 use super::oracle::meaning;
-use crate::automaton::{Meaning, NodeKind};
+use crate::automaton::Meaning;
+use crate::grammar::NodeKind;
 use crate::subset::MAX_CONDITION_DEPTH;
 
-/// Each value of an argument that is tried takes a proof of all that is open. Behind the one in question these are `any`, what is
-/// bound, what the step speaks of, and so many others: one that is open here is open when its turn comes, so what is begun
-/// can still be completed.
+/// Number of values tried for an argument beside `any`, bindings and the values named in the current step.
+/// Each takes a proof of everything that is open. An argument that is open here is open when its turn
+/// comes, so every condition that is begun can be completed.
 const MOST_TRIED: usize = 3;
 
-/// A condition that was written.
+/// The shape of a condition that was just written.
 pub(super) struct Last {
-    /// How many conditions stand in one another in it.
+    /// The nesting depth of conditions in it.
     height: usize,
     pub(super) is_comparison: bool,
-    /// Whether it stands behind `and` or `or`.
+    /// It stands behind `and` or `or`.
     is_joined: bool,
 }
 
 impl Machine {
-    /// Whether the step of the body, with `more` behind what was said, is no error with some fluent as the condition that
-    /// comes then, or with some fluent under `not`.
+    /// Some fluent, or with `negated` some fluent under `not`, is a condition behind `more` that refutes
+    /// nothing.
     pub(super) fn some_condition_holds(&mut self, state: &State, more: &[Event], negated: bool) -> bool {
         let mut events = more.to_vec();
         let is_negated = self.frame(state.frame).flags.has(Flags::NEGATED);
@@ -53,12 +54,12 @@ impl Machine {
         holds
     }
 
-    /// Whether the argument at `place` can be this one, with some arguments behind it.
+    /// Some arguments behind this one make a condition that refutes nothing.
     pub(super) fn completes_with(&mut self, state: &State, fluent: u16, place: usize, arg: Event) -> bool {
         self.completes(state, fluent, place + 1, &mut vec![arg])
     }
 
-    /// Whether some arguments from the one at `place` on make a condition that refutes nothing.
+    /// Some arguments from the one at `place` on make a condition that refutes nothing.
     fn completes(&mut self, state: &State, fluent: u16, place: usize, events: &mut Vec<Event>) -> bool {
         let op =
             self.context.automaton.fluents.get(usize::from(fluent)).and_then(|args| args.get(place)).copied();
@@ -73,7 +74,7 @@ impl Machine {
                 tried <= MOST_TRIED || said.contains(&value)
             }
         });
-        // What stands first is what the policy is less likely to be about.
+        // The first values are the least likely to be meant.
         options.reverse();
         options.into_iter().any(|option| {
             events.push(option);
@@ -83,21 +84,21 @@ impl Machine {
         })
     }
 
-    /// The values that were said in the step of the body that is being written.
+    /// The values named in the current step of the body.
     fn values_said(&self, event: Id) -> Vec<Meaning> {
         let before = self.arenas.entry(event).map_or(0, |said| said.before);
         let events = self.arenas.between(before, event).into_iter();
         events.filter_map(|event| meaning(&self.context.automaton, event)).collect()
     }
 
-    /// Whether a whole condition, of which what was said is the beginning and `more` the rest, refutes nothing.
+    /// A whole condition, the end of the log with `more` behind it, refutes nothing.
     fn refutes_nothing(&mut self, event: Id, more: &[Event]) -> bool {
         let Some((body, fluent, negated, args)) = self.test_of_loop(event, more) else {
             return self.verify_beside(event, more);
         };
         match self.test(body, fluent, negated, &args) {
             Test::Holds if self.is_independent(event, more) => true,
-            // The body was no error without a test, so it was the back edge.
+            // The body is right without a test, so the back edge was refuted.
             Test::Idle if !self.may_iterate(body) => false,
             Test::Holds | Test::Idle | Test::Open => {
                 let round = self.permits_round(body, Some((fluent, negated, &args)));
@@ -106,8 +107,8 @@ impl Machine {
         }
     }
 
-    /// Whether what stands beside a loop is no error with a test, which is the last of what was said and `more`; it leaves
-    /// certain facts where the body of the loop ends. Where another that leaves the same was wrong, so is this one.
+    /// Verifies everything beside a loop with a test that leaves certain facts at the end of the body. If
+    /// another test that leaves the same facts was refuted, so is this one.
     fn is_right_beside(&mut self, (body, facts): (Id, u64), event: Id, more: &[Event]) -> bool {
         if self.is_independent(event, more) {
             return true;
@@ -124,14 +125,14 @@ impl Machine {
         is_right
     }
 
-    /// Whether the body of a loop may end behind `event`, whatever test there may be.
+    /// The body of a loop may end behind `event`, whatever the test.
     pub(super) fn may_iterate(&mut self, event: Id) -> bool {
         let key = self.key(Question::Round, event, None);
         self.answer(key, |machine| machine.permits_round(event, None).is_some())
             && self.verify_beside(event, &[Event::Close])
     }
 
-    /// Whether the loop may do without a test whose body ended with the last event.
+    /// The loop needs no test; its body ended with the last event.
     pub(super) fn needs_no_test(&mut self, event: Id) -> bool {
         match self.arenas.entry(event) {
             Some(said) if event > 0 && said.event == Event::Close => {
@@ -142,13 +143,13 @@ impl Machine {
         }
     }
 
-    /// Whether `and` or `or` may stand behind the condition that was just written: it stands in nothing, nor beside anything.
+    /// `and` or `or` may follow the condition that was just written.
     pub(super) fn may_join(&self, state: &State, outside: u8) -> bool {
         let last = self.last_condition(state.event);
         !last.is_joined && usize::from(outside) + last.height < MAX_CONDITION_DEPTH
     }
 
-    /// What was just written, which ends a condition without `and` or `or` around it.
+    /// The shape of the condition that ends the log.
     pub(super) fn last_condition(&self, event: Id) -> Last {
         let (mut at, mut closed, mut events) = (event, 0usize, Vec::new());
         while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
@@ -182,7 +183,8 @@ impl Machine {
         }
     }
 
-    /// Where a condition is the test of a loop: the event before the end of the loop's body, and the condition.
+    /// The loop test that ends the log with `more` behind it: the event before the end of the loop's body,
+    /// the fluent, its negation and its arguments.
     fn test_of_loop(&self, event: Id, more: &[Event]) -> Option<(Id, u16, bool, Vec<Event>)> {
         if more.contains(&Event::Open(NodeKind::Wait)) {
             return None;

@@ -1,5 +1,7 @@
-//! From what was said to the policy that it is: the abstract syntax of a step that need not be whole. What is open is
-//! closed in the way that refutes least: every block that is open ends with a `fail`, so that no way leads out of it.
+//! Builds syntax trees from the events of a machine, also of steps that are not whole.
+//!
+//! Open parts are closed in the way that refutes least: every open block ends with `fail`, so no path leads
+//! out of it.
 
 use motet_compiler::draft::{CHOICE, HOLE};
 use motet_compiler::signature::Type;
@@ -11,17 +13,18 @@ use smol_str::SmolStr;
 
 use super::event_log::{Arenas, Event};
 use super::placeholder::{argument, closed, end, expr, fail, named};
-use crate::automaton::{Automaton, Constant, Meaning, NodeKind, Op};
+use crate::automaton::{Automaton, Meaning, Op};
+use crate::grammar::{Constant, NodeKind};
 use crate::subset::{Decimal, Modifiers, Relation};
 
-/// Reads events.
+/// A reader of events.
 pub(crate) struct Builder<'a> {
     pub(crate) automaton: &'a Automaton,
     pub(crate) arenas: &'a Arenas,
-    /// The bytes of the machine.
+    /// The bytes of the policy, which text and name events refer to.
     pub(crate) bytes: &'a [u8],
     pub(crate) events: &'a [Event],
-    /// The steps of which any may stand in the hole; it stays one where there are none.
+    /// The steps of which any may stand in the hole; if empty, it stays a hole.
     pub(crate) choice: &'a [Step],
 }
 
@@ -36,14 +39,14 @@ impl Builder<'_> {
         self.events.first().copied()
     }
 
-    /// The end of something with parts, where it was said.
+    /// Skips the end of a node, if it is there.
     fn close(&mut self) {
         if self.peek() == Some(Event::Close) {
             self.next();
         }
     }
 
-    /// The first step of the events; none where there is none.
+    /// Reads a step.
     pub(crate) fn step(&mut self) -> Option<Step> {
         let kind = match self.next()? {
             Event::Hole if self.choice.is_empty() => return Some(Step { kind: fail().kind, span: HOLE }),
@@ -130,7 +133,7 @@ impl Builder<'_> {
             NodeKind::Done => StepKind::End(self.end(EndKind::Done)),
             NodeKind::Fail => StepKind::End(self.end(EndKind::Fail)),
             NodeKind::Replan => StepKind::End(self.end(EndKind::Replan)),
-            // These are no steps.
+            // Not steps.
             NodeKind::When
             | NodeKind::Pause
             | NodeKind::Restart
@@ -148,7 +151,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A block: one that is open, or not there yet, ends with a `fail`.
+    /// Reads a block; one that is open or missing ends with `fail`.
     fn block(&mut self) -> Block {
         if self.peek() != Some(Event::Open(NodeKind::Block)) {
             return closed(Vec::new());
@@ -184,7 +187,7 @@ impl Builder<'_> {
         Do { call: Call { name: named(name), args, span: Span::default() }, bind, within, retry }
     }
 
-    /// What a subset with modifiers says.
+    /// Reads a deadline or retries, if the subset has them.
     fn modifier(&mut self) -> Option<Expr> {
         if self.automaton.subset.modifiers == Modifiers::Default {
             return None;
@@ -215,7 +218,7 @@ impl Builder<'_> {
         SmolStr::new(String::from_utf8_lossy(bytes.unwrap_or_default()))
     }
 
-    /// A value; none where none was said.
+    /// Reads a value, if one is there.
     fn value(&mut self) -> Option<Expr> {
         let kind = match self.peek()? {
             Event::Word(op, index) => {
@@ -257,7 +260,7 @@ impl Builder<'_> {
         Some(expr(kind))
     }
 
-    /// A condition; one that is not there yet says nothing.
+    /// Reads a condition; a missing one is `true`.
     pub(crate) fn condition(&mut self) -> Expr {
         let first = self.primary();
         let Some(Event::Joined(kind)) = self.peek() else { return first };
@@ -269,7 +272,7 @@ impl Builder<'_> {
         expr(if kind == NodeKind::Any { ExprKind::AnyOf(parts) } else { ExprKind::All(parts) })
     }
 
-    /// A condition without those beside it.
+    /// Reads a condition without those joined to it.
     fn primary(&mut self) -> Expr {
         let Some(Event::Open(kind)) = self.peek() else { return expr(ExprKind::Bool(true)) };
         let kind = match kind {
@@ -325,7 +328,7 @@ impl Builder<'_> {
         parts
     }
 
-    /// A fluent or a measure with the arguments that were said.
+    /// Reads the arguments of a fluent or a measure.
     fn applied(&mut self, signature: Option<(&SmolStr, &[(SmolStr, Type)])>) -> Call {
         let mut args = Vec::new();
         for (param, _) in signature.map(|(_, params)| params).unwrap_or_default() {

@@ -1,17 +1,18 @@
-//! WordList, letter by letter: a list in the order of its bytes, and the range of it that is left.
+//! Recognition of words letter by letter: a sorted list, and the range of it that still fits.
 
 use super::event_log::{Event, Id, Name, State, UNSEEN};
 use super::machine::{Machine, StateRef};
-use crate::automaton::{BoundNames, WordEnd, WordList, WordRole};
+use crate::automaton::{BoundNames, WordEnd, WordList};
+use crate::grammar::WordRole;
 
-/// The entry of a list that is a name which was bound: its number, and this.
+/// Flag of a list entry that is a binding; the other bits are its index.
 pub(crate) const BOUND: u32 = 1 << 31;
 
-/// Where a byte leads in a list of words.
+/// The outcome of a byte in a list of words.
 pub(super) enum WordStep {
-    /// There, or nowhere.
+    /// The next state; `None` if no word goes on like that.
     To(Option<State>),
-    /// The word was over before the byte: it is for what follows there.
+    /// The word had ended before the byte, which is for the operation behind it.
     Behind(State),
 }
 
@@ -28,7 +29,7 @@ impl Machine {
         let at = |machine: &Self, index: u32| {
             machine.arenas.lists.get(index as usize).and_then(|entry| machine.letter(words, *entry, pos))
         };
-        // The words are in the order of their bytes, so those that go on with one stand together.
+        // The words are sorted by their bytes, so those that share one are adjacent.
         let first = search(state.lo, state.hi, |index| at(self, index) < Some(byte));
         let last = search(first, state.hi, |index| at(self, index) <= Some(byte));
         if first >= last {
@@ -40,21 +41,21 @@ impl Machine {
         state.pos += 1;
         let Some(entry) = self.arenas.lists.get(first as usize).copied() else { return WordStep::To(None) };
         let goes_on = self.letter(words, entry, pos + 1).is_some();
-        // A name that begins another one may be over, or not.
+        // A name that is a prefix of another may have ended, or not.
         if goes_on || (words.ends == WordEnd::Bare && last - first > 1) {
             return WordStep::To(Some(state));
         }
         WordStep::To(Some(self.end_of_word(state, words, entry)))
     }
 
-    /// The word that is over where the state is, of those that end where no letter follows.
+    /// The word that ends here, among words that end where no letter follows.
     pub(super) fn whole(&self, state: &State, words: &WordList) -> Option<u32> {
         let is_begun = words.ends == WordEnd::Bare && state.pos > 0 && state.lo < state.hi;
         let entry = self.arenas.lists.get(state.lo as usize).copied().filter(|_| is_begun)?;
         self.letter(words, entry, state.pos as usize).is_none().then_some(entry)
     }
 
-    /// The range of the list that is left, which is made where it is not there yet and kept with the state.
+    /// The range of the list that is left; evaluated on first use and cached with the state.
     pub(super) fn range(&mut self, state: &State, origin: StateRef, words: &WordList) -> (u32, u32) {
         if state.hi != UNSEEN {
             return (state.lo, state.hi);
@@ -90,7 +91,7 @@ impl Machine {
         self.follow_epsilon(state, next)
     }
 
-    /// A loop's list is known: so is what its item is.
+    /// Binds the item of a loop to the element type of its list.
     fn bind_item(&mut self, mut state: State, list: Id) -> State {
         let automaton = &self.context.automaton;
         let element = self.arenas.name(list).and_then(|list| automaton.ty(list.ty)).and_then(|ty| match ty {
@@ -107,7 +108,7 @@ impl Machine {
         state
     }
 
-    /// The name that was said before the list that was just written.
+    /// The name before the list that was just written.
     pub(super) fn name_before_list(&self, event: Id) -> Option<(u32, u32)> {
         let mut at = event;
         while let Some(said) = self.arenas.entry(at).filter(|_| at > 0) {
@@ -119,7 +120,7 @@ impl Machine {
         None
     }
 
-    /// A byte of an alternative, with the quotes that belong to it; none behind its end.
+    /// A byte of a word with the quotes that belong to it; `None` behind its end.
     pub(crate) fn letter(&self, words: &WordList, entry: u32, pos: usize) -> Option<u8> {
         let pos = match (words.ends, pos.checked_sub(1)) {
             (WordEnd::Quoted, None) => return Some(b'"'),
@@ -147,7 +148,7 @@ impl Machine {
     }
 }
 
-/// The first index in `lo..hi` at which `before` does not hold; it holds up to there.
+/// The first index in `lo..hi` for which `before` is false (binary search).
 pub(super) fn search(mut lo: u32, mut hi: u32, before: impl Fn(u32) -> bool) -> u32 {
     while lo < hi {
         let middle = lo + (hi - lo) / 2;

@@ -1,21 +1,21 @@
-//! Putting operations in a row, and finding the shortest completion of each.
+//! Assembly of operations, and the length of the shortest completion of each.
 
-use super::{
-    Action, Alternative, BoundNames, Entry, Guard, NameUse, Op, OpId, OptionalPart, WordList, WordRole,
-};
+use super::lowering::Way;
+use super::{BoundNames, Branch, Op, OpId, OptionalPart, Word, WordList};
+use crate::grammar::{Action, Guard, NameUse, WordRole};
 use crate::subset::MAX_NAME_CHARS;
 
-/// A automaton in the making.
+/// A list of operations that grows; places are kept for operations whose goals are known later.
 #[derive(Debug, Default)]
 pub(crate) struct Assembler {
     pub(crate) ops: Vec<Op>,
 }
 
-/// More bytes than any document has: no way leads on.
+/// More bytes than any document has: no path leads on.
 const ENDLESS: u32 = 1 << 24;
 
 impl Assembler {
-    /// Where the next operation will stand.
+    /// The place of the next operation.
     pub(crate) fn here(&self) -> OpId {
         u32::try_from(self.ops.len()).unwrap_or(u32::MAX)
     }
@@ -34,7 +34,7 @@ impl Assembler {
         self.put(Op::Action(act))
     }
 
-    /// An operation whose alternatives are known later.
+    /// Keeps a place for an operation that is set later.
     pub(crate) fn later(&mut self) -> OpId {
         self.put(Op::Accept)
     }
@@ -45,8 +45,8 @@ impl Assembler {
         }
     }
 
-    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[(&str, OpId, Guard)]) {
-        let made = alternatives.iter().map(|(text, to, guard)| Alternative {
+    pub(crate) fn choose(&mut self, at: OpId, alternatives: &[Way]) {
+        let made = alternatives.iter().map(|(text, to, guard)| Branch {
             bytes: text.as_bytes().into(),
             to: *to,
             guard: *guard,
@@ -55,8 +55,8 @@ impl Assembler {
         self.set(at, Op::Choose(made));
     }
 
-    /// What may be left out, at a place that was kept for it.
-    pub(crate) fn maybe(
+    /// Sets an optional part at a place that was kept for it.
+    pub(crate) fn optional(
         &mut self,
         at: OpId,
         (text, then, guard): (&str, OpId, Guard),
@@ -68,8 +68,9 @@ impl Assembler {
         );
     }
 
-    /// By operation, how many bytes the shortest way to the end of its rule takes. A list of words counts with its longest
-    /// way, since which of them are open is not known here.
+    /// Computes the shortest completion of each operation: the number of bytes to the end of its rule. A
+    /// list of words counts with its longest path, because which words are open is not known here.
+    /// O(operations × nesting).
     pub(crate) fn rests(&self) -> Vec<u32> {
         let mut rest = vec![ENDLESS; self.ops.len()];
         loop {
@@ -94,7 +95,7 @@ impl Assembler {
         match op {
             Op::Literal(bytes) => len(bytes) + next,
             Op::Choose(alternatives) => {
-                // What is guarded by the state may be closed.
+                // Alternatives that depend on the state may be closed.
                 let ways = alternatives.iter().filter(|way| is_always_open(way.guard));
                 ways.map(|way| len(&way.bytes) + at(way.to)).min().unwrap_or(ENDLESS)
             }
@@ -135,10 +136,10 @@ impl Assembler {
     }
 }
 
-/// Whether an alternative can be the last resort.
+/// The alternative is always there as a last resort.
 fn is_always_open(guard: Guard) -> bool {
     match guard {
-        // A rule that is full ends: its last resort is then another.
+        // A rule that is full ends: its last resort is the end.
         Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is | Guard::Several | Guard::Any => true,
         Guard::Close
         | Guard::Empty
@@ -165,10 +166,10 @@ fn is_always_open(guard: Guard) -> bool {
     }
 }
 
-/// The way through a list of keywords that is always open; among conditions, where one has to be found that refutes
-/// nothing, the longest of the fluents, and where there are calls only, the longest of these.
+/// The length of the path through keywords that is always open. Among conditions, where one must be found
+/// that refutes nothing, the longest fluent counts; among calls only, the longest call.
 fn keyword(words: &WordList, rest: &[u32]) -> u32 {
-    let way = |entry: &Entry| {
+    let way = |entry: &Word| {
         let to = rest.get(entry.to.unwrap_or(words.next) as usize).copied().unwrap_or(ENDLESS);
         len(entry.name.as_bytes()).saturating_add(to)
     };
@@ -185,7 +186,7 @@ fn len(bytes: &[u8]) -> u32 {
     u32::try_from(bytes.len()).unwrap_or(ENDLESS)
 }
 
-/// The length of the longest number of a range.
+/// The length of the longest number of a range, in bytes.
 pub(crate) fn width(least: i64, greatest: i64, decimals: u8) -> u32 {
     let scale = 10u64.pow(u32::from(decimals));
     let digits = |units: i64| (units.unsigned_abs() / scale).checked_ilog10().unwrap_or(0) + 1;

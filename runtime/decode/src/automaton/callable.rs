@@ -1,4 +1,4 @@
-//! What a step can call.
+//! Callables as the automaton and the oracle need them.
 
 use motet_compiler::Session;
 use motet_compiler::draft::{Draft, Template};
@@ -6,27 +6,27 @@ use motet_syntax::ast::{Clause, ExprKind};
 
 use super::OpId;
 
-/// A callable, and where its parameters are spelled.
+/// A callable with the operations of its arguments.
 #[derive(Clone, Debug)]
 pub(crate) struct Callable {
-    /// Its number among the library's primitives; a policy has none.
+    /// The number among the library's primitives; `None` for a policy.
     pub(crate) primitive: Option<usize>,
-    /// The operation of each argument that is a word; none of one that is anything else.
+    /// The operation of each argument that is a word.
     pub(crate) words: Vec<Option<OpId>>,
-    /// Of a list: what its elements are, where they are words.
+    /// The operation of the elements of each list argument, if they are words.
     pub(crate) elements: Vec<Option<OpId>>,
-    /// Of a policy: itself, resolved.
+    /// The resolved body of a policy.
     pub(crate) template: Option<Template>,
-    /// The resources that it uses, one a bit.
+    /// The resources that it uses, as bits.
     pub(crate) uses: u64,
-    /// The fluents that it speaks of, as bits; several may share one.
+    /// The fluents that it mentions, as bits; several may share one.
     pub(crate) fluents: u64,
     /// The parameter that its motion is about.
     pub(crate) target: Option<usize>,
 }
 
 impl Callable {
-    /// A callable, but for how its arguments are spelled.
+    /// A callable without the operations of its arguments, which lowering adds.
     pub(crate) fn new(session: &Session, signature: &motet_compiler::signature::Callable) -> Self {
         let name = &signature.name;
         let template = if signature.is_policy { Template::new(session, name) } else { None };

@@ -4,41 +4,42 @@ use motet_compiler::draft::Value;
 use motet_compiler::signature::Signatures;
 use smol_str::SmolStr;
 
-use super::{Guard, OpId};
+use super::OpId;
+use crate::grammar::Guard;
 use crate::subset::is_text_char;
 
-/// A list of words in the order of the bytes that spell them, the closing quote among them.
+/// A list of words sorted by the bytes that spell them, the closing quote among them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WordTable {
-    pub(crate) entries: Vec<Entry>,
+    pub(crate) entries: Vec<Word>,
 }
 
-/// A word.
+/// A word of a table.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
+pub(crate) struct Word {
     pub(crate) name: SmolStr,
     pub(crate) meaning: Meaning,
-    /// Where to go on; none where the choice says so.
+    /// The next operation, if it depends on the word.
     pub(crate) to: Option<OpId>,
-    /// When it is open, where the list is one of keywords.
+    /// When it is open, in a list of keywords.
     pub(crate) guard: Guard,
 }
 
-/// What a word means.
+/// The meaning of a word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Meaning {
-    /// An entity of the world, by its number.
+    /// The entity with this number.
     Entity(u16),
-    /// A case of an enumeration.
+    /// A case of an enumeration, by both numbers.
     Case(u16, u16),
     /// `any`
     Any,
-    /// What its name says, and which of them.
+    /// The declaration with this number.
     Named(u16),
 }
 
 impl Meaning {
-    /// What a value, or a kind of failure, is called, however it is spelled.
+    /// The name of a value or of a kind of failure, as declared.
     pub(crate) fn name(self, signatures: &Signatures) -> Option<SmolStr> {
         match self {
             Self::Entity(index) => signatures.entities.get(usize::from(index)).map(|row| row.0.clone()),
@@ -50,7 +51,7 @@ impl Meaning {
         }
     }
 
-    /// As an argument; none of what is no value.
+    /// The value of the checker; unknown if it is not a value.
     pub(crate) fn value(self) -> Value {
         match self {
             Self::Entity(index) => Value::entity(index),
@@ -61,12 +62,12 @@ impl Meaning {
 }
 
 impl WordTable {
-    /// A table of such entries; a name that cannot be spelled is left out.
-    pub(crate) fn new(entries: impl IntoIterator<Item = Entry>) -> Self {
-        let spelled = |entry: &Entry| {
+    /// A table of words; a name that cannot be spelled is left out.
+    pub(crate) fn new(entries: impl IntoIterator<Item = Word>) -> Self {
+        let spelled = |entry: &Word| {
             !entry.name.is_empty() && !entry.name.starts_with('$') && entry.name.chars().all(is_text_char)
         };
-        let mut entries: Vec<Entry> = entries.into_iter().filter(spelled).collect();
+        let mut entries: Vec<Word> = entries.into_iter().filter(spelled).collect();
         entries.sort_by(|a, b| a.name.bytes().chain([b'"']).cmp(b.name.bytes().chain([b'"'])));
         entries.dedup_by(|a, b| a.name == b.name);
         Self { entries }
@@ -76,7 +77,7 @@ impl WordTable {
     pub(crate) fn of_kind(signatures: &Signatures, kind: usize) -> Self {
         Self::new(signatures.entities.iter().enumerate().filter_map(|(index, (name, of))| {
             let meaning = Meaning::Entity(u16::try_from(index).ok()?);
-            signatures.is_kind(*of, kind).then(|| Entry {
+            signatures.is_kind(*of, kind).then(|| Word {
                 name: name.clone(),
                 meaning,
                 to: None,
@@ -90,19 +91,19 @@ impl WordTable {
         let cases = signatures.enums.get(id).map(|def| def.cases.as_slice()).unwrap_or_default();
         Self::new(cases.iter().enumerate().filter_map(|(index, name)| {
             let meaning = Meaning::Case(u16::try_from(id).ok()?, u16::try_from(index).ok()?);
-            Some(Entry { name: name.clone(), meaning, to: None, guard: Guard::Open })
+            Some(Word { name: name.clone(), meaning, to: None, guard: Guard::Open })
         }))
     }
 
-    /// The same and `any`.
+    /// This table with `any`.
     pub(crate) fn with_any(&self) -> Self {
         let name = SmolStr::new_static("any");
-        let any = Entry { name, meaning: Meaning::Any, to: None, guard: Guard::Open };
+        let any = Word { name, meaning: Meaning::Any, to: None, guard: Guard::Open };
         let others = self.entries.iter().filter(|entry| entry.name != "any").cloned();
         Self::new(others.chain([any]))
     }
 
-    pub(crate) fn get(&self, index: u32) -> Option<&Entry> {
+    pub(crate) fn get(&self, index: u32) -> Option<&Word> {
         self.entries.get(index as usize)
     }
 }

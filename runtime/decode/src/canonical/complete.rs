@@ -1,4 +1,4 @@
-//! From a policy of either form to the tree of the model subset.
+//! Completion: from the syntax tree of a policy to the tree of the canonical subset.
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
@@ -7,23 +7,27 @@ use motet_syntax::ast::{self, Block, CatchOn, Do, EndKind, Expr, Policy, StepKin
 use rustc_hash::FxHashSet;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::Outside;
+use super::OutsideSubset;
 use super::value::outside;
 use crate::subset::{
     self, Call, Catch, Document, End, MAX_CONDITION_DEPTH, MAX_COUNT, MAX_MEMBERS, MAX_RETRIES, MAX_STEPS,
     Modifiers, Reaction, Step, Subset, When,
 };
 
-/// A policy as a tree of the model subset.
+/// Completes a policy to a tree of the canonical subset.
 ///
 /// # Errors
 ///
-/// The first thing in the policy that the subset cannot say.
-pub fn complete(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<Document, Outside> {
+/// The first part of the policy that is outside of the subset.
+pub(super) fn complete(
+    policy: &Policy,
+    signatures: &Signatures,
+    subset: Subset,
+) -> Result<Document, OutsideSubset> {
     let mut completer =
         Completer { signatures, subset, bound: Vec::new(), names: FxHashSet::default(), fresh: 0 };
     if !policy.params.is_empty() {
-        return Err(Outside {
+        return Err(OutsideSubset {
             span: policy.name.span,
             why: "a policy has no parameters on the model subset".into(),
         });
@@ -31,7 +35,10 @@ pub fn complete(policy: &Policy, signatures: &Signatures, subset: Subset) -> Res
     names(&policy.body, &mut completer.names);
     let robot = Some(&signatures.robot).filter(|robot| !robot.is_empty()).cloned();
     if let Some(written) = policy.robot.as_ref().filter(|written| Some(&written.text) != robot.as_ref()) {
-        return Err(Outside { span: written.span, why: format!("the policy is for `{}`", written.text) });
+        return Err(OutsideSubset {
+            span: written.span,
+            why: format!("the policy is for `{}`", written.text),
+        });
     }
     let name = completer.new_name(&policy.name.text, policy.name.span)?;
     let goal = policy.achieves.as_ref();
@@ -43,9 +50,9 @@ pub fn complete(policy: &Policy, signatures: &Signatures, subset: Subset) -> Res
 pub(super) struct Completer<'a> {
     pub(super) signatures: &'a Signatures,
     pub(super) subset: Subset,
-    /// What is bound here, in the order of binding.
+    /// The bindings in scope, in order.
     bound: Vec<SmolStr>,
-    /// What is bound anywhere.
+    /// Every name that is bound anywhere in the policy.
     names: FxHashSet<SmolStr>,
     fresh: usize,
 }
@@ -55,10 +62,10 @@ impl Completer<'_> {
         self.bound.iter().any(|bound| bound == name)
     }
 
-    /// A block of at least so many steps, with so many levels of blocks below it.
-    fn block(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, Outside> {
+    /// A block of at least `least` steps; blocks may be nested `depth` levels below it.
+    fn block(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, OutsideSubset> {
         if !(least..=MAX_STEPS).contains(&block.steps.len()) {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: block.span,
                 why: format!("a block has {least} to {MAX_STEPS} steps on the model subset"),
             });
@@ -69,14 +76,17 @@ impl Completer<'_> {
         steps
     }
 
-    fn inner(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, Outside> {
+    fn inner(&mut self, block: &Block, depth: usize, least: usize) -> Result<Vec<Step>, OutsideSubset> {
         let Some(depth) = depth.checked_sub(1) else {
-            return Err(Outside { span: block.span, why: "blocks stand too deep in one another".into() });
+            return Err(OutsideSubset {
+                span: block.span,
+                why: "blocks stand too deep in one another".into(),
+            });
         };
         self.block(block, depth, least)
     }
 
-    fn step(&mut self, step: &ast::Step, depth: usize) -> Result<Step, Outside> {
+    fn step(&mut self, step: &ast::Step, depth: usize) -> Result<Step, OutsideSubset> {
         Ok(match &step.kind {
             StepKind::Do(call) => Step::Do(self.call(call)?),
             StepKind::Sequence { name, body } => {
@@ -132,10 +142,10 @@ impl Completer<'_> {
         })
     }
 
-    fn call(&mut self, step: &Do) -> Result<Call, Outside> {
+    fn call(&mut self, step: &Do) -> Result<Call, OutsideSubset> {
         let call = &step.call;
         let Some(callable) = self.signatures.callable(&call.name.text) else {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: call.name.span,
                 why: format!("there is no primitive `{}`", call.name.text),
             });
@@ -144,13 +154,13 @@ impl Completer<'_> {
         if let Some(arg) =
             call.args.iter().find(|arg| arg.name.as_ref().is_some_and(|name| !known(&name.text)))
         {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: arg.span,
                 why: format!("`{}` has no such parameter", callable.name),
             });
         }
         if call.args.len() > callable.params.len() {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: call.span,
                 why: format!("`{}` has too many arguments", callable.name),
             });
@@ -158,7 +168,7 @@ impl Completer<'_> {
         let mut args = Vec::with_capacity(callable.params.len());
         for (index, param) in callable.params.iter().enumerate() {
             let Some(arg) = argument(call, index, &param.name).or(param.default.as_ref()) else {
-                return Err(Outside {
+                return Err(OutsideSubset {
                     span: call.span,
                     why: format!("`{}` lacks `{}`", callable.name, param.name),
                 });
@@ -172,7 +182,7 @@ impl Completer<'_> {
         });
         let retry = retry.transpose()?;
         if callable.is_policy && (within.is_some() || retry.is_some()) {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: call.span,
                 why: "a policy has neither a deadline nor retries".into(),
             });
@@ -182,7 +192,10 @@ impl Completer<'_> {
             (Some(_), None) => Some(self.fresh_name()),
             (None, None) => None,
             (None, Some(name)) => {
-                return Err(Outside { span: name.span, why: format!("`{}` has no result", callable.name) });
+                return Err(OutsideSubset {
+                    span: name.span,
+                    why: format!("`{}` has no result", callable.name),
+                });
             }
         };
         self.bound.extend(bind.clone());
@@ -199,7 +212,7 @@ impl Completer<'_> {
         }
     }
 
-    fn when(&mut self, when: &ast::When, depth: usize) -> Result<When, Outside> {
+    fn when(&mut self, when: &ast::When, depth: usize) -> Result<When, OutsideSubset> {
         let condition = self.condition(&when.condition, MAX_CONDITION_DEPTH)?;
         let hold = when.hold.as_ref().map(|hold| self.seconds(hold)).transpose()?;
         let reaction = match &when.reaction {
@@ -213,14 +226,14 @@ impl Completer<'_> {
         Ok(When { condition, hold, reaction })
     }
 
-    fn catch(&mut self, catch: &ast::Catch, depth: usize) -> Result<Catch, Outside> {
+    fn catch(&mut self, catch: &ast::Catch, depth: usize) -> Result<Catch, OutsideSubset> {
         let on = match &catch.on {
             CatchOn::Any(_) => Vec::new(),
             CatchOn::Kinds(kinds) => {
                 count(kinds.len(), 1, "a handler", "kinds of failure", catch.span)?;
                 let unknown = kinds.iter().find(|kind| !self.signatures.failures.contains(&kind.text));
                 if let Some(unknown) = unknown {
-                    return Err(Outside {
+                    return Err(OutsideSubset {
                         span: unknown.span,
                         why: format!("there is no failure `{}`", unknown.text),
                     });
@@ -231,12 +244,12 @@ impl Completer<'_> {
         Ok(Catch { on, steps: self.inner(&catch.body, depth, 0)? })
     }
 
-    fn end(&mut self, end: &ast::End) -> Result<End, Outside> {
+    fn end(&mut self, end: &ast::End) -> Result<End, OutsideSubset> {
         let why = match (end.kind, &end.why) {
             (EndKind::Done, _) => None,
             (EndKind::Fail | EndKind::Replan, Some(why)) => Some(self.value(why, &Type::Text, None)?),
             (EndKind::Fail | EndKind::Replan, None) => {
-                return Err(Outside {
+                return Err(OutsideSubset {
                     span: end.span,
                     why: "an ending has a reason on the model subset".into(),
                 });
@@ -245,14 +258,14 @@ impl Completer<'_> {
         Ok(End { kind: end.kind, why })
     }
 
-    fn within(&self, within: Option<&Expr>) -> Result<Option<subset::Decimal>, Outside> {
+    fn within(&self, within: Option<&Expr>) -> Result<Option<subset::Decimal>, OutsideSubset> {
         let Some(within) = within else { return Ok(None) };
         self.modifier(within)?;
         self.seconds(within).map(Some)
     }
 
-    /// A place that only a subset with modifiers has.
-    fn modifier(&self, expr: &Expr) -> Result<(), Outside> {
+    /// A modifier, which only a subset with modifiers has.
+    fn modifier(&self, expr: &Expr) -> Result<(), OutsideSubset> {
         match self.subset.modifiers {
             Modifiers::Written => Ok(()),
             Modifiers::Default => {
@@ -269,11 +282,11 @@ pub(super) fn argument<'c>(call: &'c ast::Call, index: usize, name: &str) -> Opt
     arg.map(|arg| &arg.value)
 }
 
-fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Result<(), Outside> {
+fn count(actual: usize, least: usize, whose: &str, of: &str, span: Span) -> Result<(), OutsideSubset> {
     if (least..=MAX_MEMBERS).contains(&actual) {
         return Ok(());
     }
-    Err(Outside { span, why: format!("{whose} has {least} to {MAX_MEMBERS} {of} on the model subset") })
+    Err(OutsideSubset { span, why: format!("{whose} has {least} to {MAX_MEMBERS} {of} on the model subset") })
 }
 
 /// Every name that the steps of a block bind.

@@ -1,15 +1,16 @@
-//! A policy in its one spelling of the model subset.
+//! The canonical spelling of a policy.
 //!
-//! What the language leaves open is filled in: the robot, arguments with defaults, names of results that nothing uses
-//! (`_1`, `_2`, …), an empty `else`. Units become SI, numbers get the decimals of the subset, comparisons their measure on
-//! the left. So the canonical text means what the policy means, and it is a fixed point.
+//! Everything that the language leaves open is filled in: the robot, default arguments, names of results
+//! that nothing uses (`_1`, `_2`, …), an empty `else`. Units become SI, numbers get the decimals of the
+//! subset, and comparisons have their measure on the left. So the canonical text means the same as the
+//! policy, and is a fixed point.
 
 mod complete;
 mod json;
 mod text;
 mod value;
 
-pub use complete::complete;
+use complete::complete;
 
 use motet_compiler::Signatures;
 use motet_syntax::ast::Policy;
@@ -17,30 +18,47 @@ use motet_syntax::{Span, Syntax};
 
 use crate::subset::Subset;
 
-/// Why a policy has no spelling on the model subset.
+/// The reason why a policy is outside of the canonical subset.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Outside {
-    /// What is outside of it.
+pub struct OutsideSubset {
+    /// The part that is outside.
     pub span: Span,
-    /// Why, in a clause.
+    /// The reason, a clause in lower case.
     pub why: String,
 }
 
-impl std::fmt::Display for Outside {
+impl std::fmt::Display for OutsideSubset {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.why)
     }
 }
 
-impl std::error::Error for Outside {}
+impl std::error::Error for OutsideSubset {}
 
-/// A policy as a language model writes it: one line without a line break at its end. Reading it gives the same policy
-/// but for what is filled in, and printing that gives the same line. O(policy × declarations).
+/// Prints a policy in the canonical subset: one line without a line break at its end. Reading it gives the
+/// same policy with the defaults filled in, and printing that gives the same line. O(policy ×
+/// declarations).
+///
+/// ```
+/// use motet_decode::{Environment, Subset, canonical};
+/// use motet_syntax::{FileId, Source};
+///
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
+/// let source = Source::new("p.motet", "policy p { go(kitchen_table) }");
+/// let file = motet_syntax::read(&source, FileId(0)).file;
+/// let policy = file.policies().next().expect("the document has a policy");
+/// assert_eq!(
+///     canonical(policy, &session.signatures(), Subset::default()).as_deref(),
+///     Ok(r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"go","to":"kitchen_table"}]}"#),
+/// );
+/// # Ok::<(), motet_decode::EnvironmentError>(())
+/// ```
 ///
 /// # Errors
 ///
-/// The first thing in the policy that the subset cannot say.
-pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, Outside> {
+/// The first part of the policy that is outside of the subset.
+pub fn canonical(policy: &Policy, signatures: &Signatures, subset: Subset) -> Result<String, OutsideSubset> {
     let document = complete(policy, signatures, subset)?;
     Ok(match subset.syntax {
         Syntax::Json => json::print(&document, subset),

@@ -1,5 +1,5 @@
-//! The text form of the model subset: one line, one space between words and around braces, `when` always in braces, no
-//! `else if`, groups of conditions in parentheses.
+//! The text form of the model subset: one line, one space between words and around braces, `when` always in
+//! braces, no `else if`, groups of conditions in parentheses.
 
 use motet_syntax::ast::EndKind;
 use motet_syntax::print::identifier;

@@ -1,4 +1,4 @@
-//! Values by the types that are asked for, and conditions.
+//! Completion of values, by the types that are asked for, and of conditions.
 
 use motet_compiler::signature::Type;
 use motet_syntax::Syntax;
@@ -6,13 +6,18 @@ use motet_syntax::ast::{Call, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
-use super::Outside;
+use super::OutsideSubset;
 use super::complete::Completer;
 use crate::subset::{self, Condition, Decimal, NumberRange, Relation, Subject, Value};
 
 impl Completer<'_> {
-    /// A value of a type; `card` bounds a number.
-    pub(super) fn value(&self, expr: &Expr, ty: &Type, card: Option<(f64, f64)>) -> Result<Value, Outside> {
+    /// A value of a type; `card` bounds a number, in SI units.
+    pub(super) fn value(
+        &self,
+        expr: &Expr,
+        ty: &Type,
+        card: Option<(f64, f64)>,
+    ) -> Result<Value, OutsideSubset> {
         match (&expr.kind, ty) {
             (ExprKind::Binding(name), _) => self.binding(name, expr),
             (ExprKind::Name(name), _) => self.named(name, expr, ty),
@@ -59,13 +64,19 @@ impl Completer<'_> {
         }
     }
 
-    fn number(&self, value: f64, expr: &Expr, ty: &Type, card: Option<(f64, f64)>) -> Result<Value, Outside> {
+    fn number(
+        &self,
+        value: f64,
+        expr: &Expr,
+        ty: &Type,
+        card: Option<(f64, f64)>,
+    ) -> Result<Value, OutsideSubset> {
         let range = NumberRange::of(ty, card);
         let number = range.and_then(|range| Some(Value::Number(range.nearest(value)?, range.unit)));
         number.ok_or_else(|| outside(expr, format!("{value} is beyond the numbers of the model subset")))
     }
 
-    fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, Outside> {
+    fn text(&self, text: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
         if subset::is_text(text) {
             return Ok(Value::Text(text.clone()));
         }
@@ -76,18 +87,18 @@ impl Completer<'_> {
         ))
     }
 
-    fn named(&self, name: &SmolStr, expr: &Expr, ty: &Type) -> Result<Value, Outside> {
+    fn named(&self, name: &SmolStr, expr: &Expr, ty: &Type) -> Result<Value, OutsideSubset> {
         if self.is_bound(name) {
             return self.binding(name, expr);
         }
         if self.is_known(name, ty) {
             return Ok(Value::Name(name.clone()));
         }
-        // Whether it is bound is not for the printer to say.
+        // An unknown name is the checker's business.
         self.binding(name, expr)
     }
 
-    /// Whether a name is an entity or a case of the type that is asked for.
+    /// The name is an entity or a case of the type.
     fn is_known(&self, name: &str, ty: &Type) -> bool {
         match ty {
             Type::Entity(kind) => self
@@ -102,12 +113,13 @@ impl Completer<'_> {
         }
     }
 
-    pub(super) fn binding(&self, name: &SmolStr, expr: &Expr) -> Result<Value, Outside> {
+    pub(super) fn binding(&self, name: &SmolStr, expr: &Expr) -> Result<Value, OutsideSubset> {
         self.new_name(name, expr.span).map(Value::Binding)
     }
 
-    /// The list of an `each`: a name, or entities of one kind, since the first decides what the others may be.
-    pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, Outside> {
+    /// The list of an `each`: a name, or entities of one kind, since the first decides what the others may
+    /// be.
+    pub(super) fn each_list(&self, expr: &Expr) -> Result<Value, OutsideSubset> {
         const ROOT: usize = 0;
         let list = self.value(expr, &Type::List(Box::new(Type::Entity(ROOT))), None)?;
         let kind = |value: &Value| match value {
@@ -128,16 +140,16 @@ impl Completer<'_> {
         if is_alike { Ok(list) } else { Err(outside(expr, why.into())) }
     }
 
-    /// A number of seconds.
-    pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, Outside> {
+    /// A time in seconds.
+    pub(super) fn seconds(&self, expr: &Expr) -> Result<Decimal, OutsideSubset> {
         match self.value(expr, &Type::Quantity(Dimension::DURATION), None)? {
             Value::Number(number, _) if NumberRange::DURATION.contains(number) => Ok(number),
             _ => Err(outside(expr, "a time is a number of seconds on the model subset".into())),
         }
     }
 
-    /// A whole number.
-    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, Outside> {
+    /// A whole number from `least` to `greatest`.
+    pub(super) fn count(&self, expr: &Expr, least: u32, greatest: u32) -> Result<u32, OutsideSubset> {
         let whole = match &expr.kind {
             ExprKind::Number(value) => NumberRange::whole(least, greatest).nearest(*value),
             _ => None,
@@ -148,8 +160,8 @@ impl Completer<'_> {
         })
     }
 
-    /// A condition, `depth` of which may still stand in one another.
-    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, Outside> {
+    /// A condition; `depth` more may be nested in it.
+    pub(super) fn condition(&self, expr: &Expr, depth: usize) -> Result<Condition, OutsideSubset> {
         let within = || {
             depth.checked_sub(1).ok_or_else(|| {
                 let most = subset::MAX_CONDITION_DEPTH;
@@ -197,7 +209,7 @@ impl Completer<'_> {
         }
     }
 
-    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Condition, Outside> {
+    fn comparison(&self, of: &Expr, relation: Relation, with: &Expr) -> Result<Condition, OutsideSubset> {
         let (subject, ty) = match &of.kind {
             ExprKind::Call(call) => {
                 let measure = self
@@ -233,10 +245,10 @@ impl Completer<'_> {
         call: &Call,
         params: &[(SmolStr, Type)],
         takes_any: bool,
-    ) -> Result<Vec<(SmolStr, Value)>, Outside> {
+    ) -> Result<Vec<(SmolStr, Value)>, OutsideSubset> {
         let value = |(index, (name, ty)): (usize, &(SmolStr, Type))| {
             let arg = super::complete::argument(call, index, name);
-            let arg = arg.ok_or_else(|| Outside {
+            let arg = arg.ok_or_else(|| OutsideSubset {
                 span: call.span,
                 why: format!("`{}` lacks `{name}`", call.name.text),
             })?;
@@ -247,7 +259,7 @@ impl Completer<'_> {
             Ok((name.clone(), value))
         };
         if call.args.len() > params.len() {
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span: call.span,
                 why: format!("`{}` has too many arguments", call.name.text),
             });
@@ -255,31 +267,41 @@ impl Completer<'_> {
         params.iter().enumerate().map(value).collect()
     }
 
-    /// A name that the policy gives to something, or uses.
-    pub(super) fn new_name(&self, name: &SmolStr, span: motet_syntax::Span) -> Result<SmolStr, Outside> {
+    /// A name that the policy gives or uses.
+    pub(super) fn new_name(
+        &self,
+        name: &SmolStr,
+        span: motet_syntax::Span,
+    ) -> Result<SmolStr, OutsideSubset> {
         if !subset::is_name(name) {
             let most = subset::MAX_NAME_CHARS;
-            return Err(Outside {
+            return Err(OutsideSubset {
                 span,
                 why: format!("`{name}` is no name of at most {most} ASCII letters, digits and `_`"),
             });
         }
         if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
-            return Err(Outside { span, why: format!("`{name}` is an entity, which no name may hide") });
+            return Err(OutsideSubset {
+                span,
+                why: format!("`{name}` is an entity, which no name may hide"),
+            });
         }
         if self.subset.syntax == Syntax::Text && self.is_taken(name) {
-            return Err(Outside { span, why: format!("`{name}` means something else in the text form") });
+            return Err(OutsideSubset {
+                span,
+                why: format!("`{name}` means something else in the text form"),
+            });
         }
         Ok(name.clone())
     }
 
-    /// Whether a name is a word of the language or a case.
+    /// The name is a word of the language or a case.
     fn is_taken(&self, name: &str) -> bool {
         motet_syntax::print::identifier(name) != name
             || self.signatures.enums.iter().any(|def| def.cases.iter().any(|case| case == name))
     }
 }
 
-pub(super) fn outside(expr: &Expr, why: String) -> Outside {
-    Outside { span: expr.span, why }
+pub(super) fn outside(expr: &Expr, why: String) -> OutsideSubset {
+    OutsideSubset { span: expr.span, why }
 }

@@ -1,92 +1,139 @@
-//! EBNF after ISO/IEC 14977, with neither character classes nor regular expressions: a class is the choice of its characters,
-//! a bounded repetition a number of times the thing and a number of times the thing or nothing.
+//! A context-free grammar without recursion: literals, classes of characters, sequences, choices, bounded
+//! repetition, and rules. The first rule is the root. What the notations print.
 
-use super::grammar::{Expr, Grammar, RuleId};
-use super::notation::{Level, Notation};
+/// The place of a rule in its grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct RuleId(pub usize);
 
-/// The grammar, a rule a line.
-pub(super) fn print(grammar: &Grammar) -> String {
-    let mut out = String::new();
-    for rule in &grammar.rules {
-        out.push_str(&name(&rule.name));
-        out.push_str(" = ");
-        Ebnf(grammar).expr(&mut out, &rule.body, Level::Choice);
-        out.push_str(" ;\n");
-    }
-    out
+/// What may stand at a place.
+#[derive(Clone, PartialEq, Debug)]
+pub enum EbnfExpr {
+    /// These characters.
+    Literal(String),
+    /// One character of these ranges, both ends included, all of them ASCII.
+    Class(Vec<(char, char)>),
+    /// One after the other; nothing where there is none.
+    Seq(Vec<EbnfExpr>),
+    /// One of several.
+    Choice(Vec<EbnfExpr>),
+    /// As often as from the first to the second number.
+    Repeat(Box<EbnfExpr>, u32, u32),
+    /// What a rule says.
+    Rule(RuleId),
 }
 
-/// WordList of a rule's name are joined by spaces, as the standard has it.
-fn name(name: &str) -> String {
-    name.replace('_', " ")
+/// A rule.
+#[derive(Clone, PartialEq, Debug)]
+pub struct EbnfRule {
+    /// Its name: lower-case letters, digits and `_`; no two are alike.
+    pub name: String,
+    /// What it says.
+    pub body: EbnfExpr,
+    /// Whether it is a word of its own, which has no rule within: a terminal, where a notation has them.
+    pub is_token: bool,
 }
 
-struct Ebnf<'g>(&'g Grammar);
+/// Rules, of which each names only those behind it or none that leads back: nothing recurses.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct EbnfGrammar {
+    /// The rules, the root first.
+    pub rules: Vec<EbnfRule>,
+}
 
-impl Notation for Ebnf<'_> {
-    const THEN: &'static str = ", ";
-    const PARENTHESES: (&'static str, &'static str) = ("( ", " )");
+impl EbnfExpr {
+    /// A literal.
+    #[must_use]
+    pub fn literal(text: impl Into<String>) -> Self {
+        Self::Literal(text.into())
+    }
 
-    fn level(&self, expr: &Expr) -> Level {
-        match expr {
-            Expr::Choice(_) | Expr::Class(_) => Level::Choice,
-            Expr::Seq(parts) if !parts.is_empty() => Level::Seq,
-            Expr::Repeat(..) => Level::Seq,
-            Expr::Literal(text) if text.contains('"') && text.contains('\'') => Level::Seq,
-            Expr::Seq(_) | Expr::Literal(_) | Expr::Rule(_) => Level::Item,
+    /// The thing, or nothing.
+    #[must_use]
+    pub fn optional(self) -> Self {
+        self.repeat(0, 1)
+    }
+
+    /// The thing so many times.
+    #[must_use]
+    pub fn repeat(self, least: u32, greatest: u32) -> Self {
+        match (least, greatest) {
+            (1, 1) => self,
+            // Some notations have no repetition that is none.
+            (_, 0) => Self::Seq(Vec::new()),
+            _ => Self::Repeat(Box::new(self), least, greatest),
         }
     }
 
-    fn literal(&self, out: &mut String, text: &str) {
-        literal(out, text);
-    }
-
-    fn class(&self, out: &mut String, ranges: &[(char, char)]) {
-        for (index, character) in ranges.iter().flat_map(|(from, to)| *from..=*to).enumerate() {
-            if index > 0 {
-                out.push_str(Self::OR);
+    /// One of several, which is the thing itself where there is only one.
+    #[must_use]
+    pub fn choice(mut of: Vec<Self>) -> Self {
+        match (of.len(), of.pop()) {
+            (1, Some(only)) => only,
+            (_, None) => Self::Choice(of),
+            (_, Some(last)) => {
+                of.push(last);
+                Self::Choice(of)
             }
-            literal(out, &character.to_string());
         }
     }
 
-    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
-        if least > 0 {
-            out.push_str(&format!("{least} * "));
-            self.expr(out, inner, Level::Item);
-        }
-        if greatest > least {
-            if least > 0 {
-                out.push_str(", ");
+    /// One after the other; neighbouring literals become one.
+    #[must_use]
+    pub fn seq(of: Vec<Self>) -> Self {
+        let mut parts: Vec<Self> = Vec::with_capacity(of.len());
+        for part in of {
+            match (parts.last_mut(), part) {
+                (Some(Self::Literal(before)), Self::Literal(text)) => before.push_str(&text),
+                (_, Self::Seq(inner)) if inner.is_empty() => {}
+                (_, part) => parts.push(part),
             }
-            if greatest - least > 1 {
-                out.push_str(&format!("{} * ", greatest - least));
-            }
-            out.push_str("[ ");
-            self.expr(out, inner, Level::Choice);
-            out.push_str(" ]");
         }
-    }
-
-    fn rule(&self, out: &mut String, id: RuleId) {
-        out.push_str(&self.0.rule(id).map_or_else(String::new, |rule| name(&rule.name)));
+        match (parts.len(), parts.pop()) {
+            (1, Some(only)) => only,
+            (_, None) => Self::Seq(parts),
+            (_, Some(last)) => {
+                parts.push(last);
+                Self::Seq(parts)
+            }
+        }
     }
 }
 
-/// The standard has two quotes and no escape: where both stand in a text, it is several.
-fn literal(out: &mut String, text: &str) {
-    let mut rest = text;
-    while !rest.is_empty() {
-        if rest.len() < text.len() {
-            out.push_str(", ");
+impl EbnfGrammar {
+    /// Adds a rule whose name is made of any text, and made unique.
+    pub(crate) fn add(&mut self, name: &str, body: EbnfExpr, is_token: bool) -> RuleId {
+        let mut clean: String = name
+            .chars()
+            .map(
+                |character| {
+                    if character.is_ascii_alphanumeric() { character.to_ascii_lowercase() } else { '_' }
+                },
+            )
+            .collect();
+        // A leading digit or underscore, and a double one, mean something in some notation.
+        while clean.contains("__") {
+            clean = clean.replace("__", "_");
         }
-        let without = |quote: char| rest.find(quote).unwrap_or(rest.len());
-        let (quote, end) =
-            if without('"') >= without('\'') { ('"', without('"')) } else { ('\'', without('\'')) };
-        let (part, behind) = rest.split_at_checked(end).unwrap_or((rest, ""));
-        out.push(quote);
-        out.push_str(part);
-        out.push(quote);
-        rest = behind;
+        let clean = clean.trim_matches('_');
+        let clean = if clean.starts_with(|first: char| first.is_ascii_alphabetic()) {
+            clean.to_owned()
+        } else {
+            format!("x{clean}")
+        };
+        let is_taken = |name: &str| self.rules.iter().any(|rule| rule.name == name);
+        let mut unique = clean.clone();
+        let mut count = 1;
+        while is_taken(&unique) {
+            count += 1;
+            unique = format!("{clean}x{count}");
+        }
+        self.rules.push(EbnfRule { name: unique, body, is_token });
+        RuleId(self.rules.len() - 1)
+    }
+
+    /// The rule with an id.
+    #[must_use]
+    pub fn rule(&self, id: RuleId) -> Option<&EbnfRule> {
+        self.rules.get(id.0)
     }
 }

@@ -1,10 +1,10 @@
 //! GBNF, the notation of llama.cpp: `root ::=`, ranges written out, lower bounds written, no recursion.
 
-use super::grammar::{Expr, Grammar, RuleId};
+use super::ebnf::{EbnfExpr, EbnfGrammar, RuleId};
 use super::notation::{Level, Notation, times};
 
 /// The grammar, a rule a line.
-pub(super) fn print(grammar: &Grammar) -> String {
+pub(super) fn print(grammar: &EbnfGrammar) -> String {
     let mut out = String::new();
     for rule in &grammar.rules {
         out.push_str(&name(&rule.name));
@@ -15,7 +15,7 @@ pub(super) fn print(grammar: &Grammar) -> String {
     out
 }
 
-struct Gbnf<'g>(&'g Grammar);
+struct Gbnf<'g>(&'g EbnfGrammar);
 
 /// WordList of a rule's name are joined by a minus sign, the only mark that llama.cpp has in one.
 fn name(name: &str) -> String {
@@ -33,8 +33,8 @@ impl Notation for Gbnf<'_> {
         class(out, ranges);
     }
 
-    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
-        let is_repeat = matches!(inner, Expr::Repeat(..));
+    fn repeat(&self, out: &mut String, inner: &EbnfExpr, least: u32, greatest: u32) {
+        let is_repeat = matches!(inner, EbnfExpr::Repeat(..));
         if is_repeat {
             out.push('(');
         }

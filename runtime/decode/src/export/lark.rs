@@ -1,6 +1,7 @@
-//! Lark, as llguidance reads it: rules in lower case, what is a word of its own as a terminal with a regular expression.
+//! Lark, as llguidance reads it: rules in lower case, what is a word of its own as a terminal with a
+//! regular expression.
 
-use super::grammar::{Expr, Grammar, Rule, RuleId};
+use super::ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 use super::notation::{Level, Notation, times};
 
 /// Whether the line stands at the top by which llguidance knows its dialect.
@@ -14,7 +15,7 @@ pub enum Header {
 }
 
 /// The grammar, a rule a line.
-pub(super) fn print(grammar: &Grammar, header: Header) -> String {
+pub(super) fn print(grammar: &EbnfGrammar, header: Header) -> String {
     let mut out = String::new();
     if header == Header::Llguidance {
         out.push_str("%llguidance {}\n\n");
@@ -35,7 +36,7 @@ pub(super) fn print(grammar: &Grammar, header: Header) -> String {
     out
 }
 
-fn name(rule: &Rule, index: usize) -> String {
+fn name(rule: &EbnfRule, index: usize) -> String {
     match (index, rule.is_token) {
         (0, _) => "start".to_owned(),
         (_, true) => rule.name.to_ascii_uppercase(),
@@ -43,7 +44,7 @@ fn name(rule: &Rule, index: usize) -> String {
     }
 }
 
-struct Lark<'g>(&'g Grammar);
+struct Lark<'g>(&'g EbnfGrammar);
 
 impl Notation for Lark<'_> {
     const THEN: &'static str = " ";
@@ -59,7 +60,7 @@ impl Notation for Lark<'_> {
         out.push('/');
     }
 
-    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
+    fn repeat(&self, out: &mut String, inner: &EbnfExpr, least: u32, greatest: u32) {
         out.push('(');
         self.expr(out, inner, Level::Choice);
         out.push(')');
@@ -95,7 +96,7 @@ impl Notation for Regex {
         out.push(']');
     }
 
-    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32) {
+    fn repeat(&self, out: &mut String, inner: &EbnfExpr, least: u32, greatest: u32) {
         out.push_str("(?:");
         self.expr(out, inner, Level::Choice);
         out.push(')');

@@ -2,8 +2,9 @@
 
 use serde_json::Value;
 
-use super::offer::Offer;
-use super::request::{Dialect, schema_of};
+use super::{Dialect, EbnfExpr, ebnf, json_schema};
+use crate::Grammar;
+use crate::grammar::MAX_EXCLUDED;
 
 /// The most properties of all objects together that OpenAI takes.
 const OPENAI_PROPERTIES: usize = 5_000;
@@ -18,7 +19,7 @@ const OLLAMA_BYTES: usize = 64 * 1024;
 
 /// A limit that a grammar exceeds.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Warning {
+pub struct LimitWarning {
     /// Whose limit it is; none where it is everyone's.
     pub server: Option<Dialect>,
     /// What is too much, and how much of it.
@@ -27,10 +28,10 @@ pub struct Warning {
 
 /// The limits that the grammars of an offer exceed.
 #[must_use]
-pub fn warnings(offer: &Offer) -> Vec<Warning> {
+pub fn warnings(grammar: &Grammar) -> Vec<LimitWarning> {
     let mut found = Vec::new();
-    let mut warn = |server, text| found.push(Warning { server, text });
-    if let Some(schema) = schema_of(offer) {
+    let mut warn = |server, text| found.push(LimitWarning { server, text });
+    if let Some(schema) = json_schema(grammar) {
         let mut count = Count::default();
         count.value(&schema, 0);
         let openai = [
@@ -51,14 +52,13 @@ pub fn warnings(offer: &Offer) -> Vec<Warning> {
             warn(Some(Dialect::Ollama), text);
         }
     }
-    let grammar = super::grammar(offer);
-    let most = grammar.rules.iter().map(|rule| repetitions(&rule.body)).max().unwrap_or(0);
+    let most = ebnf(grammar).rules.iter().map(|rule| repetitions(&rule.body)).max().unwrap_or(0);
     if most > LLAMA_REPETITIONS {
         let text = format!("the grammar repeats something {most} times; llama.cpp takes {LLAMA_REPETITIONS}");
         warn(Some(Dialect::LlamaCpp), text);
     }
-    let names: usize = offer.lists.iter().map(Vec::len).sum();
-    if offer.subset.syntax == motet_syntax::Syntax::Text && names > super::offer::MAX_EXCLUDED {
+    let names = grammar.signatures.entities.len();
+    if grammar.subset.syntax == motet_syntax::Syntax::Text && names > MAX_EXCLUDED {
         warn(None, format!("there are {names} entities: a name that the policy gives may be one of theirs"));
     }
     found
@@ -89,11 +89,10 @@ impl Count {
     }
 }
 
-fn repetitions(expr: &super::Expr) -> u32 {
-    use super::Expr;
+fn repetitions(expr: &EbnfExpr) -> u32 {
     match expr {
-        Expr::Literal(_) | Expr::Class(_) | Expr::Rule(_) => 0,
-        Expr::Seq(parts) | Expr::Choice(parts) => parts.iter().map(repetitions).max().unwrap_or(0),
-        Expr::Repeat(inner, _, greatest) => repetitions(inner).max(*greatest),
+        EbnfExpr::Literal(_) | EbnfExpr::Class(_) | EbnfExpr::Rule(_) => 0,
+        EbnfExpr::Seq(parts) | EbnfExpr::Choice(parts) => parts.iter().map(repetitions).max().unwrap_or(0),
+        EbnfExpr::Repeat(inner, _, greatest) => repetitions(inner).max(*greatest),
     }
 }

@@ -1,47 +1,38 @@
-//! Grammars of the model subset, for servers that hold a model to one.
+//! Grammars of the canonical subset for servers that constrain a model.
 //!
-//! All are generated from one [`Offer`]: what the signatures and the world allow at each place. The JSON form becomes a
-//! tree of [`Shape`]s, of which the JSON Schema is printed; shapes and the text form become one [`Grammar`] of literals,
-//! character classes and bounded repetition, of which GBNF, Lark and EBNF are printed. Nothing recurses: blocks and
-//! conditions are written out to the depth of the subset, so whatever a model writes comes to an end.
+//! All are derived from one [`Grammar`](crate::Grammar): [`json_schema`] and [`ebnf`] leave out the actions
+//! and guards of the automaton and write recursion out to the depth of the subset, so that whatever a model
+//! writes comes to an end. GBNF, Lark and ISO EBNF are notations of the latter.
 //!
-//! A grammar cannot know what is in scope: a binding is any name. What it generates is read without a mistake, and is right
-//! in names and types but for that.
+//! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is
+//! right in names and types but for that.
 
-mod class;
-mod compact;
+mod char_class;
+mod decimal_range;
+mod derive;
 mod ebnf;
 mod gbnf;
-mod grammar;
+mod iso_ebnf;
 mod lark;
 mod limits;
 mod notation;
-mod number;
-mod offer;
 mod request;
 mod schema;
-mod shape;
-mod text;
-mod value_set;
 
-pub use grammar::{Expr, Grammar, Rule, RuleId};
+pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 pub use lark::Header;
-pub use limits::{Warning, warnings};
-pub use offer::Offer;
-pub use request::{
-    Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
-};
-pub use shape::{Shape, Shapes};
+pub use limits::{LimitWarning, warnings};
+pub use request::{Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint};
 
-use motet_compiler::Signatures;
 use motet_syntax::Syntax;
+use serde_json::Value;
 
-use crate::subset::Subset;
+use crate::Grammar;
 
 /// A notation of a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Format {
-    /// JSON Schema, in the subset that all servers take; only of the JSON form.
+    /// JSON Schema, in the subset that all servers take; for the JSON syntax only.
     JsonSchema,
     /// The notation of llama.cpp, which xgrammar takes too.
     Gbnf,
@@ -51,28 +42,41 @@ pub enum Format {
     RegexFreeEbnf,
 }
 
-/// The grammar of a subset in a notation; none where the notation cannot say the form, which is a JSON Schema for text.
-/// The same input gives the same bytes. O(declarations + entities) for each level of the subset's depth.
+/// Writes a grammar in a notation; `None` for a JSON Schema of the text syntax. `header` is used by Lark
+/// only.
+///
+/// The same grammar gives the same bytes. O(declarations + entities) for each level of the subset's depth.
+///
+/// ```
+/// use motet_decode::export::{Format, Header, export};
+/// use motet_decode::{Environment, Grammar, Subset};
+///
+/// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };
+/// let session = texts.session()?;
+/// let grammar = Grammar::new(&session.signatures(), Subset::default());
+/// let gbnf = export(&grammar, Format::Gbnf, Header::None).expect("GBNF takes both syntaxes");
+/// assert!(gbnf.starts_with("root ::= "));
+/// # Ok::<(), motet_decode::EnvironmentError>(())
+/// ```
 #[must_use]
-pub fn export(signatures: &Signatures, subset: Subset, format: Format, header: Header) -> Option<String> {
-    let offer = Offer::new(signatures, subset);
-    match format {
-        Format::JsonSchema => {
-            let schema = schema_of(&offer)?;
-            // A value of maps, lists and strings always has a JSON form.
-            Some(serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n")
-        }
-        Format::Gbnf => Some(gbnf::print(&grammar(&offer))),
-        Format::Lark => Some(lark::print(&grammar(&offer), header)),
-        Format::RegexFreeEbnf => Some(ebnf::print(&grammar(&offer))),
-    }
+pub fn export(grammar: &Grammar, format: Format, header: Header) -> Option<String> {
+    Some(match format {
+        // A value of maps, lists and strings always has a JSON form.
+        Format::JsonSchema => serde_json::to_string_pretty(&json_schema(grammar)?).unwrap_or_default() + "\n",
+        Format::Gbnf => gbnf::print(&ebnf(grammar)),
+        Format::Lark => lark::print(&ebnf(grammar), header),
+        Format::RegexFreeEbnf => iso_ebnf::print(&ebnf(grammar)),
+    })
 }
 
-/// The grammar of an offer, character by character.
+/// Derives the JSON Schema of a grammar; `None` for the text syntax.
 #[must_use]
-pub fn grammar(offer: &Offer) -> Grammar {
-    match offer.subset.syntax {
-        Syntax::Json => compact::grammar(&Shapes::new(offer)),
-        Syntax::Text => text::grammar(offer),
-    }
+pub fn json_schema(grammar: &Grammar) -> Option<Value> {
+    (grammar.subset.syntax == Syntax::Json).then(|| schema::schema(grammar))
+}
+
+/// Derives the context-free grammar without recursion, character by character.
+#[must_use]
+pub fn ebnf(grammar: &Grammar) -> EbnfGrammar {
+    derive::ebnf(grammar)
 }

@@ -1,6 +1,6 @@
 //! How a grammar is written down: the walk that all notations share, and what each of them has of its own.
 
-use super::grammar::{Expr, RuleId};
+use super::ebnf::{EbnfExpr, RuleId};
 
 /// How tightly an expression has to hold together where it stands.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -23,7 +23,7 @@ pub(super) trait Notation {
 
     fn class(&self, out: &mut String, ranges: &[(char, char)]);
 
-    fn repeat(&self, out: &mut String, inner: &Expr, least: u32, greatest: u32);
+    fn repeat(&self, out: &mut String, inner: &EbnfExpr, least: u32, greatest: u32);
 
     fn rule(&self, out: &mut String, id: RuleId);
 
@@ -33,37 +33,39 @@ pub(super) trait Notation {
     }
 
     /// How tightly an expression holds together by itself.
-    fn level(&self, expr: &Expr) -> Level {
+    fn level(&self, expr: &EbnfExpr) -> Level {
         match expr {
-            Expr::Choice(_) => Level::Choice,
-            Expr::Seq(parts) if !parts.is_empty() => Level::Seq,
-            Expr::Seq(_) | Expr::Literal(_) | Expr::Class(_) | Expr::Repeat(..) | Expr::Rule(_) => {
-                Level::Item
-            }
+            EbnfExpr::Choice(_) => Level::Choice,
+            EbnfExpr::Seq(parts) if !parts.is_empty() => Level::Seq,
+            EbnfExpr::Seq(_)
+            | EbnfExpr::Literal(_)
+            | EbnfExpr::Class(_)
+            | EbnfExpr::Repeat(..)
+            | EbnfExpr::Rule(_) => Level::Item,
         }
     }
 
     /// Writes an expression where it has to hold together as tightly as this.
-    fn expr(&self, out: &mut String, expr: &Expr, least: Level) {
+    fn expr(&self, out: &mut String, expr: &EbnfExpr, least: Level) {
         let in_parentheses = self.level(expr) < least;
         if in_parentheses {
             out.push_str(Self::PARENTHESES.0);
         }
         match expr {
-            Expr::Literal(text) => self.literal(out, text),
-            Expr::Class(ranges) => self.class(out, ranges),
-            Expr::Seq(parts) if parts.is_empty() => self.nothing(out),
-            Expr::Seq(parts) => self.joined(out, parts, Self::THEN, Level::Item),
-            Expr::Choice(parts) => self.joined(out, parts, Self::OR, Level::Seq),
-            Expr::Repeat(inner, least, greatest) => self.repeat(out, inner, *least, *greatest),
-            Expr::Rule(id) => self.rule(out, *id),
+            EbnfExpr::Literal(text) => self.literal(out, text),
+            EbnfExpr::Class(ranges) => self.class(out, ranges),
+            EbnfExpr::Seq(parts) if parts.is_empty() => self.nothing(out),
+            EbnfExpr::Seq(parts) => self.joined(out, parts, Self::THEN, Level::Item),
+            EbnfExpr::Choice(parts) => self.joined(out, parts, Self::OR, Level::Seq),
+            EbnfExpr::Repeat(inner, least, greatest) => self.repeat(out, inner, *least, *greatest),
+            EbnfExpr::Rule(id) => self.rule(out, *id),
         }
         if in_parentheses {
             out.push_str(Self::PARENTHESES.1);
         }
     }
 
-    fn joined(&self, out: &mut String, parts: &[Expr], with: &str, level: Level) {
+    fn joined(&self, out: &mut String, parts: &[EbnfExpr], with: &str, level: Level) {
         for (index, part) in parts.iter().enumerate() {
             if index > 0 {
                 out.push_str(with);

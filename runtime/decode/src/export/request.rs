@@ -1,12 +1,10 @@
 //! How servers are asked to hold a model to a grammar: the fields that each dialect adds to a chat request.
 
-use motet_syntax::Syntax;
 use serde_json::{Map, Value, json};
 
 use super::lark::Header;
-use super::offer::Offer;
-use super::shape::Shapes;
-use super::{gbnf, grammar, lark, schema};
+use super::{ebnf, gbnf, json_schema, lark};
+use crate::Grammar;
 
 /// A server's way of taking a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -34,19 +32,14 @@ pub struct Prompt<'p> {
     pub user: &'p str,
 }
 
-/// The JSON Schema of an offer; none of the text form.
+/// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request.
+/// None where a server cannot be held to the form: Ollama and OpenAI take a JSON Schema only, so not the
+/// text form.
 #[must_use]
-pub fn schema_of(offer: &Offer) -> Option<Value> {
-    (offer.subset.syntax == Syntax::Json).then(|| schema::schema(&Shapes::new(offer)))
-}
-
-/// The fields that hold a model to the grammar of an offer, to be merged into the body of a chat request. None where a
-/// server cannot be held to the form: Ollama and OpenAI take a JSON Schema only, so not the text form.
-#[must_use]
-pub fn request_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
+pub fn request_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
     let named = |schema: Value| json!({"type": "json_schema", "json_schema": {"name": "motet_policy", "strict": true, "schema": schema}});
-    let gbnf = || gbnf::print(&grammar(offer));
-    Some(match (dialect, schema_of(offer)) {
+    let gbnf = || gbnf::print(&ebnf(grammar));
+    Some(match (dialect, json_schema(grammar)) {
         (Dialect::Vllm, Some(schema)) => {
             json!({"structured_outputs": {"json": schema, "disable_any_whitespace": true}})
         }
@@ -63,11 +56,12 @@ pub fn request_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
     })
 }
 
-/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the backend `guidance`, of SGLang
-/// with `llguidance`, and of a server of llama.cpp that was built with it. None for servers that take neither.
+/// The same in Lark, which llguidance takes, in the field where a server takes GBNF: of vLLM with the
+/// backend `guidance`, of SGLang with `llguidance`, and of a server of llama.cpp that was built with it.
+/// None for servers that take neither.
 #[must_use]
-pub fn lark_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
-    let lark = || lark::print(&grammar(offer), Header::Llguidance);
+pub fn lark_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
+    let lark = || lark::print(&ebnf(grammar), Header::Llguidance);
     match dialect {
         Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark()}})),
         Dialect::LlamaCpp => Some(json!({"grammar": lark()})),
@@ -78,8 +72,8 @@ pub fn lark_constraint(dialect: Dialect, offer: &Offer) -> Option<Value> {
 
 /// The whole body of a chat request.
 #[must_use]
-pub fn request_body(dialect: Dialect, offer: &Offer, prompt: Prompt<'_>) -> Option<Value> {
-    Some(body(prompt, request_constraint(dialect, offer)?))
+pub fn request_body(dialect: Dialect, grammar: &Grammar, prompt: Prompt<'_>) -> Option<Value> {
+    Some(body(prompt, request_constraint(dialect, grammar)?))
 }
 
 fn body(prompt: Prompt<'_>, constraint: Value) -> Value {
@@ -94,9 +88,9 @@ fn body(prompt: Prompt<'_>, constraint: Value) -> Value {
     Value::Object(body)
 }
 
-/// The body of a request that asks for a plain word under a grammar that allows only one JSON object, which has no place
-/// for it. An answer that is that object shows that the server holds the model to grammars; any other, that it does not.
-/// The answer that the grammar demands comes with the body.
+/// The body of a request that asks for a plain word under a grammar that allows only one JSON object, which
+/// has no place for it. An answer that is that object shows that the server holds the model to grammars;
+/// any other, that it does not. The answer that the grammar demands comes with the body.
 #[must_use]
 pub fn probe_body(dialect: Dialect, model: &str) -> (Value, Value) {
     let schema = json!({

@@ -1,83 +1,323 @@
-//! Shapes as a JSON Schema, in the subset that every server takes: objects with all keys required and no others, strings with
-//! `const`, `enum` or an anchored pattern, `anyOf`, `$ref` alone in its object, arrays with bounds, numbers with bounds.
+//! Derivation of a JSON Schema from the grammar of the JSON syntax, in the subset that every server takes:
+//! objects with all keys required and no others, strings with `const`, `enum` or an anchored pattern,
+//! `anyOf`, `$ref` alone in its object, arrays and numbers with bounds.
+//!
+//! The productions of the grammar spell objects as bytes. They are read as a template: the literals between
+//! two values hold the end of one key and the beginning of the next.
 
+use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 
-use super::shape::{Shape, Shapes};
+use crate::grammar::{Alternative, AtomSort, BlockRole, ConditionUse, Grammar, Part, ValueSet};
+use crate::subset::{Decimal, MAX_CONDITION_DEPTH, MAX_ITEMS, MAX_MEMBERS, MAX_STEPS, NumberRange, Relation};
 
-/// The JSON Schema of shapes.
-pub(super) fn schema(shapes: &Shapes) -> Value {
-    let names: Vec<String> = unique(shapes.defs.iter().map(|(name, _)| name.as_str()));
-    let Some(((_, root), defs)) = shapes.defs.split_last() else { return Value::Null };
-    let Value::Object(mut schema) = of(root, &names) else { return Value::Null };
-    let defs: Map<String, Value> =
-        names.iter().zip(defs).map(|(name, (_, shape))| (name.clone(), of(shape, &names))).collect();
-    schema.insert("$defs".to_owned(), Value::Object(defs));
-    Value::Object(schema)
+/// Derives the JSON Schema of a grammar of the JSON syntax.
+pub(super) fn schema(grammar: &Grammar) -> Value {
+    let mut deriver = Deriver { grammar, defs: Map::new(), values: Vec::new(), known: FxHashMap::default() };
+    deriver.define("name", json!({"type": "string", "pattern": "^[a-zA-Z_][a-zA-Z0-9_]*$"}));
+    deriver.define("binding", json!({"type": "string", "pattern": "^\\$[a-zA-Z_][a-zA-Z0-9_]*$"}));
+    // Without a bound: one makes engines slow. The class is that of the subset, which needs no escape.
+    deriver.define("text", json!({"type": "string", "pattern": "^[ !#%-\\[\\]-~][ !#-\\[\\]-~]*$"}));
+    let mut root =
+        deriver.object("", &grammar.document, Level { depth: grammar.subset.depth, in_goal: false });
+    if let Value::Object(root) = &mut root {
+        root.insert("$defs".to_owned(), Value::Object(deriver.defs));
+    }
+    root
 }
 
-/// Names that can stand in a pointer, no two alike.
-fn unique<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
-    for name in names {
-        let clean: String = name
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
-            .collect();
-        let mut unique = clean.clone();
-        let mut count = 1;
-        while found.contains(&unique) {
+#[derive(Clone, Copy)]
+struct Level {
+    depth: usize,
+    in_goal: bool,
+}
+
+struct Deriver<'g> {
+    grammar: &'g Grammar,
+    defs: Map<String, Value>,
+    values: Vec<(ValueSet, Value)>,
+    /// References to definitions by what they define: an engine compiles a schema faster by far, the less
+    /// it repeats.
+    known: FxHashMap<String, Value>,
+}
+
+fn reference(name: &str) -> Value {
+    json!({"$ref": format!("#/$defs/{name}")})
+}
+
+fn one_of(mut shapes: Vec<Value>) -> Value {
+    if shapes.len() == 1 { shapes.pop().unwrap_or_default() } else { json!({"anyOf": shapes}) }
+}
+
+fn array(item: Value, least: usize, most: usize) -> Value {
+    json!({"type": "array", "items": item, "minItems": least, "maxItems": most})
+}
+
+fn words(words: &[impl AsRef<str>]) -> Value {
+    match words {
+        [only] => json!({"type": "string", "const": only.as_ref()}),
+        words => {
+            let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+            json!({"type": "string", "enum": words})
+        }
+    }
+}
+
+fn number(range: &NumberRange) -> Value {
+    if range.decimals == 0 {
+        return json!({"type": "integer", "minimum": range.least, "maximum": range.greatest});
+    }
+    let bound = |units: i64| {
+        let value = Decimal { units, decimals: range.decimals }.value();
+        // A whole bound without a decimal point, which some servers read as another type.
+        if value.fract() == 0.0 { json!(value as i64) } else { json!(value) }
+    };
+    json!({"type": "number", "minimum": bound(range.least), "maximum": bound(range.greatest)})
+}
+
+/// The keys of an object so far.
+#[derive(Default)]
+struct Keys {
+    properties: Map<String, Value>,
+    /// Bytes that were not read yet.
+    text: String,
+}
+
+impl Keys {
+    /// Reads the text up to the key whose value comes next, with the values that are literals.
+    fn key(&mut self) -> String {
+        loop {
+            let rest = self.text.trim_start_matches(['{', ',', '}', ']']);
+            let Some((key, value)) = rest.strip_prefix('"').and_then(|rest| rest.split_once("\":")) else {
+                self.text.clear();
+                return String::new();
+            };
+            if value.is_empty() {
+                let key = key.to_owned();
+                self.text.clear();
+                return key;
+            }
+            let end = match value.strip_prefix('"') {
+                Some(string) => string.find('"').map_or(value.len(), |end| end + 2),
+                None => value.find([',', '}']).unwrap_or(value.len()),
+            };
+            let (literal, behind) = value.split_at_checked(end).unwrap_or((value, ""));
+            let shape = match serde_json::from_str::<Value>(literal) {
+                Ok(Value::String(word)) => words(&[word]),
+                Ok(Value::Number(version)) => json!({"type": "integer", "enum": [version]}),
+                _ => json!({"type": "null"}),
+            };
+            self.properties.insert(key.to_owned(), shape);
+            self.text = behind.to_owned();
+        }
+    }
+
+    fn finish(mut self) -> Value {
+        self.key();
+        let required: Vec<&String> = self.properties.keys().collect();
+        json!({
+            "type": "object", "properties": self.properties, "required": required, "additionalProperties": false,
+        })
+    }
+}
+
+impl Deriver<'_> {
+    fn define(&mut self, name: &str, shape: Value) -> Value {
+        let clean = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+        let clean: String = name.chars().map(clean).collect();
+        let (mut unique, mut count) = (clean.clone(), 1);
+        while self.defs.contains_key(&unique) {
             count += 1;
             unique = format!("{clean}_{count}");
         }
-        found.push(unique);
+        self.defs.insert(unique.clone(), shape);
+        reference(&unique)
     }
-    found
-}
 
-fn of(shape: &Shape, names: &[String]) -> Value {
-    match shape {
-        Shape::Ref(def) => {
-            json!({"$ref": format!("#/$defs/{}", names.get(*def).map_or("root", String::as_str))})
+    /// A definition that is made once.
+    fn once(&mut self, name: String, make: impl FnOnce(&mut Self) -> Value) -> Value {
+        if let Some(known) = self.known.get(&name) {
+            return known.clone();
         }
-        Shape::Object(keys) => {
-            let required: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
-            let properties: Map<String, Value> =
-                keys.iter().map(|(key, shape)| (key.to_string(), of(shape, names))).collect();
-            json!({
-                "type": "object", "properties": properties, "required": required, "additionalProperties": false,
-            })
+        let shape = make(self);
+        let shape = self.define(&name, shape);
+        self.known.insert(name, shape.clone());
+        shape
+    }
+
+    /// The object that a literal and parts spell.
+    fn object(&mut self, lead: &str, parts: &[Part], level: Level) -> Value {
+        let mut keys = Keys { text: lead.to_owned(), ..Keys::default() };
+        for part in parts {
+            let shape = match part {
+                Part::Action(_) => continue,
+                Part::Literal(text) => {
+                    keys.text.push_str(text);
+                    continue;
+                }
+                Part::OptionalNumber { lead, range } => {
+                    keys.text.push_str(lead);
+                    let name = format!("optional_{}_{}_{}", range.least, range.greatest, range.decimals);
+                    self.once(name, |_| json!({"anyOf": [number(range), {"type": "null"}]}))
+                }
+                // Objects whose `{"` was spelled before the choice.
+                Part::Choice(_, alternatives) => {
+                    let open = keys.text.strip_suffix("{\"").map(str::to_owned);
+                    let lead = if open.is_some() { "{\"" } else { "" };
+                    keys.text = open.unwrap_or(keys.text);
+                    self.choice(lead, alternatives, level)
+                }
+                part => self.value(part, level),
+            };
+            let key = keys.key();
+            keys.properties.insert(key, shape);
         }
-        Shape::Array(item, least, greatest) => {
-            json!({"type": "array", "items": of(item, names), "minItems": least, "maxItems": greatest})
+        keys.finish()
+    }
+
+    fn choice(&mut self, lead: &str, alternatives: &[Alternative], level: Level) -> Value {
+        let mut shapes = Vec::new();
+        for way in Alternative::flattened(alternatives, lead) {
+            shapes.push(match way.parts.as_slice() {
+                [Part::Condition(asked)] => self.condition(*asked == ConditionUse::Goal),
+                _ if way.literal == "null" => json!({"type": "null"}),
+                parts => {
+                    let name = match way.is_composite() {
+                        true => format!("{}_{}", way.name, level.depth),
+                        false => way.name.to_string(),
+                    };
+                    self.once(name, |deriver| deriver.object(&way.literal, parts, level))
+                }
+            });
         }
-        Shape::Choice(shapes) => {
-            let shapes: Vec<Value> = shapes.iter().map(|shape| of(shape, names)).collect();
+        // `null` is the last, as engines expect of what may be missing.
+        shapes.sort_by_key(|shape| shape.get("type").is_some_and(|ty| ty == "null"));
+        one_of(shapes)
+    }
+
+    /// The shape of a part that is one value.
+    fn value(&mut self, part: &Part, level: Level) -> Value {
+        match part {
+            Part::Name(_) => reference("name"),
+            Part::Value { ty, range, place } => {
+                let set = ValueSet::of(ty, *range, *place, level.in_goal, self.grammar);
+                self.value_set(set)
+            }
+            Part::Number(range) => number(range),
+            Part::Relation(ty) => {
+                let relations: &[Relation] =
+                    if ValueSet::is_ordered(ty) { &Relation::ALL } else { &Relation::EQUALITY };
+                words(&relations.iter().map(|relation| relation.word()).collect::<Vec<_>>())
+            }
+            Part::Failures => self.once("kinds".to_owned(), |deriver| {
+                // `any` may stand beside others, which says the same: alternatives would begin alike.
+                let failures = &deriver.grammar.signatures.failures;
+                let any = failures.iter().map(|name| name.as_str()).chain(["any"]);
+                array(words(&any.collect::<Vec<_>>()), 1, MAX_MEMBERS)
+            }),
+            Part::EntityList => self.once("list".to_owned(), |deriver| {
+                let binds = deriver.grammar.binds_lists();
+                let mut lists: Vec<Value> = binds.then(|| reference("binding")).into_iter().collect();
+                for names in deriver.grammar.entities_by_kind() {
+                    lists.push(array(words(&names), 1, MAX_ITEMS));
+                }
+                one_of(lists)
+            }),
+            Part::Condition(asked) => self.condition(*asked == ConditionUse::Goal),
+            Part::Block(role, least) => {
+                let depth =
+                    if *role == BlockRole::Body { level.depth } else { level.depth.saturating_sub(1) };
+                let name = if *least == 0 { "maybe_block" } else { "block" };
+                self.once(format!("{name}_{depth}"), |deriver| {
+                    let step = deriver.step(depth);
+                    array(step, *least as usize, MAX_STEPS)
+                })
+            }
+            Part::Repeat(repeat) => {
+                let item = match repeat.item.as_slice() {
+                    [only] => self.value(only, level),
+                    parts => self.object("", parts, level),
+                };
+                array(item, usize::from(repeat.least), usize::from(repeat.most))
+            }
+            Part::Literal(_) | Part::Action(_) | Part::OptionalNumber { .. } => Value::Null,
+            Part::Choice(_, alternatives) => self.choice("", alternatives, level),
+            // Nothing may be left out in JSON.
+            Part::Optional { .. } => Value::Null,
+        }
+    }
+
+    fn value_set(&mut self, set: ValueSet) -> Value {
+        if let Some((_, known)) = self.values.iter().find(|(known, _)| *known == set) {
+            return known.clone();
+        }
+        let mut names: Vec<&str> = set.names.iter().map(|name| name.as_str()).collect();
+        names.extend(set.any.then_some("any"));
+        let mut shapes = Vec::new();
+        if !names.is_empty() {
+            shapes.push(words(&names));
+        }
+        shapes.extend(set.number.map(|range| number(&range)));
+        shapes.extend(set.bool.then(|| json!({"type": "boolean"})));
+        shapes.extend(set.text.then(|| reference("text")));
+        shapes.extend(set.binding.then(|| reference("binding")));
+        if let Some(items) = &set.items {
+            shapes.push(array(self.value_set((**items).clone()), 1, MAX_ITEMS));
+        }
+        let is_short = set.names.is_empty() && shapes.len() == 1;
+        let shape = one_of(shapes);
+        // A short shape, or one that is defined already, needs no definition of its own.
+        let shape = if is_short { shape } else { self.define(&set.name, shape) };
+        self.values.push((set, shape.clone()));
+        shape
+    }
+
+    fn step(&mut self, depth: usize) -> Value {
+        self.once(format!("step_{depth}"), |deriver| {
+            let grammar = deriver.grammar;
+            let steps = grammar.steps.iter().filter(|step| depth > 0 || !step.is_composite());
+            let steps: Vec<Alternative> = steps.cloned().collect();
+            deriver.choice("{\"", &steps, Level { depth, in_goal: false })
+        })
+    }
+
+    fn condition(&mut self, in_goal: bool) -> Value {
+        let prefix = if in_goal { "goal" } else { "condition" };
+        self.nested_condition(prefix, MAX_CONDITION_DEPTH)
+    }
+
+    fn nested_condition(&mut self, prefix: &str, depth: usize) -> Value {
+        self.once(format!("{prefix}_{depth}"), |deriver| {
+            let (grammar, in_goal) = (deriver.grammar, prefix == "goal");
+            let mut shapes = Vec::new();
+            for atom in grammar.atoms.iter().filter(|atom| atom.is_observable || in_goal) {
+                let lead = format!("{{\"{}{}", atom.sort.lead(), atom.spelled.literal);
+                let level = Level { depth: 0, in_goal };
+                let name = format!("{prefix}_{}", atom.spelled.name);
+                shapes.push(deriver.once(name, |deriver| deriver.object(&lead, &atom.spelled.parts, level)));
+            }
+            if let Some(below) = depth.checked_sub(1) {
+                let level = deriver.nested_condition(prefix, below);
+                let several =
+                    deriver.once(format!("{prefix}s_{depth}"), |_| array(level.clone(), 2, MAX_MEMBERS));
+                for (word, shape) in [("not", level), ("all", several.clone()), ("any", several)] {
+                    let mut keys = Keys::default();
+                    keys.properties.insert(word.to_owned(), shape);
+                    shapes.push(keys.finish());
+                }
+            }
             json!({"anyOf": shapes})
-        }
-        Shape::Loose(loose, _) => of(loose, names),
-        Shape::WordList(words) => match words.as_slice() {
-            [only] => json!({"type": "string", "const": only}),
-            words => json!({"type": "string", "enum": words}),
-        },
-        Shape::Name => json!({"type": "string", "pattern": "^[a-zA-Z_][a-zA-Z0-9_]*$"}),
-        Shape::Binding => json!({"type": "string", "pattern": "^\\$[a-zA-Z_][a-zA-Z0-9_]*$"}),
-        // Without a bound: one makes engines slow. The class is that of the subset, which needs no escape.
-        Shape::Text => json!({"type": "string", "pattern": "^[ !#%-\\[\\]-~][ !#-\\[\\]-~]*$"}),
-        Shape::Number(range) if range.decimals == 0 => {
-            json!({"type": "integer", "minimum": range.least, "maximum": range.greatest})
-        }
-        Shape::Number(range) => {
-            let number = |units: i64| crate::subset::Decimal { units, decimals: range.decimals }.value();
-            json!({"type": "number", "minimum": bound(number(range.least)), "maximum": bound(number(range.greatest))})
-        }
-        Shape::Bool => json!({"type": "boolean"}),
-        Shape::Version => json!({"type": "integer", "enum": [1]}),
-        Shape::Null => json!({"type": "null"}),
+        })
     }
 }
 
-/// A whole bound without a decimal point, which some servers read as another type.
-fn bound(value: f64) -> Value {
-    if value.fract() == 0.0 { json!(value as i64) } else { json!(value) }
+impl AtomSort {
+    /// The key and the opening quote before the name of an atom in JSON.
+    pub(super) fn lead(self) -> &'static str {
+        match self {
+            Self::Fluent => "is\":\"",
+            Self::Measure => "get\":\"",
+            Self::Field => "field\":\"",
+        }
+    }
 }

@@ -1,40 +1,40 @@
-//! Numbers with a bounded count of decimals, printed in one way: `-1.5`, `0`, `0.25`.
+//! Decimal numbers with a bounded number of decimals and one spelling each: `-1.5`, `0`, `0.25`.
 
 use std::fmt;
 
-/// A decimal number: `units` of 10 to the power of `-decimals`.
+/// A decimal number: `units` times 10 to the power of `-decimals`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Decimal {
-    /// How many units of the last decimal.
-    pub units: i64,
-    /// How many decimals, at most 6.
-    pub decimals: u8,
+pub(crate) struct Decimal {
+    /// Units of the last decimal.
+    pub(crate) units: i64,
+    /// The number of decimals, at most 6.
+    pub(crate) decimals: u8,
 }
 
 impl Decimal {
-    /// The nearest number with so many decimals; none where it has no 15 digits.
+    /// The nearest decimal number; `None` if it needs more than 15 digits.
     #[must_use]
-    pub fn nearest(value: f64, decimals: u8) -> Option<Self> {
+    pub(crate) fn nearest(value: f64, decimals: u8) -> Option<Self> {
         let scaled = (value * Self::scale(decimals)).round();
         let is_exact = scaled.is_finite() && scaled.abs() < 1e15;
         // Below 2^53 every whole number has an exact place in both.
         is_exact.then_some(Self { units: scaled as i64, decimals })
     }
 
-    /// Ten to the power of the count of decimals.
+    /// Ten to the power of the number of decimals.
     pub(crate) fn scale(decimals: u8) -> f64 {
         10f64.powi(i32::from(decimals))
     }
 
-    /// As a number, the one that its digits read as.
+    /// The floating-point number that its digits read as.
     #[must_use]
-    pub fn value(self) -> f64 {
+    pub(crate) fn value(self) -> f64 {
         self.to_string().parse().unwrap_or(0.0)
     }
 
-    /// A hundred times the number.
+    /// The same ratio in percent: a hundred times the number.
     #[must_use]
-    pub fn percent(self) -> Self {
+    pub(crate) fn percent(self) -> Self {
         match self.decimals.checked_sub(2) {
             Some(decimals) => Self { units: self.units, decimals },
             None => Self { units: self.units * 10i64.pow(2 - u32::from(self.decimals)), decimals: 0 },

@@ -1,17 +1,22 @@
-//! The model subset: what a language model writes. It is a subset of the two forms of the language with one spelling for
-//! each policy, so that nothing is left open that decides nothing: no white space, no order of keys, no optional key.
+//! The canonical subset: the part of the language that a constrained model writes, with one spelling for
+//! each policy. Nothing is left open that decides nothing: no white space, no order of keys, no optional
+//! key.
 //!
-//! Both forms have the same tree, [`Document`]; `docs/decoding.md` has both spellings side by side. What is not in it has no
-//! canonical spelling: parameters of the policy, calculations, comparisons of two measures, conditions that are names or
-//! literals, texts outside printable ASCII or with `"` or `\`, and what is beyond the bounds below.
+//! Both syntaxes have the same tree; `docs/decoding.md` shows them side by side. Outside of the subset are
+//! parameters of the policy, calculations, comparisons of two measures, conditions that are names or
+//! literals, texts outside printable ASCII or with `"` or `\`, and whatever exceeds the bounds below.
 
 mod decimal;
+mod digits;
 mod number;
 mod tree;
 
-pub use decimal::Decimal;
-pub use number::NumberRange;
-pub use tree::{Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When};
+pub(crate) use decimal::Decimal;
+pub(crate) use digits::Digits;
+pub(crate) use number::NumberRange;
+pub(crate) use tree::{
+    Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When,
+};
 
 use motet_syntax::Syntax;
 
@@ -21,37 +26,38 @@ pub const MAX_NAME_CHARS: usize = 32;
 pub const MAX_TEXT_CHARS: usize = 200;
 /// The most steps of one block.
 pub const MAX_STEPS: usize = 64;
-/// The most branches of a `parallel`, conditions of a `monitor`, handlers of a `try`, kinds of failure of a handler.
+/// The most branches of a `parallel`, conditions of a `monitor`, handlers of a `try`, kinds of failure of a
+/// handler.
 pub const MAX_MEMBERS: usize = 4;
 /// The most values of a list that is written out.
 pub const MAX_ITEMS: usize = 8;
-/// How many times `not`, `all` and `any` may stand in one another.
+/// The greatest nesting depth of `not`, `all` and `any`.
 pub const MAX_CONDITION_DEPTH: usize = 2;
 /// The greatest count of a loop or of a reaction; the least is 1.
 pub const MAX_COUNT: u32 = 99;
 /// The most retries of a step.
 pub const MAX_RETRIES: u32 = 9;
-/// How many blocks may stand in one another below the policy's own, where nothing else is asked for.
+/// The default nesting depth of blocks below the policy's own.
 pub const DEFAULT_DEPTH: usize = 4;
 
-/// Which model subset.
+/// The choice of a canonical subset: syntax, modifiers and nesting depth.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Subset {
-    /// JSON or text.
+    /// The syntax: JSON or text.
     pub syntax: Syntax,
-    /// Whether deadlines and retries are written.
+    /// Deadlines and retries.
     pub modifiers: Modifiers,
-    /// How many blocks may stand in one another below the policy's own: with 0 no step has steps.
+    /// The nesting depth of blocks below the policy's own; with 0 no step has steps.
     pub depth: usize,
 }
 
-/// Whether a policy says deadlines and retries: `within` of a step, of a `wait` and of a `pause`, and `retry`.
+/// The treatment of modifiers: `within` of a step, of a `wait` and of a `pause`, and `retry`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Modifiers {
-    /// They are left to their defaults and have no place.
+    /// Modifiers are left to their defaults and cannot be written.
     #[default]
     Default,
-    /// They have a place; in JSON their keys are always there, and `null` is the default.
+    /// Modifiers can be written; in JSON their keys are always there, and `null` is the default.
     Written,
 }
 
@@ -61,21 +67,21 @@ impl Default for Subset {
     }
 }
 
-/// Whether a character may stand in a text: printable ASCII without what JSON escapes.
+/// The character may stand in a text: printable ASCII that JSON does not escape.
 #[must_use]
 pub fn is_text_char(character: char) -> bool {
     matches!(character, ' '..='~') && !matches!(character, '"' | '\\')
 }
 
-/// Whether a text can be written: short enough, and without a character that needs an escape. One that is empty or that
-/// begins with `$`, which in JSON is a binding, cannot.
+/// The text is in the subset: short enough, and without a character that needs an escape. An empty text,
+/// and one that begins with `$`, which in JSON is a binding, is not.
 #[must_use]
 pub fn is_text(text: &str) -> bool {
     (1..=MAX_TEXT_CHARS).contains(&text.len()) && text.chars().all(is_text_char) && !text.starts_with('$')
 }
 
-/// Whether a name that a policy gives can be written: a letter or `_`, then letters, digits or `_`. It is also no name of
-/// an entity, and in the text form no word of the language and no case, which it would hide.
+/// A policy may give the name: a letter or `_`, then letters, digits or `_`. It must also not be the name
+/// of an entity, nor in the text syntax a word of the language or a case, which it would hide.
 #[must_use]
 pub fn is_name(name: &str) -> bool {
     let mut bytes = name.bytes();

@@ -1,37 +1,38 @@
-//! Which numbers may stand where a type is asked for.
+//! Ranges of numbers in the canonical subset.
 
 use motet_compiler::signature::Type;
 use motet_syntax::unit::{Dimension, Unit};
 
 use super::Decimal;
 
-/// The numbers from `least` to `greatest`, in SI units, with so many decimals.
+/// The numbers from `least` to `greatest`, in SI units, with a fixed number of decimals.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct NumberRange {
-    /// The least, in units of the last decimal.
-    pub least: i64,
-    /// The greatest, in units of the last decimal.
-    pub greatest: i64,
-    /// How many decimals.
-    pub decimals: u8,
-    /// The unit of the text form; none of a plain number.
-    pub unit: Option<Unit>,
+pub(crate) struct NumberRange {
+    /// The least number, in units of the last decimal.
+    pub(crate) least: i64,
+    /// The greatest number, in units of the last decimal.
+    pub(crate) greatest: i64,
+    /// The number of decimals.
+    pub(crate) decimals: u8,
+    /// The unit in the text syntax; `None` for a plain number.
+    pub(crate) unit: Option<Unit>,
 }
 
 impl NumberRange {
-    /// Deadlines and times, in seconds.
-    pub const DURATION: Self = Self { least: 0, greatest: 9_999_999, decimals: 3, unit: Some(Unit::Second) };
+    /// Deadlines and times: 0 to 9999.999 s.
+    pub(crate) const DURATION: Self =
+        Self { least: 0, greatest: 9_999_999, decimals: 3, unit: Some(Unit::Second) };
 
-    /// Whole numbers.
+    /// The whole numbers of a range, both ends included.
     #[must_use]
-    pub const fn whole(least: u32, greatest: u32) -> Self {
+    pub(crate) const fn whole(least: u32, greatest: u32) -> Self {
         Self { least: least as i64, greatest: greatest as i64, decimals: 0, unit: None }
     }
 
-    /// The numbers of a type, within the range of a robot's card where there is one; none where the type has no numbers
-    /// or the range is empty.
+    /// The numbers of a type, within the range of the robot's card if there is one; `None` if the type has
+    /// no numbers or the range is empty.
     #[must_use]
-    pub fn of(ty: &Type, card: Option<(f64, f64)>) -> Option<Self> {
+    pub(crate) fn of(ty: &Type, card: Option<(f64, f64)>) -> Option<Self> {
         let (least, greatest, decimals) = match ty {
             Type::Int => (-1e6, 1e6, 0),
             Type::Number => (-1e6, 1e6, 3),
@@ -57,15 +58,24 @@ impl NumberRange {
         (least <= greatest).then_some(Self { least, greatest, decimals, unit })
     }
 
-    /// The nearest number of the range's decimals; none where it is out of range.
+    /// The range as the text syntax spells its digits: percents are a hundred times the value, with two
+    /// decimals less.
+    pub(crate) fn spelled_in_text(&self) -> Self {
+        match self.unit {
+            Some(Unit::Percent) => Self { decimals: self.decimals.saturating_sub(2), ..*self },
+            Some(_) | None => *self,
+        }
+    }
+
+    /// The nearest number with the range's decimals; `None` if it is out of range.
     #[must_use]
-    pub fn nearest(&self, value: f64) -> Option<Decimal> {
+    pub(crate) fn nearest(&self, value: f64) -> Option<Decimal> {
         Decimal::nearest(value, self.decimals).filter(|decimal| self.contains(*decimal))
     }
 
-    /// Whether a number with the range's decimals is in it.
+    /// The number has the range's decimals and lies in it.
     #[must_use]
-    pub fn contains(&self, decimal: Decimal) -> bool {
+    pub(crate) fn contains(&self, decimal: Decimal) -> bool {
         decimal.decimals == self.decimals && (self.least..=self.greatest).contains(&decimal.units)
     }
 }

@@ -1,5 +1,5 @@
-//! A policy of the model subset: every argument given and in order, every value of one kind, nothing left to a default
-//! but by name. [`crate::canonical`] makes it from a policy and prints it.
+//! The tree of a policy in the canonical subset: every argument given and in order, every value of one
+//! kind, every default named. [`crate::canonical`] makes it from a policy and prints it.
 
 use motet_syntax::ast::{CompareOp, EndKind};
 use motet_syntax::unit::Unit;
@@ -9,20 +9,20 @@ use super::Decimal;
 
 /// A policy.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Document {
+pub(crate) struct Document {
     /// Its name.
-    pub name: SmolStr,
+    pub(crate) name: SmolStr,
     /// The robot of the library; none where it has none.
-    pub robot: Option<SmolStr>,
+    pub(crate) robot: Option<SmolStr>,
     /// What holds where it is done.
-    pub achieves: Option<Condition>,
+    pub(crate) achieves: Option<Condition>,
     /// Its steps, one at least.
-    pub steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
 }
 
 /// A step.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Step {
+pub(crate) enum Step {
     /// `{"do":"pick","object":"$mug","from":"auto"}`, `pick(mug, auto)`
     Do(Call),
     /// `{"sequence":"tidy","steps":[…]}`, `sequence tidy { … }`
@@ -56,35 +56,35 @@ pub enum Step {
 
 /// A call of a primitive or a policy.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Call {
+pub(crate) struct Call {
     /// What is called.
-    pub name: SmolStr,
+    pub(crate) name: SmolStr,
     /// The arguments with the names of their parameters, all of them, in order.
-    pub args: Vec<(SmolStr, Value)>,
+    pub(crate) args: Vec<(SmolStr, Value)>,
     /// Whether it is a policy, which has no modifiers.
-    pub is_policy: bool,
+    pub(crate) is_policy: bool,
     /// The deadline, in seconds.
-    pub within: Option<Decimal>,
+    pub(crate) within: Option<Decimal>,
     /// The retries.
-    pub retry: Option<u32>,
+    pub(crate) retry: Option<u32>,
     /// The name of its result; always there where it has one.
-    pub bind: Option<SmolStr>,
+    pub(crate) bind: Option<SmolStr>,
 }
 
 /// A condition that is watched, and what then happens.
 #[derive(Clone, PartialEq, Debug)]
-pub struct When {
+pub(crate) struct When {
     /// The condition.
-    pub condition: Condition,
+    pub(crate) condition: Condition,
     /// How long it must hold, in seconds; `null` in JSON where nothing is said.
-    pub hold: Option<Decimal>,
+    pub(crate) hold: Option<Decimal>,
     /// What then happens.
-    pub reaction: Reaction,
+    pub(crate) reaction: Reaction,
 }
 
 /// What a monitor does.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Reaction {
+pub(crate) enum Reaction {
     /// `{"react":"pause"}`, `pause`, with modifiers with its longest time in seconds.
     Pause(Option<Decimal>),
     /// `{"react":"restart","at_most":3}`, `restart at most 3`
@@ -97,25 +97,25 @@ pub enum Reaction {
 
 /// A handler.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Catch {
+pub(crate) struct Catch {
     /// The kinds of failure; `any` where there is none.
-    pub on: Vec<SmolStr>,
+    pub(crate) on: Vec<SmolStr>,
     /// Its steps; there may be none.
-    pub steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
 }
 
 /// An ending.
 #[derive(Clone, PartialEq, Debug)]
-pub struct End {
+pub(crate) struct End {
     /// Which.
-    pub kind: EndKind,
+    pub(crate) kind: EndKind,
     /// The reason: always there but for `done`; a text or a name.
-    pub why: Option<Value>,
+    pub(crate) why: Option<Value>,
 }
 
 /// A condition.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Condition {
+pub(crate) enum Condition {
     /// `{"is":"holding","object":"$mug"}`, `holding(mug)`
     Is(SmolStr, Vec<(SmolStr, Value)>),
     /// `{"not":c}`, `not c`
@@ -130,7 +130,7 @@ pub enum Condition {
 
 /// What is compared.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Subject {
+pub(crate) enum Subject {
     /// A measure.
     Measure(SmolStr, Vec<(SmolStr, Value)>),
     /// A field of an entity.
@@ -139,11 +139,11 @@ pub enum Subject {
 
 /// How it is compared.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Relation(pub CompareOp);
+pub(crate) struct Relation(pub(crate) CompareOp);
 
 impl Relation {
     /// Those of numbers.
-    pub const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self(CompareOp::Less),
         Self(CompareOp::AtMost),
         Self(CompareOp::Equal),
@@ -152,11 +152,11 @@ impl Relation {
         Self(CompareOp::Unequal),
     ];
     /// Those of anything else.
-    pub const EQUALITY: [Self; 2] = [Self(CompareOp::Equal), Self(CompareOp::Unequal)];
+    pub(crate) const EQUALITY: [Self; 2] = [Self(CompareOp::Equal), Self(CompareOp::Unequal)];
 
     /// In JSON.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self.0 {
             CompareOp::Equal => "equal",
             CompareOp::Unequal => "unequal",
@@ -169,7 +169,7 @@ impl Relation {
 
     /// In text.
     #[must_use]
-    pub fn symbol(self) -> &'static str {
+    pub(crate) fn symbol(self) -> &'static str {
         match self.0 {
             CompareOp::Equal => "==",
             CompareOp::Unequal => "!=",
@@ -182,7 +182,7 @@ impl Relation {
 
     /// The same with the sides exchanged.
     #[must_use]
-    pub fn turned(self) -> Self {
+    pub(crate) fn turned(self) -> Self {
         Self(match self.0 {
             CompareOp::Equal => CompareOp::Equal,
             CompareOp::Unequal => CompareOp::Unequal,
@@ -196,7 +196,7 @@ impl Relation {
 
 /// A value.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Value {
+pub(crate) enum Value {
     /// `"$mug"`, `mug`: what a step has bound.
     Binding(SmolStr),
     /// `"mug_1"`, `mug_1`: an entity or a case.

@@ -1,61 +1,54 @@
-//! What is wrong with a vocabulary that was given.
+//! Errors of reading a vocabulary.
 
 use thiserror::Error;
 
-/// Why no vocabulary was made of what was given.
+/// The reason why a vocabulary was refused.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum VocabularyError {
-    /// More than a vocabulary may have.
+    /// A limit is exceeded.
     #[error("the vocabulary has {found} {what}, at most {most} are taken")]
     TooMuch {
-        /// Of what: `bytes`, `tokens`, `bytes in all tokens`.
+        /// The unit: `bytes`, `tokens`, `bytes in all tokens`.
         what: &'static str,
-        /// How much there is.
         found: usize,
-        /// How much there may be.
         most: usize,
     },
-    /// Nothing that could be written.
+    /// No token has bytes.
     #[error("the vocabulary has no token with bytes")]
     Empty,
-    /// What should be JSON is none.
+    /// The file is not JSON.
     #[error("the vocabulary is not JSON: {0}")]
     NotJson(String),
-    /// A part of `tokenizer.json`, or of a list, that is missing or something else than it has to be.
+    /// A part of `tokenizer.json`, or of a list, is missing or has the wrong type.
     #[error("`{place}` is not {wanted}")]
     Wrong {
-        /// Where: keys and numbers, with points between them.
+        /// The path: keys and indices joined by points.
         place: String,
-        /// What has to stand there.
+        /// The expected type.
         wanted: &'static str,
     },
-    /// A tokenizer whose tokens do not follow one another as bytes.
+    /// The tokens of this kind of tokenizer are not concatenated byte by byte.
     #[error(
         "the tokenizer is of the kind `{0}`, whose tokens are not joined byte by byte: give a list of byte strings instead"
     )]
     Unsupported(String),
-    /// A token of a byte-level tokenizer with a character that stands for no byte.
+    /// A token of a byte-level tokenizer has a character that stands for no byte.
     #[error("token {number} has the character {character:?}, which stands for no byte")]
-    NoByte {
-        /// The token.
-        number: u32,
-        /// The character.
-        character: char,
-    },
-    /// Two tokens of one number.
+    NoByte { number: u32, character: char },
+    /// Two tokens have one number.
     #[error("token {0} is there twice")]
     Twice(u32),
-    /// A line of a list that says no token.
+    /// A line of a list is not a token.
     #[error("line {line} is not a token in base64, with or without its number")]
     Line {
-        /// From 1.
+        /// The line, counted from 1.
         line: usize,
     },
-    /// The token that ends a sequence is none of the vocabulary.
+    /// The end token is not in the vocabulary.
     #[error("the vocabulary has no token {0} to end a sequence with")]
     NoEnd(String),
-    /// No token is known to end a sequence.
+    /// No known end token is in the vocabulary.
     #[error("nothing says which token ends a sequence: name it")]
     UnknownEnd,
 }

@@ -1,30 +1,32 @@
 //! Vocabularies from `tokenizer.json` of Hugging Face.
 //!
-//! Only what a mask needs is read: the bytes that each token stands for. Splitting a text into tokens is the host's, which
-//! has its tokenizer anyhow; so the crate `tokenizers`, with its regular expressions and normalisers, is not needed here.
+//! Only the bytes of each token are read, which is all that a mask needs. Splitting text into tokens is
+//! left to the host, which has its tokenizer anyhow; so the crate `tokenizers`, with its regular
+//! expressions and normalisers, is not needed here.
 
 use serde_json::{Map, Value};
 
 use super::token_list::{MAX_FILE_BYTES, Tokens};
 use super::{EndToken, Vocabulary, VocabularyError};
 
-/// How tokens say their bytes.
+/// The spelling of bytes in the names of tokens.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Spelling {
-    /// A printable character for each byte, as GPT-2 has it.
+    /// A printable character for each byte, as in GPT-2.
     ByteLevel,
-    /// Characters as they are, a space as `▁`, and `<0x0A>` for a byte by itself, as SentencePiece has it.
+    /// Characters as they are, `▁` for a space, and `<0x0A>` for a single byte, as in SentencePiece.
     Pieces,
 }
 
 impl Vocabulary {
-    /// The vocabulary of a `tokenizer.json`: byte-level BPE, and SentencePiece-like BPE or Unigram with or without bytes to fall
-    /// back to. Special tokens are never allowed, but for the end. O(bytes of the file).
+    /// Reads a `tokenizer.json`: byte-level BPE, and BPE or Unigram in the manner of SentencePiece with or
+    /// without byte fallback. Special tokens are never allowed, except for the end token. O(bytes of the
+    /// file).
     ///
     /// # Errors
     ///
-    /// The file is no `tokenizer.json`, of a kind whose tokens are not joined byte by byte (`WordPiece`, `WordLevel`), over a
-    /// limit of [`super`], or the end is not to be found.
+    /// The file is no `tokenizer.json`, is of a kind whose tokens are not concatenated byte by byte
+    /// (`WordPiece`, `WordLevel`), exceeds a limit of [`super`], or the end token is not found.
     pub fn from_tokenizer_json(file: &[u8], end: EndToken<'_>) -> Result<Self, VocabularyError> {
         let file = json(file)?;
         let model = object(file.get("model"), "model")?;
@@ -53,7 +55,7 @@ impl Vocabulary {
             }
             _ => return Err(wrong("model.vocab", "an object or a list")),
         }
-        // What stands for the unknown stands for no bytes.
+        // The unknown token stands for no bytes.
         let unknown = model.get("unk_token").and_then(Value::as_str);
         let by_name = unknown.and_then(|name| id(model.get("vocab").and_then(|vocab| vocab.get(name))));
         if let Some(number) = by_name.or_else(|| id(model.get("unk_id"))) {
@@ -66,7 +68,7 @@ impl Vocabulary {
 
 const NUMBER: &str = "the number of a token";
 
-/// Adds what is not in the model's own vocabulary, and marks what is special.
+/// Adds the tokens outside of the model's own vocabulary, and marks the special ones.
 fn added(file: &Map<String, Value>, tokens: &mut Tokens) -> Result<(), VocabularyError> {
     let list = match file.get("added_tokens") {
         None | Some(Value::Null) => return Ok(()),
@@ -105,7 +107,7 @@ fn spelling(file: &Map<String, Value>, kind: &str) -> Result<Spelling, Vocabular
     Err(VocabularyError::Unsupported(format!("{kind} without ByteLevel or Metaspace")))
 }
 
-/// Whether a part, or one of those that it is a sequence of, has a property.
+/// The part, or a member of a sequence, has a property.
 fn has(part: &Value, holds: &dyn Fn(&Value) -> bool) -> bool {
     let members = ["decoders", "pretokenizers", "normalizers"].into_iter();
     let mut members = members.filter_map(|key| part.get(key).and_then(Value::as_array)).flatten();
@@ -118,7 +120,7 @@ impl Spelling {
             Self::ByteLevel => {
                 let byte =
                     |character| byte_of(character).ok_or(VocabularyError::NoByte { number, character });
-                // What has other characters is a special token that is not marked as one: its mark comes later.
+                // A name with other characters is a special token that is marked later.
                 let bytes: Result<Vec<u8>, _> = name.chars().map(byte).collect();
                 if name.starts_with('<') && name.ends_with('>') {
                     Ok(bytes.unwrap_or_default())
@@ -135,7 +137,7 @@ impl Spelling {
     }
 }
 
-/// The byte that a character stands for: itself where it is printable and no space, else those from U+0100 on, in order.
+/// The byte of a character: itself if it is printable and no space, else those from U+0100 on, in order.
 fn byte_of(character: char) -> Option<u8> {
     let is_plain = |byte: u8| matches!(byte, b'!'..=b'~' | 0xA1..=0xAC | 0xAE..=0xFF);
     if let Ok(byte) = u8::try_from(u32::from(character)) {

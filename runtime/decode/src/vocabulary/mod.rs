@@ -1,4 +1,5 @@
-//! The tokens of a language model, as bytes, in a trie; and what of them can be said once for all texts and names.
+//! Vocabularies: the tokens of a language model as bytes, in a trie, with the sets of tokens that can be
+//! precomputed for texts and names.
 
 mod error;
 mod huggingface;
@@ -20,39 +21,48 @@ pub use self::token_list::{EndToken, LONGEST_TOKEN, MAX_FILE_BYTES, MAX_TOKEN_BY
 pub(crate) use self::token_tree::{Node, Tree};
 use crate::subset::{MAX_NAME_CHARS, is_text_char};
 
-/// The tokens of a language model.
+/// The tokens of a language model. Cloning is cheap, and threads may share it.
+///
+/// ```
+/// use motet_decode::{EndToken, Vocabulary};
+///
+/// let vocabulary = Vocabulary::from_json_list(br#"["a", "ab", [255], null]"#, EndToken::Number(3))?;
+/// assert_eq!((vocabulary.len(), vocabulary.end(), vocabulary.bytes(1)), (4, 3, &b"ab"[..]));
+/// assert_eq!(vocabulary.tokenize(b"aba"), [1, 0]);
+/// # Ok::<(), motet_decode::VocabularyError>(())
+/// ```
 #[derive(Clone)]
 pub struct Vocabulary(Arc<Tokens>);
 
 pub(crate) struct Tokens {
     pub(crate) trie: TokTrie,
-    /// The same for a search of few among many.
+    /// The same as a tree that is fast to search for few tokens.
     pub(crate) tree: Tree,
-    /// Tokens that can stand within a text wherever it is.
+    /// Tokens that can stand anywhere inside a text.
     pub(crate) text: SimpleVob,
-    /// Those that end a text, or whose place in it matters.
+    /// Tokens that end a text, or whose position in it matters.
     pub(crate) text_ends: TokTrie,
-    /// Of tokens that begin with `$`: those that can stand within a text, but not begin it.
+    /// Tokens that begin with `$` and can stand inside a text, but not begin it.
     pub(crate) dollars: SimpleVob,
-    /// All that begin with `$` and reach into a text.
+    /// Tokens that begin with `$` and reach into a text.
     pub(crate) dollar_ends: TokTrie,
-    /// Those that end a text, by what follows it.
+    /// Tokens that end a text, by the bytes behind it.
     pub(crate) text_tails: Tails,
-    /// By length: tokens that can stand within a name and have at most so many bytes.
+    /// Tokens that can stand inside a name, by greatest length.
     pub(crate) names: Vec<SimpleVob>,
-    /// Of those, the ones that can begin it.
+    /// Tokens that can begin a name, by greatest length.
     pub(crate) first_names: Vec<SimpleVob>,
-    /// Those that end a name with a quote.
+    /// Tokens that end a name with a quote.
     pub(crate) name_ends: TokTrie,
-    /// Those that end a name with a space.
+    /// Tokens that end a name with a space.
     pub(crate) bare_name_ends: TokTrie,
-    /// By length: tokens that are a space and can begin a name with what is behind it, at most so many bytes.
+    /// Tokens of a space and the beginning of a name, by greatest length.
     pub(crate) spaced_names: Vec<SimpleVob>,
-    /// Those that are a space and a name that another space ends.
+    /// Tokens of a space, a name, and the space that ends it.
     pub(crate) spaced_name_ends: TokTrie,
     pub(crate) longest: usize,
     pub(crate) end: u32,
-    /// Tokens of the same bytes as one before them, which stands for them in the tries; in the order of their numbers.
+    /// Tokens with the bytes of an earlier one, which stands for them in the tries, sorted by number.
     pub(crate) twins: Vec<(u32, u32)>,
 }
 
@@ -63,18 +73,19 @@ impl std::fmt::Debug for Vocabulary {
 }
 
 impl Vocabulary {
-    /// The same as [`new`](Self::new), of tokens that come from outside. A token of more than [`LONGEST_TOKEN`] bytes is never
-    /// allowed.
+    /// As [`new`](Self::new), with limits for tokens that come from outside. A token of more than
+    /// [`LONGEST_TOKEN`] bytes is never allowed.
     ///
     /// # Errors
     ///
-    /// There are more than [`MAX_TOKENS`] tokens or [`MAX_TOKEN_BYTES`] bytes, none, or none of the number `end`.
+    /// There are more than [`MAX_TOKENS`] tokens or [`MAX_TOKEN_BYTES`] bytes, no bytes at all, or no token
+    /// `end`.
     pub fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> Result<Self, VocabularyError> {
         token_list::held(tokens, end).map(|tokens| Self::new(&tokens, end))
     }
 
-    /// A vocabulary from the bytes of each token in the order of their numbers. A special token has none: it is never
-    /// allowed, but for `end`, which ends a sequence. O(bytes of all tokens).
+    /// Builds a vocabulary from the bytes of each token in the order of their numbers. A special token has
+    /// no bytes: it is never allowed, except for `end`, which ends a sequence. O(bytes of all tokens).
     #[must_use]
     pub fn new(tokens: &[Vec<u8>], end: u32) -> Self {
         let size = u32::try_from(tokens.len()).unwrap_or(u32::MAX);
@@ -111,7 +122,7 @@ impl Vocabulary {
             bytes.get(before) == Some(&end)
         };
         let name_ends = |end: u8| trie.filter(&set(&|bytes| ends_name(bytes, end)));
-        // A name's tokens by length; those of each are among those of the next.
+        // The sets by length are nested.
         let names = |length: &dyn Fn(&[u8]) -> Option<usize>| {
             let mut sets: Vec<SimpleVob> = (0..=MAX_NAME_CHARS).map(|_| trie.alloc_token_set()).collect();
             for (id, bytes) in (0..size).zip(tokens).filter(|(_, bytes)| !bytes.is_empty()) {
@@ -164,19 +175,19 @@ impl Vocabulary {
         self.0.end
     }
 
-    /// How many tokens there are.
+    /// The number of tokens, special ones included.
     #[must_use]
     pub fn len(&self) -> usize {
         self.0.trie.vocab_size()
     }
 
-    /// Whether there is none.
+    /// The vocabulary has no tokens.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The bytes of a token; empty for a special one.
+    /// The bytes of a token; empty for a special or unknown one.
     #[must_use]
     pub fn bytes(&self, token: u32) -> &[u8] {
         let twin = self.0.twins.binary_search_by_key(&token, |(twin, _)| *twin).ok();
@@ -184,7 +195,7 @@ impl Vocabulary {
         if (token as usize) < self.len() { self.0.trie.token(token) } else { &[] }
     }
 
-    /// The tokens of bytes, each time the longest that fits.
+    /// Splits bytes into tokens greedily, the longest first.
     #[must_use]
     pub fn tokenize(&self, bytes: &[u8]) -> Vec<u32> {
         self.0.trie.greedy_tokenize(bytes)
@@ -195,8 +206,8 @@ impl Vocabulary {
     }
 }
 
-/// Tokens without those that have the bytes of one before them, and these with that one. Vocabularies with a token for each
-/// byte to fall back to have many.
+/// Removes tokens with the bytes of an earlier one; returns them with that one. Vocabularies with byte
+/// fallback have many.
 fn apart(tokens: &[Vec<u8>]) -> (Vec<Vec<u8>>, Vec<(u32, u32)>) {
     let mut firsts: FxHashMap<&[u8], u32> = FxHashMap::default();
     let (mut kept, mut twins) = (Vec::with_capacity(tokens.len()), Vec::new());
@@ -209,27 +220,27 @@ fn apart(tokens: &[Vec<u8>]) -> (Vec<Vec<u8>>, Vec<(u32, u32)>) {
     (kept, twins)
 }
 
-/// Tokens that end a text, by what of them follows it: where any text may stand they may follow or not by that alone.
+/// Tokens that end a text, grouped by the bytes behind it: if any text may stand, those bytes alone decide.
 pub(crate) struct Tails {
-    /// The tails, each a token of its own.
+    /// The tails, each as a token.
     pub(crate) trie: TokTrie,
-    /// By tail.
+    /// The tokens of each tail.
     pub(crate) tokens: Vec<Tail>,
 }
 
-/// The tokens with one tail.
+/// The tokens that share one tail.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tail {
-    /// The one that is nothing else.
+    /// The token that is only the tail.
     pub(crate) bare: Option<u32>,
-    /// Those with text before it.
+    /// Tokens with text before the tail.
     pub(crate) within: Vec<u32>,
-    /// Those with text before it that begins with `$`.
+    /// Tokens with text before the tail that begins with `$`.
     pub(crate) dollars: Vec<u32>,
 }
 
 impl Tails {
-    /// From tokens, each as its text and its tail.
+    /// Groups tokens, each given as its text and its tail.
     fn new<'t>(tokens: impl Iterator<Item = (u32, (&'t [u8], &'t [u8]))>) -> Self {
         let mut found: std::collections::BTreeMap<&[u8], Tail> = std::collections::BTreeMap::new();
         for (id, (text, tail)) in tokens {

@@ -9,12 +9,12 @@ use super::token_list::{MAX_FILE_BYTES, Tokens};
 use super::{EndToken, Vocabulary, VocabularyError};
 
 impl Vocabulary {
-    /// The vocabulary of a file in any of the forms that are read: `tokenizer.json` where it is an object, a list of JSON where
-    /// it is one, else lines of base64.
+    /// Reads a file in any supported format: `tokenizer.json` if it is a JSON object, a list if it is a
+    /// JSON array, else lines of base64.
     ///
     /// # Errors
     ///
-    /// As the form has them.
+    /// As the reader of the format.
     pub fn from_file(file: &[u8], end: EndToken<'_>) -> Result<Self, VocabularyError> {
         match file.trim_ascii_start().first() {
             Some(b'{') => Self::from_tokenizer_json(file, end),
@@ -23,12 +23,13 @@ impl Vocabulary {
         }
     }
 
-    /// The vocabulary of a list in JSON: of each token, in the order of their numbers, a text, a list of bytes, or `null` for a
-    /// special one.
+    /// Reads a JSON list with one entry for each token in the order of their numbers: a text, a list of
+    /// bytes, or `null` for a special token.
     ///
     /// # Errors
     ///
-    /// It is no such list, over a limit of [`super`], or lacks the end, which has to be said by its number.
+    /// The list is malformed, exceeds a limit of [`super`], or lacks the end token, which must be given by
+    /// number.
     pub fn from_json_list(file: &[u8], end: EndToken<'_>) -> Result<Self, VocabularyError> {
         if file.len() > MAX_FILE_BYTES {
             return Err(VocabularyError::TooMuch { what: "bytes", found: file.len(), most: MAX_FILE_BYTES });
@@ -55,12 +56,13 @@ impl Vocabulary {
         tokens.vocabulary(end)
     }
 
-    /// The vocabulary of lines in base64, each with its number behind a space or in their order. An empty line is a special
-    /// token. Ranks have no special tokens: the end may have the number behind the last.
+    /// Reads lines of base64, each with its number behind a space or in order. An empty line is a special
+    /// token. Ranks of tiktoken have no special tokens: the end token may have the number behind the last.
     ///
     /// # Errors
     ///
-    /// A line is no base64, the list is over a limit of [`super`], or lacks the end, which has to be said by its number.
+    /// A line is not base64, the list exceeds a limit of [`super`], or it lacks the end token, which must
+    /// be given by number.
     pub fn from_base64_lines(file: &[u8], end: EndToken<'_>) -> Result<Self, VocabularyError> {
         if file.len() > MAX_FILE_BYTES {
             return Err(VocabularyError::TooMuch { what: "bytes", found: file.len(), most: MAX_FILE_BYTES });

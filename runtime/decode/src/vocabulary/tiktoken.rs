@@ -1,4 +1,4 @@
-//! The vocabularies that tiktoken ships.
+//! Vocabularies shipped with tiktoken.
 
 use tiktoken_rs::CoreBPE;
 
@@ -7,14 +7,14 @@ use super::{Vocabulary, VocabularyError};
 /// A vocabulary of OpenAI's models.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Encoding {
-    /// Of GPT-3.5 and GPT-4: 100,277 tokens.
+    /// GPT-3.5 and GPT-4: 100,277 tokens.
     Cl100k,
-    /// Of GPT-4o and later: 200,019 tokens.
+    /// GPT-4o and later: 200,019 tokens.
     O200k,
 }
 
 impl Encoding {
-    /// The encoding of that name: `cl100k` or `o200k`, with or without `_base`.
+    /// The encoding with a name: `cl100k` or `o200k`, with or without `_base`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name.strip_suffix("_base").unwrap_or(name) {
@@ -24,7 +24,7 @@ impl Encoding {
         }
     }
 
-    /// How many tokens have bytes, how many there are with the special ones, and which ends a text.
+    /// The numbers of ordinary tokens, of all tokens, and of the end token.
     fn numbers(self) -> (u32, u32, u32) {
         match self {
             Self::Cl100k => (100_256, 100_277, 100_257),
@@ -32,7 +32,7 @@ impl Encoding {
         }
     }
 
-    /// Splits texts into tokens.
+    /// The tokenizer, which splits texts into tokens.
     #[must_use]
     pub fn tokenizer(self) -> &'static CoreBPE {
         match self {
@@ -43,15 +43,15 @@ impl Encoding {
 }
 
 impl Vocabulary {
-    /// The vocabulary of an encoding; `<|endoftext|>` ends a sequence. Takes about half a second.
+    /// Builds the vocabulary of an encoding; `<|endoftext|>` ends a sequence. Takes about half a second.
     ///
     /// # Errors
     ///
-    /// None is known of the encodings as they are shipped.
+    /// None is known for the encodings as shipped.
     pub fn of_encoding(encoding: Encoding) -> Result<Self, VocabularyError> {
         let (ordinary, all, end) = encoding.numbers();
         let tokenizer = encoding.tokenizer();
-        // A number that no token has is like a special one: never allowed.
+        // A number without a token is never allowed, like a special token.
         let bytes = |token| tokenizer.decode_bytes(&[token]).unwrap_or_default();
         let tokens = (0..all).map(|token| if token < ordinary { bytes(token) } else { Vec::new() });
         Self::from_tokens(tokens.collect(), end)

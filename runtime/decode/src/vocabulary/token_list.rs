@@ -1,4 +1,4 @@
-//! Tokens on their way into a vocabulary, and the limits that they are held to.
+//! Tokens on their way into a vocabulary, and the limits of vocabularies.
 
 use super::{Vocabulary, VocabularyError};
 
@@ -8,22 +8,23 @@ pub const MAX_FILE_BYTES: usize = 64 << 20;
 pub const MAX_TOKENS: usize = 1 << 20;
 /// The greatest number of bytes of all tokens together: the trie has room for so many nodes.
 pub const MAX_TOKEN_BYTES: usize = 4_000_000;
-/// A longer token is never allowed. No text of the subset is longer, and vocabularies have such tokens for blank space.
+/// The greatest number of bytes of a token that may ever be allowed. No text of the subset is longer;
+/// vocabularies have longer tokens for blank space.
 pub const LONGEST_TOKEN: usize = 256;
 
-/// Which token ends a sequence.
+/// The choice of the token that ends a sequence.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum EndToken<'n> {
-    /// The one that is known to, by its name: of a turn in a chat if there is one, else of a text.
+    /// The first of the well-known names: of the end of a turn in a chat, else of a text.
     #[default]
     Known,
-    /// By its name.
+    /// The token with this name.
     Named(&'n str),
-    /// By its number.
+    /// The token with this number.
     Number(u32),
 }
 
-/// What ends a turn or a text in the vocabularies of well-known models; the first that is there counts.
+/// The end tokens of well-known models; the first that is there counts.
 const ENDS: [&str; 13] = [
     "<|im_end|>",
     "<|eot_id|>",
@@ -44,13 +45,13 @@ const ENDS: [&str; 13] = [
 #[derive(Debug, Default)]
 pub(super) struct Tokens {
     bytes: Vec<Vec<u8>>,
-    /// Whether a number was given yet.
+    /// The numbers that are in use.
     taken: Vec<bool>,
     names: Vec<(String, u32)>,
 }
 
 impl Tokens {
-    /// A token of so many bytes; a special one has none. What stood there before has to be replaced expressly.
+    /// Adds a token, without bytes if it is special.
     pub(super) fn add(&mut self, number: u32, bytes: Vec<u8>) -> Result<(), VocabularyError> {
         if self.taken.get(number as usize).is_some_and(|taken| *taken) {
             return Err(VocabularyError::Twice(number));
@@ -58,7 +59,7 @@ impl Tokens {
         self.replace(number, bytes)
     }
 
-    /// The same, whatever stood there.
+    /// Sets a token, whether or not it was set before.
     pub(super) fn replace(&mut self, number: u32, bytes: Vec<u8>) -> Result<(), VocabularyError> {
         let index = number as usize;
         if index >= MAX_TOKENS {
@@ -75,7 +76,7 @@ impl Tokens {
         Ok(())
     }
 
-    /// The name by which a token can be said to be the end.
+    /// Records a name by which the end token can be chosen.
     pub(super) fn name(&mut self, name: &str, number: u32) {
         self.names.push((name.to_owned(), number));
     }
@@ -96,13 +97,13 @@ impl Tokens {
     }
 }
 
-/// Holds tokens to the limits: those that are never allowed have no bytes any more.
+/// Applies the limits; tokens that are never allowed lose their bytes.
 pub(super) fn held(mut tokens: Vec<Vec<u8>>, end: u32) -> Result<Vec<Vec<u8>>, VocabularyError> {
     let count = tokens.len();
     if count > MAX_TOKENS {
         return Err(VocabularyError::TooMuch { what: "tokens", found: count, most: MAX_TOKENS });
     }
-    // The end is written by its number, whatever bytes the vocabulary shows it with.
+    // The end token is chosen by number, whatever its bytes.
     let Some(last) = tokens.get_mut(end as usize) else {
         return Err(VocabularyError::NoEnd(end.to_string()));
     };

@@ -1,28 +1,27 @@
-//! The tokens as a tree whose siblings stand side by side: looking for the few of them that may follow reads little memory. And
-//! the tokens that are digits, which depend on nothing but the number so far.
+//! The tokens as a tree whose siblings are adjacent in memory, so that a search for few tokens reads
+//! little; and a cache of the tokens that continue a number, which depend only on its digits.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rustc_hash::FxHashMap;
 use toktrie::{TokTrie, TrieNode};
 
-use crate::acceptor::Digits;
-use crate::subset::NumberRange;
+use crate::subset::{Digits, NumberRange};
 
-/// A byte of tokens.
+/// A node: one byte of the tokens below it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
-    /// Where its children begin.
+    /// The index of its first child.
     first: u32,
     count: u16,
     pub(crate) byte: u8,
-    /// Whether this and all that is below it is what numbers are written with.
+    /// This byte and all below it can stand in numbers.
     pub(crate) is_number: bool,
-    /// The token that ends here; none is [`NO_TOKEN`].
+    /// The token that ends here, or [`NO_TOKEN`].
     token: u32,
 }
 
-/// The tokens, the root first, then level by level.
+/// The nodes, the root first, then level by level.
 #[derive(Debug)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
@@ -34,7 +33,7 @@ type Number = ((i64, i64, u8), Digits);
 
 const NO_TOKEN: u32 = u32::MAX;
 
-/// Numbers beyond this many are forgotten, all at once.
+/// The cache is cleared when it has this many entries.
 const MOST_NUMBERS: usize = 1 << 10;
 
 impl Node {
@@ -74,7 +73,7 @@ impl Tree {
         Self { nodes, numbers: Mutex::default() }
     }
 
-    /// Where every token begins.
+    /// The root, above the first byte of every token.
     pub(crate) fn root(&self) -> Option<&Node> {
         self.nodes.first()
     }
@@ -84,8 +83,7 @@ impl Tree {
         self.nodes.get(first..first + usize::from(node.count)).unwrap_or_default()
     }
 
-    /// The tokens that are nothing but digits with which a number of a range may go on, of the children of the root that
-    /// [`Node::is_number`] tells of.
+    /// The tokens of number bytes that may continue a number of a range; cached.
     pub(crate) fn numbers(&self, range: &NumberRange, digits: Digits) -> Arc<[u32]> {
         let key = ((range.least, range.greatest, range.decimals), digits);
         let lock = || self.numbers.lock().unwrap_or_else(PoisonError::into_inner);

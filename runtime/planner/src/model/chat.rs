@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use motet_decode::export::Offer;
+use motet_decode::Grammar;
 use motet_runtime::CameraImage;
 use thiserror::Error;
 
@@ -43,7 +43,7 @@ pub trait Model {
     /// # Errors
     ///
     /// The chat cannot be sent like that.
-    fn ask(&mut self, chat: &[Message], constraint: &Offer) -> Result<Box<dyn Reply>, ModelError>;
+    fn ask(&mut self, chat: &[Message], constraint: &Grammar) -> Result<Box<dyn Reply>, ModelError>;
 
     /// Display name: the model's name and address.
     fn name(&self) -> String;

@@ -4,8 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use motet_compiler::{Session, Signatures};
-use motet_decode::export::Offer;
-use motet_decode::{AcceptorFactory, Subset};
+use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_syntax::ast::Expr;
 use motet_syntax::{Diagnostic, Sources, render};
 
@@ -71,7 +70,7 @@ pub struct ModelPlanner<'m> {
 struct KeptParts {
     signatures: Arc<Signatures>,
     lasting: Arc<StaticPrompt>,
-    offer: Arc<Offer>,
+    grammar: Arc<Grammar>,
     acceptors: AcceptorFactory,
 }
 
@@ -107,7 +106,7 @@ impl<'m> ModelPlanner<'m> {
             Some(kept) => KeptParts { acceptors: kept.acceptors.elsewhere(ask.session), ..kept },
             None => KeptParts {
                 lasting: Arc::new(StaticPrompt::new(ask.session, ask.robot, ask.situation.scene)),
-                offer: Arc::new(Offer::new(&signatures, self.settings.surface)),
+                grammar: Arc::new(Grammar::new(&signatures, self.settings.surface)),
                 acceptors: AcceptorFactory::new(ask.session, self.settings.surface),
                 signatures,
             },
@@ -160,7 +159,7 @@ impl<'m> ModelPlanner<'m> {
         round: u32,
     ) -> Round {
         let mut reading = StreamReader::new(session, ready.acceptors.acceptor(POLICY_BYTES));
-        let mut reply = match self.model.ask(chat, &ready.offer) {
+        let mut reply = match self.model.ask(chat, &ready.grammar) {
             Ok(reply) => reply,
             Err(why) => return self.failed(round, "", why),
         };
@@ -274,7 +273,7 @@ impl Planner for ModelPlanner<'_> {
         let chat = written(ask, &ready.lasting, (self.settings.tokens, prompt::TIME));
         let name = self.model.name();
         self.listener.hear(&ModelEvent::Asked { round: 0, model: &name, chat: &chat });
-        let Ok(reply) = self.model.ask(&chat, &ready.offer) else { return false };
+        let Ok(reply) = self.model.ask(&chat, &ready.grammar) else { return false };
         let acceptor = ready.acceptors.acceptor(POLICY_BYTES);
         let reading = StreamReader::new(ask.session, acceptor).into_owned();
         self.later = Some(Later { reply, reading, round: 0 });

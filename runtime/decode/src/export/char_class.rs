@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::grammar::Expr;
+use super::ebnf::EbnfExpr;
 use crate::subset::{MAX_NAME_CHARS, MAX_TEXT_CHARS};
 
 /// The characters of a text, and those with which one begins.
@@ -19,19 +19,19 @@ struct Tree {
 }
 
 /// A text, without its quotes.
-pub(super) fn text() -> Expr {
-    let rest = Expr::Class(TEXT.to_vec()).repeat(0, bound(MAX_TEXT_CHARS - 1));
-    Expr::seq(vec![Expr::Class(TEXT_FIRST.to_vec()), rest])
+pub(super) fn text() -> EbnfExpr {
+    let rest = EbnfExpr::Class(TEXT.to_vec()).repeat(0, bound(MAX_TEXT_CHARS - 1));
+    EbnfExpr::seq(vec![EbnfExpr::Class(TEXT_FIRST.to_vec()), rest])
 }
 
 /// A name, whatever it is.
-pub(super) fn name() -> Expr {
-    let rest = Expr::Class(NAME.to_vec()).repeat(0, bound(MAX_NAME_CHARS - 1));
-    Expr::seq(vec![Expr::Class(NAME_FIRST.to_vec()), rest])
+pub(super) fn name() -> EbnfExpr {
+    let rest = EbnfExpr::Class(NAME.to_vec()).repeat(0, bound(MAX_NAME_CHARS - 1));
+    EbnfExpr::seq(vec![EbnfExpr::Class(NAME_FIRST.to_vec()), rest])
 }
 
 /// A name that is none of these words.
-pub(super) fn name_but<'w>(words: impl Iterator<Item = &'w str>) -> Expr {
+pub(super) fn name_but<'w>(words: impl Iterator<Item = &'w str>) -> EbnfExpr {
     let mut root = Tree::default();
     for word in words.filter(|word| crate::subset::is_name(word)) {
         let end = word.chars().fold(&mut root, |tree, letter| tree.next.entry(letter).or_default());
@@ -41,23 +41,23 @@ pub(super) fn name_but<'w>(words: impl Iterator<Item = &'w str>) -> Expr {
 }
 
 /// How a name goes on that has followed the tree for so many letters.
-fn below(tree: &Tree, letters: usize) -> Expr {
+fn below(tree: &Tree, letters: usize) -> EbnfExpr {
     let left = MAX_NAME_CHARS.saturating_sub(letters);
     let class = if letters == 0 { NAME_FIRST } else { NAME };
     let mut alternatives = Vec::new();
     if left > 0 {
         for (letter, next) in &tree.next {
-            let letter = Expr::literal(letter.to_string());
-            alternatives.push(Expr::seq(vec![letter, below(next, letters + 1)]));
+            let letter = EbnfExpr::literal(letter.to_string());
+            alternatives.push(EbnfExpr::seq(vec![letter, below(next, letters + 1)]));
         }
         let others = without(class, tree.next.keys().copied());
         if !others.is_empty() {
-            let rest = Expr::Class(NAME.to_vec()).repeat(0, bound(left - 1));
-            let rest = if left == 1 { Expr::Seq(Vec::new()) } else { rest };
-            alternatives.push(Expr::seq(vec![Expr::Class(others), rest]));
+            let rest = EbnfExpr::Class(NAME.to_vec()).repeat(0, bound(left - 1));
+            let rest = if left == 1 { EbnfExpr::Seq(Vec::new()) } else { rest };
+            alternatives.push(EbnfExpr::seq(vec![EbnfExpr::Class(others), rest]));
         }
     }
-    let more = Expr::choice(alternatives);
+    let more = EbnfExpr::choice(alternatives);
     if letters > 0 && !tree.ends { more.optional() } else { more }
 }
 

@@ -4,8 +4,8 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::{ApproximateTokEnv, TokEnv, TokRxInfo, TokTrie};
 use llguidance::{Matcher, ParserFactory};
 use motet_compiler::Session;
-use motet_decode::Subset;
 use motet_decode::export::{Format, Header, export};
+use motet_decode::{Grammar, Subset};
 
 /// The tokens of a model as llguidance takes them; special ones have no bytes.
 pub fn environment(tokens: &[Vec<u8>], end: u32) -> TokEnv {
@@ -17,9 +17,10 @@ pub fn environment(tokens: &[Vec<u8>], end: u32) -> TokEnv {
 pub struct Peer(Matcher);
 
 impl Peer {
-    /// The engine on the grammar in Lark, the one notation with all bounds of the surface.
-    pub fn new(environment: &TokEnv, session: &Session, surface: Subset) -> Self {
-        let lark = export(&session.signatures(), surface, Format::Lark, Header::Llguidance).unwrap();
+    /// The engine on the grammar in Lark, the one notation with all bounds of the subset.
+    pub fn new(environment: &TokEnv, session: &Session, subset: Subset) -> Self {
+        let lark =
+            export(&Grammar::new(&session.signatures(), subset), Format::Lark, Header::Llguidance).unwrap();
         let factory = ParserFactory::new_simple(environment).unwrap();
         let matcher = Matcher::new(factory.create_parser(TopLevelGrammar::from_lark(lark)));
         assert!(!matcher.is_error(), "{:?}", matcher.get_error());

@@ -1,60 +1,52 @@
-//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the grammar allows as well.
+//! The acceptor beside an engine that knows the exported grammar only: what the acceptor allows, the
+//! grammar allows as well.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::print_stdout,
-    reason = "a test fails by panicking"
-)]
-
-mod common;
-
-use common::dice::Dice;
-use common::peer::{Peer, environment};
-use common::session;
-use common::tokens::{END, tokens};
+use crate::common::dice::Dice;
+use crate::common::peer::{Peer, environment};
+use crate::common::session;
+use crate::common::tokens::{END, tokens};
 use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary};
 use motet_syntax::Syntax;
 
-/// How many walks each pair of robot and scene gets with each surface.
+/// How many walks each pair of robot and scene gets with each subset.
 const WALKS: u64 = 3;
 /// How many tokens a walk takes at most.
 const LENGTH: usize = 120;
 
 #[test]
-fn a_mask_is_within_that_of_the_grammar() {
+fn decoder_mask_in_json_is_within_the_exported_grammar() {
     compare(Syntax::Json);
 }
 
 #[test]
-fn a_mask_of_text_is_within_that_of_the_grammar() {
+fn decoder_mask_in_text_is_within_the_exported_grammar() {
     compare(Syntax::Text);
 }
 
 /// What a loop goes through is bound for its body: a container here, of which no step gives one.
 #[test]
-fn an_item_may_be_an_argument() {
+fn acceptor_takes_loop_items_as_arguments() {
     let tokens = tokens();
     let environment = environment(&tokens, END);
     let session = session("hsr", "living_room");
-    for (form, policy) in [
+    for (syntax, policy) in [
         (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
         (
             Syntax::Json,
             r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
         ),
     ] {
-        let surface = Subset { syntax: form, ..Subset::default() };
-        let mut matcher = Peer::new(&environment, &session, surface).start();
+        let subset = Subset { syntax, ..Subset::default() };
+        let mut matcher = Peer::new(&environment, &session, subset).start();
         for byte in policy.bytes() {
             assert!(matcher.consume_token(u32::from(byte)).is_ok(), "`{}` in {policy}", char::from(byte));
         }
-        let mut acceptor = AcceptorFactory::new(&session, surface).acceptor(2000).unwrap();
+        let mut acceptor = AcceptorFactory::new(&session, subset).acceptor(2000).unwrap();
         assert_eq!(acceptor.accept(policy.as_bytes()), policy.len(), "{policy}");
     }
 }
 
-fn compare(form: Syntax) {
+fn compare(syntax: Syntax) {
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = environment(&tokens, END);
@@ -62,12 +54,12 @@ fn compare(form: Syntax) {
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
         for modifiers in [Modifiers::Default, Modifiers::Written] {
-            let surface = Subset { syntax: form, modifiers, ..Subset::default() };
-            let prepared = AcceptorFactory::new(&session, surface);
-            let peer = Peer::new(&environment, &session, surface);
+            let subset = Subset { syntax, modifiers, ..Subset::default() };
+            let factory = AcceptorFactory::new(&session, subset);
+            let peer = Peer::new(&environment, &session, subset);
             for seed in 0..WALKS {
                 let mut dice = Dice::new(seed);
-                let mut decoder = prepared.decoder(&vocabulary, 2000).unwrap();
+                let mut decoder = factory.decoder(&vocabulary, 2000).unwrap();
                 let mut matcher = peer.start();
                 for _ in 0..LENGTH {
                     let ours = decoder.mask().to_vec();

@@ -1,26 +1,14 @@
-//! The acceptor against the checker: what it lets a model write checks without an error, every walk ends, and every
-//! canonical policy that checks is accepted, byte by byte.
+//! The acceptor against the checker: what it lets a model write checks without an error, every walk ends,
+//! and every canonical policy that checks is accepted, byte by byte.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::indexing_slicing,
-    clippy::string_slice,
-    clippy::disallowed_methods,
-    reason = "a test fails by panicking"
-)]
-
-mod common;
-
-use common::dice::Dice;
-use common::tokens::{END, tokens};
-use common::walks::{Ended, KINDS, of_kind, steps, walk, written};
-use common::{errors, session};
+use crate::common::dice::Dice;
+use crate::common::tokens::{END, tokens};
+use crate::common::walks::{Ended, KINDS, of_kind, steps, walk, written};
+use crate::common::{errors, session};
 use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
-fn surface(modifiers: Modifiers) -> Subset {
+fn subset(modifiers: Modifiers) -> Subset {
     Subset { modifiers, ..Subset::default() }
 }
 
@@ -30,16 +18,16 @@ fn walks() -> usize {
 }
 
 #[test]
-fn what_is_written_at_random_checks() {
+fn acceptor_walks_in_json_check() {
     write_at_random(Syntax::Json);
 }
 
 #[test]
-fn what_is_written_at_random_in_text_checks() {
+fn acceptor_walks_in_text_check() {
     write_at_random(Syntax::Text);
 }
 
-fn write_at_random(form: Syntax) {
+fn write_at_random(syntax: Syntax) {
     let (mut lengths, mut done, mut all) = (Vec::new(), 0, 0);
     let mut kinds = [0usize; KINDS.len()];
     for (index, (robot, scene)) in
@@ -47,13 +35,13 @@ fn write_at_random(form: Syntax) {
     {
         let session = session(robot, scene);
         for (kind, modifiers) in [Modifiers::Default, Modifiers::Written].into_iter().enumerate() {
-            let prepared = AcceptorFactory::new(&session, Subset { syntax: form, ..surface(modifiers) });
+            let factory = AcceptorFactory::new(&session, Subset { syntax, ..subset(modifiers) });
             for round in 0..walks() {
                 let seed = (index * 2 + kind) * 1_000_000 + round;
                 let mut dice = Dice::new(u64::try_from(seed).unwrap());
                 let budget = [600, 4000, 8000][dice.below(3)];
                 let wanted = 10 + dice.below(50);
-                let text = match walk(&prepared, budget, wanted, &mut dice).unwrap() {
+                let text = match walk(&factory, budget, wanted, &mut dice).unwrap() {
                     Ended::Whole(text) => text,
                     Ended::Stuck(text) => panic!("{robot} {scene} {seed}: stuck after {text}"),
                 };
@@ -78,9 +66,9 @@ fn write_at_random(form: Syntax) {
 
 /// Beside what runs at once many calls are asked in one proof: each is open exactly where it checks alone.
 #[test]
-fn what_may_stand_beside_something_is_what_checks_there() {
+fn acceptor_opens_concurrent_calls_that_check() {
     let session = session("hsr", "kitchen");
-    let prepared = AcceptorFactory::new(&session, surface(Modifiers::Default));
+    let factory = AcceptorFactory::new(&session, subset(Modifiers::Default));
     let near = r#"{"get":"distance","to":"user","is":"less","than":0.5}"#;
     let restart = format!(
         r#"{{"monitor":[{{"when":{near},"for":null,"then":{{"react":"restart","at_most":3}}}}],"during":["#
@@ -103,7 +91,7 @@ fn what_may_stand_beside_something_is_what_checks_there() {
                 let call = format!(r#"{{"do":"{}","{}":"{entity}"}}"#, callable.name, param.name);
                 let text = format!(r#"{begin}{call},{{"end":"fail","why":"no"}}{end}"#);
                 let wrong = errors(&session, &text);
-                let mut acceptor = prepared.acceptor(8000).unwrap();
+                let mut acceptor = factory.acceptor(8000).unwrap();
                 let is_open = acceptor.accept(text.as_bytes()) == text.len();
                 let taken = String::from_utf8_lossy(acceptor.bytes()).into_owned();
                 assert_eq!(is_open, wrong.is_empty(), "{wrong:#?}\n{text}\n{taken}");
@@ -127,21 +115,21 @@ fn last_fails(text: &str) -> bool {
 }
 
 #[test]
-fn examples_are_accepted_byte_by_byte() {
+fn acceptor_takes_examples_in_json() {
     accept_examples(Syntax::Json);
 }
 
 #[test]
-fn examples_in_text_are_accepted_byte_by_byte() {
+fn acceptor_takes_examples_in_text() {
     accept_examples(Syntax::Text);
 }
 
-fn accept_examples(form: Syntax) {
-    let surface = Subset { syntax: form, ..surface(Modifiers::Written) };
+fn accept_examples(syntax: Syntax) {
+    let subset = Subset { syntax, ..subset(Modifiers::Written) };
     let mut count = 0;
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
-        let prepared = AcceptorFactory::new(&session, surface);
+        let factory = AcceptorFactory::new(&session, subset);
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
         let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
         files.sort();
@@ -152,14 +140,14 @@ fn accept_examples(form: Syntax) {
             }
             let parsed = motet_syntax::read(&Source::new("policy.json", text.as_str()), FileId(7));
             let policy = parsed.file.policies().next().unwrap();
-            let spelled = match canonical(policy, &session.signatures(), surface) {
+            let spelled = match canonical(policy, &session.signatures(), subset) {
                 Ok(spelled) => spelled,
                 Err(outside) => {
                     println!("{}: {outside}", file.display());
                     continue;
                 }
             };
-            takes_whole(&prepared, &spelled, &format!("{} in {scene}", file.display()));
+            takes_whole(&factory, &spelled, &format!("{} in {scene}", file.display()));
             count += 1;
         }
     }
@@ -167,8 +155,8 @@ fn accept_examples(form: Syntax) {
 }
 
 /// That a policy is accepted byte by byte, to its end.
-fn takes_whole(prepared: &AcceptorFactory, spelled: &str, whose: &str) {
-    let mut acceptor = prepared.acceptor(100_000).unwrap();
+fn takes_whole(factory: &AcceptorFactory, spelled: &str, whose: &str) {
+    let mut acceptor = factory.acceptor(100_000).unwrap();
     let taken = acceptor.accept(spelled.as_bytes());
     assert!(
         taken == spelled.len() && acceptor.is_accepting(),
@@ -178,16 +166,16 @@ fn takes_whole(prepared: &AcceptorFactory, spelled: &str, whose: &str) {
     );
 }
 
-/// What is written in one surface is accepted in both, spelled as it spells it.
+/// What is written in one subset is accepted in both, spelled as it spells it.
 #[test]
-fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
+fn acceptor_takes_walks_of_the_other_syntax() {
     let (mut count, mut outside) = (0, 0);
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
         for (from, to) in [(Syntax::Json, Syntax::Text), (Syntax::Text, Syntax::Json)] {
-            let [from, to] = [from, to].map(|form| Subset { syntax: form, ..surface(Modifiers::Written) });
-            let prepared = AcceptorFactory::new(&session, to);
-            // The acceptor of the text form writes no comparison of a field.
+            let [from, to] = [from, to].map(|syntax| Subset { syntax, ..subset(Modifiers::Written) });
+            let factory = AcceptorFactory::new(&session, to);
+            // The acceptor of the text syntax writes no comparison of a field.
             let fits = |text: &str| (600..3000).contains(&text.len()) && !text.contains("\"field\":");
             for text in written(&session, from, 4, fits) {
                 let parsed = motet_syntax::read(&Source::new("policy", text.as_str()), FileId(7));
@@ -196,34 +184,34 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
                     outside += 1;
                     continue;
                 };
-                takes_whole(&prepared, &spelled, &format!("{robot} in {scene}, {to:?}"));
+                takes_whole(&factory, &spelled, &format!("{robot} in {scene}, {to:?}"));
                 count += 1;
             }
         }
     }
-    println!("{count} policies, and {outside} that the other surface has no spelling for");
+    println!("{count} policies, and {outside} that the other subset has no spelling for");
     assert!(count >= 20, "{count}");
 }
 
 #[test]
-fn a_mask_has_the_tokens_that_are_accepted() {
+fn decoder_mask_in_json_equals_accepted_tokens() {
     compare_masks(Syntax::Json);
 }
 
 #[test]
-fn a_mask_of_text_has_the_tokens_that_are_accepted() {
+fn decoder_mask_in_text_equals_accepted_tokens() {
     compare_masks(Syntax::Text);
 }
 
-fn compare_masks(form: Syntax) {
+fn compare_masks(syntax: Syntax) {
     let session = session("hsr", "kitchen");
-    let prepared = AcceptorFactory::new(&session, Subset { syntax: form, ..surface(Modifiers::Default) });
+    let factory = AcceptorFactory::new(&session, Subset { syntax, ..subset(Modifiers::Default) });
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let count = u32::try_from(vocabulary.len()).unwrap();
     for seed in 0..6 {
         let mut dice = Dice::new(seed);
-        let mut decoder = prepared.decoder(&vocabulary, 700).unwrap();
+        let mut decoder = factory.decoder(&vocabulary, 700).unwrap();
         for _ in 0..150 {
             let mask = decoder.mask().to_vec();
             let is_set = |token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
@@ -250,10 +238,10 @@ fn compare_masks(form: Syntax) {
 }
 
 #[test]
-fn what_must_come_next_comes() {
+fn acceptor_forces_text_and_explains_refusals() {
     let session = session("hsr", "kitchen");
-    let prepared = AcceptorFactory::new(&session, surface(Modifiers::Default));
-    let mut acceptor = prepared.acceptor(1000).unwrap();
+    let factory = AcceptorFactory::new(&session, subset(Modifiers::Default));
+    let mut acceptor = factory.acceptor(1000).unwrap();
     assert_eq!(acceptor.forced(), b"{\"motet\":1,\"policy\":\"");
     let start = br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1","from":"auto"}"#;
     assert_eq!(acceptor.accept(start), start.len());
@@ -265,14 +253,14 @@ fn what_must_come_next_comes() {
 }
 
 #[test]
-fn what_a_query_ruled_out_is_no_argument() {
+fn acceptor_excludes_infeasible_arguments() {
     let session = session("hsr", "kitchen");
     let start =
         br#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"do":"pick","object":"mug_1""#;
     let open =
-        AcceptorFactory::new(&session, surface(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
+        AcceptorFactory::new(&session, subset(Modifiers::Default)).acceptor(1000).unwrap().accept(start);
     assert_eq!(open, start.len());
     let verdicts = [("pick", "mug_1")];
-    let prepared = AcceptorFactory::with_verdicts(&session, surface(Modifiers::Default), &verdicts);
-    assert!(prepared.acceptor(1000).unwrap().accept(start) < start.len());
+    let factory = AcceptorFactory::with_verdicts(&session, subset(Modifiers::Default), &verdicts);
+    assert!(factory.acceptor(1000).unwrap().accept(start) < start.len());
 }

@@ -1,17 +1,17 @@
-//! Numbers, digit by digit: which digits may follow so that the number can still be in its range and in its one spelling,
-//! without a leading zero, a trailing one behind the point, or `-0`.
+//! Recognition of numbers digit by digit: a digit may follow if the number can still reach its range in its
+//! only spelling, without a leading zero, a trailing zero behind the point, or `-0`.
 
-use crate::subset::NumberRange;
+use super::NumberRange;
 
 /// The digits of a number so far.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(crate) struct Digits {
-    /// All digits as one number.
+    /// All digits read as one number.
     units: u64,
     negative: bool,
     begun: bool,
     point: bool,
-    /// How many stand behind the point.
+    /// The number of digits behind the point.
     decimals: u8,
 }
 
@@ -33,7 +33,7 @@ impl Digits {
         }
     }
 
-    /// The digits with one more byte, where they can still become a number of the range.
+    /// The digits with one more byte; `None` if they cannot become a number of the range.
     pub(crate) fn push(mut self, byte: u8, range: &NumberRange) -> Option<Self> {
         match byte {
             b'-' if !self.begun && !self.negative => self.negative = true,
@@ -53,7 +53,7 @@ impl Digits {
         self.can_be(range).then_some(self)
     }
 
-    /// The number, where it is one of the range and spelled as it has to be.
+    /// The number in units of the last decimal, if it is in the range and canonically spelled.
     pub(crate) fn finish(self, range: &NumberRange) -> Option<i64> {
         let ends_well = self.begun && if self.point { !self.units.is_multiple_of(10) } else { true };
         let is_zero = self.negative && self.units == 0;
@@ -66,12 +66,12 @@ impl Digits {
         (range.least..=range.greatest).contains(&units).then_some(units)
     }
 
-    /// Whether some digits more, or none, make it a number of the range.
+    /// Some more digits, or none, make it a number of the range.
     fn can_be(self, range: &NumberRange) -> bool {
         if self.finish(range).is_some() {
             return true;
         }
-        // The sizes that the sign leaves.
+        // The magnitudes that the sign leaves.
         let (least, greatest) = if self.negative {
             (1.max(range.greatest.saturating_neg()), range.least.saturating_neg())
         } else {
@@ -88,10 +88,10 @@ impl Digits {
         let Some(scale) = 10u64.checked_pow(u32::from(step)) else { return false };
         let Some(first) = self.units.checked_mul(scale) else { return false };
         if self.point {
-            // At least one more digit, and the last of them no zero: more than what stands there.
+            // At least one more digit follows, and the last is not zero: the number grows.
             return step > 0 && first < greatest && first + (scale - 1) >= least && scale > 1;
         }
-        // Decimals behind it, or more digits before the point.
+        // Decimals may follow, or more digits before the point.
         let (mut low, mut size) = (first, scale);
         loop {
             if low <= greatest && low + (size - 1) >= least {

@@ -15,10 +15,10 @@ pub enum Ended {
     Stuck(String),
 }
 
-/// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another one follows as
-/// a rule, until there are `steps`.
-pub fn walk(prepared: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
-    let mut acceptor = prepared.acceptor(budget)?;
+/// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another
+/// one follows as a rule, until there are `steps`.
+pub fn walk(factory: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
+    let mut acceptor = factory.acceptor(budget)?;
     loop {
         if acceptor.is_accepting() {
             return Some(Ended::Whole(text(&acceptor)));
@@ -34,16 +34,16 @@ pub fn walk(prepared: &AcceptorFactory, budget: usize, steps: usize, dice: &mut 
     }
 }
 
-/// So many policies that are written at random and fit, by walks of a session of their own, so that no answer is known
-/// beforehand.
-pub fn written(session: &Session, surface: Subset, count: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
-    let (prepared, mut dice) = (AcceptorFactory::new(session, surface), Dice::new(7));
+/// So many policies that are written at random and fit, by walks of a session of their own, so that no
+/// answer is known beforehand.
+pub fn written(session: &Session, subset: Subset, count: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let (factory, mut dice) = (AcceptorFactory::new(session, subset), Dice::new(7));
     let mut found = Vec::new();
-    // The text form takes fewer tokens a step.
-    let (least, spread) = if surface.syntax == Syntax::Json { (12, 8) } else { (24, 20) };
+    // The text syntax takes fewer tokens a step.
+    let (least, spread) = if subset.syntax == Syntax::Json { (12, 8) } else { (24, 20) };
     while found.len() < count {
         let steps = least + dice.below(spread);
-        if let Some(Ended::Whole(policy)) = walk(&prepared, 6000, steps, &mut dice)
+        if let Some(Ended::Whole(policy)) = walk(&factory, 6000, steps, &mut dice)
             && fits(&policy)
         {
             found.push(policy);
@@ -65,7 +65,7 @@ pub fn steps(policy: &str) -> usize {
 /// How many steps of a kind it has.
 #[must_use]
 pub fn of_kind(policy: &str, kind: &str) -> usize {
-    if form(policy) == Syntax::Json {
+    if syntax(policy) == Syntax::Json {
         return policy.matches(&format!("{{\"{kind}\":")).count();
     }
     let count = |words: &[&str]| words.iter().map(|word| policy.matches(word).count()).sum();
@@ -86,9 +86,9 @@ fn is_call(rest: &str) -> bool {
     name > 0 && rest.as_bytes().get(name) == Some(&b'(')
 }
 
-/// The form of a policy.
+/// The syntax of a policy.
 #[must_use]
-pub fn form(policy: &str) -> Syntax {
+pub fn syntax(policy: &str) -> Syntax {
     if policy.starts_with('{') { Syntax::Json } else { Syntax::Text }
 }
 
@@ -128,7 +128,7 @@ fn choose(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
     any(dice)
 }
 
-/// The same of the text form.
+/// The same of the text syntax.
 fn choose_text(bytes: &[u8], before: &[u8], steps: usize, dice: &mut Dice) -> u8 {
     let has = |byte: u8| bytes.contains(&byte);
     let any = |dice: &mut Dice| bytes.get(dice.below(bytes.len())).copied().unwrap_or(b' ');

@@ -1,7 +1,5 @@
 //! Vocabularies from files: what each form says of its tokens, and what is said of files that are none.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test fails by panicking")]
-
 use motet_decode::vocabulary::{MAX_TOKEN_BYTES, MAX_TOKENS};
 use motet_decode::{AcceptorFactory, EndToken, Environment, Subset, Vocabulary};
 use serde_json::{Value, json};
@@ -15,7 +13,7 @@ fn bytes(vocabulary: &Vocabulary) -> Vec<&[u8]> {
 }
 
 #[test]
-fn byte_level_tokens_stand_for_bytes() {
+fn vocabulary_reads_byte_level_tokens() {
     let file = json!({
         "model": {"type": "BPE", "vocab": {"!": 0, "Ġgo": 1, "Ċ": 2, "Ã©": 3, "Ł": 4, "<|end|>": 5}, "merges": []},
         "pre_tokenizer": {"type": "Sequence", "pretokenizers": [{"type": "Split"}, {"type": "ByteLevel"}]},
@@ -29,8 +27,9 @@ fn byte_level_tokens_stand_for_bytes() {
 }
 
 #[test]
-fn all_bytes_have_a_character() {
-    // The table of GPT-2, built the other way around: printable bytes stand for themselves, the others follow from U+0100.
+fn vocabulary_reads_every_byte_level_character() {
+    // The table of GPT-2, built the other way around: printable bytes stand for themselves, the others
+    // follow from U+0100.
     let mut next = 0x100;
     let mut vocab = serde_json::Map::new();
     for byte in 0..=255u32 {
@@ -51,7 +50,7 @@ fn all_bytes_have_a_character() {
 }
 
 #[test]
-fn pieces_have_spaces_and_bytes_to_fall_back_to() {
+fn vocabulary_reads_pieces_with_byte_fallback() {
     let vocab = json!([
         ["<unk>", 0.0],
         ["<s>", 0.0],
@@ -85,7 +84,7 @@ fn pieces_have_spaces_and_bytes_to_fall_back_to() {
 }
 
 #[test]
-fn lists_are_read() {
+fn vocabulary_reads_lists() {
     let list = json!(["{\"", [255, 0], null, "é"]);
     let vocabulary = read(&list, EndToken::Number(2)).unwrap();
     let expected: [&[u8]; 4] = [b"{\"", &[255, 0], b"", "é".as_bytes()];
@@ -99,7 +98,7 @@ fn lists_are_read() {
 }
 
 #[test]
-fn what_is_no_vocabulary_is_refused_with_the_reason() {
+fn vocabulary_errors_name_the_reason() {
     let level = json!({"type": "ByteLevel"});
     let model = |vocab: Value| json!({"model": {"type": "BPE", "vocab": vocab}, "decoder": level});
     for (file, end, says) in [
@@ -151,7 +150,7 @@ fn what_is_no_vocabulary_is_refused_with_the_reason() {
 }
 
 #[test]
-fn special_and_overlong_tokens_are_never_allowed_and_twins_always_together() {
+fn vocabulary_excludes_special_tokens_and_pairs_twins() {
     let mut tokens: Vec<Vec<u8>> = (0..=u8::MAX).map(|byte| vec![byte]).collect();
     tokens.extend([b"{".to_vec(), vec![b'a'; 2000], Vec::new(), b"ends".to_vec()]);
     let vocabulary = Vocabulary::from_tokens(tokens, 259).unwrap();
@@ -181,7 +180,7 @@ fn special_and_overlong_tokens_are_never_allowed_and_twins_always_together() {
 }
 
 #[test]
-fn worlds_are_opened_by_name_and_by_text() {
+fn environment_opens_by_name_and_by_text() {
     let error = |world: Environment<'_>| world.session().unwrap_err().to_string();
     assert!(
         error(Environment { robot: Some("hal"), ..Environment::default() })

@@ -1,10 +1,10 @@
 //! Ranges of decimal numbers as expressions: exactly the canonical digits of the numbers in the range.
 
-use super::grammar::Expr;
+use super::ebnf::EbnfExpr;
 use crate::subset::NumberRange;
 
 /// The numbers of a range as JSON and, before the unit, the text form write them.
-pub(super) fn expr(range: &NumberRange) -> Expr {
+pub(super) fn expr(range: &NumberRange) -> EbnfExpr {
     let decimals = u32::from(range.decimals);
     let mut alternatives = Vec::new();
     if range.greatest >= 0 {
@@ -13,9 +13,9 @@ pub(super) fn expr(range: &NumberRange) -> Expr {
     if range.least < 0 {
         let nearest = if range.greatest < 0 { size(range.greatest) } else { 1 };
         let digits = magnitude(nearest, size(range.least), decimals);
-        alternatives.push(Expr::seq(vec![Expr::literal("-"), digits]));
+        alternatives.push(EbnfExpr::seq(vec![EbnfExpr::literal("-"), digits]));
     }
-    Expr::choice(alternatives)
+    EbnfExpr::choice(alternatives)
 }
 
 fn size(units: i64) -> u64 {
@@ -23,12 +23,12 @@ fn size(units: i64) -> u64 {
 }
 
 /// From `low` to `high` units of the last decimal.
-fn magnitude(low: u64, high: u64, decimals: u32) -> Expr {
+fn magnitude(low: u64, high: u64, decimals: u32) -> EbnfExpr {
     let scale = 10u64.pow(decimals);
     let (mut low_whole, low_rest) = (low / scale, low % scale);
     let (mut high_whole, high_rest) = (high / scale, high % scale);
     let point = |whole: u64, from: u64, to: u64| {
-        Expr::seq(vec![Expr::literal(whole.to_string()), fraction(from, to, decimals)])
+        EbnfExpr::seq(vec![EbnfExpr::literal(whole.to_string()), fraction(from, to, decimals)])
     };
     if low_whole == high_whole {
         return point(low_whole, low_rest, high_rest);
@@ -45,30 +45,30 @@ fn magnitude(low: u64, high: u64, decimals: u32) -> Expr {
     }
     if low_whole <= high_whole {
         let any = fraction(0, scale - 1, decimals);
-        alternatives.push(Expr::seq(vec![whole(low_whole, high_whole), any]));
+        alternatives.push(EbnfExpr::seq(vec![whole(low_whole, high_whole), any]));
     }
     alternatives.extend(last);
-    Expr::choice(alternatives)
+    EbnfExpr::choice(alternatives)
 }
 
 /// Nothing, or a point and digits that do not end in 0.
-fn fraction(low: u64, high: u64, width: u32) -> Expr {
+fn fraction(low: u64, high: u64, width: u32) -> EbnfExpr {
     if width == 0 || high == 0 {
-        return Expr::Seq(Vec::new());
+        return EbnfExpr::Seq(Vec::new());
     }
-    let digits = Expr::seq(vec![Expr::literal("."), decimals(low.max(1), high, width)]);
+    let digits = EbnfExpr::seq(vec![EbnfExpr::literal("."), decimals(low.max(1), high, width)]);
     if low == 0 { digits.optional() } else { digits }
 }
 
-/// Digits that do not end in 0 and that, filled up with zeros to the width, lie between two numbers; also no digit at all
-/// where the lower number is 0.
-fn decimals(low: u64, high: u64, width: u32) -> Expr {
+/// Digits that do not end in 0 and that, filled up with zeros to the width, lie between two numbers; also
+/// no digit at all where the lower number is 0.
+fn decimals(low: u64, high: u64, width: u32) -> EbnfExpr {
     if width == 0 || high == 0 {
-        return Expr::Seq(Vec::new());
+        return EbnfExpr::Seq(Vec::new());
     }
     let unit = 10u64.pow(width - 1);
     let last = unit * 10 - 1;
-    let any = Expr::seq(vec![digit('0', '9').repeat(0, width - 1), digit('1', '9')]);
+    let any = EbnfExpr::seq(vec![digit('0', '9').repeat(0, width - 1), digit('1', '9')]);
     match (low, high == last) {
         (0, true) => return any.optional(),
         (1, true) => return any,
@@ -89,19 +89,19 @@ fn decimals(low: u64, high: u64, width: u32) -> Expr {
             full = Some((full.map_or(character, |(start, _)| start), character));
         } else {
             let rest = decimals(from, to, width - 1);
-            alternatives.push(Expr::seq(vec![Expr::literal(character.to_string()), rest]));
+            alternatives.push(EbnfExpr::seq(vec![EbnfExpr::literal(character.to_string()), rest]));
         }
     }
     if let Some((from, to)) = full {
         let rest = decimals(0, unit - 1, width - 1);
-        alternatives.push(Expr::seq(vec![digit(from, to), rest]));
+        alternatives.push(EbnfExpr::seq(vec![digit(from, to), rest]));
     }
-    let some = Expr::choice(alternatives);
+    let some = EbnfExpr::choice(alternatives);
     if low == 0 { some.optional() } else { some }
 }
 
 /// Whole numbers without leading zeros.
-fn whole(low: u64, high: u64) -> Expr {
+fn whole(low: u64, high: u64) -> EbnfExpr {
     let mut alternatives = Vec::new();
     let mut from = low;
     while from <= high {
@@ -110,13 +110,13 @@ fn whole(low: u64, high: u64) -> Expr {
         alternatives.push(fixed(from, to, width));
         from = to + 1;
     }
-    Expr::choice(alternatives)
+    EbnfExpr::choice(alternatives)
 }
 
 /// Exactly so many digits, leading zeros among them.
-fn fixed(low: u64, high: u64, width: u32) -> Expr {
+fn fixed(low: u64, high: u64, width: u32) -> EbnfExpr {
     if width == 0 {
-        return Expr::Seq(Vec::new());
+        return EbnfExpr::Seq(Vec::new());
     }
     let unit = 10u64.pow(width - 1);
     let mut alternatives = Vec::new();
@@ -132,17 +132,17 @@ fn fixed(low: u64, high: u64, width: u32) -> Expr {
             full = Some((full.map_or(character, |(start, _)| start), character));
         } else {
             let rest = fixed(from, to, width - 1);
-            alternatives.push(Expr::seq(vec![Expr::literal(character.to_string()), rest]));
+            alternatives.push(EbnfExpr::seq(vec![EbnfExpr::literal(character.to_string()), rest]));
         }
     }
     if let Some((from, to)) = full {
         let rest = digit('0', '9').repeat(width - 1, width - 1);
-        let rest = if width == 1 { Expr::Seq(Vec::new()) } else { rest };
-        alternatives.push(Expr::seq(vec![digit(from, to), rest]));
+        let rest = if width == 1 { EbnfExpr::Seq(Vec::new()) } else { rest };
+        alternatives.push(EbnfExpr::seq(vec![digit(from, to), rest]));
     }
-    Expr::choice(alternatives)
+    EbnfExpr::choice(alternatives)
 }
 
-fn digit(from: char, to: char) -> Expr {
-    if from == to { Expr::literal(from.to_string()) } else { Expr::Class(vec![(from, to)]) }
+fn digit(from: char, to: char) -> EbnfExpr {
+    if from == to { EbnfExpr::literal(from.to_string()) } else { EbnfExpr::Class(vec![(from, to)]) }
 }

@@ -1,0 +1,183 @@
+//! Lowering of conditions: fluents, comparisons, and what joins them.
+//!
+//! In JSON an operator stands first, so a condition is one rule. In text `and` and `or` stand between what
+//! they join, so the first of several is a condition of its own until one of them follows.
+
+use smol_str::SmolStr;
+
+use super::lowering::{Lowering, Way};
+use super::{Op, OpId};
+use crate::grammar::{Action, AtomSort, Guard, NodeKind, WordRole};
+use crate::subset::MAX_MEMBERS;
+
+const MEMBERS: u8 = MAX_MEMBERS as u8;
+
+impl Lowering<'_> {
+    /// The rule of a condition; in JSON behind its `{"`.
+    pub(super) fn conditions(&mut self) -> OpId {
+        if self.is_json() { self.prefix_conditions() } else { self.infix_conditions() }
+    }
+
+    /// The rules of atoms of one sort, each behind its name, with the numbers of their declarations.
+    fn atoms(&mut self, sort: AtomSort) -> Vec<(Way, u16)> {
+        let mut ways = Vec::new();
+        let grammar = self.grammar;
+        for atom in grammar.atoms.iter().filter(|atom| atom.sort == sort && atom.is_decoded) {
+            let at = self.asm.here();
+            self.parts(&atom.spelled.parts);
+            self.asm.put(Op::Return);
+            ways.push(((atom.spelled.literal.clone(), at, atom.spelled.guard), atom.spelled.number));
+        }
+        ways
+    }
+
+    fn prefix_conditions(&mut self) -> OpId {
+        let start = self.later();
+        let end = self.asm.literal("}");
+        self.act(Action::Close);
+        self.asm.put(Op::Return);
+        let mut ways: Vec<Way> = Vec::new();
+        for (word, sort, role, guard) in [
+            ("is\":\"", AtomSort::Fluent, WordRole::Fluent, Guard::Is),
+            ("get\":\"", AtomSort::Measure, WordRole::Head, Guard::Loose),
+            ("field\":\"", AtomSort::Field, WordRole::Head, Guard::Loose),
+        ] {
+            let atoms = self.atoms(sort);
+            if !atoms.is_empty() || sort == AtomSort::Fluent {
+                let at = self.later();
+                self.names(at, role, atoms.into_iter());
+                ways.push((word.into(), at, guard));
+            }
+        }
+        let not = self.act(Action::Open(NodeKind::Not));
+        self.act(Action::Negate);
+        self.act(Action::Deeper);
+        self.asm.put(Op::Call(start));
+        self.asm.put(Op::Jump(end));
+        ways.push(("not\":{\"".into(), not, Guard::Not));
+        for (word, kind, guard) in
+            [("all\":[{\"", NodeKind::All, Guard::All), ("any\":[{\"", NodeKind::Any, Guard::Any)]
+        {
+            let at = self.act(Action::Open(kind));
+            self.act(Action::Deeper);
+            self.act(Action::Loosen);
+            let rule = self.asm.here() + 2;
+            self.asm.put(Op::Call(rule));
+            self.asm.put(Op::Jump(end));
+            self.asm.put(Op::Call(start));
+            self.asm.literal(",{\"");
+            let second = self.asm.put(Op::Call(start));
+            self.act(Action::Count);
+            self.next_member([",{\"", "]"], second, MEMBERS - 1);
+            ways.push((word.into(), at, guard));
+        }
+        self.asm.choose(start, &ways);
+        start
+    }
+
+    fn infix_conditions(&mut self) -> OpId {
+        let bare = |ways: Vec<(Way, u16)>| ways.into_iter().map(|(way, _)| way).collect::<Vec<Way>>();
+        let fluents = bare(self.atoms(AtomSort::Fluent));
+        let comparisons = bare(self.atoms(AtomSort::Measure));
+        let atoms = [fluents.clone(), comparisons].concat();
+        // Rules that call each other: their places come first.
+        let (negated, group) = (self.later(), self.later());
+        let member = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+
+        let parts = self.act(Action::Deeper);
+        self.act(Action::Loosen);
+        self.asm.put(Op::Call(member));
+        let first = self.later();
+        let (and, or) = (self.joined(NodeKind::All, member), self.joined(NodeKind::Any, member));
+        self.asm.choose(first, &[(" and ".into(), and, Guard::Several), (" or ".into(), or, Guard::Several)]);
+        let group_at = self.rule(&[Action::Open(NodeKind::Group)], parts, ")");
+        self.land(group, group_at);
+
+        let inner = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", group, Guard::Paren(1))]);
+        let parts = self.act(Action::Deeper);
+        self.act(Action::Loosen);
+        self.asm.put(Op::Call(inner));
+        let first = self.later();
+        let alone = self.asm.put(Op::Return);
+        let (and, or) = (self.closed(and), self.closed(or));
+        self.asm.choose(
+            first,
+            &[
+                (")".into(), alone, Guard::Compared),
+                (" and ".into(), and, Guard::Several),
+                (" or ".into(), or, Guard::Several),
+            ],
+        );
+        let enclosed = self.rule(&[Action::Open(NodeKind::Group)], parts, "");
+        let operand =
+            self.primary(&fluents, [("not ", negated, Guard::Not), ("(", enclosed, Guard::NotParen)]);
+        let negated_at =
+            self.rule(&[Action::Open(NodeKind::Not), Action::Negate, Action::Deeper], operand, "");
+        self.land(negated, negated_at);
+
+        let (and, or) = (self.joined_anew(NodeKind::All, member), self.joined_anew(NodeKind::Any, member));
+        // Parentheses around a whole condition would say nothing: another one follows, and both are in
+        // what joins them.
+        let first = self.act(Action::Deeper);
+        self.asm.put(Op::Call(group));
+        let choice = self.later();
+        // Behind `Action::Deeper`, which is done.
+        self.asm
+            .choose(choice, &[(" and ".into(), and + 1, Guard::All), (" or ".into(), or + 1, Guard::Any)]);
+        let whole = self.primary(&atoms, [("not ", negated, Guard::Not), ("(", first, Guard::Paren(2))]);
+        let start = self.asm.put(Op::Call(whole));
+        let (join, other) = (self.later(), self.later());
+        let done = self.asm.put(Op::Return);
+        self.asm.optional(join, (" and ", and, Guard::And), (other, Guard::Open));
+        self.asm.optional(other, (" or ", or, Guard::Or), (done, Guard::Open));
+        start
+    }
+
+    /// A rule: the actions at its beginning, a rule inside, and its end.
+    fn rule(&mut self, actions: &[Action], inside: OpId, end: &str) -> OpId {
+        let start = self.asm.here();
+        for action in actions {
+            self.act(*action);
+        }
+        self.asm.put(Op::Call(inside));
+        if !end.is_empty() {
+            self.asm.literal(end);
+        }
+        self.act(Action::Close);
+        self.asm.put(Op::Return);
+        start
+    }
+
+    /// A condition without `and` or `or` around it: one of some words, each with a rule behind it.
+    fn primary(&mut self, atoms: &[Way], more: [(&'static str, OpId, Guard); 2]) -> OpId {
+        let more = more.map(|(word, rule, guard)| (SmolStr::new_static(word), rule, guard));
+        let start = self.later();
+        self.keywords(start, atoms.iter().cloned().chain(more).collect());
+        start
+    }
+
+    /// The rest of a rule behind the first ` and ` or ` or `.
+    fn joined(&mut self, kind: NodeKind, member: OpId) -> OpId {
+        let start = self.act(Action::Join(kind));
+        self.asm.put(Op::Call(member));
+        self.next_member([if kind == NodeKind::All { " and " } else { " or " }, ""], start, MEMBERS - 1);
+        start
+    }
+
+    /// The same where the first condition is not nested.
+    fn joined_anew(&mut self, kind: NodeKind, member: OpId) -> OpId {
+        let start = self.act(Action::Deeper);
+        self.act(Action::Loosen);
+        self.joined(kind, member);
+        start
+    }
+
+    /// The rest of a rule with the parenthesis behind it.
+    fn closed(&mut self, joined: OpId) -> OpId {
+        // The count of members goes on in the rule that is called, which begins with that of this one.
+        let start = self.asm.put(Op::Call(joined));
+        self.asm.literal(")");
+        self.asm.put(Op::Return);
+        start
+    }
+}

@@ -1,0 +1,261 @@
+//! Lowering of values, by the types that are asked for.
+
+use std::sync::Arc;
+
+use motet_compiler::signature::Type;
+use motet_syntax::unit::Unit;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::lowering::Lowering;
+use super::{BoundNames, Meaning, Op, OpId, Word, WordEnd, WordList, WordTable};
+use crate::grammar::{Action, Constant, Guard, NodeKind, ValuePlace, ValueSet, WordRole};
+use crate::subset::{MAX_ITEMS, NumberRange, Relation};
+
+impl Lowering<'_> {
+    /// A value at a place of the grammar.
+    pub(super) fn placed_value(&mut self, ty: &Type, range: Option<(f64, f64)>, place: ValuePlace) {
+        let role = match place {
+            ValuePlace::Argument(number) => WordRole::Argument(number),
+            ValuePlace::OfFluent => WordRole::Of,
+            ValuePlace::Plain => WordRole::Free,
+            ValuePlace::Operand => return self.operand(ty),
+        };
+        let (word, element) = self.value(ty, range, role);
+        match self.owner {
+            Some(NodeKind::Do(number)) if matches!(role, WordRole::Argument(_)) => {
+                if let Some(callable) = self.callables.get_mut(usize::from(number)) {
+                    callable.words.push(word);
+                    callable.elements.push(element);
+                }
+            }
+            Some(NodeKind::Is(number)) if role == WordRole::Of => {
+                self.fluents.get_mut(usize::from(number)).into_iter().for_each(|words| words.extend(word));
+            }
+            _ => {}
+        }
+    }
+
+    /// A value of a type. The operation of its word, and that of its elements, where they are words.
+    fn value(
+        &mut self,
+        ty: &Type,
+        range: Option<(f64, f64)>,
+        role: WordRole,
+    ) -> (Option<OpId>, Option<OpId>) {
+        match ty {
+            Type::Entity(_) | Type::Enum(_) | Type::Pose => {
+                let (table, with_any) = self.table(ty);
+                (Some(self.word(if role == WordRole::Of { with_any } else { table }, ty, role)), None)
+            }
+            Type::Text => {
+                self.text(role);
+                (None, None)
+            }
+            Type::Bool => {
+                let choice = self.later();
+                let yes = self.constant(Constant::True);
+                let over = self.later();
+                let no = self.constant(Constant::False);
+                self.land_here(over);
+                self.asm
+                    .choose(choice, &[("true".into(), yes, Guard::Open), ("false".into(), no, Guard::Open)]);
+                (None, None)
+            }
+            Type::Int | Type::Number | Type::Quantity(_) => {
+                if let Some(range) = NumberRange::of(ty, range) {
+                    self.number(range);
+                }
+                (None, None)
+            }
+            Type::List(element) => {
+                let mut item = None;
+                let (choice, open) = self.list(|lowering| {
+                    item = lowering.value(element, None, WordRole::Free).0;
+                });
+                let over = self.later();
+                let word = self.word(Arc::new(WordTable::default()), ty, role);
+                self.land_here(over);
+                self.list_or_word(choice, open, word);
+                (Some(word), item)
+            }
+        }
+    }
+
+    /// A list that is written out; the place of the choice before it, and where the list begins.
+    fn list(&mut self, item: impl FnOnce(&mut Self)) -> (OpId, OpId) {
+        let choice = self.later();
+        let is_json = self.is_json();
+        let open = self.asm.here();
+        if is_json {
+            self.asm.literal("[");
+        }
+        self.act(Action::Open(NodeKind::List));
+        let items = self.later();
+        self.act(Action::Close);
+        let over = self.later();
+        let rule = self.asm.here();
+        item(self);
+        self.act(Action::Count);
+        let most = u8::try_from(MAX_ITEMS).unwrap_or(0);
+        self.next_member([if is_json { "," } else { ", " }, "]"], rule, most);
+        self.asm.set(items, Op::Call(rule));
+        self.land_here(over);
+        (choice, open)
+    }
+
+    /// Tells a list from a name of one.
+    fn list_or_word(&mut self, choice: OpId, open: OpId, word: OpId) {
+        if self.is_json() {
+            self.asm.set(choice, Op::Fork { byte: b'"', then: word, other: open });
+        } else {
+            self.asm.optional(choice, ("[", open, Guard::Open), (word, Guard::Rare));
+        }
+    }
+
+    /// The list of an `each`: a name, or entities of one kind.
+    pub(super) fn entity_list(&mut self) {
+        let table = self.table(&Type::Entity(0)).0;
+        let ends = self.word_end();
+        let (choice, open) = self.list(|lowering| {
+            let next = lowering.asm.here() + 1;
+            let (bound, role) = (BoundNames::None, WordRole::Alike);
+            lowering.asm.put(Op::Word(WordList { table, bound, role, ends, next }));
+        });
+        self.act(Action::BindItem);
+        let over = self.later();
+        let (next, table) = (self.asm.here() + 1, Arc::new(WordTable::default()));
+        let (bound, role) = (BoundNames::Lists, WordRole::Free);
+        let word = self.asm.put(Op::Word(WordList { table, bound, role, ends, next }));
+        self.land_here(over);
+        self.list_or_word(choice, open, word);
+    }
+
+    fn word_end(&self) -> WordEnd {
+        if self.is_json() { WordEnd::Quoted } else { WordEnd::Bare }
+    }
+
+    /// One of some words and of the names bound to a type.
+    fn word(&mut self, table: Arc<WordTable>, ty: &Type, role: WordRole) -> OpId {
+        let ends = self.word_end();
+        self.word_with(table, ty, role, ends)
+    }
+
+    fn word_with(&mut self, table: Arc<WordTable>, ty: &Type, role: WordRole, ends: WordEnd) -> OpId {
+        let fits = self.types.iter().any(|actual| self.signatures.fits(ty, actual));
+        let bound = if fits { BoundNames::Type(self.type_number(ty)) } else { BoundNames::None };
+        let next = self.asm.here() + 1;
+        self.asm.put(Op::Word(WordList { table, bound, role, ends, next }))
+    }
+
+    fn type_number(&mut self, ty: &Type) -> u16 {
+        let at = self.types.iter().position(|known| known == ty).unwrap_or_else(|| {
+            self.types.push(ty.clone());
+            self.types.len() - 1
+        });
+        u16::try_from(at).unwrap_or(u16::MAX)
+    }
+
+    /// One of some words, none of them bound.
+    fn plain_word(&mut self, table: Arc<WordTable>, ends: WordEnd) {
+        let next = self.asm.here() + 1;
+        let (bound, role) = (BoundNames::None, WordRole::Free);
+        self.asm.put(Op::Word(WordList { table, bound, role, ends, next }));
+    }
+
+    /// The right side of a comparison.
+    fn operand(&mut self, ty: &Type) {
+        match ty {
+            Type::Int | Type::Number | Type::Quantity(_) | Type::Bool => {
+                self.value(ty, None, WordRole::Free);
+            }
+            Type::Text => {
+                self.asm.literal("\"");
+                self.asm.put(Op::Text { arg: None });
+            }
+            Type::Entity(_) | Type::Enum(_) => {
+                let (table, ends) = (self.table(ty).0, self.word_end());
+                self.plain_word(table, ends);
+            }
+            // The grammar compares nothing with these.
+            Type::Pose | Type::List(_) => {}
+        }
+    }
+
+    /// The relations by which values of a type are compared.
+    pub(super) fn relation(&mut self, ty: &Type) {
+        let is_json = self.is_json();
+        if is_json {
+            self.asm.literal("\"");
+        }
+        let relations = Relation::ALL.iter().zip(0..);
+        let relations = relations
+            .filter(|(relation, _)| ValueSet::is_ordered(ty) || Relation::EQUALITY.contains(relation));
+        let words = relations.map(|(relation, number)| Word {
+            name: match is_json {
+                true => SmolStr::new_static(relation.word()),
+                false => format_smolstr!("{} ", relation.symbol()),
+            },
+            meaning: Meaning::Named(number),
+            to: None,
+            guard: Guard::Open,
+        });
+        let table = Arc::new(WordTable::new(words));
+        self.plain_word(table, if is_json { WordEnd::Tail } else { WordEnd::Whole });
+    }
+
+    /// A number; in text with its unit.
+    pub(super) fn number(&mut self, range: NumberRange) {
+        if self.is_json() {
+            self.asm.put(Op::Number(range));
+            return;
+        }
+        self.asm.put(Op::Number(range.spelled_in_text()));
+        if let Some(unit) = range.unit {
+            self.asm.literal(&format!(" {}", Unit::symbol(unit)));
+        }
+    }
+
+    /// A number or its default.
+    pub(super) fn optional_number(&mut self, lead: &str, range: NumberRange) {
+        let is_json = self.is_json();
+        if is_json {
+            self.asm.literal(lead);
+        }
+        let choice = self.later();
+        let number = self.asm.here();
+        self.number(range);
+        let over = self.later();
+        let none = self.asm.here();
+        if is_json {
+            self.asm.literal("null");
+        }
+        self.constant(Constant::Null);
+        self.land_here(over);
+        if is_json {
+            self.asm.set(choice, Op::Fork { byte: b'n', then: none, other: number });
+        } else {
+            self.asm.optional(choice, (lead, number, Guard::Open), (none, Guard::Open));
+        }
+    }
+
+    /// A text, or a name of one.
+    fn text(&mut self, role: WordRole) {
+        let arg = if let WordRole::Argument(arg) = role { Some(arg) } else { None };
+        let role = if arg.is_some() { role } else { WordRole::Free };
+        let is_json = self.is_json();
+        if is_json {
+            self.asm.literal("\"");
+        }
+        let choice = self.later();
+        let text = self.asm.put(Op::Text { arg });
+        let over = self.later();
+        let ends = if is_json { WordEnd::Tail } else { WordEnd::Bare };
+        let word = self.word_with(Arc::new(WordTable::default()), &Type::Text, role, ends);
+        self.land_here(over);
+        if is_json {
+            self.asm.set(choice, Op::Fork { byte: b'$', then: word, other: text });
+        } else {
+            self.asm.optional(choice, ("\"", text, Guard::Open), (word, Guard::Rare));
+        }
+    }
+}

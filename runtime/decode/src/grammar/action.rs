@@ -1,0 +1,202 @@
+//! The vocabulary by which a grammar talks to the automaton: actions between bytes, guards of alternatives,
+//! and the kinds of nodes, blocks, names and conditions that they are about.
+
+/// An action of the automaton at a place where no byte is taken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Action {
+    /// A node begins.
+    Open(NodeKind),
+    /// The innermost node ends.
+    Close,
+    /// A value without a word of its own stands here.
+    Constant(Constant),
+    /// The rule has one more member.
+    Count,
+    /// The rule becomes a block.
+    Enter(BlockRole),
+    /// The block ends.
+    Leave,
+    /// A step of the block ends.
+    StepDone,
+    /// Everything before the steps of the policy is written.
+    Head,
+    /// A condition of this use follows.
+    Condition(ConditionUse),
+    /// The condition that follows is nested one level deeper.
+    Deeper,
+    /// The condition that follows stands under `not`.
+    Negate,
+    /// The condition that follows says nothing about the facts by itself.
+    Loosen,
+    /// The item of a loop gets the kind of the list that was written out.
+    BindItem,
+    /// The item of a loop goes out of scope.
+    Forget,
+    /// The name given before the call is bound to the call's result, of the type with this number.
+    Bind(u16),
+    /// Another condition follows, joined by `and` ([`NodeKind::All`]) or `or` ([`NodeKind::Any`]).
+    Join(NodeKind),
+}
+
+/// When an alternative is open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Guard {
+    /// Always.
+    Open,
+    /// While the rule has fewer members.
+    Below(u8),
+    /// Where the block may end: nothing that follows from it is refuted.
+    Close,
+    /// Where the block may be empty and may end.
+    Empty,
+    /// Where some callable may be called.
+    Call,
+    /// Where one more step with blocks may begin.
+    Nest,
+    /// As `Nest`, for a step that is proved to a fixed point.
+    Fix,
+    /// Where some condition may be waited for.
+    Wait,
+    /// Where the goal is not refuted, so that the policy may be done.
+    Done,
+    /// As `Done`, for the reaction of a monitor.
+    DoneWhen,
+    /// Where this reaction refutes nothing.
+    React(NodeKind),
+    /// Where a condition may be a conjunction.
+    All,
+    /// Where a condition may be a disjunction.
+    Any,
+    /// Where a condition may be a negation.
+    Not,
+    /// Where some fluent may be asked for.
+    Is,
+    /// Where a condition may be one that says nothing about the facts.
+    Loose,
+    /// Where a loop needs no test.
+    NoTest,
+    /// Always, but the alternative may turn out to be empty.
+    Rare,
+    /// In no policy.
+    Never,
+    /// Where this callable may be called.
+    Callable(u16),
+    /// Where some callable with a result may be called.
+    Let,
+    /// Where this fluent may be asked for.
+    Fluent(u16),
+    /// Where `and` may follow a condition.
+    And,
+    /// Where `or` may follow a condition.
+    Or,
+    /// Where conditions may be nested this many levels deeper and nothing is required of them.
+    Paren(u8),
+    /// Where a comparison or several conditions may stand under `not`.
+    NotParen,
+    /// Where several conditions may stand in these parentheses.
+    Several,
+    /// Behind a comparison.
+    Compared,
+}
+
+/// A node of the syntax tree. Numbers are those of the declarations in the signatures.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum NodeKind {
+    Do(u16),
+    Sequence,
+    If,
+    Wait,
+    Monitor,
+    When,
+    Pause,
+    Restart,
+    Resume,
+    Done,
+    Fail,
+    Replan,
+    Try,
+    Catch,
+    Repeat,
+    Each,
+    Parallel,
+    Block,
+    Is(u16),
+    Not,
+    All,
+    Any,
+    Get(u16),
+    Field(u16),
+    List,
+    /// Conditions in parentheses.
+    Group,
+}
+
+/// The role of a block in its step.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum BlockRole {
+    Body,
+    Group,
+    Then,
+    Else,
+    Try,
+    Catch,
+    During,
+    Reaction,
+    Loop,
+    Branch,
+}
+
+/// The use of a name that the policy gives.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum NameUse {
+    /// Of the policy.
+    Policy,
+    /// Of a sequence.
+    Group,
+    /// Of a result, of the type with this number.
+    Result(u16),
+    /// Of the item of a loop, of the type of the elements of its list.
+    Item,
+    /// Of a result whose type is not known yet.
+    Let,
+}
+
+/// The use of a condition.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConditionUse {
+    /// The goal: it need not be observable.
+    Goal,
+    /// `if`, `when`: it refutes nothing by itself.
+    Branch,
+    Wait,
+    Until,
+}
+
+/// A value without a word of its own.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Constant {
+    Null,
+    True,
+    False,
+}
+
+/// The role of a word, which decides how it is checked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum WordRole {
+    /// The callable of a step.
+    Callable,
+    /// The argument of a call with this number.
+    Argument(u8),
+    /// A fluent.
+    Fluent,
+    /// An argument of a fluent.
+    Of,
+    /// An entity of the kind of the first of its list.
+    Alike,
+    /// A measure or a field, which decides what follows.
+    Head,
+    /// A keyword with a guard of its own; it records no event.
+    Keyword,
+    /// Any other word: each is as good as the other.
+    Free,
+}

@@ -1,0 +1,144 @@
+//! The canonical subset in text: one line, one space between words and around braces, `when` always in
+//! braces, no `else if`.
+
+use motet_compiler::signature::Type;
+use motet_syntax::print::identifier;
+
+use super::{
+    Action, Alternative, BlockRole, ChoiceStyle, ConditionUse, Constant, Grammar, Guard, NameUse, NodeKind,
+    Part, ValuePlace,
+};
+use crate::subset::{MAX_COUNT, MAX_MEMBERS, MAX_STEPS, NumberRange};
+
+const COUNT: Part = Part::Number(NumberRange::whole(1, MAX_COUNT));
+
+fn literal(text: &'static str) -> Part {
+    Part::literal(text)
+}
+
+fn block(role: BlockRole) -> Part {
+    Part::Block(role, 1)
+}
+
+fn no_value() -> Vec<Part> {
+    vec![Part::Action(Action::Constant(Constant::Null))]
+}
+
+pub(super) fn document(grammar: &Grammar) -> Vec<Part> {
+    let mut parts = vec![literal("policy "), Part::Name(NameUse::Policy)];
+    parts.extend(grammar.robot().map(|robot| Part::literal(format!("for {} ", identifier(robot)))));
+    let goal = vec![Part::Condition(ConditionUse::Goal), literal(" ")];
+    let present = Alternative::new("achieves ", grammar.when_asked(ConditionUse::Goal), goal);
+    parts.push(optional(present, no_value(), Guard::Open));
+    parts.extend([Part::Action(Action::Head), block(BlockRole::Body)]);
+    parts
+}
+
+fn optional(present: Alternative, absent: Vec<Part>, absent_guard: Guard) -> Part {
+    Part::Optional { present: Box::new(present), absent, absent_guard }
+}
+
+pub(super) fn steps(grammar: &Grammar) -> Vec<Alternative> {
+    let (named, plain): (Vec<_>, Vec<_>) =
+        grammar.calls().into_iter().partition(|(_, has_result)| *has_result);
+    let mut steps: Vec<Alternative> = plain.into_iter().map(|(call, _)| call).collect();
+    if !named.is_empty() {
+        let named = named.into_iter().map(|(call, _)| call).collect();
+        let calls = Part::Choice(ChoiceStyle::Keywords, named);
+        let parts = vec![Part::Name(NameUse::Let), literal("= "), calls];
+        steps.push(Alternative::new("let ", Guard::Let, parts));
+    }
+    let mut add = |word: &'static str, guard: Guard, kind: NodeKind, parts: Vec<Part>| {
+        let parts = std::iter::once(Part::open(kind)).chain(parts).collect();
+        steps.push(Alternative::new(word, guard, parts));
+    };
+    let sequence = vec![Part::Name(NameUse::Group), block(BlockRole::Group)];
+    add("sequence ", Guard::Nest, NodeKind::Sequence, sequence);
+    if grammar.has_conditions() {
+        let otherwise = Alternative::new(" else ", Guard::Open, vec![block(BlockRole::Else)]);
+        let no_block = vec![Part::open(NodeKind::Block), Part::Action(Action::Close)];
+        let parts = vec![
+            Part::Condition(ConditionUse::Branch),
+            literal(" "),
+            block(BlockRole::Then),
+            optional(otherwise, no_block, Guard::Empty),
+        ];
+        add("if ", grammar.when_observed(Guard::Nest), NodeKind::If, parts);
+        let mut wait = vec![Part::Condition(ConditionUse::Wait)];
+        wait.extend(grammar.modifier("within", NumberRange::DURATION));
+        add("wait until ", grammar.when_observed(Guard::Wait), NodeKind::Wait, wait);
+        let whens = Part::repeat([" when ", " when ", " } during "], [1, MAX_MEMBERS], when(grammar));
+        let monitor = vec![whens, block(BlockRole::During)];
+        add("monitor {", grammar.when_observed(Guard::Fix), NodeKind::Monitor, monitor);
+    }
+    let handler = vec![
+        Part::open(NodeKind::Catch),
+        Part::Failures,
+        Part::Block(BlockRole::Catch, 0),
+        Part::Action(Action::Close),
+    ];
+    let handlers = Part::repeat([" catch ", " catch ", ""], [1, MAX_MEMBERS], handler);
+    add("try ", Guard::Nest, NodeKind::Try, vec![block(BlockRole::Try), handlers]);
+    let test = vec![Part::Condition(ConditionUse::Until)];
+    let test = Alternative::new(" until ", grammar.when_asked(ConditionUse::Until), test);
+    let no_test = if test.guard == Guard::Never { Guard::Open } else { Guard::NoTest };
+    let until = optional(test, no_value(), no_test);
+    add("repeat ", Guard::Fix, NodeKind::Repeat, vec![COUNT, literal(" "), block(BlockRole::Loop), until]);
+    if grammar.has_lists() {
+        let each = vec![
+            Part::Name(NameUse::Item),
+            literal("in "),
+            Part::EntityList,
+            literal(" at most "),
+            COUNT,
+            literal(" "),
+            block(BlockRole::Loop),
+            Part::Action(Action::Forget),
+        ];
+        add("each ", Guard::Fix, NodeKind::Each, each);
+    }
+    let branches = Part::repeat([" ", " ", " }"], [2, MAX_MEMBERS], vec![block(BlockRole::Branch)]);
+    add("parallel {", Guard::Fix, NodeKind::Parallel, vec![branches]);
+    // The parts behind `let` end with the calls themselves.
+    steps.extend(endings(Guard::Done));
+    for step in &mut steps {
+        step.parts.push(Part::Action(Action::Close));
+    }
+    steps
+}
+
+/// A condition of a monitor with its reaction, behind `when `.
+fn when(grammar: &Grammar) -> Vec<Part> {
+    let reacts = |word, kind: NodeKind, parts: Vec<Part>| {
+        let parts = std::iter::once(Part::open(kind)).chain(parts).collect();
+        Alternative::new(word, Guard::React(kind), parts)
+    };
+    let pause = grammar.modifier("within", NumberRange::DURATION).into_iter().collect();
+    let mut reactions = endings(Guard::DoneWhen);
+    let resume = vec![COUNT, literal(" "), block(BlockRole::Reaction)];
+    reactions.extend([
+        reacts("pause", NodeKind::Pause, pause),
+        reacts("restart at most ", NodeKind::Restart, vec![COUNT]),
+        reacts("resume at most ", NodeKind::Resume, resume),
+    ]);
+    vec![
+        Part::open(NodeKind::When),
+        Part::Condition(ConditionUse::Branch),
+        Part::OptionalNumber { lead: " for ".into(), range: NumberRange::DURATION },
+        literal(" then "),
+        Part::Choice(ChoiceStyle::Keywords, reactions),
+        Part::Action(Action::Close),
+        Part::Action(Action::Close),
+    ]
+}
+
+fn endings(done: Guard) -> Vec<Alternative> {
+    let reason = Part::Value { ty: Type::Text, range: None, place: ValuePlace::Plain };
+    let room = Guard::Below(u8::try_from(MAX_STEPS).unwrap_or(u8::MAX));
+    let with_reason = |kind| vec![Part::open(kind), reason.clone()];
+    vec![
+        Alternative::new("done", done, vec![Part::open(NodeKind::Done)]).ending(),
+        Alternative::new("fail ", room, with_reason(NodeKind::Fail)).ending(),
+        Alternative::new("replan ", room, with_reason(NodeKind::Replan)).ending(),
+    ]
+}
