@@ -4,7 +4,7 @@ use motet_syntax::Code;
 
 /// A code's page.
 #[derive(Clone, Copy, Debug)]
-pub struct Page {
+pub struct CodePage {
     /// The code.
     pub code: &'static str,
     /// Markdown: what it means, an example that raises it, and one that does not.
@@ -13,12 +13,12 @@ pub struct Page {
 
 macro_rules! pages {
     ($($code:literal)*) => {
-        &[$(Page { code: $code, text: include_str!(concat!("../codes/", $code, ".md")) }),*]
+        &[$(CodePage { code: $code, text: include_str!(concat!("../codes/", $code, ".md")) }),*]
     };
 }
 
 /// All pages, in the order of their codes.
-pub const PAGES: &[Page] = pages! {
+pub const PAGES: &[CodePage] = pages! {
     "M0101" "M0102" "M0103" "M0104" "M0105" "M0106" "M0107" "M0108" "M0109" "M0110" "M0111" "M0112"
     "M0113" "M0114" "M0115" "M0116" "M0117" "M0118" "M0119" "M0120" "M0121" "M0131" "M0132" "M0133"
     "M0201" "M0202" "M0203" "M0204" "M0205" "M0206" "M0207" "M0208" "M0209" "M0210" "M0211" "M0212"
@@ -35,7 +35,7 @@ pub const PAGES: &[Page] = pages! {
 
 /// The page of a code; letter case does not matter.
 #[must_use]
-pub fn page(code: &str) -> Option<&'static Page> {
+pub fn page(code: &str) -> Option<&'static CodePage> {
     PAGES.iter().find(|page| page.code.eq_ignore_ascii_case(code))
 }
 
@@ -45,17 +45,18 @@ pub fn all() -> Vec<Code> {
     let stages = [
         motet_syntax::errors::CODES,
         motet_pddl::CODES,
+        crate::declare::errors::CODES,
         crate::resolve::errors::CODES,
-        crate::world::CODES,
-        crate::library::errors::CODES,
+        crate::environment::CODES,
+        crate::declare::CARD_CODES,
         motet_robots::card::CODES,
         motet_robots::mesh::CODES,
         motet_robots::scene::CODES,
         motet_robots::urdf::CODES,
         motet_robots::srdf::CODES,
-        crate::check::errors::CODES,
+        crate::limits::errors::CODES,
         crate::prove::errors::CODES,
-        crate::place::errors::CODES,
+        crate::feasibility::errors::CODES,
     ];
     let mut codes: Vec<_> = stages.into_iter().flatten().copied().collect();
     codes.sort_unstable();

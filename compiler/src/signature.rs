@@ -1,6 +1,6 @@
 //! What a policy can be made of, as plain data: the callables, fluents, measures and fields of a library and the entities
-//! of a world, with their types. What is generated for language models is generated from this, so it offers exactly what
-//! the stages take. Made once from a library and a world, then only read.
+//! of a environment, with their types. What is generated for language models is generated from this, so it offers exactly what
+//! the stages take. Made once from a library and a environment, then only read.
 
 use motet_syntax::Form;
 use motet_syntax::Severity;
@@ -9,9 +9,9 @@ use motet_syntax::unit::Dimension;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
+use crate::declare::Library;
+use crate::environment::Environment;
 use crate::ir::{Base, Kind, Ty};
-use crate::library::Library;
-use crate::world::World;
 
 /// The declarations and entities in force.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +32,7 @@ pub struct Signatures {
     pub fields: Vec<FieldSignature>,
     /// The kinds of failure, `timeout` among them.
     pub failures: Vec<SmolStr>,
-    /// The entities of the world, in its order, with the indices of their kinds.
+    /// The entities of the environment, in its order, with the indices of their kinds.
     pub entities: Vec<(SmolStr, usize)>,
 }
 
@@ -139,10 +139,10 @@ pub struct FieldSignature {
 }
 
 impl Signatures {
-    /// The signatures of a library and a world. O(declarations × entities) for the policies, which are checked by
+    /// The signatures of a library and a environment. O(declarations × entities) for the policies, which are checked by
     /// themselves: one that the robot cannot carry out is left out.
     #[must_use]
-    pub fn new(library: &Library, world: &World) -> Self {
+    pub fn new(library: &Library, environment: &Environment) -> Self {
         let mut signatures = Self {
             robot: library.robot.clone(),
             kinds: library
@@ -156,11 +156,16 @@ impl Signatures {
                 .map(|def| EnumSignature { name: def.name.clone(), cases: def.cases.clone() })
                 .collect(),
             failures: library.failures.iter().map(|(name, _)| name.clone()).collect(),
-            entities: world.entities().iter().map(|(_, name, kind)| (name.clone(), kind.index())).collect(),
+            entities: environment
+                .entities()
+                .iter()
+                .map(|(_, name, kind)| (name.clone(), kind.index()))
+                .collect(),
             ..Self::default()
         };
         signatures.callables = primitives(library);
-        let policies = library.policies.iter().filter(|policy| can_be_carried_out(policy, library, world));
+        let policies =
+            library.policies.iter().filter(|policy| can_be_carried_out(policy, library, environment));
         signatures.callables.extend(policies.filter_map(|policy| of_policy(policy, library)));
         observed(&mut signatures, library);
         signatures
@@ -190,7 +195,7 @@ impl Signatures {
         }
     }
 
-    /// The entities of a kind and of those below it, in the order of the world. O(entities).
+    /// The entities of a kind and of those below it, in the order of the environment. O(entities).
     pub fn entities_of(&self, kind: usize) -> impl Iterator<Item = &SmolStr> {
         self.entities.iter().filter(move |(_, of)| self.is_kind(*of, kind)).map(|(name, _)| name)
     }
@@ -278,7 +283,7 @@ fn of_params(params: &[(SmolStr, Ty)]) -> Option<Vec<(SmolStr, Type)>> {
 
 fn primitives(library: &Library) -> Vec<Callable> {
     let provided = library.primitives.iter().filter(|def| def.provided);
-    let signature = |def: &crate::library::PrimitiveDef| {
+    let signature = |def: &crate::declare::PrimitiveDef| {
         let written: FxHashMap<&str, &Expr> = def
             .source
             .params
@@ -321,9 +326,9 @@ fn of_policy(policy: &Policy, library: &Library) -> Option<Callable> {
 }
 
 /// Whether nothing is wrong with a policy beside what its state decides.
-fn can_be_carried_out(policy: &Policy, library: &Library, world: &World) -> bool {
-    let (mut program, mut said) = crate::resolve::resolve(policy, Form::Text, library, world);
-    said.extend(crate::check::check(&mut program, library, world, None));
+fn can_be_carried_out(policy: &Policy, library: &Library, environment: &Environment) -> bool {
+    let (program, mut said) = crate::resolve::resolve(policy, Form::Text, library, environment);
+    said.extend(crate::limits::check(program, library, environment, None).1);
     said.iter().all(|said| said.severity != Severity::Error)
 }
 

@@ -4,18 +4,13 @@
 //! Beside the stages, not one of them: it reads what they found and checks again. Pure, like they are.
 
 mod edit;
-mod write;
 
-use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
+use motet_syntax::{Code, Diagnostic, FileId, Parsed, Severity, Source};
 
-use crate::ir::Program;
-use crate::library::Library;
-use crate::prove::mend::Offer;
+use crate::repair::Finding;
 use crate::session::Session;
-use crate::world::World;
 
 pub use edit::apply;
-pub(crate) use write::spelled;
 
 /// The most documents that are checked to mend one.
 const MAX_TRIES: usize = 500;
@@ -24,18 +19,20 @@ const MAX_DEPTH: usize = 3;
 
 /// What came of mending a document.
 #[derive(Clone, Debug)]
-pub struct Fixed {
+pub struct FixedDocument {
     /// The document.
     pub text: String,
     /// What was done to it, in order.
-    pub applied: Vec<Applied>,
-    /// What is left to say of it.
+    pub applied: Vec<AppliedFix>,
+    /// The same document, read.
+    pub parsed: Parsed,
+    /// What is left to say of it, without geometry.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// One fix that was made.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Applied {
+pub struct AppliedFix {
     /// Of which finding.
     pub code: Code,
     /// What it did: "write `pick`".
@@ -45,9 +42,21 @@ pub struct Applied {
 /// Mends a document by at most so many fixes. Each leaves it with fewer errors and no new kind of error, or with as many
 /// errors, fewer warnings and no new code; at most 500 documents are checked on the way.
 #[must_use]
-pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fixed {
+pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
+    fix_parsed(session, source, motet_syntax::read(source, file), file, most)
+}
+
+/// As [`fix`], for a document that was read already.
+#[must_use]
+pub fn fix_parsed(
+    session: &Session,
+    source: &Source,
+    parsed: Parsed,
+    file: FileId,
+    most: usize,
+) -> FixedDocument {
     let mut tries = MAX_TRIES;
-    let mut at = State::of(session, source.text.to_string(), source, file);
+    let mut at = Candidate::new(session, source.text.to_string(), parsed);
     let mut applied = Vec::new();
     while applied.len() < most {
         let depth = MAX_DEPTH.min(most - applied.len() - 1);
@@ -56,60 +65,24 @@ pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fix
         at = next;
     }
     let diagnostics = at.findings.into_iter().map(|found| found.diagnostic).collect();
-    Fixed { text: at.text, applied, diagnostics }
-}
-
-/// A finding and the ways to mend it, the best first.
-#[derive(Clone, Debug)]
-pub(crate) struct Finding {
-    pub(crate) diagnostic: Diagnostic,
-    pub(crate) others: Vec<Fix>,
-}
-
-impl From<Diagnostic> for Finding {
-    fn from(diagnostic: Diagnostic) -> Self {
-        Self { diagnostic, others: Vec::new() }
-    }
-}
-
-/// Joins what was found with what the prover offers, as edits of the document.
-pub(crate) fn findings(
-    diagnostics: Vec<Diagnostic>,
-    offers: &[Offer],
-    parsed: &Parsed,
-    program: &Program,
-    library: &Library,
-    world: &World,
-) -> Vec<Finding> {
-    let writer = write::Writer { parsed, program, library, world };
-    let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
-    for found in &mut findings {
-        let said = &mut found.diagnostic;
-        if let Some(fix) = &mut said.fix {
-            writer.in_form(said.code, fix);
-        }
-        let offer = offers.iter().find(|offer| {
-            offer.code == said.code && offer.span == said.span && offer.message == said.message
-        });
-        let mut fixes = offer.map(|offer| writer.fixes(offer)).unwrap_or_default().into_iter();
-        if said.fix.is_none() {
-            said.fix = fixes.next().or_else(|| writer.leaving_out(said)).or_else(|| writer.only_one(said));
-        }
-        found.others = fixes.collect();
-    }
-    findings
+    FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
 
 /// A document and what is found in it.
-struct State {
+struct Candidate {
     text: String,
+    parsed: Parsed,
     findings: Vec<Finding>,
 }
 
-impl State {
+impl Candidate {
     fn of(session: &Session, text: String, source: &Source, file: FileId) -> Self {
         let parsed = motet_syntax::read(&Source::new(source.name.clone(), text.as_str()), file);
-        Self { findings: session.findings(&parsed, None), text }
+        Self::new(session, text, parsed)
+    }
+
+    fn new(session: &Session, text: String, parsed: Parsed) -> Self {
+        Self { findings: session.findings(&parsed, None), text, parsed }
     }
 
     fn count(&self, severity: Severity) -> usize {
@@ -117,7 +90,7 @@ impl State {
     }
 
     /// Whether it checks better than another: fewer errors and no new code of an error, or as many errors, fewer
-    /// warnings, and no new code. A step that mends an error may be one that a lint has a word on.
+    /// warnings, and no new code. A step that repairs an error may be one that a lint has a word on.
     fn is_better_than(&self, other: &Self) -> bool {
         let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
         let fewer_errors = counts(self).0 < counts(other).0;
@@ -134,21 +107,21 @@ fn better(
     session: &Session,
     source: &Source,
     file: FileId,
-    base: &State,
-    at: &State,
+    base: &Candidate,
+    at: &Candidate,
     depth: usize,
     tries: &mut usize,
-) -> Option<(State, Vec<Applied>)> {
+) -> Option<(Candidate, Vec<AppliedFix>)> {
     let mut order: Vec<_> = at.findings.iter().collect();
     order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
     let mut promising = Vec::new();
     for found in order {
         let said = &found.diagnostic;
-        for fix in said.fix.iter().chain(&found.others) {
+        for fix in said.fix.iter().chain(&found.alternatives) {
             *tries = tries.checked_sub(1)?;
             let Some(text) = apply(&at.text, file, fix) else { continue };
-            let next = State::of(session, text, source, file);
-            let done = Applied { code: said.code, title: fix.title.clone() };
+            let next = Candidate::of(session, text, source, file);
+            let done = AppliedFix { code: said.code, title: fix.title.clone() };
             if next.is_better_than(base) {
                 return Some((next, vec![done]));
             }

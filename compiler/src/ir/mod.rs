@@ -3,11 +3,16 @@
 //! Made by `resolve`, read by `check`, `prove`, `place` and `lower`. Steps live in one arena in document order, so a
 //! [`StepId`] also says who caused a fact.
 
+mod entities;
 mod program;
 mod term;
 mod ty;
 
-pub(crate) use program::{Binding, Block, Call, Catch, Place, Program, Reaction, Slot, Step, StepKind, When};
+pub(crate) use entities::Entities;
+pub use entities::MAX_ENTITIES;
+pub(crate) use program::{
+    Binding, Block, BlockSlot, Call, Catch, Program, Reaction, Step, StepKind, StepPosition, When,
+};
 pub(crate) use term::{Condition, Fact, Term};
 pub(crate) use ty::{Base, Ty};
 
@@ -39,7 +44,7 @@ ids! {
     Failure: u16
     /// A primitive of the library.
     Primitive: u16
-    /// An entity of the world; above the world's own, a symbol of the prover.
+    /// An entity of the environment; above the environment's own, a symbol of the prover.
     Entity: u16
     /// A step of the program.
     StepId: u32

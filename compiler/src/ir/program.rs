@@ -36,7 +36,7 @@ impl Program {
     /// The steps in which a step lies, innermost first.
     pub(crate) fn around(&self, id: StepId) -> impl Iterator<Item = (StepId, &Step)> {
         let outer = |id: StepId| {
-            let id = self.step(id)?.place.parent?;
+            let id = self.step(id)?.position.parent?;
             Some((id, self.step(id)?))
         };
         std::iter::successors(outer(id), move |(id, _)| outer(*id))
@@ -71,25 +71,25 @@ pub(crate) struct Step {
     /// Where it is written.
     pub(crate) span: Span,
     /// The step that it lies in, and in which of its blocks.
-    pub(crate) place: Place,
+    pub(crate) position: StepPosition,
     /// Least and greatest duration in seconds; filled in by `check`.
     pub(crate) bounds: (f64, f64),
 }
 
 /// Where a step lies.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Place {
+pub(crate) struct StepPosition {
     /// The step around it; none for the policy's own body.
     pub(crate) parent: Option<StepId>,
     /// Which block of it.
-    pub(crate) slot: Slot,
+    pub(crate) slot: BlockSlot,
     /// The position in that block, from 0.
     pub(crate) index: u32,
 }
 
 /// The blocks that a step can have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Slot {
+pub(crate) enum BlockSlot {
     /// `steps`: of a policy, a sequence, a loop.
     Steps,
     /// `then`

@@ -4,9 +4,9 @@ use motet_graph as graph;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
+use crate::declare::Library;
+use crate::environment::Environment;
 use crate::ir::{Base, Condition, Failure, Fluent, Measure, Primitive, Program, Ty};
-use crate::library::Library;
-use crate::world::World;
 
 /// Which failure a guard ends in, by the fluent or field that it asks about.
 const GUARDS: &[(&str, &str)] = &[
@@ -24,7 +24,7 @@ const GUARDS: &[(&str, &str)] = &[
 
 pub(super) struct Tables<'a> {
     pub(super) library: &'a Library,
-    pub(super) world: &'a World,
+    pub(super) environment: &'a Environment,
     pub(super) fluents: Vec<graph::Fluent>,
     pub(super) measures: Vec<graph::Measure>,
     pub(super) primitives: Vec<graph::Primitive>,
@@ -42,10 +42,10 @@ fn next<T>(table: &[T]) -> u32 {
 }
 
 impl<'a> Tables<'a> {
-    pub(super) fn new(program: &Program, library: &'a Library, world: &'a World) -> Self {
+    pub(super) fn new(program: &Program, library: &'a Library, environment: &'a Environment) -> Self {
         let mut tables = Self {
             library,
-            world,
+            environment,
             fluents: Vec::new(),
             measures: Vec::new(),
             primitives: Vec::new(),
@@ -90,7 +90,7 @@ impl<'a> Tables<'a> {
     pub(super) fn kinds(&self) -> Vec<graph::Kind> {
         let kinds = self.library.kinds.iter();
         let parent =
-            |def: &crate::library::model::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
+            |def: &crate::declare::library::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
         kinds.map(|def| graph::Kind { name: def.name.clone(), parent: parent(def) }).collect()
     }
 

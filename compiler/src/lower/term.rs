@@ -21,7 +21,7 @@ impl Tables<'_> {
             Term::Number(value) => literal(Value::Number(*value)),
             Term::Text(text) => literal(Value::Text(text.clone())),
             Term::Case(id, case) => literal(Value::Case(self.library.case_name(*id, *case).into())),
-            Term::Entity(entity) => literal(Value::Entity(self.world.name(*entity))),
+            Term::Entity(entity) => literal(Value::Entity(self.environment.name(*entity))),
             Term::List(items) => self.list(items, args, result),
             Term::Binding(id) => graph::Term::Binding(graph::BindingId(id.0)),
             Term::Param(index) => match args.get(usize::from(*index)) {

@@ -5,26 +5,27 @@
 //!
 //! A plan is a proposal: who uses it writes a policy from it and has that checked like any other.
 
+pub(crate) mod achievers;
+mod error;
 mod estimate;
-mod failure;
 mod search;
-mod write;
+pub(crate) mod write;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
 use motet_syntax::{Diagnostic, Form, Span};
 use smol_str::SmolStr;
 
-pub use failure::NoPlan;
+pub use error::NoPlan;
 
+use crate::declare::elaborator::Elaborator;
+use crate::declare::{Library, PrimitiveDef};
+use crate::environment::Environment;
+use crate::facts::FactKey;
 use crate::ir::{Condition, Entity, Program};
-use crate::library::{Library, PrimitiveDef};
+use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
-use crate::prove::eval::Frame;
-use crate::prove::facts::Key;
-use crate::prove::mend::Proposed;
-use crate::resolve::expr::Resolver;
+use crate::prove::evaluation::CallFrame;
 use crate::session::Session;
-use crate::world::World;
 
 /// The most states that a search looks at where nothing else is said.
 pub const PLAN_BUDGET: usize = 600;
@@ -37,12 +38,12 @@ pub struct Goal {
     /// The condition.
     pub condition: Expr,
     /// Whether it shall still hold when later goals are reached.
-    pub lasts: Lasts,
+    pub persistence: Persistence,
 }
 
 /// Whether a goal has to hold at the end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Lasts {
+pub enum Persistence {
     /// It does.
     ToTheEnd,
     /// It has to hold once, on the way: the robot goes there and then elsewhere.
@@ -55,9 +56,9 @@ impl Goal {
     /// # Errors
     ///
     /// What is wrong with it.
-    pub fn read(text: &str, lasts: Lasts) -> Result<Self, NoPlan> {
+    pub fn read(text: &str, persistence: Persistence) -> Result<Self, NoPlan> {
         match motet_syntax::text::condition(text) {
-            Ok(condition) => Ok(Self { condition, lasts }),
+            Ok(condition) => Ok(Self { condition, persistence }),
             Err(why) => Err(NoPlan::NoCondition { text: text.to_owned(), why }),
         }
     }
@@ -69,10 +70,10 @@ pub struct Plan {
     /// The calls in order.
     pub steps: Vec<PlannedStep>,
     /// How many states were looked at.
-    pub looked_at: usize,
+    pub expanded_states: usize,
 }
 
-/// One call of a plan, with what a policy may want to watch meanwhile.
+/// One call of a plan, with what a policy may subgoal to watch meanwhile.
 #[derive(Clone, Debug)]
 pub struct PlannedStep {
     /// The call, ready to be printed.
@@ -93,41 +94,41 @@ impl Session {
     ///
     /// Why there is no plan: a goal that is not understood, one that no call can bring about, or the budget.
     pub fn plan(&self, goals: &[Goal], budget: usize) -> Result<Plan, NoPlan> {
-        let (library, world) = (self.library(), self.world());
-        let conditions = goals.iter().map(|goal| resolve(&goal.condition, library, world));
+        let (library, environment) = (self.library(), self.environment());
+        let conditions = goals.iter().map(|goal| resolve(&goal.condition, library, environment));
         let conditions = conditions.collect::<Result<Vec<_>, _>>()?;
         let program = Program::default();
-        let mut prover = Prover::new(&program, library, world);
+        let mut prover = Prover::new(&program, library, environment);
         let mut agenda = Agenda { calls: Vec::new(), of: Vec::new(), left: budget };
         let mut kept: Vec<Condition> = Vec::new();
         for (index, (condition, goal)) in conditions.iter().zip(goals).enumerate() {
-            for part in parts(condition, goal.lasts) {
+            for part in parts(condition, goal.persistence) {
                 let mut all = kept.clone();
                 all.push(part.clone());
                 agenda.reach(&mut prover, &Condition::All(all), index)?;
-                if goal.lasts == Lasts::ToTheEnd {
+                if goal.persistence == Persistence::ToTheEnd {
                     kept.push(part.clone());
                 }
             }
         }
         agenda.tidy(&mut prover, kept, goals.len());
-        let looked_at = budget.saturating_sub(agenda.left);
+        let expanded_states = budget.saturating_sub(agenda.left);
         let steps = agenda.write(&mut prover)?;
-        Ok(Plan { steps, looked_at })
+        Ok(Plan { steps, expanded_states })
     }
 }
 
 /// What is reached one after the other: the parts of a conjunction that shall hold at the end.
-fn parts(condition: &Condition, lasts: Lasts) -> &[Condition] {
-    match (condition, lasts) {
-        (Condition::All(parts), Lasts::ToTheEnd) => parts,
+fn parts(condition: &Condition, persistence: Persistence) -> &[Condition] {
+    match (condition, persistence) {
+        (Condition::All(parts), Persistence::ToTheEnd) => parts,
         _ => std::slice::from_ref(condition),
     }
 }
 
 /// The calls found so far.
 struct Agenda {
-    calls: Vec<Proposed>,
+    calls: Vec<CandidateCall>,
     /// For which goal each is.
     of: Vec<usize>,
     left: usize,
@@ -139,7 +140,7 @@ impl Agenda {
         self.of.resize(self.of.len() + found.len(), index);
         self.calls.extend(found);
         if self.calls.len() > MAX_PLAN {
-            Err(NoPlan::Budget { goal: prover.show(goal, true, Frame::default()) })
+            Err(NoPlan::Budget { goal: prover.show(goal, true, CallFrame::default()) })
         } else {
             Ok(())
         }
@@ -150,7 +151,7 @@ impl Agenda {
         let Some(open) = prover.library.names.fluents.get("open").copied() else { return };
         search::replay(prover, &self.calls);
         let mut opened = Vec::new();
-        prover.facts.entries(open, Key::ALL, |key, value| {
+        prover.facts.entries(open, FactKey::ALL, |key, value| {
             if value.is_true() && value.yes.as_step().is_some() {
                 opened.push(key);
             }
@@ -181,7 +182,7 @@ impl Agenda {
             search::apply(prover, index, call);
             let moves = def.motion.as_ref().is_some_and(|(query, _)| query == "go_to");
             let carries = before.filter(|held_before| moves && held(prover).as_ref() == Some(held_before));
-            let written = write::call(call, prover.library, prover.world)
+            let written = write::call(call, prover.library, prover.environment)
                 .ok_or_else(|| NoPlan::Unwritable { primitive: def.name.clone() })?;
             steps.push(PlannedStep { call: written, approaches, carries, goal: *goal });
         }
@@ -193,28 +194,29 @@ impl Agenda {
 fn held(prover: &Prover<'_>) -> Option<SmolStr> {
     let holding = *prover.library.names.fluents.get("holding")?;
     let mut found = None;
-    prover.facts.entries(holding, Key::ALL, |key, value| {
+    prover.facts.entries(holding, FactKey::ALL, |key, value| {
         if value.is_true() {
             found = Some(Entity(key.arg(0)));
         }
     });
-    prover.world.entities().name(found?).cloned()
+    prover.environment.entities().name(found?).cloned()
 }
 
 /// The person to whom a call moves the base.
-fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &Proposed) -> Option<SmolStr> {
+fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &CandidateCall) -> Option<SmolStr> {
     let (query, args) = def.motion.as_ref()?;
-    let frame = Frame { args: &call.args, result: call.result, each: None };
+    let frame = CallFrame { args: &call.args, result: call.result, each: None };
     let target = Entity(prover.argument(args.first().filter(|_| query == "go_to")?, frame)?);
-    let kind = prover.world.entities().kind(target)?;
+    let kind = prover.environment.entities().kind(target)?;
     let is_person = prover.library.is_kind(kind, prover.library.kind_named("Person"));
-    prover.world.entities().name(target).filter(|_| is_person).cloned()
+    prover.environment.entities().name(target).filter(|_| is_person).cloned()
 }
 
-fn resolve(goal: &Expr, library: &Library, world: &World) -> Result<Condition, NoPlan> {
-    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
-    let condition = resolver.condition(goal);
-    let wrong: Vec<Diagnostic> = resolver.diagnostics;
+fn resolve(goal: &Expr, library: &Library, environment: &Environment) -> Result<Condition, NoPlan> {
+    let mut elaborator =
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Form::Text);
+    let condition = elaborator.condition(goal);
+    let wrong: Vec<Diagnostic> = elaborator.diagnostics;
     if wrong.is_empty() { Ok(condition) } else { Err(NoPlan::Wrong { diagnostics: wrong }) }
 }
 

@@ -9,12 +9,12 @@ use rustc_hash::{FxHashSet, FxHasher};
 
 use super::NoPlan;
 use super::estimate::{Estimate, Ready};
+use crate::facts::Cause;
 use crate::ir::{Condition, StepId};
+use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
-use crate::prove::apply::{Change, Lasting};
-use crate::prove::eval::Frame;
-use crate::prove::mend::Proposed;
-use crate::prove::value::Cause;
+use crate::prove::effects::{FactChange, PerceptionLifetime};
+use crate::prove::evaluation::CallFrame;
 
 /// How much what is still missing counts beside what was spent: above 1 the search hurries.
 const WEIGHT: u64 = 2;
@@ -22,7 +22,7 @@ const WEIGHT: u64 = 2;
 /// A state on the way.
 struct Node {
     parent: Option<usize>,
-    call: Option<Proposed>,
+    call: Option<CandidateCall>,
     spent: u64,
     depth: usize,
 }
@@ -30,11 +30,11 @@ struct Node {
 /// Finds calls that reach a goal after `before`. `left` is the budget of states.
 pub(super) fn search(
     prover: &mut Prover<'_>,
-    before: &[Proposed],
+    before: &[CandidateCall],
     goal: &Condition,
     left: &mut usize,
-) -> Result<Vec<Proposed>, NoPlan> {
-    let shown = |prover: &Prover<'_>| prover.show(goal, true, Frame::default());
+) -> Result<Vec<CandidateCall>, NoPlan> {
+    let shown = |prover: &Prover<'_>| prover.show(goal, true, CallFrame::default());
     replay(prover, before);
     let mut nodes = vec![Node { parent: None, call: None, spent: 0, depth: 0 }];
     let mut seen: FxHashSet<u64> = FxHashSet::default();
@@ -50,7 +50,7 @@ pub(super) fn search(
         for (offset, call) in way.iter().enumerate() {
             apply(prover, before.len() + offset, call);
         }
-        if prover.evaluate(goal, Frame::default()).is_true() {
+        if prover.evaluate(goal, CallFrame::default()).is_true() {
             return Ok(way);
         }
         let mut estimate = Estimate::new(prover);
@@ -86,7 +86,7 @@ pub(super) fn search(
 }
 
 /// The calls that lead to a node.
-fn way(nodes: &[Node], index: usize) -> Vec<Proposed> {
+fn way(nodes: &[Node], index: usize) -> Vec<CandidateCall> {
     let mut calls = Vec::new();
     let mut at = Some(index);
     while let Some(node) = at.and_then(|at| nodes.get(at)) {
@@ -98,7 +98,7 @@ fn way(nodes: &[Node], index: usize) -> Vec<Proposed> {
 }
 
 /// Takes everything back and makes calls from the start.
-pub(super) fn replay(prover: &mut Prover<'_>, calls: &[Proposed]) {
+pub(super) fn replay(prover: &mut Prover<'_>, calls: &[CandidateCall]) {
     prover.back_to(0);
     prover.lasting.clear();
     for (index, call) in calls.iter().enumerate() {
@@ -107,13 +107,13 @@ pub(super) fn replay(prover: &mut Prover<'_>, calls: &[Proposed]) {
 }
 
 /// What is known after a call that succeeds.
-pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &Proposed) {
+pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall) {
     let library = prover.library;
     let Some(def) = library.primitive(call.primitive) else { return };
     let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
     let cause = Cause::step(id);
-    let frame = Frame { args: &call.args, result: call.result, each: None };
-    let (mut makes, mut unsettles): (Vec<Change>, Vec<Change>) = Default::default();
+    let frame = CallFrame { args: &call.args, result: call.result, each: None };
+    let (mut makes, mut unsettles): (Vec<FactChange>, Vec<FactChange>) = Default::default();
     prover.changes(&def.makes, frame, &mut makes);
     prover.changes(&def.unsettles, frame, &mut unsettles);
     prover.make_stale(id, def, frame);
@@ -122,7 +122,7 @@ pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &Proposed) {
     if let Some(lasts) = &def.lasts {
         let entities = lasts.entities.iter().filter_map(|term| prover.argument(term, frame));
         let entities = entities.map(crate::ir::Entity).collect();
-        prover.lasting.insert(id, Lasting { resources: lasts.resources, entities });
+        prover.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
     }
 }
 
@@ -131,7 +131,7 @@ fn fingerprint(prover: &Prover<'_>) -> u64 {
     let mut hasher = FxHasher::default();
     for (fluent, key) in prover.facts.touched(0) {
         let now = prover.facts.get(fluent, key);
-        if !now.same_set(prover.world.facts.get(fluent, key)) {
+        if !now.same_set(prover.environment.facts.get(fluent, key)) {
             (fluent, key, now.yes.is_some(), now.no.is_some(), now.open.is_some()).hash(&mut hasher);
         }
     }

@@ -3,13 +3,13 @@
 use smallvec::SmallVec;
 
 use super::Prover;
-use super::eval::Frame;
-use super::facts::Split;
-use super::value::{Cause, Value};
+use super::evaluation::CallFrame;
+use crate::facts::PathPartition;
+use crate::facts::{Cause, TruthSet};
 use crate::ir::{Condition, Fluent};
 
 /// How many meetings of ways are remembered.
-const MAX_SPLITS: usize = 8;
+const MAX_PARTITIONS: usize = 8;
 /// How many ways that met are kept apart.
 const MAX_WAYS: usize = 8;
 /// After how many writes a meeting is forgotten.
@@ -17,12 +17,12 @@ const MAX_AGE: usize = 1000;
 
 impl Prover<'_> {
     /// Remembers ways that have just met.
-    pub(crate) fn remember(&mut self, split: Split) {
-        if (2..=MAX_WAYS).contains(&split.ways().count()) {
-            if self.splits.len() >= MAX_SPLITS {
-                self.splits.remove(0);
+    pub(crate) fn remember(&mut self, partition: PathPartition) {
+        if (2..=MAX_WAYS).contains(&partition.ways().count()) {
+            if self.partitions.len() >= MAX_PARTITIONS {
+                self.partitions.remove(0);
             }
-            self.splits.push(split);
+            self.partitions.push(partition);
         }
     }
 
@@ -35,14 +35,14 @@ impl Prover<'_> {
         condition: &Condition,
         truth: bool,
         cause: Cause,
-        frame: Frame<'_>,
+        frame: CallFrame<'_>,
     ) -> bool {
-        for index in (0..self.splits.len()).rev() {
-            let Some(slot) = self.splits.get_mut(index) else { break };
-            let split = std::mem::take(slot);
-            let passes = self.retrace(&split, condition, truth, cause, frame);
-            if let Some(slot) = self.splits.get_mut(index) {
-                *slot = split;
+        for index in (0..self.partitions.len()).rev() {
+            let Some(slot) = self.partitions.get_mut(index) else { break };
+            let partition = std::mem::take(slot);
+            let passes = self.retrace(&partition, condition, truth, cause, frame);
+            if let Some(slot) = self.partitions.get_mut(index) {
+                *slot = partition;
             }
             if !passes {
                 return false;
@@ -54,20 +54,20 @@ impl Prover<'_> {
     /// Leaves out the ways of a meeting on which `condition` cannot be `truth`; false where that is all of them.
     fn retrace(
         &mut self,
-        split: &Split,
+        partition: &PathPartition,
         condition: &Condition,
         truth: bool,
         cause: Cause,
-        frame: Frame<'_>,
+        frame: CallFrame<'_>,
     ) -> bool {
         let here = self.facts.mark();
-        if here > split.since + MAX_AGE || !split.differs(|fluent| mentions(condition, fluent)) {
+        if here > partition.since + MAX_AGE || !partition.differs(|fluent| mentions(condition, fluent)) {
             return true;
         }
         // What was written since holds on every way.
-        let later = self.facts.delta(split.since);
+        let later = self.facts.delta(partition.since);
         let (mut open, mut all) = (Vec::new(), 0_usize);
-        for way in split.ways() {
+        for way in partition.ways() {
             all += 1;
             for ((fluent, key), value) in way {
                 self.facts.set(fluent, key, value);
@@ -84,7 +84,7 @@ impl Prover<'_> {
         !open.is_empty()
     }
 
-    fn narrow(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         match condition {
             Condition::Literal(value) => *value == truth,
             Condition::Unknown | Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => true,
@@ -100,7 +100,7 @@ impl Prover<'_> {
                 if key.is_pattern() {
                     // Some entity has it, but which is not known; none has it, and that is known of all.
                     if !truth && !known.is_false() {
-                        self.facts.set(fact.fluent, key, Value::no(cause));
+                        self.facts.set(fact.fluent, key, TruthSet::no(cause));
                     }
                     return true;
                 }
@@ -119,7 +119,7 @@ impl Prover<'_> {
         }
     }
 
-    fn narrow_all(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow_all(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         if truth {
             return parts.iter().all(|part| self.narrow(part, true, cause, frame));
         }
@@ -132,7 +132,7 @@ impl Prover<'_> {
         }
     }
 
-    fn narrow_any(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow_any(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         if !truth {
             return parts.iter().all(|part| self.narrow(part, false, cause, frame));
         }
@@ -146,7 +146,7 @@ impl Prover<'_> {
 }
 
 /// Whether a condition with these values can be `truth`.
-fn possible(value: Value, truth: bool) -> bool {
+fn possible(value: TruthSet, truth: bool) -> bool {
     let known = if truth { value.yes } else { value.no };
     known.is_some() || value.open.is_some()
 }

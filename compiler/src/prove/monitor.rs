@@ -2,12 +2,12 @@
 
 use motet_syntax::ast::EndKind;
 
-use super::collect::{Collector, Enclosing};
+use super::collector::{Collector, Enclosing};
 use super::errors::NeverFires;
-use super::eval::Frame;
-use super::facts::{Delta, Key};
-use super::value::Cause;
+use super::evaluation::CallFrame;
 use super::{Prover, Volatile, Watched};
+use crate::facts::Cause;
+use crate::facts::{Delta, FactKey};
 use crate::ir::{Condition, Entity, Reaction, StepId, TIMEOUT, Term, When};
 
 impl Prover<'_> {
@@ -36,7 +36,7 @@ impl Prover<'_> {
             self.erode();
             self.see_states();
             for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-                self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+                self.live &= self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
             }
             if self.live {
                 self.block(body);
@@ -56,7 +56,7 @@ impl Prover<'_> {
             let mut next = head.clone();
             for when in &restarts {
                 self.facts.replay(&states);
-                if self.assume(&when.condition, true, Cause::step(id), Frame::default()) {
+                if self.assume(&when.condition, true, Cause::step(id), CallFrame::default()) {
                     let way = self.facts.delta(mark);
                     self.back_to(mark);
                     next = next.or(&way, &self.facts);
@@ -82,7 +82,7 @@ impl Prover<'_> {
     fn watched_by(&self, whens: &[When]) -> Watched {
         let mut watched = Watched::default();
         for when in whens {
-            visit(&when.condition, &mut watched, &mut |term| self.argument(term, Frame::default()));
+            visit(&when.condition, &mut watched, &mut |term| self.argument(term, CallFrame::default()));
         }
         watched
     }
@@ -102,7 +102,7 @@ impl Prover<'_> {
     /// A monitor whose reactions need no proof: its body, under watch.
     fn watch(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-            self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+            self.live &= self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
         }
         let watched = self.watched_by(whens);
         self.watched.push(watched);
@@ -121,7 +121,7 @@ impl Prover<'_> {
             let said = self.said();
             self.live = true;
             self.facts.replay(states);
-            self.assume(&when.condition, true, Cause::step(id), Frame::default());
+            self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
             let seen = self.facts.mark();
             self.rehearsals += 1;
             self.block(body);
@@ -159,7 +159,7 @@ impl Prover<'_> {
         let single: Vec<_> = single.collect();
         for row in rows.iter().filter(|row| row.key.is_pattern()) {
             // A narrower row of the same reaction says more of what it covers.
-            let is_told = |key: Key| {
+            let is_told = |key: FactKey| {
                 rows.iter().any(|other| {
                     (other.fluent, other.when) == (row.fluent, row.when)
                         && other.key != row.key
@@ -186,13 +186,13 @@ impl Prover<'_> {
     /// Proves a reaction from the states in which it can start.
     fn react(&mut self, id: StepId, when: &When, states: &Delta, mark: usize) {
         self.facts.replay(states);
-        self.live = self.assume(&when.condition, true, Cause::step(id), Frame::default());
+        self.live = self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
         if !self.live && constant(&when.condition) {
             self.diagnostics.push(NeverFires { span: when.span }.into());
         }
         if self.live {
             let depth = self.enclosing.len();
-            let exhausted = self.library.known.exhausted;
+            let exhausted = self.library.lang_items.exhausted;
             match &when.reaction {
                 Reaction::Pause { .. } => self.throw(TIMEOUT, depth),
                 Reaction::Restart { .. } => {
@@ -209,7 +209,7 @@ impl Prover<'_> {
                 Reaction::End { kind, of, .. } => self.end(None, *kind, *of, when.span),
             }
         } else if let Reaction::Resume { body, .. } = &when.reaction {
-            // A condition that only the world can bring about still needs its block proved.
+            // A condition that only the environment can bring about still needs its block proved.
             self.live = true;
             self.block(body);
         }

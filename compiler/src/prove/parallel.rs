@@ -4,8 +4,8 @@ use rustc_hash::FxHashMap;
 
 use super::Prover;
 use super::errors::Conflict;
-use super::facts::{Atom, Delta, show};
-use super::value::{Cause, Value};
+use crate::facts::{Atom, Delta, show};
+use crate::facts::{Cause, TruthSet};
 use crate::ir::StepId;
 
 impl Prover<'_> {
@@ -45,9 +45,9 @@ impl Prover<'_> {
 
     /// Another branch may change a fact at any moment.
     fn disturb_by_branch(&mut self, id: StepId, (fluent, key): Atom) {
-        let open = Value::open(Cause::step(id));
+        let open = TruthSet::open(Cause::step(id));
         // Of a choice only one step is there: where it is another, what was known is still so.
-        if self.place.choice.is_none() {
+        if self.target.choice.is_none() {
             self.facts.set(fluent, key, open);
         } else if key.is_pattern() {
             self.facts.change(fluent, key, |_, known| known.join(open));
@@ -59,7 +59,7 @@ impl Prover<'_> {
 
     /// The effects of all branches together. Two branches that leave one fact with different values are an error.
     fn compose(&mut self, id: StepId, changed: &[Vec<Atom>], deltas: &[Delta]) -> Delta {
-        let mut written: FxHashMap<Atom, Value> = FxHashMap::default();
+        let mut written: FxHashMap<Atom, TruthSet> = FxHashMap::default();
         for (touched, delta) in changed.iter().zip(deltas) {
             for atom in touched.iter().copied() {
                 let value = delta.get(&self.facts, atom);
@@ -72,7 +72,7 @@ impl Prover<'_> {
                         if self.is_conflict(first, value) || self.is_conflict(value, first) {
                             self.conflict(id, atom, first, value);
                         }
-                        written.insert(atom, Value::open(Cause::step(id)));
+                        written.insert(atom, TruthSet::open(Cause::step(id)));
                     }
                 }
             }
@@ -81,18 +81,18 @@ impl Prover<'_> {
     }
 
     /// Whether one branch leaves a fact true that the other leaves false. Where a step is any of several, whether it may.
-    fn is_conflict(&self, first: Value, second: Value) -> bool {
-        if self.place.choice.is_some() {
+    fn is_conflict(&self, first: TruthSet, second: TruthSet) -> bool {
+        if self.target.choice.is_some() {
             return first.yes.is_some() && second.no.is_some();
         }
         first.is_true() && second.is_false()
     }
 
-    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {
+    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: TruthSet, second: TruthSet) {
         let Some(def) = self.library.fluent(fluent) else { return };
         let fact =
             show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
-        let cause = |value: Value| if value.yes.is_some() { value.yes } else { value.no };
+        let cause = |value: TruthSet| if value.yes.is_some() { value.yes } else { value.no };
         let span = self.program.step(id).map_or(self.program.span, |step| step.span);
         let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));
         self.diagnostics.push(Conflict { span, fact, first, second }.into());

@@ -1,9 +1,9 @@
 //! What a binding may be. One that a description finds exactly once in the scene is that entity; any other is a symbol:
 //! an entity of its own that may be one of those it fits, or any of its kind.
 
+use crate::declare::Library;
+use crate::environment::Environment;
 use crate::ir::{Base, Entity, Kind, Program, Ty};
-use crate::library::Library;
-use crate::world::World;
 
 /// What stands behind a binding.
 #[derive(Clone, Debug, Default)]
@@ -23,22 +23,22 @@ pub(crate) struct Symbol {
 }
 
 impl Symbols {
-    pub(crate) fn new(program: &Program, library: &Library, world: &World) -> Self {
-        let first = u16::try_from(world.entities().len()).unwrap_or(u16::MAX);
+    pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
+        let first = u16::try_from(environment.entities().len()).unwrap_or(u16::MAX);
         let mut table =
             Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
-        table.extend(program, library, world);
+        table.extend(program, library, environment);
         table
     }
 
     /// Takes in the bindings that the program has beyond those seen before.
-    pub(crate) fn extend(&mut self, program: &Program, library: &Library, world: &World) {
+    pub(crate) fn extend(&mut self, program: &Program, library: &Library, environment: &Environment) {
         for binding in program.bindings.iter().skip(self.bindings.len()) {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
                 self.bindings.push(None);
                 continue;
             };
-            let found = binding.description.as_ref().map(|text| world.described(library, text, kind));
+            let found = binding.description.as_ref().map(|text| environment.described(library, text, kind));
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
                 Some([]) | None => self.add(kind, None),
@@ -90,31 +90,41 @@ impl Symbols {
         self.symbols.is_empty()
     }
 
-    pub(crate) fn kind(&self, world: &World, entity: Entity) -> Option<Kind> {
-        world.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
+    pub(crate) fn kind(&self, environment: &Environment, entity: Entity) -> Option<Kind> {
+        environment.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
     }
 
     /// Whether two entities may be the same.
-    pub(crate) fn may_equal(&self, library: &Library, world: &World, a: Entity, b: Entity) -> bool {
+    pub(crate) fn may_equal(
+        &self,
+        library: &Library,
+        environment: &Environment,
+        a: Entity,
+        b: Entity,
+    ) -> bool {
         if a == b {
             return true;
         }
         match (self.get(a), self.get(b)) {
             (None, None) => false,
-            (Some(symbol), None) => Self::may_be(library, world, symbol, b),
-            (None, Some(symbol)) => Self::may_be(library, world, symbol, a),
+            (Some(symbol), None) => Self::may_be(library, environment, symbol, b),
+            (None, Some(symbol)) => Self::may_be(library, environment, symbol, a),
             (Some(one), Some(two)) => match (&one.may_be, &two.may_be) {
-                (Some(list), _) => list.iter().any(|entity| Self::may_be(library, world, two, *entity)),
-                (None, Some(list)) => list.iter().any(|entity| Self::may_be(library, world, one, *entity)),
+                (Some(list), _) => list.iter().any(|entity| Self::may_be(library, environment, two, *entity)),
+                (None, Some(list)) => {
+                    list.iter().any(|entity| Self::may_be(library, environment, one, *entity))
+                }
                 (None, None) => library.is_kind(one.kind, two.kind) || library.is_kind(two.kind, one.kind),
             },
         }
     }
 
-    fn may_be(library: &Library, world: &World, symbol: &Symbol, entity: Entity) -> bool {
+    fn may_be(library: &Library, environment: &Environment, symbol: &Symbol, entity: Entity) -> bool {
         match &symbol.may_be {
             Some(list) => list.contains(&entity),
-            None => world.entities().kind(entity).is_some_and(|kind| library.is_kind(kind, symbol.kind)),
+            None => {
+                environment.entities().kind(entity).is_some_and(|kind| library.is_kind(kind, symbol.kind))
+            }
         }
     }
 }

@@ -4,14 +4,14 @@ use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
 
 use super::MAX_FIXPOINTS;
+use super::PolicyEnd;
 use super::Prover;
-use super::collect::{Collector, Enclosing};
+use super::collector::{Collector, Enclosing};
 use super::errors::{NeverCaught, TooDeep, Unreached};
-use super::eval::Frame;
-use super::facts::Delta;
-use super::looped::Loop;
-use super::mend::End;
-use super::value::{Cause, Value};
+use super::evaluation::CallFrame;
+use super::loops::Loop;
+use crate::facts::Delta;
+use crate::facts::{Cause, TruthSet};
 use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 
 impl Prover<'_> {
@@ -25,8 +25,8 @@ impl Prover<'_> {
     }
 
     pub(crate) fn step(&mut self, id: StepId) {
-        if self.place.hole == Some(id) {
-            self.take_stand();
+        if self.target.point == Some(id) {
+            self.record_state();
         }
         let program = self.program;
         let Some(step) = program.step(id) else { return };
@@ -35,7 +35,7 @@ impl Prover<'_> {
         }
         match &step.kind {
             StepKind::Call(call) => self.call(id, call, step.span),
-            StepKind::Sequence { body, .. } if self.place.choice == Some(id) => self.choose(body),
+            StepKind::Sequence { body, .. } if self.target.choice == Some(id) => self.choose(body),
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::Inline { body, .. } => self.inline(id, body),
             StepKind::If { condition, then, otherwise, .. } => {
@@ -52,7 +52,7 @@ impl Prover<'_> {
                 self.looped(id, body, Loop::Repeat { times: *times, until });
             }
             StepKind::Each { item, body, .. } => {
-                if let Some(kind) = self.library.known.exhausted {
+                if let Some(kind) = self.library.lang_items.exhausted {
                     self.throw(kind, self.enclosing.len());
                 }
                 self.looped(id, body, Loop::Each { symbol: self.symbols.of_binding(item.index()) });
@@ -66,8 +66,8 @@ impl Prover<'_> {
     /// Takes the facts back, and tells those who collect states.
     pub(crate) fn back_to(&mut self, mark: usize) {
         self.facts.back_to(mark);
-        while self.splits.last().is_some_and(|split| split.since > mark) {
-            self.splits.pop();
+        while self.partitions.last().is_some_and(|partition| partition.since > mark) {
+            self.partitions.pop();
         }
         for enclosing in &mut self.enclosing {
             enclosing.cut_to(mark);
@@ -79,8 +79,8 @@ impl Prover<'_> {
         self.back_to(mark);
         self.live = !ways.is_empty();
         if self.live {
-            let split = self.facts.join(ways);
-            self.remember(split);
+            let partition = self.facts.join(ways);
+            self.remember(partition);
         }
     }
 
@@ -88,7 +88,7 @@ impl Prover<'_> {
         let mark = self.facts.mark();
         let mut ways = Vec::with_capacity(2);
         for (truth, block) in [(true, then), (false, otherwise)] {
-            self.live = self.assume(condition, truth, Cause::step(id), Frame::default());
+            self.live = self.assume(condition, truth, Cause::step(id), CallFrame::default());
             if self.live {
                 self.block(block);
             }
@@ -104,18 +104,22 @@ impl Prover<'_> {
     fn await_condition(&mut self, condition: &Condition, cause: Cause) {
         match condition {
             Condition::Fact(fact) => {
-                let known = self.evaluate(condition, Frame::default());
-                let key = self.key(fact, Frame::default()).filter(|key| !key.is_pattern());
+                let known = self.evaluate(condition, CallFrame::default());
+                let key = self.key(fact, CallFrame::default()).filter(|key| !key.is_pattern());
                 if let (Some(key), false) = (key, known.is_true()) {
-                    self.facts.set(fact.fluent, key, known.narrow(true, cause).unwrap_or(Value::yes(cause)));
+                    self.facts.set(
+                        fact.fluent,
+                        key,
+                        known.narrow(true, cause).unwrap_or(TruthSet::yes(cause)),
+                    );
                 }
             }
             Condition::All(parts) => parts.iter().for_each(|part| self.await_condition(part, cause)),
             Condition::Not(inner) => {
                 if let Condition::Fact(fact) = &**inner
-                    && let Some(key) = self.key(fact, Frame::default())
+                    && let Some(key) = self.key(fact, CallFrame::default())
                 {
-                    self.facts.set(fact.fluent, key, Value::no(cause));
+                    self.facts.set(fact.fluent, key, TruthSet::no(cause));
                 }
             }
             Condition::Literal(_)
@@ -205,7 +209,7 @@ impl Prover<'_> {
             .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
         match (kind, of, depth) {
             (EndKind::Done, None, _) => {
-                let end = id.map(End::Before);
+                let end = id.map(PolicyEnd::Before);
                 self.check_goal(end);
                 self.check_end(end, span);
             }
@@ -215,7 +219,7 @@ impl Prover<'_> {
                 }
             }
             (EndKind::Fail, Some(_), Some(depth)) => {
-                if let Some(kind) = self.library.known.failed {
+                if let Some(kind) = self.library.lang_items.failed {
                     self.throw(kind, depth);
                 }
             }
@@ -230,13 +234,13 @@ impl Prover<'_> {
         let reached = |id: &StepId| self.proof.reached.get(id.index()).copied().unwrap_or(true);
         let mut found = Vec::new();
         for (index, step) in program.steps.iter().enumerate() {
-            let parent_reached = step.place.parent.as_ref().is_none_or(reached);
+            let parent_reached = step.position.parent.as_ref().is_none_or(reached);
             let here = self.proof.reached.get(index).copied().unwrap_or(true);
-            let earlier = found.last().is_some_and(|place: &crate::ir::Place| {
-                place.parent == step.place.parent && place.slot == step.place.slot
+            let earlier = found.last().is_some_and(|place: &crate::ir::StepPosition| {
+                place.parent == step.position.parent && place.slot == step.position.slot
             });
             if parent_reached && !here && !earlier {
-                found.push(step.place);
+                found.push(step.position);
                 self.diagnostics.push(Unreached { span: step.span }.into());
             }
         }

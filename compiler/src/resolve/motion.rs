@@ -4,10 +4,10 @@ use motet_syntax::ast::{Expr, ExprKind};
 use motet_syntax::{Diagnostic, Form, Span};
 use smol_str::SmolStr;
 
-use super::expr::{Place, Resolver, Wanted};
+use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
+use crate::declare::{Library, PrimitiveDef};
+use crate::environment::Environment;
 use crate::ir::Term;
-use crate::library::{Library, PrimitiveDef};
-use crate::world::World;
 
 /// What is wrong with the things that a motion names, as a call of a primitive with this motion would be told; nothing where one of
 /// the primitives that the robot has takes them all. Things other than parameters of a primitive are not looked at.
@@ -15,7 +15,7 @@ pub(crate) fn check_motion(
     name: &str,
     args: &[(SmolStr, Span)],
     library: &Library,
-    world: &World,
+    environment: &Environment,
 ) -> Vec<Diagnostic> {
     let mut least: Option<Vec<Diagnostic>> = None;
     for def in library.primitives.iter().filter(|def| def.provided) {
@@ -24,7 +24,7 @@ pub(crate) fn check_motion(
         else {
             continue;
         };
-        let said = taken(def, terms, args, library, world);
+        let said = taken(def, terms, args, library, environment);
         if least.as_ref().is_none_or(|least| said.len() < least.len()) {
             least = Some(said);
         }
@@ -37,14 +37,15 @@ fn taken(
     terms: &[Term],
     args: &[(SmolStr, Span)],
     library: &Library,
-    world: &World,
+    environment: &Environment,
 ) -> Vec<Diagnostic> {
-    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Form::Text);
+    let mut elaborator =
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Form::Text);
     for (term, (name, span)) in terms.iter().zip(args) {
         let Term::Param(index) = term else { continue };
         let Some(param) = def.params.get(usize::from(*index)) else { continue };
         let expr = Expr { kind: ExprKind::Name(name.clone()), span: *span };
-        resolver.term_of(&expr, Wanted { ty: param.ty, place: Place::Param(&param.name, &def.name) });
+        elaborator.term_of(&expr, Expected { ty: param.ty, place: ValueRole::Param(&param.name, &def.name) });
     }
-    resolver.diagnostics
+    elaborator.diagnostics
 }

@@ -1,0 +1,66 @@
+//! A state given from outside: facts known at the start, beside the scene.
+
+use indexmap::IndexMap;
+use motet_syntax::{Diagnostic, Form, Span};
+
+use super::errors::NotAFact;
+use super::{Environment, hands};
+use crate::declare::Library;
+use crate::declare::elaborator::Elaborator;
+use crate::ir::Term;
+
+/// FactStore in their text form with their values, in order: `{"holding(mug_1)": true}`.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct InitialState {
+    /// Each fact, whether it holds, none where that is not known, and where it stands.
+    pub facts: IndexMap<String, (Option<bool>, Span)>,
+}
+
+impl InitialState {
+    /// Records every fact of the state in a environment. What the scene says otherwise is overridden.
+    pub(super) fn apply(&self, library: &Library, environment: &mut Environment) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        let entities = environment.entities().clone();
+        let mut said = Vec::new();
+        let says_free = self.facts.keys().any(|text| text.trim_start().starts_with("free"));
+        for (text, (value, span)) in &self.facts {
+            let parsed = match motet_syntax::text::condition(text) {
+                Ok(expr) => expr,
+                Err(mistake) => {
+                    diagnostics.push(
+                        NotAFact { span: *span, text: text.clone(), why: mistake, remedy: None }.into(),
+                    );
+                    continue;
+                }
+            };
+            let mut elaborator = Elaborator::new(library, &entities, environment.has_scene(), Form::Text);
+            let fact = match &parsed.kind {
+                motet_syntax::ast::ExprKind::Call(call) => elaborator.fact(call),
+                _ => None,
+            };
+            let why = elaborator.diagnostics.into_iter().next();
+            match (fact, why) {
+                (Some(fact), None) => {
+                    let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
+                    if let (true, true, false, [Some(Term::Entity(held))]) =
+                        (is_holding, *value == Some(true), says_free, fact.args.as_slice())
+                    {
+                        super::scene_facts::held(library, environment, *held);
+                    }
+                    said.push((fact.clone(), *value, *span));
+                    match value {
+                        Some(value) => environment.assert_fact(fact, *value),
+                        None => environment.forget(&fact),
+                    }
+                }
+                (_, why) => {
+                    let unasked = || ("a fluent is asked for".to_owned(), None);
+                    let (why, remedy) = why.map_or_else(unasked, |why| (why.message, why.help));
+                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why, remedy }.into());
+                }
+            }
+        }
+        diagnostics.extend(hands::contradiction(library, environment, &said));
+        diagnostics
+    }
+}
