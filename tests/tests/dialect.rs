@@ -9,14 +9,14 @@
 
 use motet_planner::dialect::actions::{self, Loose, NoPolicy};
 use motet_planner::dialect::exchange::{self, Exchange, NoDialogue};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
 fn read(list: &str) -> Result<Loose, NoPolicy> {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
-    actions::read(list, "plan", &session, Some(&robot), &Situation::new(&scene))
+    actions::read(list, "plan", &session, Some(&robot), &RequestContext::new(&scene))
 }
 
 /// The calls of the policy, and that it has no error.

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Aim, Planned, Unplanned};
+use motet_planner::builtin::{self, Planned, Unplanned};
+use motet_requests::Aim;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::{Severity, Sources};

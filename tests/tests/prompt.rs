@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use motet_compiler::Session;
 use motet_planner::prompt::{Lasting, Prompt, TOKENS, Written};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_runtime::memory::{Limits, Memory};
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
-fn write(session: &Session, robot: &Robot, situation: &Situation<'_>) -> Written {
+fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Written {
     let scene = situation.scene;
     let prompt = Prompt {
         session,
@@ -33,7 +33,7 @@ fn the_examples_pass_the_check() {
         for scene in ["kitchen", "living_room", "lab"] {
             let (robot, scene) = (setup::robot(robot), setup::scene(scene));
             let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
-            let situation = Situation::new(&scene);
+            let situation = RequestContext::new(&scene);
             let written = write(&session, &robot, &situation);
             let mut lines = written.system.lines();
             while let Some(line) = lines.next() {
@@ -55,7 +55,7 @@ fn a_room_is_told_as_it_is_believed_to_be() {
     let session = setup::session(Some(&robot), Some(&scene), &mut Sources::default()).0;
     let moved = [("mug_1", Some("cupboard_1")), ("apple", None), ("user", None), ("plate", Some("shelf"))];
     let supports = moved.iter().map(|(id, place)| ((*id).into(), place.map(Into::into))).collect();
-    let situation = Situation { supports, ..Situation::new(&scene) };
+    let situation = RequestContext { supports, ..RequestContext::new(&scene) };
     let room = write(&session, &robot, &situation).user;
     let line = |id: &str| room.lines().find(|line| line.starts_with(&format!("- {id} "))).unwrap();
     assert!(line("mug_1").contains("; in cupboard_1"), "{room}");

@@ -1,7 +1,7 @@
 //! Requests in words and what they are taken to mean, in scenes that come with the robots.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_planner::request::{self, Puzzle, Situation};
+use motet_requests::{RequestContext, RequestError};
 use motet_syntax::print;
 use motet_tests::setup;
 
@@ -9,16 +9,16 @@ use motet_tests::setup;
 #[track_caller]
 fn means(scene: &str, request: &str, goals: &[&str]) {
     let scene = setup::scene(scene);
-    let understood = request::understand(request, &Situation::new(&scene))
+    let understood = motet_requests::understand(request, &RequestContext::new(&scene))
         .unwrap_or_else(|why| panic!("{request}: {why}"));
     let found: Vec<_> = understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect();
     assert_eq!(found, goals, "{request}");
 }
 
 #[track_caller]
-fn puzzles(scene: &str, request: &str) -> Puzzle {
+fn puzzles(scene: &str, request: &str) -> RequestError {
     let scene = setup::scene(scene);
-    match request::understand(request, &Situation::new(&scene)) {
+    match motet_requests::understand(request, &RequestContext::new(&scene)) {
         Err(puzzle) => puzzle,
         Ok(understood) => {
             let found: Vec<_> =
@@ -113,19 +113,22 @@ fn pronouns_and_particles() {
         &["in(coke, fridge_1)", "not open(fridge_1)"],
     );
     means("kitchen", "the fridge is open, please close it", &["not open(fridge_1)"]);
-    assert!(matches!(puzzles("kitchen", "I forgot the mug, bring it"), Puzzle::AmbiguousReference { .. }));
+    assert!(matches!(
+        puzzles("kitchen", "I forgot the mug, bring it"),
+        RequestError::AmbiguousReference { .. }
+    ));
 }
 
 #[test]
 fn what_is_not_clear_is_asked() {
-    let ambiguous = |request| matches!(puzzles("kitchen", request), Puzzle::AmbiguousReference { .. });
+    let ambiguous = |request| matches!(puzzles("kitchen", request), RequestError::AmbiguousReference { .. });
     assert!(ambiguous("bring me the mug"));
-    assert!(matches!(puzzles("kitchen", "put the mug away"), Puzzle::AmbiguousReference { .. }));
-    assert!(matches!(puzzles("kitchen", "put the plate away"), Puzzle::AmbiguousTask { .. }));
-    assert!(matches!(puzzles("kitchen", "bring me the teddy"), Puzzle::NotFound { .. }));
-    assert!(matches!(puzzles("kitchen", "I am thirsty"), Puzzle::AmbiguousTask { .. }));
+    assert!(matches!(puzzles("kitchen", "put the mug away"), RequestError::AmbiguousReference { .. }));
+    assert!(matches!(puzzles("kitchen", "put the plate away"), RequestError::AmbiguousTask { .. }));
+    assert!(matches!(puzzles("kitchen", "bring me the teddy"), RequestError::NotFound { .. }));
+    assert!(matches!(puzzles("kitchen", "I am thirsty"), RequestError::AmbiguousTask { .. }));
     // There is nothing to drink in it.
-    assert!(matches!(puzzles("lab", "I am thirsty"), Puzzle::NotUnderstood { .. }));
+    assert!(matches!(puzzles("lab", "I am thirsty"), RequestError::NotUnderstood { .. }));
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn what_is_not_understood_is_said() {
         "the tea set needs polishing",
         "should the coke go in the fridge?",
     ] {
-        assert!(matches!(puzzles("kitchen", request), Puzzle::NotUnderstood { .. }), "{request}");
+        assert!(matches!(puzzles("kitchen", request), RequestError::NotUnderstood { .. }), "{request}");
     }
 }
 
@@ -153,7 +156,7 @@ fn what_is_not_understood_is_said() {
 #[track_caller]
 fn not_understood(scene: &str, requests: &[&str]) {
     for request in requests {
-        assert!(matches!(puzzles(scene, request), Puzzle::NotUnderstood { .. }), "{request}");
+        assert!(matches!(puzzles(scene, request), RequestError::NotUnderstood { .. }), "{request}");
     }
 }
 
@@ -161,7 +164,7 @@ fn not_understood(scene: &str, requests: &[&str]) {
 #[track_caller]
 fn asks(scene: &str, request: &str, asked: &str) {
     match puzzles(scene, request) {
-        Puzzle::AmbiguousTask { question, .. } => assert_eq!(question, asked, "{request}"),
+        RequestError::AmbiguousTask { question, .. } => assert_eq!(question, asked, "{request}"),
         other => panic!("{request}: {other}"),
     }
 }
@@ -186,7 +189,10 @@ fn where_a_thing_is_is_not_where_it_shall_go() {
         ],
     );
     asks("living_room", "put away everything on the coffee table", "Where shall I put the tv remote?");
-    assert!(matches!(puzzles("living_room", "put away everything on the shelf"), Puzzle::NotFound { .. }));
+    assert!(matches!(
+        puzzles("living_room", "put away everything on the shelf"),
+        RequestError::NotFound { .. }
+    ));
     asks("living_room", "put the toys on the sofa away", "Where shall I put the teddy bear?");
     asks("living_room", "put away the magazine on the coffee table", "Where shall I put the newspaper?");
     asks("living_room", "throw the can on the coffee table", "Shall I throw the can away?");
@@ -201,7 +207,7 @@ fn where_a_thing_is_is_not_where_it_shall_go() {
 
 #[test]
 fn what_is_packed_is_told_by_what_it_is() {
-    let not_found = |scene, request| matches!(puzzles(scene, request), Puzzle::NotFound { .. });
+    let not_found = |scene, request| matches!(puzzles(scene, request), RequestError::NotFound { .. });
     for request in
         ["bring me the green bottle", "get the blue bottle", "the red glass, please", "bring me the red can"]
     {
@@ -272,7 +278,10 @@ fn near_a_place_is_neither_on_nor_in_it() {
 fn what_is_known_and_does_not_fit_is_not_unknown() {
     let unfit = |scene: &str, request: &str, why: &str| {
         let puzzle = puzzles(scene, request);
-        assert!(matches!(puzzle, Puzzle::Unfit { .. } | Puzzle::Elsewhere { .. }), "{request}: {puzzle}");
+        assert!(
+            matches!(puzzle, RequestError::Unfit { .. } | RequestError::Elsewhere { .. }),
+            "{request}: {puzzle}"
+        );
         assert_eq!(puzzle.to_string(), why, "{request}");
     };
     unfit("kitchen", "bring me the fridge", "I cannot carry the refrigerator");
@@ -298,8 +307,8 @@ fn what_is_known_and_does_not_fit_is_not_unknown() {
 #[track_caller]
 fn tells(answer: &str, places: &[&str]) {
     let scene = setup::scene("kitchen");
-    let situation = Situation { spoken_of: vec!["coke".into()], ..Situation::new(&scene) };
-    let told = request::told(answer, &situation);
+    let situation = RequestContext { spoken_of: vec!["coke".into()], ..RequestContext::new(&scene) };
+    let told = motet_requests::told(answer, &situation);
     let found: Vec<_> =
         told.iter().map(|one| format!("{}({}, {})", one.relation, one.thing, one.place)).collect();
     assert_eq!(found, places, "{answer}");
@@ -341,7 +350,7 @@ fn what_is_said_beside_a_request_is_taken_in() {
         "there is a coke in the fridge, please bring it to me",
         "somebody moved the coke to the fridge and I am thirsty. Bring me the coke from the fridge.",
     ] {
-        let understood = request::understand(request, &Situation::new(&scene)).unwrap();
+        let understood = motet_requests::understand(request, &RequestContext::new(&scene)).unwrap();
         let goals: Vec<_> =
             understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect();
         assert_eq!(goals, ["at(coke, user)"], "{request}");
@@ -360,11 +369,11 @@ fn a_long_request_is_not_read() {
 
 #[test]
 fn an_ordinary_word_is_no_slip() {
-    assert!(matches!(puzzles("kitchen", "bring me a cold drink"), Puzzle::NotFound { .. }));
-    assert!(matches!(puzzles("kitchen", "go charge"), Puzzle::NotFound { .. }));
+    assert!(matches!(puzzles("kitchen", "bring me a cold drink"), RequestError::NotFound { .. }));
+    assert!(matches!(puzzles("kitchen", "go charge"), RequestError::NotFound { .. }));
     means("kitchen", "bring me the appel", &["at(apple, user)"]);
     match puzzles("kitchen", "bring me that") {
-        Puzzle::NotUnderstood { part } => assert_eq!(part, "that"),
+        RequestError::NotUnderstood { part } => assert_eq!(part, "that"),
         other => panic!("{other}"),
     }
 }
@@ -408,20 +417,20 @@ fn a_thing_is_looked_for_where_it_is_taken_to_be() {
 #[track_caller]
 fn chooses(answer: &str, chosen: &[&str]) {
     let scene = setup::scene("kitchen");
-    let situation = Situation { spoken_of: vec!["mug_1".into()], ..Situation::new(&scene) };
-    let found = request::choose(answer, &["mug_1".into(), "mug_2".into()], &situation);
+    let situation = RequestContext { spoken_of: vec!["mug_1".into()], ..RequestContext::new(&scene) };
+    let found = motet_requests::choose(answer, &["mug_1".into(), "mug_2".into()], &situation);
     assert_eq!(found, chosen, "{answer}");
 }
 
 #[test]
 fn a_thing_goes_to_one_place_after_the_other_and_back_where_it_was() {
     let scene = setup::scene("kitchen");
-    let goals = |request: &str, situation: &Situation<'_>| {
-        let understood = request::understand(request, situation)?;
+    let goals = |request: &str, situation: &RequestContext<'_>| {
+        let understood = motet_requests::understand(request, situation)?;
         let goals = understood.aims.iter().map(|aim| print::expression(&aim.goal.condition));
-        Ok::<Vec<String>, Puzzle>(goals.collect())
+        Ok::<Vec<String>, RequestError>(goals.collect())
     };
-    let start = Situation::new(&scene);
+    let start = RequestContext::new(&scene);
     for (request, wanted) in [
         (
             "put the sponge on the counter and then on the kitchen table",
@@ -439,13 +448,16 @@ fn a_thing_goes_to_one_place_after_the_other_and_back_where_it_was() {
     // In two places at once it cannot be, and where it was nobody knows who never took it.
     assert!(matches!(
         goals("put the sponge on the counter and on the kitchen table", &start),
-        Err(Puzzle::NotUnderstood { .. })
+        Err(RequestError::NotUnderstood { .. })
     ));
-    assert!(matches!(goals("put the sponge back", &start), Err(Puzzle::AmbiguousTask { .. })));
-    let moved = Situation { came_from: vec![("sponge".into(), "counter".into())], ..Situation::new(&scene) };
+    assert!(matches!(goals("put the sponge back", &start), Err(RequestError::AmbiguousTask { .. })));
+    let moved = RequestContext {
+        came_from: vec![("sponge".into(), "counter".into())],
+        ..RequestContext::new(&scene)
+    };
     assert_eq!(goals("put the sponge back", &moved).unwrap(), ["on(sponge, counter)"]);
     assert_eq!(goals("put the sponge back where it was", &moved).unwrap(), ["on(sponge, counter)"]);
-    assert!(matches!(goals("put the red mug back", &moved), Err(Puzzle::AmbiguousTask { .. })));
+    assert!(matches!(goals("put the red mug back", &moved), Err(RequestError::AmbiguousTask { .. })));
 }
 
 #[test]
@@ -459,9 +471,13 @@ fn left_and_right_are_taken_where_they_are_the_same_for_both() {
     let options = ["mug_1".into(), "mug_2".into()];
     for (user_x, left, right) in [(-1.0, vec!["mug_1"], vec!["mug_2"]), (4.0, vec![], vec![])] {
         scene.entities.get_mut("user").unwrap().pose.as_mut().unwrap().xyz = [user_x, 0.0, 0.0];
-        let situation = Situation::new(&scene);
-        assert_eq!(request::choose("the left one", &options, &situation), left, "user at {user_x}");
-        assert_eq!(request::choose("the one on the right", &options, &situation), right, "user at {user_x}");
+        let situation = RequestContext::new(&scene);
+        assert_eq!(motet_requests::choose("the left one", &options, &situation), left, "user at {user_x}");
+        assert_eq!(
+            motet_requests::choose("the one on the right", &options, &situation),
+            right,
+            "user at {user_x}"
+        );
     }
 }
 
@@ -499,8 +515,8 @@ fn one_is_chosen_in_many_ways_or_none() {
     }
     let scene = setup::scene("kitchen");
     let meant = vec![("the mug".to_owned(), "mug_1".into()), ("the mug".to_owned(), "mug_2".into())];
-    let situation = Situation { meant, ..Situation::new(&scene) };
-    let understood = request::understand("bring me the mug", &situation).unwrap();
+    let situation = RequestContext { meant, ..RequestContext::new(&scene) };
+    let understood = motet_requests::understand("bring me the mug", &situation).unwrap();
     let goals: Vec<_> = understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect();
     assert_eq!(goals, ["at(mug_1, user)", "at(mug_2, user)"]);
 }

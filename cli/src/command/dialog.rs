@@ -8,7 +8,7 @@ use motet_planner::conversation::Problem;
 use motet_planner::dialect::actions;
 use motet_planner::dialect::exchange::{self, Exchange};
 use motet_planner::prompt;
-use motet_planner::request::{self, Situation};
+use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
 use motet_syntax::{Form, Severity, Source};
@@ -82,7 +82,7 @@ fn plan(
     report: &mut Report,
 ) -> Exit {
     let nothing = Scene::default();
-    let situation = Situation::new(setting.scene.as_ref().unwrap_or(&nothing));
+    let situation = RequestContext::new(setting.scene.as_ref().unwrap_or(&nothing));
     let loose = match actions::read(list, name, &setting.session, setting.robot.as_ref(), &situation) {
         Ok(loose) => loose,
         Err(why) => return refuse(place, &why),
@@ -115,8 +115,8 @@ fn write(request: &str, setting: &Setting, report: &mut Report) -> Result<Exit, 
         return Err(Trouble::Other("a robot is needed to plan: give --robot NAME".to_owned()));
     };
     let scene = setting.scene.clone().unwrap_or_default();
-    let situation = Situation::new(&scene);
-    let named = request::named(request, &situation);
+    let situation = RequestContext::new(&scene);
+    let named = motet_requests::named(request, &situation);
     // The dialect's texts tell what numbers tell, and no more than that.
     let seen = prompt::seen(&setting.session, robot, &scene, &named, Duration::ZERO);
     let (vision, feasibility) = exchange::sight(&seen);

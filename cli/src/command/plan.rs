@@ -1,8 +1,8 @@
 //! `motet plan`: a policy for a request or a goal, by the planner that needs no model.
 
 use motet_compiler::plan::{Goal, Lasts, NoPlan};
-use motet_planner::builtin::{self, Aim, Unplanned};
-use motet_planner::request::Situation;
+use motet_planner::builtin::{self, Unplanned};
+use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
 use motet_syntax::ast::File;
 use motet_syntax::{Form, Source};
@@ -33,7 +33,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let planned = match &args.request {
         Some(request) => {
             let nothing = Scene::default();
-            let situation = Situation::new(setting.scene.as_ref().unwrap_or(&nothing));
+            let situation = RequestContext::new(setting.scene.as_ref().unwrap_or(&nothing));
             builtin::answer(&setting.session, robot, request, &situation).map(|answered| {
                 answered.understood.notes.iter().for_each(|text| note(text));
                 answered.planned

@@ -1,7 +1,7 @@
 //! `motet prompt`: what a model would see of a request.
 
 use motet_planner::prompt::{self, Lasting, Prompt};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_runtime::memory::{Limits, Memory};
 use motet_syntax::ast::File;
@@ -31,7 +31,7 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
         return Err(Trouble::Other("a robot is needed for a prompt: give --robot NAME".to_owned()));
     };
     let scene = setting.scene.clone().unwrap_or_default();
-    let situation = Situation::new(&scene);
+    let situation = RequestContext::new(&scene);
     let mut memory = Memory::new(Limits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {

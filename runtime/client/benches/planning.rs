@@ -23,7 +23,7 @@ use motet_decode::{Prepared as Acceptors, Surface};
 use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
 use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
 use motet_planner::prompt::{Lasting, Prompt, TIME, TOKENS};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::memory::{Limits, Memory};
 use motet_runtime::{Effect, Engine, Prepared, StartState, Time};
 use motet_sim::{Options, Sim};
@@ -132,7 +132,7 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
     let (session, _) = kept.session.elsewhere(Some(&setting.scene), Some(&State::default()));
     let session = session.with_geometry(Arc::clone(setting.geometry.as_ref().unwrap()));
     lap("session: scene and state");
-    let situation = Situation::new(&setting.scene);
+    let situation = RequestContext::new(&setting.scene);
     let mut memory = Memory::new(Limits::default());
     memory.instruct(Time::ZERO, request);
     let prompt = Prompt {

@@ -16,7 +16,7 @@ use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Problem
 use motet_planner::model::{
     Finish, Message, Model, ModelError, ModelPlanner, News, Reading, Reply, Settings, Start, Verdict,
 };
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::{Effect, Refusal, Time};
 use motet_sim::{Options, Sim};
 
@@ -38,7 +38,7 @@ fn a_right_reply_is_carried_out_however_it_is_written() {
     let fenced = format!("Sure. Here is the policy:\n```json\n{indented}\n```\nAnything else?");
     let thought = format!("<think>\nA {{brace}} and a coke.\n</think>\n\n{line}");
     let setting = setting();
-    let situation = Situation::new(&setting.scene);
+    let situation = RequestContext::new(&setting.scene);
     let planned =
         builtin::answer(&session(&setting), Some(&setting.robot), COKE, &situation).unwrap().planned;
     let text = planned.text;

@@ -4,7 +4,7 @@
 use indexmap::IndexMap;
 use motet_geometry::query::Budget;
 use motet_planner::dialect::actions;
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
@@ -220,7 +220,7 @@ pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
         Target::Policy(policy) => stage.fault(policy),
         Target::Question(_) => None,
         Target::Actions(list) => {
-            let situation = Situation::new(&stage.scene);
+            let situation = RequestContext::new(&stage.scene);
             match actions::read(list, "plan", &stage.session, Some(&stage.robot), &situation) {
                 Ok(loose) => stage.fault(&loose.policy),
                 Err(why) => Some(why.to_string()),

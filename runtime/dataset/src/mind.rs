@@ -10,7 +10,6 @@ use motet_planner::conversation::{Ask, Builtin, Planner, Problem};
 use motet_planner::dialect::{actions, exchange};
 use motet_planner::model;
 use motet_planner::prompt;
-use motet_planner::request;
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Perception as _, Time};
 use motet_sim::Sim;
@@ -56,7 +55,7 @@ impl Planner for Mind {
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());
         let (scene, situation) = (ask.situation.scene, ask.situation);
         let now = self.scene_now(ask);
-        let named = request::named(ask.request, situation);
+        let named = motet_requests::named(ask.request, situation);
         // The same seed gives the same rows, however fast the machine is.
         let seen = prompt::seen(ask.session, ask.robot, scene, &named, Duration::ZERO);
         let (_, feasibility) = exchange::sight(&seen);

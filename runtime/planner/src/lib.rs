@@ -13,5 +13,4 @@ pub mod dialect;
 pub mod guard;
 pub mod model;
 pub mod prompt;
-pub mod request;
 pub mod vision;

@@ -2,7 +2,7 @@
 //! policy is run in simulation. The row's own plan and goal are only looked at to judge the end.
 
 use motet_planner::builtin;
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Options, Sim};
 use motet_syntax::Sources;
@@ -75,7 +75,7 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
     if let Some(wrong) = said.first() {
         return Err(format!("{} {}", wrong.code, wrong.message));
     }
-    let situation = Situation::new(&scene);
+    let situation = RequestContext::new(&scene);
     let answered = builtin::answer(&session, Some(&robot), &row.instruction, &situation);
     let answered = answered.map_err(|why| why.to_string())?;
     result.is_planned = true;

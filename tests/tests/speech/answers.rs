@@ -1,6 +1,6 @@
 //! What somebody answers who was asked where a thing is, or whether to try again.
 
-use motet_planner::request::{self, Situation};
+use motet_requests::RequestContext;
 use motet_tests::setup;
 
 #[test]
@@ -38,7 +38,7 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "I don't see why not.",
         "Oh dear. No harm done, just do it over.",
     ] {
-        assert_eq!(request::encourages(answer).as_deref().map(str::trim), Some(""), "{answer}");
+        assert_eq!(motet_requests::encourages(answer).as_deref().map(str::trim), Some(""), "{answer}");
     }
     for answer in [
         "Don't try again.",
@@ -70,15 +70,15 @@ fn who_wants_another_try_says_so_in_many_ways() {
         "Let me try again.",
         "I'll do it myself",
     ] {
-        assert_eq!(request::encourages(answer), None, "{answer}");
+        assert_eq!(motet_requests::encourages(answer), None, "{answer}");
     }
 }
 
 /// Where an answer says that the coke is.
 fn told(answer: &str) -> Vec<String> {
     let scene = setup::scene("kitchen");
-    let situation = Situation { spoken_of: vec!["coke".into()], ..Situation::new(&scene) };
-    let told = request::told(answer, &situation);
+    let situation = RequestContext { spoken_of: vec!["coke".into()], ..RequestContext::new(&scene) };
+    let told = motet_requests::told(answer, &situation);
     told.iter().map(|one| format!("{} {}", one.relation, one.place)).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Who is asked to do something, and what they are told not to.
 
 use super::{goals, mean, not_taken};
-use motet_planner::request::Puzzle;
+use motet_requests::RequestError;
 
 #[test]
 fn what_somebody_cannot_do_or_forgot_is_done_where_they_ask_for_it() {
@@ -132,7 +132,7 @@ fn what_shall_be_done_with_it_is_asked_where_it_is_not_said() {
         "Something has to happen with the sponge.",
     ] {
         let found = goals(request);
-        assert!(matches!(found, Err(Puzzle::NotUnderstood { .. })), "{request}: {found:?}");
+        assert!(matches!(found, Err(RequestError::NotUnderstood { .. })), "{request}: {found:?}");
     }
 }
 

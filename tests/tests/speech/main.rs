@@ -7,13 +7,13 @@ mod courtesy;
 mod places;
 mod wishes;
 
-use motet_planner::request::{self, Puzzle, Situation};
+use motet_requests::{RequestContext, RequestError};
 use motet_syntax::print;
 use motet_tests::setup;
 
-fn goals(request: &str) -> Result<Vec<String>, Puzzle> {
+fn goals(request: &str) -> Result<Vec<String>, RequestError> {
     let scene = setup::scene("kitchen");
-    let understood = request::understand(request, &Situation::new(&scene))?;
+    let understood = motet_requests::understand(request, &RequestContext::new(&scene))?;
     Ok(understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect())
 }
 

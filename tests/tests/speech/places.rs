@@ -1,7 +1,7 @@
 //! Where something goes.
 
 use super::{goals, mean, not_taken};
-use motet_planner::request::Puzzle;
+use motet_requests::RequestError;
 
 #[test]
 fn a_place_can_come_first_or_without_a_verb() {
@@ -123,7 +123,7 @@ fn what_is_spoken_of_and_not_clear_is_asked_of_and_not_guessed() {
         "I'll tell you later where the mug goes, for now just pick it up.",
     ] {
         let found = goals(request);
-        assert!(matches!(found, Err(Puzzle::AmbiguousReference { .. })), "{request}: {found:?}");
+        assert!(matches!(found, Err(RequestError::AmbiguousReference { .. })), "{request}: {found:?}");
     }
     mean(&["holding(sponge)"], &["I'll tell you later where the sponge goes, for now just pick it up."]);
 }

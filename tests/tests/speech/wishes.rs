@@ -1,7 +1,7 @@
 //! What somebody wants, or would find nice.
 
 use super::{mean, not_taken};
-use motet_planner::request::{self, Situation};
+use motet_requests::RequestContext;
 use motet_syntax::print;
 use motet_tests::setup;
 
@@ -85,7 +85,7 @@ fn who_wants_something_later_or_can_do_it_speaks_of_it_alone() {
     // In the living room there is a can that is called rubbish, too.
     let scene = setup::scene("living_room");
     let said = "Ugh, the remote control is just rubbish now, isn't it. Would you put it in the bin?";
-    let understood = request::understand(said, &Situation::new(&scene)).unwrap();
+    let understood = motet_requests::understand(said, &RequestContext::new(&scene)).unwrap();
     let goals: Vec<_> = understood.aims.iter().map(|aim| print::expression(&aim.goal.condition)).collect();
     assert_eq!(goals, ["in(remote_1, trash_bin)"]);
     mean(

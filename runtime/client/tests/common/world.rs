@@ -12,7 +12,7 @@ use motet_geometry::query::Budget;
 use motet_planner::builtin;
 use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner, Setting};
 use motet_planner::model::{self, Happening, Listener, ModelPlanner};
-use motet_planner::request::Situation;
+use motet_requests::RequestContext;
 use motet_runtime::Time;
 use motet_sim::{Options, Sim};
 use motet_syntax::{Source, Sources};
@@ -53,7 +53,7 @@ pub(crate) fn geometry(setting: &Setting) -> Arc<Geometry> {
 /// What a model that knows the right policy would write for a request.
 pub(crate) fn right(setting: &Setting, request: &str) -> String {
     let session = session(setting);
-    let situation = Situation::new(&setting.scene);
+    let situation = RequestContext::new(&setting.scene);
     let answered = builtin::answer(&session, Some(&setting.robot), request, &situation).unwrap();
     let policy = answered.planned.parsed.file.policies().next().unwrap();
     canonical(policy, &session.signatures(), Surface::default()).unwrap()

@@ -1,6 +1,7 @@
 //! The calls of a plan as a policy: a group for each aim, and monitors where a base that moves asks for them.
 
-use motet_compiler::plan::{Goal, Lasts, Plan, PlannedStep};
+use motet_compiler::plan::{Lasts, Plan, PlannedStep};
+use motet_requests::Aim;
 use motet_robots::card::Robot;
 use motet_syntax::ast::Expr;
 use motet_syntax::{Form, print};
@@ -8,17 +9,6 @@ use motet_syntax::{Form, print};
 /// How near a person may be to a base that moves, in m. Closer than where a robot stands to hand something over: from
 /// there it has to be able to leave.
 const CLEARANCE_M: f64 = 0.3;
-
-/// A goal with a name for the steps that reach it.
-#[derive(Clone, Debug)]
-pub struct Aim {
-    /// What shall come about.
-    pub goal: Goal,
-    /// `fetch_coke`
-    pub name: String,
-    /// Under which condition it is to be reached at all; it is looked at when it is the aim's turn.
-    pub only_if: Option<Expr>,
-}
 
 /// The policy as text, not yet in its canonical layout.
 pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Plan) -> String {

@@ -8,9 +8,7 @@ use motet_robots::card::Robot;
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source};
 use thiserror::Error;
 
-pub use draft::Aim;
-
-use crate::request::{self, Puzzle, Situation, Understood};
+use motet_requests::{Aim, Intent, RequestContext, RequestError};
 
 /// A policy that reaches what was asked for.
 #[derive(Clone, Debug)]
@@ -29,7 +27,7 @@ pub struct Planned {
 #[derive(Clone, Debug)]
 pub struct Answered {
     /// What it was taken to mean.
-    pub understood: Understood,
+    pub understood: Intent,
     /// The policy.
     pub planned: Planned,
 }
@@ -39,7 +37,7 @@ pub struct Answered {
 pub enum Unplanned {
     /// What was asked for is not clear.
     #[error(transparent)]
-    Puzzle(#[from] Puzzle),
+    RequestError(#[from] RequestError),
     /// The search found nothing.
     #[error(transparent)]
     NoPlan(#[from] NoPlan),
@@ -101,12 +99,12 @@ pub fn answer(
     session: &Session,
     robot: Option<&Robot>,
     request: &str,
-    situation: &Situation<'_>,
+    situation: &RequestContext<'_>,
 ) -> Result<Answered, Unplanned> {
-    let understood = request::understand(request, situation)?;
+    let understood = motet_requests::understand(request, situation)?;
     if understood.aims.is_empty() {
         let question = "I take note of that. What shall I do?".to_owned();
-        return Err(Puzzle::AmbiguousTask { question, options: Vec::new() }.into());
+        return Err(RequestError::AmbiguousTask { question, options: Vec::new() }.into());
     }
     let name = understood.aims.first().map_or("plan", |aim| aim.name.as_str());
     let planned = plan(session, robot, name, &understood.aims)?;

@@ -4,7 +4,7 @@ use smol_str::SmolStr;
 
 use super::polarity::{Polarity, is_done, polarity};
 use super::problem::{Kind, Problem, called};
-use crate::request::{self, Located, Puzzle, Situation};
+use motet_requests::{ReportedLocation, RequestContext, RequestError};
 
 /// What an answer means.
 #[derive(Clone, PartialEq, Debug)]
@@ -21,7 +21,7 @@ pub enum Answer {
         ids: Vec<SmolStr>,
     },
     /// Something is somewhere else than was thought.
-    Located(Vec<Located>),
+    ReportedLocation(Vec<ReportedLocation>),
     /// Another request.
     Request(String),
     /// Nothing that helps: the question is asked again.
@@ -29,15 +29,16 @@ pub enum Answer {
 }
 
 /// Reads an answer to a problem with a request.
-pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &Situation<'_>) -> Answer {
+pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &RequestContext<'_>) -> Answer {
     let meaning = |said: &str| {
         if is_done(said) { Answer::NotUnderstood } else { meaning(said, problem, request, situation) }
     };
     let retries = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
-    let about = Situation { spoken_of: spoken(problem, situation), ..situation.clone() };
+    let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
     if retries
-        && request::encourages(answer).is_some_and(|beside| request::named(&beside, situation).is_empty())
-        && request::told(answer, &about).is_empty()
+        && motet_requests::encourages(answer)
+            .is_some_and(|beside| motet_requests::named(&beside, situation).is_empty())
+        && motet_requests::told(answer, &about).is_empty()
     {
         return Answer::Again;
     }
@@ -63,28 +64,28 @@ pub(super) fn read(answer: &str, problem: &Problem, request: &str, situation: &S
 }
 
 /// Reads what stands behind yes and no.
-fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation<'_>) -> Answer {
+fn meaning(answer: &str, problem: &Problem, request: &str, situation: &RequestContext<'_>) -> Answer {
     // A thing or a place among those that were offered, or any that fits the words in question.
     if let Some(said) = &problem.said
         && problem.kind != Kind::AmbiguousTask
     {
         let ids = match problem.kind {
-            Kind::AmbiguousReference => request::choose(answer, &problem.options, situation),
-            _ => request::pick(answer, &problem.options, situation).into_iter().collect(),
+            Kind::AmbiguousReference => motet_requests::choose(answer, &problem.options, situation),
+            _ => motet_requests::pick(answer, &problem.options, situation).into_iter().collect(),
         };
         if !ids.is_empty() {
             return Answer::Means { said: said.clone(), ids };
         }
     }
     if problem.kind == Kind::AmbiguousTask
-        && request::is_bare(answer)
+        && motet_requests::is_bare(answer)
         && let Some(request) = completed(request, answer, situation)
     {
         return Answer::Request(request);
     }
     // "Where else shall I put the plate?" "On the counter."
     if problem.kind == Kind::NotReachable
-        && request::is_bare(answer)
+        && motet_requests::is_bare(answer)
         && let Some(held) = &situation.holding
         && problem.options.iter().any(|option| situation.scene.entities.contains_key(option))
         && let Some(request) =
@@ -92,17 +93,17 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation
     {
         return Answer::Request(format!("{} instead", request.trim_end_matches(['.', '!', '?', ' '])));
     }
-    let about = Situation { spoken_of: spoken(problem, situation), ..situation.clone() };
+    let about = RequestContext { spoken_of: spoken(problem, situation), ..situation.clone() };
     if problem.kind == Kind::NotFound {
-        let told = request::told(answer, &about);
+        let told = motet_requests::told(answer, &about);
         if !told.is_empty() {
-            return Answer::Located(told);
+            return Answer::ReportedLocation(told);
         }
     }
-    match request::understand(answer, &about) {
-        Ok(understood) if understood.aims.is_empty() => Answer::Located(understood.located),
+    match motet_requests::understand(answer, &about) {
+        Ok(understood) if understood.aims.is_empty() => Answer::ReportedLocation(understood.located),
         Ok(_) => Answer::Request(answer.to_owned()),
-        Err(Puzzle::AmbiguousReference { .. } | Puzzle::NotFound { .. })
+        Err(RequestError::AmbiguousReference { .. } | RequestError::NotFound { .. })
             if problem.kind != Kind::AmbiguousTask =>
         {
             place(answer, problem, situation)
@@ -120,30 +121,30 @@ fn meaning(answer: &str, problem: &Problem, request: &str, situation: &Situation
 }
 
 /// What the problem is about is what `it` means.
-fn spoken(problem: &Problem, situation: &Situation<'_>) -> Vec<SmolStr> {
+fn spoken(problem: &Problem, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     situation.spoken_of.iter().cloned().chain(problem.about.clone()).collect()
 }
 
 /// `the cupboard`, `kitchen counter`: a place, asked for where a thing is.
-fn place(answer: &str, problem: &Problem, situation: &Situation<'_>) -> Answer {
+fn place(answer: &str, problem: &Problem, situation: &RequestContext<'_>) -> Answer {
     let (Some(thing), Kind::NotFound) = (&problem.about, problem.kind) else { return Answer::NotUnderstood };
-    let Some(place) = request::pick(answer, &problem.options, situation) else {
+    let Some(place) = motet_requests::pick(answer, &problem.options, situation) else {
         return Answer::NotUnderstood;
     };
     let holds = situation.scene.entities.get(&place).is_some_and(|entity| entity.kind == "Container");
     let relation = if holds { "in" } else { "on" };
-    Answer::Located(vec![Located { thing: thing.clone(), relation, place }])
+    Answer::ReportedLocation(vec![ReportedLocation { thing: thing.clone(), relation, place }])
 }
 
 /// The request with what was missing behind it, where it then is understood.
-fn completed(request: &str, answer: &str, situation: &Situation<'_>) -> Option<String> {
+fn completed(request: &str, answer: &str, situation: &RequestContext<'_>) -> Option<String> {
     let request = request.trim_end_matches(['.', '!', '?', ' ']);
     let mut tries = vec![format!("{request} {answer}")];
     for preposition in ["in", "on", "to"] {
         tries.push(format!("{request} {preposition} {answer}"));
         tries.push(format!("{request} {preposition} the {answer}"));
     }
-    tries.into_iter().find(|request| request::understand(request, situation).is_ok())
+    tries.into_iter().find(|request| motet_requests::understand(request, situation).is_ok())
 }
 
 /// What a question offers to do: "Shall I bring you something to drink?" is "bring me something to drink".

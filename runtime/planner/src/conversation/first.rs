@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 use super::{Conversation, Planner, Rest, Wait};
 use crate::builtin::Answered;
 use crate::model::{Judged, judge, without_first_step};
-use crate::request::Understood;
+use motet_requests::Intent;
 
 /// The first step of a policy that is still being written.
 pub(super) struct First {
@@ -14,7 +14,7 @@ pub(super) struct First {
     pub(super) rest: Option<Rest>,
     /// What the names of the first step were bound to.
     pub(super) bound: Vec<(SmolStr, Value)>,
-    pub(super) understood: Understood,
+    pub(super) understood: Intent,
 }
 
 /// What follows such a first step.

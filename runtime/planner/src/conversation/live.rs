@@ -17,14 +17,14 @@ use super::{Ask, Conversation, Planner, Problem, Rest, Wait, Watcher};
 use crate::builtin::Answered;
 use crate::guard::Guard;
 use crate::model::{Judged, judge};
-use crate::request::{self, Located, Situation, Understood};
+use motet_requests::{Intent, ReportedLocation, RequestContext};
 
 /// Why a run is stopped before its end.
 pub(super) enum Pending {
     /// A new request, which cannot take over as it stands.
     Request(String),
     /// Something is elsewhere than was thought, so that the same has to be planned anew.
-    Told(Vec<Located>),
+    Told(Vec<ReportedLocation>),
     /// A person says so.
     Stop,
 }
@@ -188,7 +188,7 @@ impl Live<'_, '_> {
                 }
                 Rest::Whole(policy) => {
                     let understood =
-                        Understood { spoken_of: self.talk.known.spoken_of.clone(), ..Understood::default() };
+                        Intent { spoken_of: self.talk.known.spoken_of.clone(), ..Intent::default() };
                     self.prepared(&policy, understood, Some(request.clone()), engine)
                 }
                 Rest::Nothing | Rest::Broken | Rest::Stopped => None,
@@ -213,7 +213,7 @@ impl Live<'_, '_> {
     fn prepared(
         &mut self,
         policy: &str,
-        understood: Understood,
+        understood: Intent,
         request: Option<String>,
         engine: &Engine,
     ) -> Option<Prepared> {
@@ -247,8 +247,8 @@ fn is_call(graph: &Graph, node: NodeId, name: &str) -> bool {
 }
 
 /// What a line says of where things are, where it asks for nothing.
-fn statement(said: &str, situation: &Situation<'_>) -> Option<Vec<Located>> {
-    let understood = request::understand(said, situation).ok()?;
+fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedLocation>> {
+    let understood = motet_requests::understand(said, situation).ok()?;
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
 }
 
@@ -306,7 +306,7 @@ impl Onlooker for Live<'_, '_> {
         }
         let meant = std::mem::take(&mut self.meant);
         let session = self.talk.session(&scene, &known, None);
-        let situation = Situation { meant: meant.clone(), ..known.situation(&scene) };
+        let situation = RequestContext { meant: meant.clone(), ..known.situation(&scene) };
         let image = self.talk.look(now);
         let ask = Ask { image: image.as_ref(), ..self.talk.ask(&session, &request, &situation) };
         if self.planner.begin(&ask) {

@@ -6,7 +6,7 @@ use motet_runtime::Image;
 use motet_runtime::memory::Memory;
 
 use crate::builtin::{self, Answered, Unplanned};
-use crate::request::Situation;
+use motet_requests::RequestContext;
 
 /// Makes policies of requests.
 pub trait Planner {
@@ -68,7 +68,7 @@ pub struct Ask<'a> {
     /// The request, as it stands after the answers that changed it.
     pub request: &'a str,
     /// What is known.
-    pub situation: &'a Situation<'a>,
+    pub situation: &'a RequestContext<'a>,
     /// What was asked and done.
     pub memory: &'a Memory,
     /// What the robot sees at the moment, where it has eyes.

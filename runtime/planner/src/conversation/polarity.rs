@@ -1,6 +1,6 @@
 //! Yes, no, and stop, at the beginning of what a person says.
 
-use crate::request::token::{self, Token};
+use motet_requests::token::{self, Token};
 
 /// What the first words of an answer say, with what is said behind them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -8,7 +8,7 @@ use motet_syntax::render::capital;
 use smol_str::SmolStr;
 
 use crate::builtin::Unplanned;
-use crate::request::Puzzle;
+use motet_requests::RequestError;
 
 /// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -61,23 +61,23 @@ impl Problem {
         let bare =
             |kind, question: String| Self { kind, question, options: Vec::new(), about: None, said: None };
         match why {
-            Unplanned::Puzzle(Puzzle::NotUnderstood { part }) => Self {
+            Unplanned::RequestError(RequestError::NotUnderstood { part }) => Self {
                 said: Some(part.clone()),
                 ..bare(Kind::AmbiguousTask, format!("I do not understand \"{part}\". What shall I do?"))
             },
-            Unplanned::Puzzle(Puzzle::NotFound { what }) => Self {
+            Unplanned::RequestError(RequestError::NotFound { what }) => Self {
                 said: Some(what.clone()),
                 ..bare(Kind::NotFound, format!("I know of no {} here. What do you mean?", bare_noun(what)))
             },
-            Unplanned::Puzzle(Puzzle::Unfit { why }) => {
+            Unplanned::RequestError(RequestError::Unfit { why }) => {
                 bare(Kind::AmbiguousTask, format!("{}. What shall I do?", capital(why)))
             }
-            Unplanned::Puzzle(Puzzle::Elsewhere { why, thing }) => Self {
+            Unplanned::RequestError(RequestError::Elsewhere { why, thing }) => Self {
                 options: holders(scene),
                 about: Some(thing.clone()),
                 ..bare(Kind::NotFound, format!("{}. Where shall I look for it?", capital(why)))
             },
-            Unplanned::Puzzle(Puzzle::AmbiguousReference { what, options }) => {
+            Unplanned::RequestError(RequestError::AmbiguousReference { what, options }) => {
                 let seen: Vec<_> = options.iter().map(|id| described(scene, id)).collect();
                 let noun = bare_noun(what);
                 let question = format!(
@@ -91,7 +91,7 @@ impl Problem {
                     ..bare(Kind::AmbiguousReference, question)
                 }
             }
-            Unplanned::Puzzle(Puzzle::AmbiguousTask { question, options }) => {
+            Unplanned::RequestError(RequestError::AmbiguousTask { question, options }) => {
                 Self { options: options.clone(), ..bare(Kind::AmbiguousTask, question.clone()) }
             }
             Unplanned::NoModel { .. } | Unplanned::Stopped => bare(Kind::ActionFailed, why.to_string()),

@@ -13,7 +13,7 @@ use super::problem::{Kind, Problem};
 use super::talk::{Conversation, Outcome};
 use super::watcher::{Person, Watcher};
 use crate::builtin::{Answered, Unplanned};
-use crate::request::{Located, Puzzle};
+use motet_requests::{ReportedLocation, RequestError};
 
 /// The most policies for one request.
 const MAX_ROUNDS: usize = 12;
@@ -30,7 +30,7 @@ struct Task {
     /// What was meant by words that could mean several things.
     meant: Vec<(String, SmolStr)>,
     /// Where else a thing may be, the next place first.
-    elsewhere: Vec<Located>,
+    elsewhere: Vec<ReportedLocation>,
     questions: usize,
     tries: usize,
 }
@@ -169,7 +169,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
     }
 
     /// Takes in the first place of each thing; gives the others, in order.
-    fn hear_first(&mut self, located: Vec<Located>) -> Vec<Located> {
+    fn hear_first(&mut self, located: Vec<ReportedLocation>) -> Vec<ReportedLocation> {
         let mut heard: Vec<SmolStr> = Vec::new();
         let mut others = Vec::new();
         for one in located {
@@ -206,7 +206,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             // No answer of a person brings a model back.
             (Unplanned::NoModel { .. }, _) => Next::Over(Outcome::Failed(problem)),
             // Something that is not understood was said in between.
-            (Unplanned::Puzzle(Puzzle::NotUnderstood { .. }), Some(before)) => {
+            (Unplanned::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
                 self.goes_on(&question, before, Outcome::GivenUp)
             }
@@ -264,7 +264,7 @@ impl<'r, 'a> Pursuit<'r, 'a> {
             Answer::Means { said, ids } => {
                 self.task.meant.extend(ids.into_iter().map(|id| (said.clone(), id)));
             }
-            Answer::Located(located) => self.task.elsewhere = self.hear_first(located),
+            Answer::ReportedLocation(located) => self.task.elsewhere = self.hear_first(located),
             Answer::NotUnderstood => {}
         }
         if is_told {

@@ -20,7 +20,7 @@ use super::pursuit::Pursuit;
 use super::watcher::{Person, Watcher};
 use crate::builtin::{Answered, Unplanned};
 use crate::guard::WITHIN;
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// In which world requests are carried out.
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ impl<'a> Conversation<'a> {
     /// Takes in what a request says of where things are.
     pub(super) fn hear(&mut self, request: &str) {
         let scene = self.known.scene(&self.setting.scene);
-        if let Ok(understood) = request::understand(request, &self.known.situation(&scene)) {
+        if let Ok(understood) = motet_requests::understand(request, &self.known.situation(&scene)) {
             understood.located.iter().for_each(|one| self.known.hear(one));
             if understood.aims.is_empty() {
                 self.known.spoken_of = understood.spoken_of;
@@ -137,7 +137,7 @@ impl<'a> Conversation<'a> {
         planner: &mut dyn Planner,
         (session, scene, known): (&Session, &Scene, &Known),
     ) -> Result<Answered, Unplanned> {
-        let situation = Situation { meant: meant.to_vec(), ..known.situation(scene) };
+        let situation = RequestContext { meant: meant.to_vec(), ..known.situation(scene) };
         planner.plan(&Ask { image, ..self.ask(session, request, &situation) })
     }
 
@@ -145,7 +145,7 @@ impl<'a> Conversation<'a> {
         &'s self,
         session: &'s Session,
         request: &'s str,
-        situation: &'s Situation<'s>,
+        situation: &'s RequestContext<'s>,
     ) -> Ask<'s> {
         Ask { session, robot: &self.setting.robot, request, situation, memory: &self.memory, image: None }
     }

@@ -9,7 +9,7 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use super::list;
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// A policy from a list of actions, and what was read differently from how it was written.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -110,7 +110,7 @@ pub fn read(
     name: &str,
     session: &Session,
     robot: Option<&Robot>,
-    situation: &Situation<'_>,
+    situation: &RequestContext<'_>,
 ) -> Result<Loose, NoPolicy> {
     let items = list::items(text);
     if items.is_empty() {
@@ -134,7 +134,7 @@ pub fn read(
 /// What is known while a list is read.
 struct Reader<'a> {
     session: &'a Session,
-    situation: &'a Situation<'a>,
+    situation: &'a RequestContext<'a>,
     held: Option<SmolStr>,
     at: Option<SmolStr>,
     warnings: Vec<String>,
@@ -257,10 +257,10 @@ impl Reader<'_> {
         let of_kind =
             |id: &SmolStr| scene.entities.get(id).is_some_and(|entity| kinds.contains(&entity.kind.as_str()));
         let options: Vec<SmolStr> = scene.entities.keys().filter(|id| of_kind(id)).cloned().collect();
-        let found = request::pick(words, &options, self.situation).or_else(|| {
+        let found = motet_requests::pick(words, &options, self.situation).or_else(|| {
             // `coke` is the can that was put somewhere by that name.
             let named: Vec<SmolStr> =
-                request::named(words, self.situation).into_iter().filter(of_kind).collect();
+                motet_requests::named(words, self.situation).into_iter().filter(of_kind).collect();
             <[SmolStr; 1]>::try_from(named).ok().map(|[only]| only)
         });
         match found {
@@ -269,7 +269,7 @@ impl Reader<'_> {
                 Ok(id)
             }
             None => {
-                let named = request::named(words, self.situation).into_iter().filter(of_kind);
+                let named = motet_requests::named(words, self.situation).into_iter().filter(of_kind);
                 let named: Vec<_> = named.map(|id| format!("`{id}`")).collect();
                 Err(match named.as_slice() {
                     [] => format!("`{words}` is nothing here"),

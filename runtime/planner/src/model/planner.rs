@@ -18,7 +18,7 @@ use super::reading::{Reading, Verdict, Wrong};
 use crate::builtin::{Answered, Planned, Unplanned};
 use crate::conversation::{Ask, Planner, Rest, Wait};
 use crate::prompt::{self, Lasting, Prompt};
-use crate::request::{self, Understood};
+use motet_requests::Intent;
 
 /// How long a piece of a reply is waited for until somebody is asked whether to stop.
 const SLICE: Duration = Duration::from_millis(50);
@@ -258,8 +258,8 @@ impl Planner for ModelPlanner<'_> {
         let goal = purpose::goal(ask.request, ask.situation);
         let planned = self.rounds(ask.session, &ready, &chat, goal)?;
         let mut spoken_of = ask.situation.spoken_of.clone();
-        spoken_of.extend(request::named(ask.request, ask.situation));
-        Ok(Answered { understood: Understood { spoken_of, ..Understood::default() }, planned })
+        spoken_of.extend(motet_requests::named(ask.request, ask.situation));
+        Ok(Answered { understood: Intent { spoken_of, ..Intent::default() }, planned })
     }
 
     fn reads_answers(&self) -> bool {

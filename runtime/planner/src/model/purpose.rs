@@ -7,11 +7,11 @@ use motet_syntax::{Diagnostic, FileId, Source, Span, print};
 
 use super::judge::errors;
 use crate::builtin::Planned;
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// What a request asks for that lasts; none where it is not understood, or asks for something under a condition.
-pub(super) fn goal(request: &str, situation: &Situation<'_>) -> Option<Expr> {
-    let understood = request::understand(request, situation).ok()?;
+pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr> {
+    let understood = motet_requests::understand(request, situation).ok()?;
     if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
         return None;
     }

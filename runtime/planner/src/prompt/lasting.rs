@@ -8,7 +8,7 @@ use motet_syntax::ast::{Clause, File, Item, PrimitiveDecl};
 use motet_syntax::{Form, print};
 
 use crate::builtin;
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// The parts of a prompt that do not change.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -63,12 +63,16 @@ fn examples(session: &Session, robot: &Robot, scene: &Scene) -> Vec<String> {
     let container = scene.entities.values().find(|entity| entity.kind == "Container");
     let mut requests = Vec::new();
     if let Some(object) = objects.next() {
-        requests.push(format!("bring me the {}", request::called(object)));
+        requests.push(format!("bring me the {}", motet_requests::called(object)));
     }
     if let (Some(object), Some(container)) = (objects.next(), container) {
-        requests.push(format!("put the {} in the {}", request::called(object), request::called(container)));
+        requests.push(format!(
+            "put the {} in the {}",
+            motet_requests::called(object),
+            motet_requests::called(container)
+        ));
     }
-    let start = Situation::new(scene);
+    let start = RequestContext::new(scene);
     let written = requests.iter().filter_map(|request| {
         let answered = builtin::answer(session, Some(robot), request, &start).ok()?;
         let mut policy = answered.planned.parsed.file.policies().next()?.clone();

@@ -16,7 +16,7 @@ use smol_str::SmolStr;
 pub use lasting::Lasting;
 pub use seen::{Feasible, Seen, seen};
 
-use crate::request::{self, Situation};
+use motet_requests::RequestContext;
 
 /// Bytes of English text and JSON that make about one token of a byte-pair encoding.
 const BYTES_PER_TOKEN: usize = 4;
@@ -38,7 +38,7 @@ pub struct Prompt<'a> {
     /// The room.
     pub scene: &'a Scene,
     /// What is known of it.
-    pub situation: &'a Situation<'a>,
+    pub situation: &'a RequestContext<'a>,
     /// What was asked and done.
     pub memory: &'a Memory,
     /// What does not change from one prompt to the next.
@@ -69,7 +69,7 @@ impl Prompt<'_> {
     /// Writes the prompt for a request.
     #[must_use]
     pub fn write(&self, request: &str) -> Written {
-        let named = request::named(request, self.situation);
+        let named = motet_requests::named(request, self.situation);
         let room = |entities: &dyn Fn(&SmolStr) -> bool| self.room(entities);
         let examples = &self.lasting.examples;
         let mut parts: Vec<Part> = vec![

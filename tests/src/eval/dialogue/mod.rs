@@ -15,7 +15,6 @@ use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{
     Ask, Builtin, Conversation, Kind, Outcome, Person, Planner, Problem, Setting,
 };
-use motet_planner::request;
 use motet_runtime::Time;
 use motet_sim::{Faults, Options, Sim};
 
@@ -72,7 +71,7 @@ struct Timed {
 impl Planner for Timed {
     fn plan(&mut self, ask: &Ask<'_>) -> Result<Answered, Unplanned> {
         let begin = Instant::now();
-        let _ = request::understand(ask.request, ask.situation);
+        let _ = motet_requests::understand(ask.request, ask.situation);
         self.words += begin.elapsed();
         let begin = Instant::now();
         let answered = Builtin.plan(ask);

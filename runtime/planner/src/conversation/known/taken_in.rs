@@ -5,12 +5,12 @@ use motet_runtime::{Pattern, Query, Truth};
 use smol_str::SmolStr;
 
 use super::Known;
-use crate::request::Located;
+use motet_requests::ReportedLocation;
 
 impl Known {
     /// After a step that failed it is unknown where the thing is that it was about. Until somebody looks it is taken to be
     /// where it was: a hand that slipped left it there. The next plan looks before it takes.
-    pub fn presume(&mut self, before: &[Located]) {
+    pub fn presume(&mut self, before: &[ReportedLocation]) {
         for known in before {
             let thing = Pattern::Is(Value::Entity(known.thing.clone()));
             let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
@@ -69,7 +69,11 @@ impl Known {
     }
 
     /// Keeps where things were that are not there any more, so that they can be put back.
-    pub(in crate::conversation) fn remember_moved(&mut self, before: &[Located], after: &[Located]) {
+    pub(in crate::conversation) fn remember_moved(
+        &mut self,
+        before: &[ReportedLocation],
+        after: &[ReportedLocation],
+    ) {
         for known in before {
             let now = after.iter().find(|now| now.thing == known.thing);
             if now.is_none_or(|now| now.place != known.place) {
@@ -80,7 +84,7 @@ impl Known {
     }
 
     /// Takes in where somebody says that a thing is.
-    pub fn hear(&mut self, said: &Located) {
+    pub fn hear(&mut self, said: &ReportedLocation) {
         let thing = Pattern::Is(Value::Entity(said.thing.clone()));
         let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
             self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));

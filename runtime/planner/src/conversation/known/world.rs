@@ -9,19 +9,19 @@ use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
 use super::{Known, query};
-use crate::request::{Located, Situation};
+use motet_requests::{ReportedLocation, RequestContext};
 
 impl Known {
     /// Where the objects are, as far as that is known.
     #[must_use]
-    pub fn places(&self, scene: &Scene) -> Vec<Located> {
+    pub fn places(&self, scene: &Scene) -> Vec<ReportedLocation> {
         let told = self.situation(scene).supports;
         let objects = scene.entities.values().filter(|entity| entity.kind == "Object");
         let places = objects.filter_map(|entity| {
             let told = told.iter().find(|(id, _)| *id == entity.id).map(|(_, place)| place.clone());
             let place = told.unwrap_or_else(|| entity.on.clone().or_else(|| entity.inside.clone()))?;
             let is_container = scene.entities.get(&place).is_some_and(|place| place.kind == "Container");
-            Some(Located {
+            Some(ReportedLocation {
                 thing: entity.id.clone(),
                 relation: if is_container { "in" } else { "on" },
                 place,
@@ -177,7 +177,7 @@ impl Known {
 
     /// The situation in which a request is understood.
     #[must_use]
-    pub fn situation<'s>(&self, scene: &'s Scene) -> Situation<'s> {
+    pub fn situation<'s>(&self, scene: &'s Scene) -> RequestContext<'s> {
         let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
@@ -200,12 +200,12 @@ impl Known {
                 _ => {}
             }
         }
-        Situation {
+        RequestContext {
             holding: self.holding(scene),
             supports: supports.into_iter().collect(),
             spoken_of: self.spoken_of.clone(),
             came_from: self.came_from.clone(),
-            ..Situation::new(scene)
+            ..RequestContext::new(scene)
         }
     }
 }

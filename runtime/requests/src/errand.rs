@@ -1,0 +1,266 @@
+//! Commands as goals: what shall be true when somebody goes, opens, closes, lets go, takes and puts.
+
+use motet_compiler::plan::{Lasts, fact};
+use motet_syntax::Span;
+use motet_syntax::ast::{Expr, ExprKind};
+use smol_str::SmolStr;
+
+use super::RequestError;
+use super::command::{Command, ONLY_IF};
+use super::meaning::{ANYWHERE, HOLDERS, OBJECTS, Reader};
+use super::noun::{Noun, Which};
+use super::verb::Act;
+use super::vocabulary::Role;
+
+impl Reader<'_> {
+    pub(super) fn command(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
+        let act = command.act();
+        match act {
+            Act::Go | Act::Come | Act::Move => self.go(command, later.is_empty()),
+            Act::Open | Act::Close => self.doors(command, act, later),
+            Act::Release => self.release(command),
+            Act::Find => self.find(command, later),
+            Act::Fetch
+            | Act::Pick
+            | Act::Lift
+            | Act::Put
+            | Act::Take
+            | Act::Stow
+            | Act::Store
+            | Act::Discard
+            | Act::Throw => self.carry(command, act, later),
+        }
+    }
+
+    fn go(&mut self, command: &Command, is_last: bool) -> Result<(), RequestError> {
+        let mut targets = Vec::new();
+        if command.act == Act::Come && command.to.is_none() {
+            targets.push(SmolStr::new_static("user"));
+        }
+        let to = command.to.as_ref().map(|to| &to.noun);
+        for place in command.items.iter().chain(to).chain(&command.to_whom) {
+            // `meet me at the door`
+            if matches!(place, Noun::Speaker) && !targets.is_empty() {
+                continue;
+            }
+            targets.extend(self.destination(place)?);
+        }
+        if targets.is_empty() {
+            return Err(self.ask("Where shall I go?", ANYWHERE));
+        }
+        let last = targets.len() - 1;
+        for (index, target) in targets.into_iter().enumerate() {
+            let lasts = if is_last && index == last { Lasts::ToTheEnd } else { Lasts::Once };
+            self.aim(format!("go_to_{target}"), fact("at", &["robot", &target]), lasts);
+            self.said.spoken_of.push(target);
+        }
+        Ok(())
+    }
+
+    /// Where to go: places, then things.
+    fn destination(&mut self, noun: &Noun) -> Result<Vec<SmolStr>, RequestError> {
+        if let Noun::Phrase(phrase) = noun
+            && phrase.which == Which::All
+            && matches!(
+                phrase.words.last().map(String::as_str),
+                Some("location" | "place" | "spot" | "station")
+            )
+        {
+            let known = self.vocabulary.things.iter().filter(|thing| {
+                matches!(thing.role, Role::Surface | Role::Container | Role::Place) && thing.id != "start"
+            });
+            let known = known.map(|thing| thing.id.clone()).collect();
+            return Ok(if self.places.is_empty() { known } else { self.places.clone() });
+        }
+        self.things(noun, ANYWHERE, None)
+            .or_else(|puzzle| self.things(noun, OBJECTS, None).map_err(|_| puzzle))
+    }
+
+    fn doors(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), RequestError> {
+        if command.items.is_empty() {
+            let question = if act == Act::Open { "What shall I open?" } else { "What shall I close?" };
+            return Err(self.ask(question, &[Role::Container]));
+        }
+        for item in &command.items {
+            let mut found = match self.things(item, &[Role::Container], None) {
+                Err(puzzle) => vec![self.own_door(item).ok_or(puzzle)?],
+                Ok(found) => found,
+            };
+            // Of everything only what has a door.
+            if matches!(item, Noun::Phrase(phrase) if phrase.words.is_empty()) {
+                let scene = self.situation.scene;
+                found.retain(|id| scene.entities.get(id).is_some_and(|entity| entity.open.is_some()));
+            }
+            for what in found {
+                let is_open = fact("open", &[&what]);
+                let closed_later = later.iter().any(|later| later.act == Act::Close);
+                let (name, goal, lasts) = match act {
+                    Act::Open if closed_later => (format!("open_{what}"), is_open, Lasts::Once),
+                    Act::Open => (format!("open_{what}"), is_open, Lasts::ToTheEnd),
+                    _ => (format!("close_{what}"), not(is_open), Lasts::ToTheEnd),
+                };
+                if command.has(ONLY_IF) {
+                    // How it is has to be seen when it is its turn: somebody may have been there before.
+                    self.aim(format!("look_at_{what}"), fact("at", &["robot", &what]), Lasts::Once);
+                    self.aim(format!("look_at_{what}"), fact("visible", &[&what]), Lasts::Once);
+                }
+                let is_open = fact("open", &[&what]);
+                let only_if = if act == Act::Open { not(is_open) } else { is_open };
+                self.places.push(what.clone());
+                self.said.spoken_of.push(what);
+                self.aim(name, goal, lasts);
+                if let Some(aim) = self.said.aims.last_mut().filter(|_| command.has(ONLY_IF)) {
+                    aim.only_if = Some(only_if);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// `put it in the fridge and close the door`: that of what was spoken of last.
+    fn own_door(&self, item: &Noun) -> Option<SmolStr> {
+        let Noun::Phrase(phrase) = item else { return None };
+        let [part] = phrase.words.as_slice() else { return None };
+        let last = self.places.last().filter(|_| matches!(part.as_str(), "door" | "lid"))?;
+        let has_door = self.situation.scene.entities.get(last).is_some_and(|entity| entity.open.is_some());
+        has_door.then(|| last.clone())
+    }
+
+    /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
+    fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
+        let Some(item) = command.items.first() else { return Err(self.ask(question(Act::Find), OBJECTS)) };
+        let from = match (&command.to, &command.from) {
+            (Some(to), _) => Some(vec![self.holder(to)?]),
+            (None, Some(from)) => Some(self.things(from, HOLDERS, None)?),
+            (None, None) => None,
+        };
+        let found = self.things(item, OBJECTS, from.as_deref())?;
+        for thing in found {
+            if later.is_empty() {
+                self.look_at(&thing);
+            }
+            self.said.spoken_of.push(thing);
+        }
+        Ok(())
+    }
+
+    /// A thing is looked for where it is taken to be, until it is seen.
+    pub(super) fn look_at(&mut self, thing: &SmolStr) {
+        self.go_and_look(thing);
+        self.aim(format!("find_{thing}"), fact("visible", &[thing]), Lasts::Once);
+    }
+
+    /// To find a thing is to go to where it is taken to be, and to open what it is shut in.
+    fn go_and_look(&mut self, thing: &SmolStr) {
+        let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.clone());
+        let Some(place) = support.and_then(|support| self.vocabulary.thing(&support)) else { return };
+        let (place, role) = (place.id.clone(), place.role);
+        let name = format!("find_{thing}");
+        if matches!(role, Role::Surface | Role::Container) {
+            self.aim(name.clone(), fact("at", &["robot", &place]), Lasts::Once);
+        }
+        let has_door = self.situation.scene.entities.get(&place).is_some_and(|entity| entity.open.is_some());
+        if role == Role::Container && has_door {
+            self.aim(name, fact("open", &[&place]), Lasts::Once);
+        }
+    }
+
+    fn release(&mut self, command: &Command) -> Result<(), RequestError> {
+        // `open it and drop the coke in`
+        if command.to.is_some() || command.to_whom.is_some() || (command.has("in") && !self.places.is_empty())
+        {
+            return self.carry(command, Act::Put, &[]);
+        }
+        let items = match command.items.first() {
+            Some(item) => self.things(item, OBJECTS, None)?,
+            None => match &self.situation.holding {
+                Some(held) => vec![held.clone()],
+                None => return Err(self.ask("What shall I put down?", OBJECTS)),
+            },
+        };
+        for item in items {
+            self.aim(format!("put_down_{item}"), not(fact("holding", &[&item])), Lasts::ToTheEnd);
+        }
+        Ok(())
+    }
+}
+
+impl Command {
+    /// The verb with its small words.
+    pub(super) fn act(&self) -> Act {
+        match self.act {
+            // `keep it in your hand`
+            Act::Put | Act::Fetch if self.has("hand") && self.to.is_none() && self.to_whom.is_none() => {
+                Act::Pick
+            }
+            // `lift it onto the table`
+            Act::Pick | Act::Lift
+                if self.to.as_ref().is_some_and(|to| {
+                    matches!(
+                        to.preposition,
+                        "onto" | "into" | "up onto" | "over onto" | "back onto" | "over into" | "back into"
+                    )
+                }) =>
+            {
+                Act::Put
+            }
+            // `stand the bottle on the table`
+            Act::Go if !self.items.is_empty() && self.to.is_some() => Act::Put,
+            Act::Put if self.has("away") || (self.has("back") && self.to.is_none()) => Act::Stow,
+            Act::Put if self.has("down") && self.to.is_none() => Act::Release,
+            // `shut it away in the drawer`
+            Act::Close if self.has("away") => Act::Store,
+            Act::Take if self.has("out") && self.from.is_none() && self.to.is_none() => Act::Pick,
+            // `grab me a drink`, `take the mug to me`
+            Act::Take if self.to_whom.is_some() && self.to.as_ref().is_none_or(|to| !to.moves()) => {
+                Act::Fetch
+            }
+            Act::Take if self.to.is_none() => Act::Pick,
+            Act::Move if self.items.is_empty() => Act::Go,
+            Act::Move => Act::Put,
+            Act::Throw if self.has("away") || self.has("out") => Act::Discard,
+            Act::Throw if self.to.is_none() && self.to_whom.is_none() => Act::Discard,
+            act => act,
+        }
+    }
+}
+
+/// Whether something has to stay in the hand: not where it is put somewhere later.
+pub(super) fn hold_on(later: &[Command]) -> Lasts {
+    let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
+    if later.iter().all(goes) { Lasts::ToTheEnd } else { Lasts::Once }
+}
+
+pub(super) fn question(act: Act) -> &'static str {
+    match act {
+        Act::Discard | Act::Throw => "What shall I throw away?",
+        Act::Put | Act::Stow | Act::Store => "What shall I put there?",
+        Act::Fetch => "What shall I bring?",
+        Act::Find => "What shall I look for?",
+        Act::Go
+        | Act::Come
+        | Act::Pick
+        | Act::Lift
+        | Act::Take
+        | Act::Release
+        | Act::Open
+        | Act::Close
+        | Act::Move => "What do you mean?",
+    }
+}
+
+fn not(condition: Expr) -> Expr {
+    Expr { kind: ExprKind::Not(Box::new(condition)), span: Span::default() }
+}
+
+pub(super) fn any_of(mut parts: Vec<Expr>) -> Expr {
+    if parts.len() == 1 {
+        parts.remove(0)
+    } else {
+        Expr { kind: ExprKind::AnyOf(parts), span: Span::default() }
+    }
+}
+
+pub(super) fn all_of(parts: Vec<Expr>) -> Expr {
+    Expr { kind: ExprKind::All(parts), span: Span::default() }
+}

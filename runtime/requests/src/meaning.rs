@@ -1,0 +1,195 @@
+//! What a request as a whole means: what is said beside it first, then its commands in order.
+
+use motet_compiler::plan::{Goal, Lasts};
+use motet_syntax::ast::Expr;
+use smol_str::SmolStr;
+
+use super::command::Command;
+use super::noun::{Noun, Phrase};
+use super::spoken::Spoken;
+use super::token::Token;
+use super::verb::Act;
+use super::vocabulary::{Role, Vocabulary};
+use super::{ReportedLocation, RequestContext, RequestError};
+use crate::Aim;
+
+/// What can be carried.
+pub(super) const OBJECTS: &[Role] = &[Role::Object];
+/// What one can go to.
+pub(super) const ANYWHERE: &[Role] = &[Role::Surface, Role::Container, Role::Place, Role::Person];
+/// What things can be put on, in or with.
+pub(super) const HOLDERS: &[Role] =
+    &[Role::Surface, Role::Container, Role::Person, Role::Place, Role::Object];
+
+/// What a request means.
+#[derive(Clone, Debug, Default)]
+pub struct Intent {
+    /// What shall come about, in order.
+    pub aims: Vec<Aim>,
+    /// Where things were said to be.
+    pub located: Vec<ReportedLocation>,
+    /// What was read differently from how it was written.
+    pub notes: Vec<String>,
+    /// What was spoken of, the latest last.
+    pub spoken_of: Vec<SmolStr>,
+}
+
+/// Understands what was spoken.
+pub(super) fn understood(
+    spoken: &Spoken,
+    request: &str,
+    situation: &RequestContext<'_>,
+) -> Result<Intent, RequestError> {
+    let mut reader = Reader::new(situation);
+    for statement in &spoken.statements {
+        reader.state(statement);
+    }
+    if spoken.commands.is_empty() && reader.said.located.is_empty() {
+        return Err(match reader.wished(spoken) {
+            Some(question) => RequestError::AmbiguousTask { question, options: Vec::new() },
+            None => RequestError::NotUnderstood { part: request.trim().to_owned() },
+        });
+    }
+    let mut commands = spoken.commands.clone();
+    // `lift and hold the can`: the first verb shares what the next is about.
+    for index in (0..commands.len().saturating_sub(1)).rev() {
+        let next = commands.get(index + 1).map(|next| next.items.clone()).unwrap_or_default();
+        if let Some(command) = commands.get_mut(index)
+            && command.needs_items()
+        {
+            command.items = next;
+        }
+    }
+    // `I want the can, give`
+    if let [.., before, last] = commands.as_mut_slice()
+        && last.act == Act::Fetch
+        && last.needs_items()
+        && !before.items.is_empty()
+    {
+        last.items.push(Noun::Before("it"));
+    }
+    for command in &mut commands {
+        reader.dative(command);
+    }
+    for index in 1..commands.len() {
+        let takes_it = commands.get(index).is_some_and(Command::takes_it);
+        // `get the mug, go to the table and put it there`
+        let goes = |command: &&Command| matches!(command.act(), Act::Go | Act::Open);
+        let between = commands.get(..index).unwrap_or_default().iter().rev().take_while(goes).count();
+        let first = (index - 1).checked_sub(between);
+        if let Some(first) = first.and_then(|at| commands.get_mut(at)).filter(|_| takes_it) {
+            first.only_takes();
+        }
+    }
+    for (index, command) in commands.iter().enumerate() {
+        let later = commands.get(index + 1..).unwrap_or_default();
+        reader.command(command, later)?;
+    }
+    reader.settle()?;
+    reader.join();
+    Ok(reader.said)
+}
+
+/// Where somebody says that things are, in words that would otherwise ask for something.
+pub(super) fn told(tokens: &[Token], situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
+    Reader::new(situation).told(tokens)
+}
+
+impl Command {
+    /// Whether it says what becomes of a thing that was spoken of just before.
+    fn takes_it(&self) -> bool {
+        let carries = matches!(
+            self.act(),
+            Act::Fetch
+                | Act::Put
+                | Act::Take
+                | Act::Stow
+                | Act::Store
+                | Act::Discard
+                | Act::Throw
+                | Act::Release
+                | Act::Pick
+                | Act::Lift
+        );
+        carries && matches!(self.items.as_slice(), [Noun::Before(_)])
+    }
+
+    /// `get the mug and leave it on the table`: getting it is taking it, where nobody is named who gets it.
+    fn only_takes(&mut self) {
+        // `get it out of my sight, put it in the drawer`
+        if matches!(self.act(), Act::Fetch | Act::Take | Act::Stow | Act::Put | Act::Store)
+            && self.to.is_none()
+            && self.to_whom.is_none()
+        {
+            self.act = Act::Pick;
+        }
+    }
+
+    /// Whether it says nothing of what it is about, though its verb asks for it.
+    fn needs_items(&self) -> bool {
+        self.items.is_empty() && matches!(self.act, Act::Pick | Act::Lift | Act::Take | Act::Fetch)
+    }
+}
+
+/// What becomes of a request while it is read.
+pub(super) struct Reader<'a> {
+    pub(super) vocabulary: Vocabulary,
+    pub(super) situation: &'a RequestContext<'a>,
+    pub(super) said: Intent,
+    /// `I left something on the table`
+    pub(super) left: Option<Phrase>,
+    /// `I like fruits`
+    pub(super) liked: Vec<Vec<String>>,
+    /// Places that were spoken of.
+    pub(super) places: Vec<SmolStr>,
+    /// Where things are kept, as somebody says.
+    pub(super) usual: Vec<(SmolStr, SmolStr)>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(situation: &'a RequestContext<'a>) -> Self {
+        Self {
+            vocabulary: Vocabulary::new(situation.scene, &situation.supports),
+            situation,
+            said: Intent { spoken_of: situation.spoken_of.clone(), ..Intent::default() },
+            left: None,
+            liked: Vec::new(),
+            places: Vec::new(),
+            usual: Vec::new(),
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// `hand the guest the magazine`: the first of two nouns is who gets it.
+    fn dative(&self, command: &mut Command) {
+        if matches!(command.act(), Act::Fetch | Act::Throw | Act::Discard)
+            && command.to_whom.is_none()
+            && command.items.len() > 1
+            && command.items.first().is_some_and(|first| self.is_person(first))
+        {
+            command.to_whom = Some(command.items.remove(0));
+        }
+    }
+    pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Lasts) {
+        let name =
+            name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
+        let is_known =
+            self.said.aims.iter().any(|aim| aim.goal.lasts == lasts && same(&aim.goal.condition, &condition));
+        if is_known {
+            return;
+        }
+        self.said.aims.push(Aim { goal: Goal { condition, lasts }, name, only_if: None });
+    }
+
+    pub(super) fn ask(&self, question: &str, roles: &[Role]) -> RequestError {
+        let options = self.vocabulary.things.iter().filter(|thing| roles.contains(&thing.role));
+        let options = options.map(|thing| thing.id.clone()).collect();
+        RequestError::AmbiguousTask { question: question.to_owned(), options }
+    }
+}
+
+/// Whether two conditions read the same: `the coke belongs in the fridge, please put it there` asks once.
+fn same(one: &Expr, other: &Expr) -> bool {
+    motet_syntax::print::expression(one) == motet_syntax::print::expression(other)
+}
