@@ -1,6 +1,6 @@
 //! A document in one form or the other. What one form leaves to its types is settled first, so that the other can say it.
 
-use motet_compiler::{Library, settle};
+use motet_compiler::{Library, make_explicit};
 use motet_syntax::ast::{Item, Policy};
 use motet_syntax::{Form, Parsed, print};
 
@@ -24,7 +24,7 @@ pub(crate) fn write(
     }
     for item in &mut file.items {
         if let Item::Policy(policy) = item {
-            settle(policy, library, form);
+            make_explicit(policy, library, form);
         }
     }
     match form {

@@ -9,7 +9,7 @@ mod state;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use motet_compiler::{Geometry, Options, Session, State};
+use motet_compiler::{CheckOptions, Geometry, InitialState, Session};
 use motet_geometry::query::Budget;
 use motet_robots::card::Robot;
 use motet_robots::scene::{self, Scene};
@@ -35,8 +35,8 @@ pub(crate) struct Workbench {
     scene: Option<Scene>,
     /// The scene as it was read.
     scene_text: Option<String>,
-    state: Option<State>,
-    options: Options,
+    state: Option<InitialState>,
+    options: CheckOptions,
     /// How long motions are looked for; not at all where there is none.
     effort: Option<Budget>,
     /// An empty place for the document, then the files that were given.
@@ -100,7 +100,7 @@ impl Workbench {
             Some(path) => Some(state::read(path, &mut sources, report)?),
             None => None,
         };
-        let options = Options { max_duration_secs: args.max_duration };
+        let options = CheckOptions { max_duration_secs: args.max_duration };
         let effort = (!args.no_geometry).then(|| Budget::default().times(args.effort.into()));
         let settings = BTreeMap::new();
         Ok(Self { robot, domains, scene, scene_text, state, options, effort, sources, settings })
@@ -152,8 +152,14 @@ impl Workbench {
         };
         let (card, robot) = robot.unzip();
         let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
-        let (mut session, said) =
-            Session::new(robot.as_ref(), &self.domains, scene, state, self.options, &mut sources);
+        let mut session = Session::builder()
+            .robot(robot.as_ref())
+            .domains(&self.domains)
+            .scene(scene)
+            .state(state)
+            .options(self.options)
+            .build(&mut sources);
+        let said = session.input_diagnostics().to_vec();
         report.usable("robot, scene, state or domain", &said, &sources)?;
         let mut geometry = None;
         if let (Some(budget), Some(card), Some(robot), Some(scene)) = (self.effort, &card, &robot, scene)

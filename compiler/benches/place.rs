@@ -15,7 +15,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use motet_compiler::{Geometry, Options, Session};
+use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_geometry::query::Budget;
 use motet_graph::{NodeKind, Verdict};
 use motet_robots::card::{self, Robot};
@@ -25,8 +25,8 @@ use motet_syntax::{FileId, Parsed, Source, Sources};
 
 fn session(robot: &Robot, urdf: &Urdf, scene: &Scene) -> Session {
     let mut sources = Sources::default();
-    let options = Options::default();
-    let (session, _) = Session::new(Some(robot), &[], Some(scene), None, options, &mut sources);
+    let options = CheckOptions::default();
+    let session = Session::builder().robot(robot).scene(scene).options(options).build(&mut sources);
     session.with_geometry(Arc::new(Geometry::new(robot, urdf, scene, None, Budget::default())))
 }
 

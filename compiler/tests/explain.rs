@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use motet_compiler::{Geometry, Options, Session, State, codes};
+use motet_compiler::{CheckOptions, Geometry, InitialState, Session, codes};
 use motet_robots::{card, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
@@ -97,8 +97,8 @@ struct Case {
     card: Option<(Source, FileId)>,
     urdf: Option<urdf::Urdf>,
     scene: Option<scene::Scene>,
-    state: Option<State>,
-    options: Options,
+    state: Option<InitialState>,
+    options: CheckOptions,
     /// Files of meshes, by name.
     meshes: Vec<(String, Vec<u8>)>,
     has_srdf: bool,
@@ -174,8 +174,9 @@ impl Case {
                 json::read::<indexmap::IndexMap<Spanned<String>, Option<bool>>>(&source, file);
             self.said.extend(said);
             let facts = facts.unwrap_or_default().into_iter();
-            self.state =
-                Some(State { facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() });
+            self.state = Some(InitialState {
+                facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+            });
         }
     }
 
@@ -253,7 +254,14 @@ impl Case {
             self.said.extend(card::missing(source, *file, card::ModelFile::Package(0)));
         }
         let (robot, scene, state) = (self.robot.as_ref(), self.scene.as_ref(), self.state.as_ref());
-        let (session, said) = Session::new(robot, &domains, scene, state, self.options, &mut self.sources);
+        let session = Session::builder()
+            .robot(robot)
+            .domains(&domains)
+            .scene(scene)
+            .state(state)
+            .options(self.options)
+            .build(&mut self.sources);
+        let said = session.input_diagnostics().to_vec();
         self.said.extend(said);
         let body = robot.and_then(|robot| card::embedded_urdf(&robot.name));
         let session = match (robot, body, scene) {
@@ -275,7 +283,7 @@ impl Case {
 }
 
 /// What is wrong with a page.
-fn faults(page: &codes::Page) -> Vec<String> {
+fn faults(page: &codes::CodePage) -> Vec<String> {
     let mut faults = Vec::new();
     if !page.text.starts_with(&format!("# {}: ", page.code)) {
         faults.push("does not begin with its code and title".to_owned());

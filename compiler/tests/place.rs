@@ -13,7 +13,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use motet_compiler::{Geometry, Options, Session};
+use motet_compiler::{Geometry, Session};
 use motet_geometry::query::Budget;
 use motet_graph::{CallNode, Graph, NodeKind, Verdict};
 use motet_robots::card::{self, Robot};
@@ -36,8 +36,8 @@ fn kitchen() -> Scene {
 fn session(scene: &Scene) -> Session {
     let (robot, urdf) = robot("hsr");
     let mut sources = Sources::default();
-    let (session, said) =
-        Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut sources);
+    let session = Session::builder().robot(&robot).scene(scene).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     let geometry = Geometry::new(&robot, &urdf, scene, None, Budget::default());
     session.with_geometry(Arc::new(geometry))
@@ -135,8 +135,7 @@ fn what_only_the_run_can_tell_is_left_to_it() {
 fn without_geometry_every_motion_is_deferred() {
     let (robot, _) = robot("hsr");
     let scene = kitchen();
-    let (session, _) =
-        Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut Sources::default());
+    let session = Session::builder().robot(&robot).scene(&scene).build(&mut Sources::default());
     let found = motions(&session, "policy come for hsr { go(sink) }");
     assert_eq!(found, [("go_to".to_owned(), Verdict::Deferred, String::new())]);
 }

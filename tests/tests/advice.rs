@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{Severity, Source, Sources, render};
 use motet_tests::setup;
 
@@ -107,7 +107,7 @@ fn a_binding_hides_no_entity() {
 
 #[test]
 fn an_unknown_robot_is_an_error() {
-    let (session, _) = Session::new(None, &[], None, None, Options::default(), &mut Sources::default());
+    let session = Session::builder().build(&mut Sources::default());
     let said = |text: &str| {
         let parsed = motet_syntax::read(&Source::new("p", text), Default::default());
         let said = session.check(&parsed);
@@ -127,8 +127,8 @@ fn a_domain_is_checked_beside_a_robot() {
     let file = sources.add(source.clone());
     let parsed = motet_syntax::read(&source, file);
     let robot = setup::robot("hsr");
-    let (session, said) =
-        Session::new(Some(&robot), &[parsed.file], None, None, Options::default(), &mut sources);
+    let session = Session::builder().robot(&robot).domains(&[parsed.file]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     let codes = |said: &[motet_syntax::Diagnostic]| said.iter().map(|said| said.code.0).collect::<Vec<_>>();
     assert_eq!(codes(&said), ["M0215"]);
     let policy =

@@ -1,7 +1,7 @@
 //! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::conversation::{
     Builtin, Conversation, Kind, Nobody, Outcome, Person, Problem, Setting, Watcher,
 };

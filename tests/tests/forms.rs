@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_compiler::{Session, settle};
+use motet_compiler::{Session, make_explicit};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Form, Source, Sources, print};
 use motet_tests::examples::{examples, read};
@@ -26,7 +26,7 @@ fn turned(session: &Session, text: &str, form: Form) -> String {
     let File { mut items } = motet_syntax::read(&source, id).file;
     for item in &mut items {
         if let Item::Policy(policy) = item {
-            settle(policy, session.library(), form);
+            make_explicit(policy, session.library(), form);
         }
     }
     let file = File { items };

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a test fails by panicking")]
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_graph::{NodeKind, Verdict};
 use motet_syntax::{Severity, Source, Sources};
 use motet_tests::oracle::{self, Dice, Domain, Policy, Step};
@@ -33,8 +33,8 @@ impl Lab {
         let id = sources.add(source.clone());
         let parsed = motet_syntax::read(&source, id);
         assert!(parsed.diagnostics.is_empty(), "{:?}\n{}", parsed.diagnostics, source.text);
-        let (session, said) =
-            Session::new(None, &[parsed.file], None, None, Options::default(), &mut sources);
+        let session = Session::builder().domains(&[parsed.file]).build(&mut sources);
+        let said = session.input_diagnostics().to_vec();
         assert!(said.is_empty(), "{said:?}\n{}", source.text);
         Self { domain, session, sources }
     }

@@ -11,7 +11,7 @@ mod speaker;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use motet_compiler::Options;
+use motet_compiler::CheckOptions;
 use motet_planner::conversation::{Conversation, Outcome, Planner, Setting};
 use motet_runtime::{Driver, Time};
 use motet_sim::Sim;
@@ -62,7 +62,7 @@ fn act(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Exit, Troub
         scene,
         domains,
         geometry,
-        options: Options { max_duration_secs: args.world.max_duration },
+        options: CheckOptions { max_duration_secs: args.world.max_duration },
     };
     let mut planner = model::planner(args, colors, recorder.clone())?;
     run::catch_interrupts()?;

@@ -125,13 +125,13 @@ impl Tally {
         // A document that is one policy is checked by compiling it, which also tells of its motions.
         let said = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
             let compiled = setting.session.compile(&parsed, None);
-            self.unseen += compiled.unseen;
+            self.unseen += compiled.skipped_motions;
             self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
             compiled.diagnostics
         } else {
             for policy in runnable {
                 let compiled = setting.session.compile(&parsed, Some(&policy.name.text));
-                self.unseen += compiled.unseen;
+                self.unseen += compiled.skipped_motions;
                 self.motions += compiled.graph.as_ref().map_or(0, crate::graph::deferred_motions);
             }
             setting.session.check(&parsed)

@@ -3,7 +3,7 @@
 mod drawing;
 mod wire;
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_geometry::query::{Answer, Budget, Machine, Query, Reason, Room, Unknown, World};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, FileId, Source, Sources, Span, suggest};
@@ -41,8 +41,8 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, Trouble> {
     report.usable("scene", &scene::fit(&scene, &urdf), &sources)?;
     let machine = Machine::new(&robot, &urdf);
     let queries = if args.all { all(&machine, &scene) } else { asked(&args.motions, &machine, &scene)? };
-    let (session, said) =
-        Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources);
+    let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     report.usable("robot or scene", &said, &sources)?;
     let said: Vec<Diagnostic> =
         args.motions.iter().flat_map(|motion| kinds(motion, &session, &mut sources)).collect();

@@ -78,7 +78,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let scene = setting.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
     let verifies = args.simulated.speed.verifies();
-    let guard = setting.session.course().map(|course| Guard::new(course, verifies));
+    let guard = setting.session.world_tracker().map(|course| Guard::new(course, verifies));
     let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
     let journal = match &args.record {
         Some(folder) => {
@@ -172,7 +172,7 @@ pub(super) fn simulator(
 ) -> Result<Sim, Trouble> {
     let faults = match &args.faults {
         Some(path) => {
-            let (there, _) = session.elsewhere(Some(scene), None);
+            let there = session.with_scene(Some(scene), None);
             world::fitting_faults(path, &there.signatures(), report)?
         }
         None => Faults::default(),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use indexmap::IndexMap;
-use motet_compiler::State;
+use motet_compiler::InitialState;
 use motet_syntax::Sources;
 use motet_syntax::json::{self, Spanned};
 
@@ -13,7 +13,7 @@ use crate::input::read_small;
 use crate::report::Report;
 
 /// Reads a state from a file, or from the argument itself where it is an object.
-pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> Result<State, Trouble> {
+pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> Result<InitialState, Trouble> {
     let written = path.to_str().filter(|text| text.trim_start().starts_with('{'));
     let (name, bytes) = match written {
         Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
@@ -24,5 +24,7 @@ pub(super) fn read(path: &Path, sources: &mut Sources, report: &mut Report) -> R
     said.extend(more);
     report.usable("state", &said, sources)?;
     let facts = facts.ok_or(Trouble::Diagnosed("state"))?;
-    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+    Ok(InitialState {
+        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+    })
 }

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, Settings};
-use motet_compiler::{Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_decode::export::{Dialect, Offer, request_constraint};
 use motet_decode::{Prepared as Acceptors, Surface};
 use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
@@ -117,7 +117,7 @@ impl Kept {
 
 fn session(setting: &Setting) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
-    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+    Session::builder().robot(robot).scene(scene).options(setting.options).build(&mut Sources::default())
 }
 
 /// Everything between a request and the new policy, with its times.
@@ -129,7 +129,7 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
         laps.push((name, now - from));
         from = Instant::now();
     };
-    let (session, _) = kept.session.elsewhere(Some(&setting.scene), Some(&State::default()));
+    let session = kept.session.with_scene(Some(&setting.scene), Some(&InitialState::default()));
     let session = session.with_geometry(Arc::clone(setting.geometry.as_ref().unwrap()));
     lap("session: scene and state");
     let situation = RequestContext::new(&setting.scene);

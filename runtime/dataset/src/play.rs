@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::conversation::{Conversation, Kind, Outcome, Person, Problem, Setting};
 use motet_runtime::Time;
 use motet_sim::{Options, Sim};

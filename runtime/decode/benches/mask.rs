@@ -18,7 +18,7 @@ mod common;
 use std::time::{Duration, Instant};
 
 use common::peer::Peer;
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
 use motet_syntax::{FileId, Form, Source, Sources};
 
@@ -195,7 +195,8 @@ fn many_entities(surface: Surface) {
     let source = Source::new("many.motet", domain.as_str());
     let id = sources.add(source.clone());
     let domain = motet_syntax::read(&source, id).file;
-    let (session, said) = Session::new(None, &[domain], None, None, Options::default(), &mut sources);
+    let session = Session::builder().domains(&[domain]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     let mut taken: Vec<Duration> = (0..21).map(|_| time(|| Prepared::new(&session, surface)).1).collect();
     taken.sort_unstable();

@@ -1,7 +1,7 @@
 //! What a policy is written for, given by names and texts: how hosts of another language open a session.
 
 use indexmap::IndexMap;
-use motet_compiler::{Options, Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::File;
@@ -62,14 +62,13 @@ impl World<'_> {
         let domain = self.domain.map(|text| domain(text, &mut sources)).transpose()?;
         let state = self.state.map(|text| state(text, &mut sources)).transpose()?;
         let domains: Vec<File> = domain.into_iter().collect();
-        let (session, said) = Session::new(
-            robot.as_ref(),
-            &domains,
-            scene.as_ref(),
-            state.as_ref(),
-            Options::default(),
-            &mut sources,
-        );
+        let session = Session::builder()
+            .robot(robot.as_ref())
+            .domains(&domains)
+            .scene(scene.as_ref())
+            .state(state.as_ref())
+            .build(&mut sources);
+        let said = session.input_diagnostics().to_vec();
         right("robot, scene, state or domain", Some(session), &said, &sources)
     }
 }
@@ -104,11 +103,13 @@ fn domain(text: &str, sources: &mut Sources) -> Result<File, WorldError> {
     right("domain", Some(parsed.file), &parsed.diagnostics, sources)
 }
 
-fn state(text: &str, sources: &mut Sources) -> Result<State, WorldError> {
+fn state(text: &str, sources: &mut Sources) -> Result<InitialState, WorldError> {
     let (source, file) = add("state.json", text, sources);
     let (facts, said) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     let facts = right("state", facts, &said, sources)?;
-    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+    Ok(InitialState {
+        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+    })
 }
 
 fn add(name: &str, text: &str, sources: &mut Sources) -> (Source, FileId) {

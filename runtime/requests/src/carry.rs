@@ -1,6 +1,6 @@
 //! Commands that take a thing into the hand, as goals: which thing, and where to.
 
-use motet_compiler::plan::{Lasts, fact};
+use motet_compiler::plan::{Persistence, fact};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
@@ -269,14 +269,14 @@ impl Reader<'_> {
                     Target::To(bin) => bin.clone(),
                     Target::Where(_) | Target::None => self.bin()?,
                 };
-                ("throw_away", any(&|id| self.put(id, &bin)), Lasts::ToTheEnd)
+                ("throw_away", any(&|id| self.put(id, &bin)), Persistence::ToTheEnd)
             }
-            (Act::Fetch, Target::To(to)) => ("bring", any(&|id| self.put(id, to)), Lasts::ToTheEnd),
+            (Act::Fetch, Target::To(to)) => ("bring", any(&|id| self.put(id, to)), Persistence::ToTheEnd),
             (Act::Fetch, Target::Where(_) | Target::None) => {
-                ("bring", any(&|id| self.put(id, &user)), Lasts::ToTheEnd)
+                ("bring", any(&|id| self.put(id, &user)), Persistence::ToTheEnd)
             }
             (Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw, Target::To(to)) => {
-                ("put", any(&|id| self.put(id, to)), Lasts::ToTheEnd)
+                ("put", any(&|id| self.put(id, to)), Persistence::ToTheEnd)
             }
             (Act::Put | Act::Stow | Act::Store, Target::Where(_) | Target::None) => {
                 let question = format!("Where shall I put the {}?", self.called(&name));

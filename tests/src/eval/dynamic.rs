@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::conversation::{Builtin, Conversation, Nobody, Outcome, Setting, Watcher};
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};
 use motet_sim::{Faults, Options, Sim};

@@ -1,6 +1,6 @@
 //! `motet robots check`: whether a card, its declarations and its URDF are sound and fit each other, and what they come to.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_geometry::kinematics::Chain;
 use motet_geometry::query::{Allowed, Machine, Room, Solver, Touch, World};
 use motet_robots::card::Robot;
@@ -23,7 +23,7 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, Trouble> {
     let mut sources = Sources::default();
     let found = card.read(&mut sources, report).and_then(|robot| {
         // Both are looked at, so that all there is to mend is told at once.
-        let (_, said) = Session::new(Some(&robot), &[], None, None, Options::default(), &mut sources);
+        let said = Session::builder().robot(&robot).build(&mut sources).input_diagnostics().to_vec();
         let declared = report.usable("robot card", &said, &sources);
         let urdf = card.body(&robot, &mut sources, report)?;
         declared.map(|()| (robot, urdf))

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use motet_compiler::Course;
+use motet_compiler::WorldTracker;
 use motet_syntax::ast::File;
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ impl SavedGuard {
 
     /// The world at the beginning of the run, for somebody who checks motions in it; none, with a word, where the files have gone or say
     /// something else now.
-    pub(super) fn make(&self, colors: Colors) -> Option<Course> {
+    pub(super) fn make(&self, colors: Colors) -> Option<WorldTracker> {
         match self.read(colors) {
             Ok(Some(course)) => Some(course),
             Ok(None) => {
@@ -57,7 +57,7 @@ impl SavedGuard {
         }
     }
 
-    fn read(&self, colors: Colors) -> Result<Option<Course>, Trouble> {
+    fn read(&self, colors: Colors) -> Result<Option<WorldTracker>, Trouble> {
         let known = KnownArgs {
             robot: Some(self.robot.clone()),
             scene: Some(self.scene.clone()),
@@ -69,6 +69,6 @@ impl SavedGuard {
         let mut bench = Workbench::open(&args, &mut report)?;
         let setting = bench.setting(&File::default(), &mut report)?;
         let same = setting.scene_text == self.scene_text;
-        Ok(setting.session.course().filter(|_| same))
+        Ok(setting.session.world_tracker().filter(|_| same))
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use motet_client::{Address, Client, Settings};
-use motet_compiler::{Geometry, Options as CheckOptions, Session};
+use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_decode::{Surface, canonical};
 use motet_geometry::query::Budget;
 use motet_planner::builtin;
@@ -37,7 +37,7 @@ pub(crate) fn setting() -> Setting {
 
 pub(crate) fn session(setting: &Setting) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
-    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+    Session::builder().robot(robot).scene(scene).options(setting.options).build(&mut Sources::default())
 }
 
 /// The robot's body in the scene of a setting.

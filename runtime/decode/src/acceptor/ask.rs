@@ -2,7 +2,7 @@
 //! is asked of calls, the other is asked whether steps that are closed for the time being are errors.
 
 use motet_compiler::Session;
-use motet_compiler::draft::{Draft, Test, Value};
+use motet_compiler::incremental::{Argument, IncrementalChecker, LoopTest};
 use motet_compiler::signature::Type;
 
 use super::arena::{Event, Id, mix};
@@ -72,7 +72,7 @@ impl Walk {
     }
 
     /// The draft where the next step will stand, behind `event`.
-    fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session)> {
+    fn place(&mut self, event: Id) -> Option<(&mut IncrementalChecker, &Session)> {
         let before = self.arenas.said(event).map_or(0, |said| said.before);
         let told = Told { machine: &self.machine, arenas: &self.arenas, bytes: &self.bytes };
         let hash = told.arenas.hash(event);
@@ -93,21 +93,22 @@ impl Walk {
     }
 
     /// What a test with this fluent and these arguments tells at the end of a loop's body, which is behind `event`.
-    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> Test {
+    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> LoopTest {
         let values = args.iter().map(|event| match meaning(&self.machine.program, *event) {
             Some(Meaning::Any) => Some(None),
             Some(meaning) => Some(Some(meaning.value())),
             None => None,
         });
         // A name may be one of several entities.
-        let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
+        let Some(values) = values.collect::<Option<Vec<_>>>() else { return LoopTest::Open };
         let machine = std::sync::Arc::clone(&self.machine);
         let Some(name) =
             machine.program.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name)
         else {
-            return Test::Open;
+            return LoopTest::Open;
         };
-        self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
+        self.place(event)
+            .map_or(LoopTest::Open, |(draft, session)| draft.test(session, name, &values, negated))
     }
 
     /// Whether the loop whose body ends behind `event` may come round, as far as its own steps tell. Its test is a fluent, whether
@@ -197,11 +198,11 @@ impl Walk {
     }
 
     /// The arguments of a call, as many as are given, where nothing refutes it at its place.
-    fn permitted(&mut self, callable: u16, given: &[Given], spot: Spot) -> Option<Vec<Option<Value>>> {
+    fn permitted(&mut self, callable: u16, given: &[Given], spot: Spot) -> Option<Vec<Option<Argument>>> {
         let machine = std::sync::Arc::clone(&self.machine);
         let made = machine.program.callables.get(usize::from(callable))?;
         let signature = machine.program.signatures.callables.get(usize::from(callable))?;
-        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
+        let mut args: Vec<Option<Argument>> = Vec::with_capacity(signature.params.len());
         for given in given {
             args.push(Some(self.value_of(*given, spot)?));
         }
@@ -307,9 +308,9 @@ impl Walk {
     }
 
     /// A value that is tried, as the checker knows it.
-    fn value_of(&mut self, given: Given, spot: Spot) -> Option<Value> {
+    fn value_of(&mut self, given: Given, spot: Spot) -> Option<Argument> {
         let event = match given {
-            Given::List(_) => return Some(Value::unknown()),
+            Given::List(_) => return Some(Argument::unknown()),
             Given::One(event) => event,
         };
         let text = |start: u32, len: u32| {
@@ -324,10 +325,10 @@ impl Walk {
                 let (draft, _) = self.place(spot.event)?;
                 draft.binding(&name)?
             }
-            Event::Text(start, len) => Value::text(text(start, len)?),
-            Event::Plain(_) | Event::Number(..) | Event::AnyText => Value::unknown(),
+            Event::Text(start, len) => Argument::text(text(start, len)?),
+            Event::Plain(_) | Event::Number(..) | Event::AnyText => Argument::unknown(),
             Event::Open(_) | Event::Close | Event::Name(..) | Event::Joined(_) | Event::Hole => {
-                Value::unknown()
+                Argument::unknown()
             }
         })
     }

@@ -1,7 +1,7 @@
 //! From what was said to the policy that it is: the abstract syntax of a step that need not be whole. What is open is
 //! closed in the way that refutes least: every block that is open ends with a `fail`, so that no way leads out of it.
 
-use motet_compiler::draft::{CHOICE, HOLE};
+use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
@@ -46,7 +46,9 @@ impl Builder<'_> {
     /// The first step of the events; none where there is none.
     pub(crate) fn step(&mut self) -> Option<Step> {
         let kind = match self.next()? {
-            Event::Hole if self.choice.is_empty() => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Hole if self.choice.is_empty() => {
+                return Some(Step { kind: fail().kind, span: PROGRAM_POINT });
+            }
             Event::Hole => {
                 let body = Block { steps: self.choice.to_vec(), span: Span::default() };
                 let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };

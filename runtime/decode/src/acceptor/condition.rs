@@ -1,7 +1,7 @@
 //! Conditions that have to refute nothing: the test of a loop whose back edge is wrong without one, and what is waited for
 //! beside something that runs at once.
 
-use motet_compiler::draft::Test;
+use motet_compiler::incremental::LoopTest;
 
 use super::arena::{Event, Flags, Id, State, mix};
 use super::ask::meaning;
@@ -96,10 +96,10 @@ impl Walk {
             return self.verify_beside(event, more);
         };
         match self.test(body, fluent, negated, &args) {
-            Test::Holds if self.is_apart(event, more) => true,
+            LoopTest::Holds if self.is_apart(event, more) => true,
             // The body was no error without a test, so it was the back edge.
-            Test::Idle if !self.may_come_round(body) => false,
-            Test::Holds | Test::Idle | Test::Open => {
+            LoopTest::Idle if !self.may_come_round(body) => false,
+            LoopTest::Holds | LoopTest::Idle | LoopTest::Open => {
                 let round = self.permits_round(body, Some((fluent, negated, &args)));
                 round.is_some_and(|facts| self.is_right_beside((body, facts), event, more))
             }

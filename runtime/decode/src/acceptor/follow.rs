@@ -1,6 +1,6 @@
 //! Drafts that follow a walk: from what was said to the steps of a policy that the checker has proved.
 
-use motet_compiler::draft::Draft;
+use motet_compiler::incremental::IncrementalChecker;
 use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Form, Span};
 
@@ -11,7 +11,7 @@ use super::walk::Machine;
 /// A draft that follows a walk.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Follower {
-    pub(super) draft: Option<Draft>,
+    pub(super) draft: Option<IncrementalChecker>,
     /// The hash of what was said up to the end of what stands before the steps.
     head: u64,
     /// The same of each step.
@@ -66,7 +66,7 @@ impl Told<'_> {
 
 impl Follower {
     /// Follows the walk to the end of the last whole step of the body before `last`, which is the event that ended it.
-    pub(super) fn follow(&mut self, told: &Told<'_>, last: Id) -> Option<&mut Draft> {
+    pub(super) fn follow(&mut self, told: &Told<'_>, last: Id) -> Option<&mut IncrementalChecker> {
         let hash = told.arenas.hash(last);
         let latest = self.steps.last().copied().unwrap_or(self.head);
         if self.draft.is_some() && latest == hash {
@@ -86,7 +86,7 @@ impl Follower {
         ends.reverse();
         let (head, steps) = ends.split_first()?;
         if self.draft.is_none() || self.head != told.arenas.hash(*head) {
-            let (draft, _) = Draft::new(session, &told.head(*head), Form::Json);
+            let (draft, _) = IncrementalChecker::new(session, &told.head(*head), Form::Json);
             self.draft = Some(draft);
             self.head = told.arenas.hash(*head);
             self.steps.clear();

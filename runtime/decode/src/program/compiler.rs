@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_compiler::signature::{Signatures, Type};
-use motet_compiler::{Session, draft::Draft};
+use motet_compiler::{Session, incremental::IncrementalChecker};
 use motet_syntax::Form;
 use motet_syntax::print::identifier;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -49,7 +49,7 @@ impl<'a> Compiler<'a> {
         let Self { asm, types, callables, fluents, measures, surface, session, .. } = self;
         let rest = asm.rests();
         let signatures = session.signatures();
-        let bits = signatures.fluents.iter().map(|fluent| Draft::fluent(session, &fluent.name));
+        let bits = signatures.fluents.iter().map(|fluent| IncrementalChecker::fluent(session, &fluent.name));
         let fluent_bits = bits.collect();
         let taken = taken(&signatures, surface);
         let ops = asm.ops;

@@ -1,6 +1,6 @@
 //! Words: names of the library and of the world with what they mean, in the order of their bytes.
 
-use motet_compiler::draft::Value;
+use motet_compiler::incremental::Argument;
 use motet_compiler::signature::Signatures;
 use smol_str::SmolStr;
 
@@ -51,11 +51,11 @@ impl Meaning {
     }
 
     /// As an argument; none of what is no value.
-    pub(crate) fn value(self) -> Value {
+    pub(crate) fn value(self) -> Argument {
         match self {
-            Self::Entity(index) => Value::entity(index),
-            Self::Case(of, case) => Value::case(of, case),
-            Self::Any | Self::Named(_) => Value::unknown(),
+            Self::Entity(index) => Argument::entity(index),
+            Self::Case(of, case) => Argument::case(of, case),
+            Self::Any | Self::Named(_) => Argument::unknown(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The HSR in the kitchen, with and without walls about its table.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
-use motet_compiler::{Geometry, Options, Session};
+use motet_compiler::{Geometry, Session};
 use motet_geometry::query::Budget;
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Placement, Scene, Shape};
@@ -36,8 +36,8 @@ pub(crate) fn walled() -> Scene {
 pub(crate) fn session(scene: &Scene) -> Session {
     let robot = hsr();
     let urdf = urdf::read(&Source::new("hsr", card::embedded_urdf("hsr").unwrap()), FileId(0)).0.unwrap();
-    let (session, said) =
-        Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut Sources::default());
+    let session = Session::builder().robot(&robot).scene(scene).build(&mut Sources::default());
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     session.with_geometry(Arc::new(Geometry::new(&robot, &urdf, scene, None, Budget::default())))
 }

@@ -10,7 +10,7 @@ mod tables;
 
 use std::time::{Duration, Instant};
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{
     Ask, Builtin, Conversation, Kind, Outcome, Person, Planner, Problem, Setting,
