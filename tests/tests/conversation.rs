@@ -7,7 +7,7 @@ use motet_planner::conversation::{
 };
 use motet_runtime::memory::Memory;
 use motet_runtime::{Effect, Time};
-use motet_sim::{Faults, Options, Sim};
+use motet_sim::{Faults, Sim, SimOptions};
 use motet_tests::setup;
 
 fn setting(robot: &str) -> Setting {
@@ -20,7 +20,7 @@ fn coke_in_cupboard(setting: &Setting) -> Sim {
     let mut real = setting.scene.clone();
     let coke = real.entities.get_mut("coke").unwrap();
     (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
-    Sim::new(&setting.robot, &real, Options::default())
+    Sim::new(&setting.robot, &real, SimOptions::default())
 }
 
 /// Gives answers in order, and keeps what was asked.
@@ -49,7 +49,7 @@ fn talk(
 fn a_clear_request_is_done_without_a_question() {
     for robot in ["hsr", "anymal_z1"] {
         let setting = setting(robot);
-        let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
         let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
         assert_eq!(outcome, Outcome::Done, "{asked:?}");
         assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
@@ -59,7 +59,7 @@ fn a_clear_request_is_done_without_a_question() {
 #[test]
 fn of_two_mugs_the_one_that_is_meant_is_asked_for() {
     let setting = setting("hsr");
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the mug", &["the blue one"]);
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(asked[0].kind, Kind::AmbiguousReference);
@@ -87,7 +87,7 @@ fn a_step_that_merely_failed_is_tried_again_before_anyone_is_asked() {
     let faults =
         Faults::from_json(r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#)
             .unwrap();
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() });
     let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &[]);
     assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
 }
@@ -100,7 +100,7 @@ fn where_there_is_no_room_it_is_asked_where_else() {
     let sim = |times: u32| {
         let calls: Vec<String> = (1..=times).map(blocked).collect();
         let faults = Faults::from_json(&format!(r#"{{"calls": [{}]}}"#, calls.join(", "))).unwrap();
-        Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() })
+        Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() })
     };
     for answer in ["On the kitchen table.", "the kitchen table", "put it on the kitchen table instead"] {
         let mut sim = sim(1);
@@ -128,7 +128,7 @@ fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
     (coke.on, coke.pose, coke.inside) = (None, None, Some("fridge_1".into()));
     let fails = r#"{"calls": [{"primitive": "place", "nth": 1, "then": {"fails": "unreachable"}}]}"#;
     for faults in [Faults::default(), Faults::from_json(fails).unwrap()] {
-        let mut sim = Sim::new(&setting.robot, &real, Options { faults, ..Options::default() });
+        let mut sim = Sim::new(&setting.robot, &real, SimOptions { faults, ..SimOptions::default() });
         let (outcome, asked, _) =
             talk(&setting, &mut sim, "put the coke on the counter", &["It is in the fridge."]);
         assert_eq!(outcome, Outcome::Done, "{asked:?}");
@@ -140,7 +140,7 @@ fn who_stands_elsewhere_drives_there_before_anyone_is_asked() {
 #[test]
 fn where_nobody_answers_the_problem_is_the_outcome() {
     let setting = setting("hsr");
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
     let (outcome, _) =
         talk.carry_out("wash the dishes", &mut Builtin, &mut sim, &mut Nobody, &mut (), Time::ZERO);
@@ -169,7 +169,7 @@ impl Watcher for Interrupts {
         }
     }
 
-    fn swapped(&mut self, _now: Time, refusal: Option<&motet_runtime::Refusal>) {
+    fn swapped(&mut self, _now: Time, refusal: Option<&motet_runtime::SwapRefusal>) {
         assert!(refusal.is_none(), "{refusal:?}");
         self.swapped += 1;
     }
@@ -179,7 +179,7 @@ impl Watcher for Interrupts {
 fn a_request_in_between_takes_over() {
     for robot in ["hsr", "anymal_z1"] {
         let setting = setting(robot);
-        let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
         let mut talk = Conversation::new(&setting);
         let mut watcher = Interrupts {
             at: Time::from_secs(3.0),
@@ -205,7 +205,7 @@ fn a_request_in_between_takes_over() {
 /// A request and another at a time, where it comes while the robot drives, grasps or carries.
 fn changes(robot: &str, request: &str, (at, says): (f64, &'static str), goal: (&str, [&str; 2])) {
     let setting = setting(robot);
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
     let at = Time::from_secs(at);
     let mut watcher = Interrupts { at, says: Some(says), swapped: 0, picked: 0 };
@@ -243,7 +243,7 @@ fn a_thing_is_looked_for_where_it_is_believed_to_be() {
 #[test]
 fn what_was_taken_is_put_back_where_it_was() {
     let setting = setting("hsr");
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
     let mut now = Time::ZERO;
     let mut person = Answers(Vec::new(), Vec::new());
@@ -259,7 +259,7 @@ fn what_was_taken_is_put_back_where_it_was() {
 fn slipping(setting: &Setting) -> Sim {
     let faults = r#"{"calls": [{"primitive": "pick", "then": {"fails": "slipped"}}]}"#;
     let faults = Faults::from_json(faults).unwrap();
-    Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() })
+    Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() })
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn an_answer_that_is_not_understood_is_asked_for_again_and_moves_nothing() {
 /// The first request with a line that is said after three seconds.
 fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome, Vec<Problem>, Sim) {
     let setting = setting("hsr");
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(&setting);
     let mut watcher = Interrupts { at: Time::from_secs(3.0), says: Some(line), swapped: 0, picked: 0 };
     let mut person = Answers(answers.to_vec(), Vec::new());
@@ -327,7 +327,7 @@ fn a_fact_that_is_said_meanwhile_changes_the_plan_and_not_the_request() {
 #[test]
 fn a_fact_alone_is_no_request() {
     let setting = setting("hsr");
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (outcome, asked, _) = talk(&setting, &mut sim, "the coke is in the fridge", &[]);
     assert!(matches!(outcome, Outcome::Failed(problem) if problem.kind == Kind::AmbiguousTask));
     assert_eq!(asked[0].question, "I take note of that. What shall I do?");

@@ -13,7 +13,8 @@ use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Driver, Effect, Engine, Happening, Onlooker, Prepared, Refusal, Retired, RunEnd, StartState, Time,
+    Driver, Effect, Engine, Observer, PreparedSwap, RetiredGraph, RunEnd, StartState, SwapRefusal, Time,
+    TraceEventKind,
 };
 use motet_sim::{Faults, Sim};
 use motet_syntax::{Severity, Source, Sources, Span};
@@ -64,7 +65,7 @@ struct Script<'s> {
     log: Vec<String>,
 }
 
-impl Onlooker for Script<'_> {
+impl Observer for Script<'_> {
     fn effect(&mut self, now: Time, effect: &Effect) {
         let line = match effect {
             Effect::Start { command, .. } => format!("start {command}"),
@@ -73,7 +74,7 @@ impl Onlooker for Script<'_> {
             Effect::Hold { .. } => "hold".to_owned(),
             Effect::Proceed { .. } => "proceed".to_owned(),
             Effect::Report(record) => match &record.what {
-                Happening::Swapped { policy } => format!("swapped to {policy}"),
+                TraceEventKind::Swapped { policy } => format!("swapped to {policy}"),
                 _ => return,
             },
             Effect::Finished(end) => end.to_string(),
@@ -86,12 +87,12 @@ impl Onlooker for Script<'_> {
         self.log.push(format!("{:6.2} {line}", now.secs()));
     }
 
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<Prepared> {
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         let (_, name) = self.swap.take_if(|(at, _)| *at <= now)?;
-        Some(Prepared::new(self.stage.compile(name, Some(engine)), &engine.running()).unwrap())
+        Some(PreparedSwap::new(self.stage.compile(name, Some(engine)), &engine.running()).unwrap())
     }
 
-    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         result.unwrap();
     }
 
@@ -103,8 +104,10 @@ impl Onlooker for Script<'_> {
 /// Runs an example with these faults. Returns the world and what happened, the end last.
 fn play(scene: &str, name: &str, faults: &str, swap: Option<(f64, &'static str)>) -> (Sim, Vec<String>) {
     let stage = Stage::new(scene);
-    let options =
-        motet_sim::Options { faults: Faults::from_json(faults).unwrap(), ..motet_sim::Options::default() };
+    let options = motet_sim::SimOptions {
+        faults: Faults::from_json(faults).unwrap(),
+        ..motet_sim::SimOptions::default()
+    };
     let mut sim = Sim::new(&stage.robot, &stage.scene, options);
     let entities = stage.scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
     let start = StartState { entities: entities.collect(), ..StartState::default() };

@@ -5,7 +5,7 @@ use motet_compiler::plan::{Goal, NoPlan, Persistence};
 use motet_planner::builtin::{self, Planned, Unplanned};
 use motet_requests::Aim;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Severity, Sources};
 use motet_tests::setup;
 
@@ -38,7 +38,7 @@ fn reaches(scene: &str, goals: &[&str], facts: &[(&str, &[&str])]) {
             room.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone())).collect();
         let start = StartState { entities, ..StartState::default() };
         let mut engine = Engine::new(planned.compiled.graph.unwrap(), &start).unwrap();
-        let mut sim = Sim::new(&card, &room, Options::default());
+        let mut sim = Sim::new(&card, &room, SimOptions::default());
         let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
         assert!(matches!(end, RunEnd::Done { .. }), "{robot}: {end}\n{}", planned.text);
         for (fluent, args) in facts {

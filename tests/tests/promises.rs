@@ -3,9 +3,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use motet_runtime::conformance::{Faulty, Mischief, Promises};
+use motet_runtime::conformance::{EngineGuarantees, FaultRates, FaultyDriver};
 use motet_runtime::{Driver, Engine, RunEnd, StartState, Time, run};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ fn on_any_driver_the_engine_keeps_its_promises() {
     let graphs = graphs();
     assert!(graphs.len() > 3, "{}", graphs.len());
     let late = Time::from_secs(8.0);
-    let some = Mischief {
+    let some = FaultRates {
         loses: 30,
         doubles: 100,
         delays: 200,
@@ -41,18 +41,18 @@ fn on_any_driver_the_engine_keeps_its_promises() {
         reorders: 100,
         refuses: 30,
         deaf: 20,
-        ..Mischief::default()
+        ..FaultRates::default()
     };
-    let mild = Mischief { doubles: 200, delays: 100, late, reorders: 200, ..Mischief::default() };
-    let silent = Mischief { silence: 50, ..some };
+    let mild = FaultRates { doubles: 200, delays: 100, late, reorders: 200, ..FaultRates::default() };
+    let silent = FaultRates { silence: 50, ..some };
     let (mut ends, mut starts) = (BTreeMap::<&str, u32>::new(), 0);
     for seed in 0..60_u64 {
         for (graph, mischief) in graphs.iter().flat_map(|graph| [mild, some, silent].map(|of| (graph, of))) {
-            let sim = Sim::new(&robot, &scene, Options { seed, ..Options::default() });
-            let mut driver = Faulty::new(sim, mischief, seed);
+            let sim = Sim::new(&robot, &scene, SimOptions { seed, ..SimOptions::default() });
+            let mut driver = FaultyDriver::new(sim, mischief, seed);
             let engine = Engine::new(graph.clone(), &StartState::default()).unwrap();
             let mut engine = engine.with_capabilities(driver.capabilities());
-            let mut promises = Promises::new(graph);
+            let mut promises = EngineGuarantees::new(graph);
             let end = run(&mut engine, &mut driver, &mut promises, Time::ZERO);
             assert_eq!(promises.broken(), [""; 0], "{}, seed {seed}, {mischief:?}", graph.policy);
             starts += promises.starts();

@@ -7,7 +7,7 @@ use motet_compiler::Session;
 use motet_planner::prompt::{Lasting, Prompt, TOKENS, Written};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
-use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
@@ -18,7 +18,7 @@ fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Wr
         robot,
         scene,
         situation,
-        memory: &Memory::new(Limits::default()),
+        memory: &Memory::new(MemoryLimits::default()),
         lasting: &Lasting::new(session, robot, scene),
         tokens: TOKENS,
         time: Duration::ZERO,

@@ -3,16 +3,19 @@
 
 use motet_graph::Pose;
 use motet_planner::vision::{NoPoint, Pointer, ground, lift, point, with_detections};
-use motet_runtime::conformance::perception;
-use motet_runtime::{Camera, Depth, Detection, Driver, Image, Perception, Time, View};
-use motet_sim::{Options, Sim};
+use motet_runtime::conformance::check_perception;
+use motet_runtime::{CameraImage, CameraModel, DepthImage, Detection, Driver, Perception, RgbdView, Time};
+use motet_sim::{Sim, SimOptions};
 use motet_tests::setup;
 
 #[test]
 fn the_simulator_s_eyes_keep_the_laws() {
-    let mut sim = Sim::new(&setup::robot("hsr"), &setup::scene("kitchen"), Options::default());
+    let mut sim = Sim::new(&setup::robot("hsr"), &setup::scene("kitchen"), SimOptions::default());
     let _ = sim.advance(Time::from_secs(1.0));
-    assert_eq!(perception(&mut sim, &[Time::from_secs(1.0), Time::from_secs(2.0)]), Vec::<String>::new());
+    assert_eq!(
+        check_perception(&mut sim, &[Time::from_secs(1.0), Time::from_secs(2.0)]),
+        Vec::<String>::new()
+    );
     let seen = sim.detections(Time::from_secs(2.0));
     let mug = seen.iter().find(|seen| seen.entity.as_deref() == Some("mug_1")).unwrap();
     assert_eq!(mug.class, "mug");
@@ -44,15 +47,15 @@ fn detections_bring_a_scene_up_to_date() {
     assert_eq!(visible("plate"), Some(false), "hardly sure");
 }
 
-fn camera() -> Camera {
+fn camera() -> CameraModel {
     // One metre up, looking along the x axis of the room: its z ahead, its x to the right, its y down.
-    Camera {
+    CameraModel {
         pose: Pose { xyz: [0.0, 0.0, 1.0], quaternion: [-0.5, 0.5, -0.5, 0.5] },
         intrinsics: [100.0, 100.0, 50.0, 40.0],
     }
 }
 
-fn depth() -> Depth {
+fn depth() -> DepthImage {
     let mut millimetres = vec![2_000; 100 * 80];
     // A hole at the middle, and one without an end in a corner.
     for (index, value) in millimetres.iter_mut().enumerate() {
@@ -61,7 +64,7 @@ fn depth() -> Depth {
             *value = 0;
         }
     }
-    Depth { width: 100, height: 80, millimetres }
+    DepthImage { width: 100, height: 80, millimetres }
 }
 
 #[test]
@@ -77,7 +80,7 @@ fn a_point_is_lifted_along_its_ray() {
     for outside in [[-1.0, 3.0], [100.0, 3.0], [3.0, 80.0], [f64::NAN, 3.0], [f64::INFINITY, 3.0]] {
         assert!(matches!(lift(outside, &depth(), &camera()), Err(NoPoint::Outside { .. })), "{outside:?}");
     }
-    let broken = Depth { height: 81, ..depth() };
+    let broken = DepthImage { height: 81, ..depth() };
     assert!(matches!(lift([50.0, 40.0], &broken, &camera()), Err(NoPoint::Camera(_))));
 }
 
@@ -112,7 +115,7 @@ fn several_points_are_no_answer() {
 fn a_model_is_asked_for_the_point() {
     struct Says(Result<&'static str, &'static str>);
     impl Pointer for Says {
-        fn ask(&mut self, _image: &Image, question: &str) -> Result<String, String> {
+        fn ask(&mut self, _image: &CameraImage, question: &str) -> Result<String, String> {
             assert!(
                 question.contains("on the drawer is the handle") && question.contains("100 x 80"),
                 "{question}"
@@ -120,9 +123,13 @@ fn a_model_is_asked_for_the_point() {
             self.0.map(ToOwned::to_owned).map_err(ToOwned::to_owned)
         }
     }
-    let image =
-        Image { camera: "head".into(), media_type: "image/png".into(), bytes: Vec::new(), at: Time::ZERO };
-    let view = View { image, depth: depth(), camera: camera() };
+    let image = CameraImage {
+        camera: "head".into(),
+        media_type: "image/png".into(),
+        bytes: Vec::new(),
+        at: Time::ZERO,
+    };
+    let view = RgbdView { image, depth: depth(), camera: camera() };
     let ask = |says| ground(&mut Says(says), &view, "drawer", "the handle");
     assert!(ask(Ok("{\"point\": [50, 40]}")).is_ok());
     assert!(matches!(ask(Ok("{\"point\": [500, 40]}")), Err(NoPoint::Outside { .. })));

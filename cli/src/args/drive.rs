@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motet_host::remote::Address;
+use motet_host::remote::DriverAddress;
 
 use super::input::WorldArgs;
 use super::run::RunFormat;
@@ -25,7 +25,7 @@ pub(crate) struct DriveArgs {
     pub(crate) world: WorldArgs,
     /// The driver: a command that speaks the driver protocol on its standard input and output, or tcp://127.0.0.1:PORT
     #[arg(long, value_name = "COMMAND|ADDRESS")]
-    pub(crate) driver: Address,
+    pub(crate) driver: DriverAddress,
     /// Write a journal of the run into this folder; `motet run --resume` goes on with it
     #[arg(long, value_name = "FOLDER")]
     pub(crate) record: Option<PathBuf>,

@@ -3,7 +3,7 @@
 use motet_planner::prompt::{self, Lasting, Prompt};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
-use motet_runtime::memory::{Limits, Memory};
+use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::ast::File;
 
 use crate::args::{Format, PromptArgs};
@@ -32,7 +32,7 @@ fn write(args: &PromptArgs, report: &mut Report) -> Result<Exit, Trouble> {
     };
     let scene = setting.scene.clone().unwrap_or_default();
     let situation = RequestContext::new(&scene);
-    let mut memory = Memory::new(Limits::default());
+    let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, &args.request);
     let prompt = Prompt {
         session: &setting.session,

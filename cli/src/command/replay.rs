@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use motet_runtime::journal::{CannotReplay, Difference, Entry, Replay};
+use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::{Snapshot, Time, wire};
 
 use super::run::journal_trouble;
@@ -47,16 +47,16 @@ pub(crate) fn run(args: &ReplayArgs, _colors: Colors) -> Result<Exit, Trouble> {
 /// Goes through the entries, up to a moment or the first difference.
 #[derive(Debug, Default)]
 struct Player {
-    replay: Option<Replay>,
+    replay: Option<EngineReplay>,
     entries: usize,
     effects: usize,
-    difference: Option<(u64, Difference)>,
-    stuck: Option<(u64, CannotReplay)>,
+    difference: Option<(u64, EffectMismatch)>,
+    stuck: Option<(u64, ReplayError)>,
     is_past: bool,
 }
 
 impl Player {
-    fn take(&mut self, seq: u64, entry: &Entry, last: Option<Moment>) {
+    fn take(&mut self, seq: u64, entry: &JournalEntry, last: Option<Moment>) {
         let at = entry.happened().map(|(at, _)| at);
         let now = at.map_or_else(|| self.now(), Time::from_nanos);
         self.is_past |= last.is_some_and(|last| last.is_before(seq, now));
@@ -64,8 +64,8 @@ impl Player {
             return;
         }
         self.entries += 1;
-        if let Entry::Head(head) = entry {
-            match Replay::new(head) {
+        if let JournalEntry::Head(head) = entry {
+            match EngineReplay::new(head) {
                 Ok(replay) => self.replay = Some(replay),
                 Err(error) => self.stuck = Some((seq, error)),
             }
@@ -79,11 +79,11 @@ impl Player {
     }
 
     fn now(&self) -> Time {
-        self.replay.as_ref().map_or(Time::ZERO, Replay::now)
+        self.replay.as_ref().map_or(Time::ZERO, EngineReplay::now)
     }
 
     fn verdict(&self) -> String {
-        let Some((seq, Difference { index, journal, replay })) = &self.difference else {
+        let Some((seq, EffectMismatch { index, journal, replay })) = &self.difference else {
             let (entries, effects) = (many(self.entries, "entry", "entries"), count(self.effects, "effect"));
             return format!("replayed {entries}, {effects}, to {}: the same to the byte", self.now());
         };

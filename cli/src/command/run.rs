@@ -24,8 +24,8 @@ use motet_graph::Graph;
 use motet_planner::guard::Guard;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::{Driver, Event, Settings, StartState, Time};
-use motet_sim::{Faults, Options, Sim};
+use motet_runtime::{Driver, EngineSettings, Event, StartState, Time};
+use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{Parsed, Severity};
 
 use crate::args::{Format, RunArgs, RunFormat, SimulatedArgs, Speed};
@@ -79,7 +79,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let mut simulator = Sim::new(robot, &scene, options.clone());
     let verifies = args.simulated.speed.verifies();
     let guard = setting.session.world_tracker().map(|course| Guard::new(course, verifies));
-    let engine = play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), Settings::default())?;
+    let engine =
+        play::engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
     let journal = match &args.record {
         Some(folder) => {
             let saved = Saved::simulator(
@@ -177,5 +178,5 @@ pub(super) fn simulator(
         }
         None => Faults::default(),
     };
-    Ok(Sim::new(robot, scene, Options { seed: args.seed, faults, eye, ..Options::default() }))
+    Ok(Sim::new(robot, scene, SimOptions { seed: args.seed, faults, eye, ..SimOptions::default() }))
 }

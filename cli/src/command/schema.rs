@@ -17,7 +17,7 @@ pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, Trouble> {
         SchemaOf::Robot => motet_robots::card::schema(),
         SchemaOf::Diagnostic => schemars::schema_for!(motet_syntax::render::Record),
         SchemaOf::Driver => motet_host::remote::protocol::schema(),
-        SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::Entry),
+        SchemaOf::Journal => schemars::schema_for!(motet_runtime::journal::JournalEntry),
         SchemaOf::Faults => schemars::schema_for!(motet_sim::Faults),
     };
     let text = serde_json::to_string_pretty(&schema)

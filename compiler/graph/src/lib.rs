@@ -14,4 +14,4 @@ pub mod validate;
 
 pub use encode::{DecodeError, decode, encode, hash};
 pub use model::*;
-pub use validate::{Invalid, Reason, validate};
+pub use validate::{InvalidGraph, InvalidReason, validate};

@@ -8,7 +8,7 @@
     reason = "a test fails by panicking"
 )]
 
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_graph::{decode, draw, encode, hash};
 
 #[track_caller]
@@ -18,7 +18,7 @@ fn refuse(text: &str, expected: &str) {
 }
 
 fn document() -> String {
-    encode(&graph(&[Step::go("table")]))
+    encode(&graph(&[StepSketch::go("table")]))
 }
 
 #[test]
@@ -48,13 +48,13 @@ fn forms() {
 
 #[test]
 fn the_hash_stands_in_the_document() {
-    let graph = graph(&[Step::go("table")]);
+    let graph = graph(&[StepSketch::go("table")]);
     assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":2,\"hash\":\"{}\",", hash(&graph))));
 }
 
 #[test]
 fn the_deepest_graph_can_be_written_read_and_drawn() {
-    let deep = (0..1_024).fold(Step::say("a"), |inner, _| Step::Sequence(vec![inner]));
+    let deep = (0..1_024).fold(StepSketch::say("a"), |inner, _| StepSketch::Sequence(vec![inner]));
     let graph = graph(&[deep]);
     assert_eq!(decode(&encode(&graph)).unwrap(), graph);
     assert!(draw::text(&graph).lines().count() > 1_000);

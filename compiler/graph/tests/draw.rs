@@ -9,31 +9,39 @@
 )]
 
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Ending, Graph, draw};
 
 fn example() -> Graph {
     graph(&[
-        Step::detect("the \"red\" mug\n<1>"),
-        Step::Monitor(
+        StepSketch::detect("the \"red\" mug\n<1>"),
+        StepSketch::Monitor(
             vec![
-                When { condition: v::nearer("user", 0.5), hold_secs: 0.2, react: React::Pause(60.0) },
-                When::new(
+                WatchSketch {
+                    condition: v::nearer("user", 0.5),
+                    hold_secs: 0.2,
+                    react: ReactionSketch::Pause(60.0),
+                },
+                WatchSketch::new(
                     Condition::Not(Box::new(Condition::Literal(true))),
-                    React::Resume(2, vec![Step::say("oh")]),
+                    ReactionSketch::Resume(2, vec![StepSketch::say("oh")]),
                 ),
             ],
-            vec![Step::Try(
-                vec![Step::Call(Call::new(v::PICK, vec![Call::NEAREST]).retry(2))],
+            vec![StepSketch::Try(
+                vec![StepSketch::Call(CallSketch::new(v::PICK, vec![CallSketch::NEAREST]).retry(2))],
                 vec![
-                    (Some(vec![v::UNREACHABLE]), vec![Step::End(Ending::Replan)]),
-                    (None, vec![Step::go("table")]),
+                    (Some(vec![v::UNREACHABLE]), vec![StepSketch::End(Ending::Replan)]),
+                    (None, vec![StepSketch::go("table")]),
                 ],
             )],
         ),
-        Step::Parallel(vec![vec![Step::go("shelf")], vec![Step::say("hello")]]),
-        Step::If(v::nearer("user", 1.0), vec![Step::Inline(vec![Step::End(Ending::Done)])], Some(vec![])),
-        Step::Repeat(3, vec![Step::say("again")], Some(Condition::Literal(true))),
+        StepSketch::Parallel(vec![vec![StepSketch::go("shelf")], vec![StepSketch::say("hello")]]),
+        StepSketch::If(
+            v::nearer("user", 1.0),
+            vec![StepSketch::Inline(vec![StepSketch::End(Ending::Done)])],
+            Some(vec![]),
+        ),
+        StepSketch::Repeat(3, vec![StepSketch::say("again")], Some(Condition::Literal(true))),
     ])
 }
 

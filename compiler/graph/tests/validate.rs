@@ -9,7 +9,7 @@
 )]
 
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{
     BindingId, Comparison, Condition, Ending, Fact, FactArg, FailureId, FluentId, Graph, KindId, MeasureId,
     NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value, validate,
@@ -18,21 +18,23 @@ use motet_graph::{
 /// Nodes: 0 detect, 1 try, 2 pick, 3 replan, 4 monitor, 5 go, 6 say (block), 7 policy, 8 done, 9 parallel, 10 go, 11 say,
 /// 12 each, 13 go.
 fn sound() -> Graph {
-    let watch = When { condition: v::nearer("user", 0.5), hold_secs: 0.2, react: React::Pause(60.0) };
-    let block = When::new(v::nearer("user", 0.2), React::Resume(1, vec![Step::say("oh")]));
+    let watch =
+        WatchSketch { condition: v::nearer("user", 0.5), hold_secs: 0.2, react: ReactionSketch::Pause(60.0) };
+    let block =
+        WatchSketch::new(v::nearer("user", 0.2), ReactionSketch::Resume(1, vec![StepSketch::say("oh")]));
     graph(&[
-        Step::detect("mug"),
-        Step::Try(
-            vec![Step::Call(Call::new(v::PICK, vec![Call::NEAREST]))],
-            vec![(Some(vec![v::UNREACHABLE]), vec![Step::End(Ending::Replan)])],
+        StepSketch::detect("mug"),
+        StepSketch::Try(
+            vec![StepSketch::Call(CallSketch::new(v::PICK, vec![CallSketch::NEAREST]))],
+            vec![(Some(vec![v::UNREACHABLE]), vec![StepSketch::End(Ending::Replan)])],
         ),
-        Step::Monitor(vec![watch, block], vec![Step::go("table")]),
-        Step::Inline(vec![Step::End(Ending::Done)]),
-        Step::Parallel(vec![vec![Step::go("shelf")], vec![Step::say("hello")]]),
-        Step::Each(
+        StepSketch::Monitor(vec![watch, block], vec![StepSketch::go("table")]),
+        StepSketch::Inline(vec![StepSketch::End(Ending::Done)]),
+        StepSketch::Parallel(vec![vec![StepSketch::go("shelf")], vec![StepSketch::say("hello")]]),
+        StepSketch::Each(
             Term::List(vec![v::entity("cup")]),
             3,
-            vec![Step::Call(Call::new(v::GO, vec![Call::NEAREST]))],
+            vec![StepSketch::Call(CallSketch::new(v::GO, vec![CallSketch::NEAREST]))],
         ),
     ])
 }
@@ -111,7 +113,8 @@ fn regions_and_edges() {
 
 #[test]
 fn nesting() {
-    let deep = |levels: usize| (0..levels).fold(Step::say("a"), |inner, _| Step::Sequence(vec![inner]));
+    let deep =
+        |levels: usize| (0..levels).fold(StepSketch::say("a"), |inner, _| StepSketch::Sequence(vec![inner]));
     assert_eq!(validate(&graph(&[deep(1_024)])), Ok(()));
     let findings = validate(&graph(&[deep(1_025)])).unwrap_err();
     assert!(
@@ -328,7 +331,7 @@ fn resources() {
 
 #[test]
 fn a_hundred_findings_are_enough() {
-    let mut graph = graph(&vec![Step::go("table"); 500]);
+    let mut graph = graph(&vec![StepSketch::go("table"); 500]);
     for node in &mut graph.nodes {
         node.duration.least_secs = -1.0;
     }

@@ -55,7 +55,7 @@ pub(crate) fn lower(
         regions,
         initial,
         observe_within_secs: library.observe_within_secs,
-        duration: graph::Bounds { least_secs, greatest_secs },
+        duration: graph::DurationBounds { least_secs, greatest_secs },
     }
 }
 
@@ -110,7 +110,7 @@ impl Lowering<'_> {
             path: path::pointer(program, step),
             region,
             next: None,
-            duration: graph::Bounds { least_secs, greatest_secs },
+            duration: graph::DurationBounds { least_secs, greatest_secs },
             kind: graph::NodeKind::End { how: graph::Ending::Done, of: None, why: None },
         });
         let kind = self.kind(&source.kind, step, id);
@@ -299,9 +299,9 @@ impl Lowering<'_> {
         }
     }
 
-    fn effect(&mut self, effect: &EffectDef, call: &Call) -> Option<graph::Effect> {
+    fn effect(&mut self, effect: &EffectDef, call: &Call) -> Option<graph::CallEffect> {
         let binds = call.binds.map(|binding| graph::BindingId(binding.0));
-        Some(graph::Effect {
+        Some(graph::CallEffect {
             fact: self.tables.fact(&effect.fact, &call.args, binds)?,
             value: effect.value,
             when: effect.when.as_ref().map(|when| self.tables.condition(when, &call.args, binds)),
@@ -310,7 +310,7 @@ impl Lowering<'_> {
     }
 
     fn unsettled(&mut self, effect: &EffectDef, call: &Call) -> Option<graph::Unsettled> {
-        let graph::Effect { fact, when, each, .. } = self.effect(effect, call)?;
+        let graph::CallEffect { fact, when, each, .. } = self.effect(effect, call)?;
         Some(graph::Unsettled { fact, when, each })
     }
 }

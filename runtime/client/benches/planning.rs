@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, geometry, right, setting};
-use motet_client::{Client, Settings};
+use motet_client::{Client, ClientSettings};
 use motet_compiler::{InitialState, Session};
 use motet_decode::export::{Dialect, Offer, request_constraint};
 use motet_decode::{Prepared as Acceptors, Surface};
@@ -24,9 +24,9 @@ use motet_planner::conversation::{Conversation, Nobody, Setting, Watcher};
 use motet_planner::model::{self, Judged, ModelPlanner, Reading, Start, judge};
 use motet_planner::prompt::{Lasting, Prompt, TIME, TOKENS};
 use motet_requests::RequestContext;
-use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Effect, Engine, Prepared, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_runtime::memory::{Memory, MemoryLimits};
+use motet_runtime::{Effect, Engine, PreparedSwap, StartState, Time};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::Sources;
 
 const REQUESTS: &[&str] = &["bring me the coke", "put the red mug in the cupboard", "open the fridge"];
@@ -133,7 +133,7 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
     let session = session.with_geometry(Arc::clone(setting.geometry.as_ref().unwrap()));
     lap("session: scene and state");
     let situation = RequestContext::new(&setting.scene);
-    let mut memory = Memory::new(Limits::default());
+    let mut memory = Memory::new(MemoryLimits::default());
     memory.instruct(Time::ZERO, request);
     let prompt = Prompt {
         session: &session,
@@ -171,7 +171,7 @@ fn once(setting: &Setting, kept: &Kept, request: &str, reply: &str) -> Vec<(&'st
     // The engine was there before: only the swap counts. It is one before the first step, which takes from the facts that
     // the policy was proved from.
     from = Instant::now();
-    let prepared = Prepared::new(graph, &engine.running()).unwrap();
+    let prepared = PreparedSwap::new(graph, &engine.running()).unwrap();
     engine.swap(Time::ZERO, prepared, &mut out).unwrap();
     laps.push(("swap", from.elapsed()));
     laps
@@ -202,10 +202,10 @@ fn first_action() {
         for start in [Start::Whole, Start::FirstStep] {
             let says = Act::Says { text: reply.clone(), each: 4, pause: Duration::from_millis(20) };
             let server = Server::new(vec![says]);
-            let settings = Settings { idle_timeout: Duration::from_secs(5), ..brisk(&server) };
+            let settings = ClientSettings { idle_timeout: Duration::from_secs(5), ..brisk(&server) };
             let how = model::Settings { start, ..model::Settings::default() };
             let mut planner = ModelPlanner::new(Client::new(settings).unwrap(), Heard::default(), how);
-            let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+            let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
             let mut first = First(Instant::now(), None);
             let (outcome, _) = Conversation::new(&setting).carry_out(
                 request,

@@ -7,9 +7,9 @@ use reqwest::Url;
 
 /// The address of chat requests.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Address(Url);
+pub struct ServerUrl(Url);
 
-impl Address {
+impl ServerUrl {
     /// The address of chat requests, from that of a server: the path is that of the dialect where none is given.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Address {
     }
 }
 
-impl fmt::Display for Address {
+impl fmt::Display for ServerUrl {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }

@@ -2,15 +2,15 @@
 
 use motet_decode::export::{Dialect, Offer, lark_constraint, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
-use motet_runtime::Image as Picture;
+use motet_runtime::CameraImage as Picture;
 use serde_json::{Map, Value, json};
 
-use crate::image::Image;
-use crate::settings::{Notation, Settings};
+use crate::image::EncodedImage;
+use crate::settings::{ClientSettings, Notation};
 
 /// The body of a chat that is answered piece by piece, held to a grammar where the server takes one.
 pub(crate) fn chat(
-    settings: &Settings,
+    settings: &ClientSettings,
     chat: &[Message],
     constraint: Option<&Map<String, Value>>,
 ) -> Result<Value, ModelError> {
@@ -24,7 +24,7 @@ pub(crate) fn chat(
 
 /// What holds a reply to an offer, in the server's dialect; none where it has none.
 pub(crate) fn constraint(
-    settings: &Settings,
+    settings: &ClientSettings,
     offer: &Offer,
 ) -> Result<Option<Map<String, Value>>, ModelError> {
     let Some(dialect) = settings.dialect else { return Ok(None) };
@@ -38,7 +38,7 @@ pub(crate) fn constraint(
     }
 }
 
-fn messages(settings: &Settings, chat: &[Message]) -> Result<Value, ModelError> {
+fn messages(settings: &ClientSettings, chat: &[Message]) -> Result<Value, ModelError> {
     let with_images = chat.iter().position(|message| message.role == Role::User);
     let messages = chat.iter().enumerate().map(|(index, message)| {
         let role = match message.role {
@@ -48,14 +48,14 @@ fn messages(settings: &Settings, chat: &[Message]) -> Result<Value, ModelError> 
         };
         let fixed = if Some(index) == with_images { settings.images.as_slice() } else { &[] };
         let fresh = message.images.iter().map(|image| encoded(image)).collect::<Result<Vec<_>, _>>()?;
-        let images: Vec<&Image> = fixed.iter().chain(&fresh).collect();
+        let images: Vec<&EncodedImage> = fixed.iter().chain(&fresh).collect();
         Ok(said(settings, role, &message.text, &images))
     });
     messages.collect()
 }
 
 /// What one says and shows.
-fn said(settings: &Settings, role: &str, text: &str, images: &[&Image]) -> Value {
+fn said(settings: &ClientSettings, role: &str, text: &str, images: &[&EncodedImage]) -> Value {
     if images.is_empty() {
         return json!({"role": role, "content": text});
     }
@@ -70,14 +70,18 @@ fn said(settings: &Settings, role: &str, text: &str, images: &[&Image]) -> Value
     json!({"role": role, "content": parts})
 }
 
-fn encoded(image: &Picture) -> Result<Image, ModelError> {
-    Image::new(&image.bytes).map_err(|why| ModelError::Refused {
+fn encoded(image: &Picture) -> Result<EncodedImage, ModelError> {
+    EncodedImage::new(&image.bytes).map_err(|why| ModelError::Refused {
         why: format!("the picture of the camera `{}` cannot be sent: {why}", image.camera),
     })
 }
 
 /// The body of a question about a picture, which is answered all at once.
-pub(crate) fn question(settings: &Settings, image: &Picture, question: &str) -> Result<Value, ModelError> {
+pub(crate) fn question(
+    settings: &ClientSettings,
+    image: &Picture,
+    question: &str,
+) -> Result<Value, ModelError> {
     let messages = json!([said(settings, "user", question, &[&encoded(image)?])]);
     Ok(json!({"model": settings.model, "messages": messages, "stream": false}))
 }

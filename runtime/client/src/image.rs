@@ -9,7 +9,7 @@ pub const MAX_IMAGE_BYTES: usize = 20 << 20;
 
 /// An image, encoded once.
 #[derive(Clone, PartialEq, Eq)]
-pub struct Image {
+pub struct EncodedImage {
     kind: &'static str,
     base64: String,
 }
@@ -25,7 +25,7 @@ pub enum ImageError {
     TooLarge(usize),
 }
 
-impl Image {
+impl EncodedImage {
     /// Encodes the bytes of a file. O(bytes).
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl Image {
     }
 }
 
-impl std::fmt::Debug for Image {
+impl std::fmt::Debug for EncodedImage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Image({}, {} characters)", self.kind, self.base64.len())
     }

@@ -4,9 +4,9 @@ use std::fmt;
 
 /// A key, which is never shown.
 #[derive(Clone, PartialEq, Eq)]
-pub struct Key(String);
+pub struct ApiKey(String);
 
-impl Key {
+impl ApiKey {
     /// The key in a variable of the environment; none where there is no such variable, or nothing in it.
     #[must_use]
     pub fn from_variable(name: &str) -> Option<Self> {
@@ -25,7 +25,7 @@ impl Key {
     }
 }
 
-impl fmt::Debug for Key {
+impl fmt::Debug for ApiKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Key(…)")
     }

@@ -2,7 +2,7 @@
 //!
 //! [`Client`] sends a chat and hands the reply on as it arrives. It knows nothing of policies: what a reply is worth is
 //! judged by `motet_planner::model`. A server may be slow, refuse, break off, talk nonsense or never stop; each of these
-//! ends in a [`ModelError`] within the times and sizes of the [`Settings`], and leaves nothing behind.
+//! ends in a [`ModelError`] within the times and sizes of the [`ClientSettings`], and leaves nothing behind.
 
 mod address;
 mod body;
@@ -13,11 +13,11 @@ mod settings;
 mod stream;
 mod talk;
 
-pub use address::Address;
-pub use image::{Image, ImageError, MAX_IMAGE_BYTES};
-pub use key::Key;
+pub use address::ServerUrl;
+pub use image::{EncodedImage, ImageError, MAX_IMAGE_BYTES};
+pub use key::ApiKey;
 pub use once::content;
-pub use settings::{Notation, Settings};
+pub use settings::{ClientSettings, Notation};
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -26,7 +26,7 @@ use std::time::Duration;
 use motet_decode::export::Offer;
 use motet_planner::model::{Message, Model, ModelError, News, Reply};
 use motet_planner::vision::Pointer;
-use motet_runtime::Image as Picture;
+use motet_runtime::CameraImage as Picture;
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue};
 use reqwest::redirect;
 use serde_json::{Map, Value};
@@ -37,7 +37,7 @@ use tokio::task::AbortHandle;
 #[derive(Debug)]
 pub struct Client {
     http: reqwest::Client,
-    settings: Arc<Settings>,
+    settings: Arc<ClientSettings>,
     runtime: Option<Runtime>,
     /// The latest offer, and what holds a reply to it: a room offers the same for many requests.
     held: Option<(Offer, Option<Map<String, Value>>)>,
@@ -49,7 +49,7 @@ impl Client {
     /// # Errors
     ///
     /// The key cannot stand in a header, or the system gives no thread or no certificates.
-    pub fn new(settings: Settings) -> Result<Self, ModelError> {
+    pub fn new(settings: ClientSettings) -> Result<Self, ModelError> {
         let wrong = |why: String| ModelError::Unreachable { why };
         // The first to set it wins, and all set the same.
         let _ = rustls::crypto::ring::default_provider().install_default();

@@ -3,13 +3,13 @@
 use motet_planner::model::ModelError;
 use serde_json::Value;
 
-use crate::settings::Settings;
+use crate::settings::ClientSettings;
 use crate::{stream, talk};
 
 /// Sends a body and reads the whole answer.
 pub(crate) async fn once(
     http: &reqwest::Client,
-    settings: &Settings,
+    settings: &ClientSettings,
     body: String,
 ) -> Result<Value, ModelError> {
     let whole = async {

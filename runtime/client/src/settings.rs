@@ -4,15 +4,15 @@ use std::time::Duration;
 
 use motet_decode::export::Dialect;
 
-use crate::address::Address;
-use crate::image::Image;
-use crate::key::Key;
+use crate::address::ServerUrl;
+use crate::image::EncodedImage;
+use crate::key::ApiKey;
 
 /// Which server and model, and how long and how much.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct ClientSettings {
     /// Where requests go.
-    pub address: Address,
+    pub address: ServerUrl,
     /// The name of the model.
     pub model: String,
     /// How the server takes a grammar; none where it is not told of any.
@@ -20,9 +20,9 @@ pub struct Settings {
     /// In which notation it takes it.
     pub notation: Notation,
     /// The server's key.
-    pub key: Option<Key>,
+    pub key: Option<ApiKey>,
     /// What the model sees of the room, with the first message that is not the system's.
-    pub images: Vec<Image>,
+    pub images: Vec<EncodedImage>,
     /// The longest to wait for a connection.
     pub connect_timeout: Duration,
     /// The longest between two pieces of a reply, and for the first.
@@ -32,7 +32,7 @@ pub struct Settings {
     /// How often a request is sent again where the server cannot be reached, is busy (429) or fails (5xx).
     pub retries: u32,
     /// What is waited before the first retry where the server does not say; twice as long before each further one, and
-    /// never longer than [`Settings::longest_back_off`].
+    /// never longer than [`ClientSettings::longest_back_off`].
     pub back_off: Duration,
     /// The longest wait before a retry, also where the server asks for a longer one.
     pub longest_back_off: Duration,
@@ -50,10 +50,10 @@ pub enum Notation {
     Lark,
 }
 
-impl Settings {
+impl ClientSettings {
     /// The defaults for a server and a model.
     #[must_use]
-    pub fn new(address: Address, model: impl Into<String>) -> Self {
+    pub fn new(address: ServerUrl, model: impl Into<String>) -> Self {
         Self {
             address,
             model: model.into(),

@@ -11,7 +11,7 @@ use reqwest::header::CONTENT_TYPE;
 use serde_json::Value;
 
 use crate::once::content;
-use crate::settings::Settings;
+use crate::settings::ClientSettings;
 use crate::talk::{reason, timed_out};
 
 type Bytes = Vec<u8>;
@@ -19,7 +19,7 @@ type Bytes = Vec<u8>;
 /// The body of a response in pieces, none of them late, and not more than so many bytes.
 fn pieces(
     response: Response,
-    settings: &Settings,
+    settings: &ClientSettings,
 ) -> impl Stream<Item = Result<Bytes, ModelError>> + Unpin + Send {
     let (idle, most) = (settings.idle_timeout, settings.max_bytes);
     let body = Box::pin(response.bytes_stream());
@@ -54,7 +54,7 @@ pub(crate) async fn text(response: Response, most: usize) -> Result<String, Mode
 /// Passes the text of a reply on, piece by piece, and says how it finished.
 pub(crate) async fn pass_on(
     response: Response,
-    settings: &Settings,
+    settings: &ClientSettings,
     news: &Sender<News>,
 ) -> Result<Finish, ModelError> {
     let kind = response.headers().get(CONTENT_TYPE).and_then(|kind| kind.to_str().ok()).unwrap_or_default();

@@ -8,14 +8,19 @@ use motet_planner::model::{ModelError, News};
 use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
 use reqwest::{Response, StatusCode};
 
-use crate::settings::Settings;
+use crate::settings::ClientSettings;
 use crate::stream;
 
 /// How much of what a server says about a refusal is shown.
 const SHOWN_CHARS: usize = 320;
 
 /// Sends a body and passes on what comes, the ending last. Who no longer listens is not told.
-pub(crate) async fn talk(http: &reqwest::Client, settings: &Settings, body: String, news: &Sender<News>) {
+pub(crate) async fn talk(
+    http: &reqwest::Client,
+    settings: &ClientSettings,
+    body: String,
+    news: &Sender<News>,
+) {
     let whole = async {
         let response = send(http, settings, body, |news_of| drop(news.send(news_of))).await?;
         stream::pass_on(response, settings, news).await
@@ -31,7 +36,7 @@ pub(crate) async fn talk(http: &reqwest::Client, settings: &Settings, body: Stri
 /// Sends a body until the server takes it, or there is no use in trying again.
 pub(crate) async fn send(
     http: &reqwest::Client,
-    settings: &Settings,
+    settings: &ClientSettings,
     body: String,
     tell: impl Fn(News),
 ) -> Result<Response, ModelError> {
@@ -83,7 +88,7 @@ fn retry_after(headers: &HeaderMap) -> Option<Duration> {
 }
 
 /// What the server says where it does not answer.
-async fn refusal(response: Response, settings: &Settings) -> ModelError {
+async fn refusal(response: Response, settings: &ClientSettings) -> ModelError {
     let status = response.status();
     // The words are a courtesy: what does not come soon is not waited for.
     let words = tokio::time::timeout(

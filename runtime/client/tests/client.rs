@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use common::server::{Act, Server};
 use common::world::{brisk, session, setting};
-use motet_client::{Address, Client, Image, ImageError, Notation, Settings};
+use motet_client::{Client, ClientSettings, EncodedImage, ImageError, Notation, ServerUrl};
 use motet_decode::Surface;
 use motet_decode::export::{Dialect, Offer};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
@@ -18,7 +18,7 @@ fn chat() -> Vec<Message> {
 }
 
 /// Asks, and gives the text, how often it was tried again, and the ending.
-fn ask(settings: Settings) -> (String, usize, Result<Finish, ModelError>) {
+fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) {
     let setting = setting();
     let offer = Offer::new(&session(&setting).signatures(), Surface::default());
     let mut client = Client::new(settings).unwrap();
@@ -84,11 +84,11 @@ fn a_bad_reply_ends_in_an_error_and_not_in_a_wait() {
     check(vec![Act::Nonsense], ("", 0, Err("no JSON")));
     check(vec![Act::Silent], ("", 0, Err("did not answer within 1 s")));
     let server = Server::new(vec![Act::Endless { text: "and ".repeat(20) }]);
-    let settings = Settings { max_bytes: 20_000, ..brisk(&server) };
+    let settings = ClientSettings { max_bytes: 20_000, ..brisk(&server) };
     assert_eq!(ask(settings).2, Err(ModelError::TooLong { bytes: 20_000 }));
     let server =
         Server::new(vec![Act::Says { text: "slow ".repeat(100), each: 1, pause: Duration::from_millis(20) }]);
-    let settings = Settings { timeout: Duration::from_millis(400), ..brisk(&server) };
+    let settings = ClientSettings { timeout: Duration::from_millis(400), ..brisk(&server) };
     assert!(matches!(ask(settings).2, Err(ModelError::TimedOut { .. })));
 }
 
@@ -112,9 +112,9 @@ fn lark_goes_where_llguidance_takes_it() {
         (Dialect::Ollama, None),
     ] {
         let server = Server::new(vec![Act::says("{}")]);
-        let address = Address::new(&server.url, Some(dialect)).unwrap();
+        let address = ServerUrl::new(&server.url, Some(dialect)).unwrap();
         let settings =
-            Settings { dialect: Some(dialect), notation: Notation::Lark, address, ..brisk(&server) };
+            ClientSettings { dialect: Some(dialect), notation: Notation::Lark, address, ..brisk(&server) };
         let (_, _, end) = ask(settings);
         let Some(field) = field else {
             assert!(matches!(&end, Err(ModelError::Refused { .. })), "{dialect:?}: {end:?}");
@@ -131,8 +131,8 @@ fn lark_goes_where_llguidance_takes_it() {
 #[test]
 fn images_and_grammars_are_sent_in_the_dialect_of_the_server() {
     let png = [0x89, b'P', b'N', b'G', 1, 2, 3];
-    let image = Image::new(&png).unwrap();
-    assert_eq!(Image::new(b"a text"), Err(ImageError::Unknown));
+    let image = EncodedImage::new(&png).unwrap();
+    assert_eq!(EncodedImage::new(b"a text"), Err(ImageError::Unknown));
     for (dialect, path, field) in [
         (None, "/v1/chat/completions", None),
         (Some(Dialect::Vllm), "/v1/chat/completions", Some("structured_outputs")),
@@ -142,8 +142,9 @@ fn images_and_grammars_are_sent_in_the_dialect_of_the_server() {
         (Some(Dialect::Ollama), "/api/chat", Some("format")),
     ] {
         let server = Server::new(vec![Act::says("{}")]);
-        let address = Address::new(&server.url, dialect).unwrap();
-        let (_, _, end) = ask(Settings { dialect, images: vec![image.clone()], address, ..brisk(&server) });
+        let address = ServerUrl::new(&server.url, dialect).unwrap();
+        let (_, _, end) =
+            ask(ClientSettings { dialect, images: vec![image.clone()], address, ..brisk(&server) });
         assert_eq!(end, Ok(Finish::Stop));
         let heard = server.heard();
         assert!(heard[0].head.starts_with(&format!("POST {path} ")), "{}", heard[0].head);
@@ -168,9 +169,9 @@ fn images_and_grammars_are_sent_in_the_dialect_of_the_server() {
 
 #[test]
 fn addresses_with_a_password_are_refused() {
-    assert!(Address::new("http://me:secret@localhost", None).unwrap_err().contains("--key-from"));
-    assert!(Address::new("localhost:8000", None).is_err());
-    let address = |text| Address::new(text, None).unwrap().to_string();
+    assert!(ServerUrl::new("http://me:secret@localhost", None).unwrap_err().contains("--key-from"));
+    assert!(ServerUrl::new("localhost:8000", None).is_err());
+    let address = |text| ServerUrl::new(text, None).unwrap().to_string();
     assert_eq!(address("http://localhost:8000/v1/"), "http://localhost:8000/v1/chat/completions");
     assert_eq!(address("https://host/api/v1"), "https://host/api/v1/chat/completions");
     assert_eq!(address("https://host/v1/chat/completions"), "https://host/v1/chat/completions");
@@ -181,7 +182,7 @@ fn who_drops_a_reply_hangs_up() {
     let server = Server::new(vec![Act::Endless { text: "on and on ".to_owned() }]);
     let setting = setting();
     let offer = Offer::new(&session(&setting).signatures(), Surface::default());
-    let mut client = Client::new(Settings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
+    let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
     let mut reply = client.ask(&chat(), &offer).unwrap();
     while !matches!(reply.next(Duration::from_millis(20)), News::Piece(_)) {}
     drop(reply);

@@ -11,17 +11,19 @@ use motet_client::Client;
 use motet_graph::{Pose, Value};
 use motet_planner::conversation::{Conversation, Nobody, Outcome};
 use motet_planner::vision::Pointing;
-use motet_runtime::{Camera, Depth, Detection, Engine, Image, Perception, RunEnd, StartState, Time, View};
-use motet_sim::{Faults, Options, Sim};
+use motet_runtime::{
+    CameraImage, CameraModel, DepthImage, Detection, Engine, Perception, RgbdView, RunEnd, StartState, Time,
+};
+use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 
 const COKE: &str = "bring me the coke";
 
 /// A picture that says when it was taken.
-fn picture(now: Time) -> Image {
+fn picture(now: Time) -> CameraImage {
     let mut bytes = b"\x89PNG".to_vec();
     bytes.extend(now.nanos().to_be_bytes());
-    Image { camera: "head".into(), media_type: "image/png".into(), bytes, at: now }
+    CameraImage { camera: "head".into(), media_type: "image/png".into(), bytes, at: now }
 }
 
 /// Takes a picture each time.
@@ -32,7 +34,7 @@ impl Perception for Head {
         Vec::new()
     }
 
-    fn image(&mut self, now: Time) -> Option<Image> {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
         Some(picture(now))
     }
 }
@@ -43,7 +45,7 @@ fn a_fresh_picture_goes_with_every_plan() {
     let server = Server::new(vec![Act::says(right(&setting, COKE))]);
     let faults = r#"{"calls": [{"primitive": "pick", "nth": 1, "then": {"fails": "slipped"}}]}"#;
     let faults = Faults::from_json(faults).unwrap();
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() });
     let mut talk = Conversation::new(&setting).with_eyes(Head);
     let heard = Heard::default();
     let mut planner = planner(brisk(&server), &heard);
@@ -67,15 +69,15 @@ impl Perception for Wall {
         Vec::new()
     }
 
-    fn image(&mut self, now: Time) -> Option<Image> {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
         Some(picture(now))
     }
 
-    fn view(&mut self, now: Time, _of: &str) -> Option<View> {
-        Some(View {
+    fn view(&mut self, now: Time, _of: &str) -> Option<RgbdView> {
+        Some(RgbdView {
             image: picture(now),
-            depth: Depth { width: 100, height: 80, millimetres: vec![2_000; 8_000] },
-            camera: Camera {
+            depth: DepthImage { width: 100, height: 80, millimetres: vec![2_000; 8_000] },
+            camera: CameraModel {
                 pose: Pose { xyz: [0.0, 0.0, 1.0], quaternion: [-0.5, 0.5, -0.5, 0.5] },
                 intrinsics: [100.0, 100.0, 50.0, 40.0],
             },
@@ -92,7 +94,7 @@ fn point(server: &Server, within: &str) -> (RunEnd, Option<Value>) {
     let compiled = session.compile(&motet_syntax::read(&Source::new("touch.motet", text), FileId(0)), None);
     let graph = compiled.graph.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let pointer = Box::new(Client::new(brisk(server)).unwrap());
     let mut sight = Wall;
     let mut driver = Pointing::new(&mut sim, &mut sight, &setting.scene, pointer);

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, carry_out, planner, right, setting};
-use motet_client::Settings;
+use motet_client::ClientSettings;
 use motet_planner::conversation::Outcome;
 
 const REQUESTS: &[&str] = &["bring me the coke", "open the fridge", "put the red mug in the cupboard"];
@@ -95,7 +95,7 @@ fn every_reply_ends_in_a_run_a_question_or_an_error_and_nothing_leaks() {
     let (mut heard, mut asked, mut begun) = (0, 0, None);
     let mut longest = Duration::ZERO;
     while heard < replies {
-        let settings = Settings {
+        let settings = ClientSettings {
             idle_timeout: Duration::from_millis(150),
             timeout: Duration::from_secs(5),
             max_bytes: 256 << 10,

@@ -17,8 +17,8 @@ use motet_planner::model::{
     Finish, Message, Model, ModelError, ModelPlanner, News, Reading, Reply, Settings, Start, Verdict,
 };
 use motet_requests::RequestContext;
-use motet_runtime::{Effect, Refusal, Time};
-use motet_sim::{Options, Sim};
+use motet_runtime::{Effect, SwapRefusal, Time};
+use motet_sim::{Sim, SimOptions};
 
 const COKE: &str = "bring me the coke";
 
@@ -227,7 +227,7 @@ fn steps(script: Vec<Act>, start: Start, request: &str) -> (Outcome, Steps, Vec<
     let (setting, server, heard) = (setting(), Server::new(script), Heard::default());
     let how = Settings { start, ..Settings::default() };
     let mut planner = ModelPlanner::new(Client::new(brisk(&server)).unwrap(), heard.clone(), how);
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (mut talk, mut steps) = (Conversation::new(&setting), Steps::default());
     let (outcome, _) = talk.carry_out(request, &mut planner, &mut sim, &mut Nobody, &mut steps, Time::ZERO);
     let heard = heard.0.borrow().clone();
@@ -314,7 +314,7 @@ impl Watcher for Impatient {
         asks.then(|| "open the fridge".to_owned())
     }
 
-    fn swapped(&mut self, _: Time, refusal: Option<&Refusal>) {
+    fn swapped(&mut self, _: Time, refusal: Option<&SwapRefusal>) {
         assert_eq!(refusal, None);
         self.swaps += 1;
     }
@@ -326,7 +326,7 @@ fn a_request_made_meanwhile_is_planned_without_making_the_robot_wait() {
     let heard = Heard::default();
     let told = Told::new(&[right(&setting, COKE), right(&setting, "open the fridge")]);
     let mut planner = ModelPlanner::new(told, heard.clone(), Settings::default());
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (mut talk, mut watcher) = (Conversation::new(&setting), Impatient::default());
     let (outcome, _) = talk.carry_out(COKE, &mut planner, &mut sim, &mut Nobody, &mut watcher, Time::ZERO);
     assert_eq!((outcome, watcher.swaps), (Outcome::Done, 1), "{:?}", heard.0.borrow());

@@ -9,15 +9,15 @@ use std::time::Duration;
 use common::world::setting;
 use motet_graph::Value;
 use motet_planner::vision::{Pointer, Pointing};
-use motet_runtime::conformance::{Law, Subject, check};
-use motet_runtime::{Command, Driver, Image, Query, Time};
-use motet_sim::{Options, Sim};
+use motet_runtime::conformance::{ConformanceSubject, Law, check};
+use motet_runtime::{CameraImage, Command, Driver, Query, Time};
+use motet_sim::{Sim, SimOptions};
 
 /// Points at the middle of the picture after a while.
 struct Slow(Duration);
 
 impl Pointer for Slow {
-    fn ask(&mut self, _image: &Image, _question: &str) -> Result<String, String> {
+    fn ask(&mut self, _image: &CameraImage, _question: &str) -> Result<String, String> {
         std::thread::sleep(self.0);
         Ok("{\"point\": [320, 240]}".to_owned())
     }
@@ -26,7 +26,7 @@ impl Pointer for Slow {
 /// A fresh driver in the kitchen that lives as long as the test.
 fn pointing(after: Duration) -> Pointing<'static> {
     let setting = Box::leak(Box::new(setting()));
-    let sim = || Sim::new(&setting.robot, &setting.scene, Options::default());
+    let sim = || Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let (driver, eyes) = (Box::leak(Box::new(sim())), Box::leak(Box::new(sim())));
     Pointing::new(driver, eyes, &setting.scene, Box::new(Slow(after)))
 }
@@ -34,7 +34,7 @@ fn pointing(after: Duration) -> Pointing<'static> {
 /// The laws that it breaks, by a command that is started.
 fn broken(command: Command, after: Duration, is_virtual: bool) -> Vec<String> {
     let mut fresh = || -> Box<dyn Driver> { Box::new(pointing(after)) };
-    let breaches = check(&mut Subject {
+    let breaches = check(&mut ConformanceSubject {
         fresh: &mut fresh,
         command,
         query: Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] },

@@ -3,7 +3,7 @@
 use motet_planner::conversation::Kind;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Scene};
-use motet_sim::{CallEnd, CallFault, Faults};
+use motet_sim::{CallFault, CallFaultKind, Faults};
 use smol_str::SmolStr;
 
 use crate::random::Draw;
@@ -163,7 +163,7 @@ fn faults(failures: &[Kind]) -> Faults {
     let fails = |nth: u32, kind: &'static str| CallFault {
         primitive: SmolStr::new_static("pick"),
         nth: Some(nth),
-        then: CallEnd::Fails(SmolStr::new_static(kind)),
+        then: CallFaultKind::Fails(SmolStr::new_static(kind)),
     };
     let calls = if failures.contains(&Kind::NotReachable) {
         vec![fails(1, "unreachable")]

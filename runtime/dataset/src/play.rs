@@ -6,7 +6,7 @@ use std::rc::Rc;
 use motet_compiler::CheckOptions;
 use motet_planner::conversation::{Conversation, Kind, Outcome, Person, Problem, Setting};
 use motet_runtime::Time;
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 
 use crate::case::Case;
 use crate::mind::{Mind, Turn};
@@ -27,7 +27,7 @@ impl Person for Scripted {
 /// to another end, its goal does not hold, or something that should go wrong was never asked about.
 pub(crate) fn play(case: &Case, stage: &Stage, pictures: Pictures) -> Result<Vec<Turn>, &'static str> {
     let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
-    let options = Options { faults: case.faults.clone(), eye, ..Options::default() };
+    let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
     let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
     let mut mind = Mind { told: stage.scene.clone(), sim: driver.clone(), pictures, turns: Vec::new() };
     let setting = Setting {

@@ -9,7 +9,7 @@ use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_robots::urdf::Urdf;
 use motet_runtime::{Driver, Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render};
 
@@ -77,7 +77,7 @@ impl Stage {
             let primitive = graph.primitives.get(call.primitive.index());
             primitive.is_some_and(|primitive| matches!(primitive.name.as_str(), "ask" | "choose"))
         });
-        let mut sim = Sim::new(&self.robot, &self.scene, Options::default());
+        let mut sim = Sim::new(&self.robot, &self.scene, SimOptions::default());
         let entities = self.scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
         let start = StartState { entities: entities.collect(), ..StartState::default() };
         let mut engine = match Engine::new(graph, &start) {

@@ -8,7 +8,7 @@ mod swaps;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Value};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Query, StartState, Time,
@@ -35,7 +35,7 @@ fn started(out: &[Effect]) -> Option<GoalId> {
     })
 }
 
-pub(crate) fn engine(steps: &[Step]) -> Engine {
+pub(crate) fn engine(steps: &[StepSketch]) -> Engine {
     // Without a word where a sketch is invalid: the layout's own tests see to it that none is.
     Engine::new(graph(steps), &StartState::default()).unwrap_or_else(|_| engine(&[]))
 }
@@ -44,7 +44,7 @@ pub(crate) fn engine(steps: &[Step]) -> Engine {
 fn calls(c: &mut Criterion) {
     let mut group = c.benchmark_group("sequence of calls");
     for count in [10_usize, 100, 1_000, 10_000] {
-        let engine = engine(&vec![Step::say("hello"); count]);
+        let engine = engine(&vec![StepSketch::say("hello"); count]);
         let mut out = Vec::with_capacity(64);
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
@@ -62,7 +62,7 @@ fn calls(c: &mut Criterion) {
 fn tests(c: &mut Criterion) {
     let mut group = c.benchmark_group("sequence of tests");
     for count in [10_usize, 1_000, 10_000] {
-        let engine = engine(&vec![Step::If(Condition::Literal(true), vec![], None); count]);
+        let engine = engine(&vec![StepSketch::If(Condition::Literal(true), vec![], None); count]);
         let mut out = Vec::with_capacity(8 * count);
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
@@ -78,7 +78,7 @@ fn tests(c: &mut Criterion) {
 
 /// Groups in groups around one call.
 fn nesting(c: &mut Criterion) {
-    let deep = (0..1_000).fold(Step::say("hello"), |inner, _| Step::Sequence(vec![inner]));
+    let deep = (0..1_000).fold(StepSketch::say("hello"), |inner, _| StepSketch::Sequence(vec![inner]));
     let engine = engine(&[deep]);
     let mut out = Vec::with_capacity(4_000);
     c.bench_function("nesting 1000", |b| {
@@ -92,9 +92,9 @@ fn nesting(c: &mut Criterion) {
 
 /// A thousand monitors over one call: a tick in which nothing happens, and an observation that one of them depends on.
 fn monitors(c: &mut Criterion) {
-    let deep = (0..1_000).fold(Step::go("table"), |inner, index| {
+    let deep = (0..1_000).fold(StepSketch::go("table"), |inner, index| {
         let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity(&format!("mug_{index}"))]));
-        Step::Monitor(vec![When::new(held, React::Pause(60.0))], vec![inner])
+        StepSketch::Monitor(vec![WatchSketch::new(held, ReactionSketch::Pause(60.0))], vec![inner])
     });
     let mut engine = engine(&[deep]);
     let mut out = Vec::new();
@@ -119,9 +119,9 @@ fn monitors(c: &mut Criterion) {
 
 /// A call with a guard that is believed and effects that are written.
 fn contracts(c: &mut Criterion) {
-    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]));
-    let place = Step::Call(Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]));
-    let steps: Vec<Step> = (0..500).flat_map(|_| [pick.clone(), place.clone()]).collect();
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]));
+    let place = StepSketch::Call(CallSketch::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]));
+    let steps: Vec<StepSketch> = (0..500).flat_map(|_| [pick.clone(), place.clone()]).collect();
     let engine = engine(&steps);
     let mut out = Vec::with_capacity(64);
     let mut group = c.benchmark_group("calls with guards and effects");

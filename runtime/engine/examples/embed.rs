@@ -4,10 +4,10 @@
 
 #![allow(clippy::print_stdout, reason = "a program for the terminal")]
 
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_runtime::{
-    Capabilities, Command, Driver, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Prepared, Primitives,
-    Query, StartState, Time,
+    Capabilities, Command, Driver, DriverEvent, Effect, Engine, Event, GoalId, Outcome, PreparedSwap,
+    PrimitiveSet, Query, StartState, Time,
 };
 
 /// A robot for which everything takes two seconds, and which can go somewhere else on the way.
@@ -35,7 +35,7 @@ impl Toy {
 
 impl Driver for Toy {
     fn capabilities(&self) -> Capabilities {
-        Capabilities { update: Primitives::Only(["go".into()].into()), ..Capabilities::default() }
+        Capabilities { update: PrimitiveSet::Only(["go".into()].into()), ..Capabilities::default() }
     }
     fn start(&mut self, now: Time, goal: GoalId, _command: &Command) {
         self.report(now, DriverEvent::Acknowledged { goal });
@@ -81,8 +81,8 @@ fn carry_out(engine: &Engine, driver: &mut Toy, now: Time, out: &mut Vec<Effect>
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A host gets its graphs from a compiler, by `motet_graph::decode`. These are drawn by hand.
-    let first = graph(&[Step::go("table"), Step::say("I am at the table.")]);
-    let second = graph(&[Step::go("shelf"), Step::say("I am at the shelf.")]);
+    let first = graph(&[StepSketch::go("table"), StepSketch::say("I am at the table.")]);
+    let second = graph(&[StepSketch::go("shelf"), StepSketch::say("I am at the shelf.")]);
 
     let mut driver = Toy::default();
     let engine = Engine::new(first, &StartState::default()).map_err(|wrong| format!("{wrong:?}"))?;
@@ -93,7 +93,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     carry_out(&engine, &mut driver, now, &mut out);
 
     // Prepared at leisure, perhaps on another thread; committed between two events.
-    let mut next = Some(Prepared::new(second, &engine.running())?);
+    let mut next = Some(PreparedSwap::new(second, &engine.running())?);
     let swap_at = Time::from_secs(1.0);
     while !engine.is_over() {
         let wake = engine.wake_at().unwrap_or(Time::NEVER);

@@ -2,7 +2,7 @@
 
 use crate::effect::{Effect, RunEnd};
 use crate::engine::Engine;
-use crate::record::{Cause, Happening, NodeEnding};
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{BindingId, NodeId};
 
 impl Engine {
@@ -36,38 +36,38 @@ impl Engine {
         }
     }
 
-    fn describe_happening(&self, revision: u32, what: &Happening) -> String {
+    fn describe_happening(&self, revision: u32, what: &TraceEventKind) -> String {
         let path = |node: NodeId| self.path_at(revision, node);
         match what {
-            Happening::Entered { node } => format!("entered {}", path(*node)),
-            Happening::Ended { node, ending, cause } => {
+            TraceEventKind::Entered { node } => format!("entered {}", path(*node)),
+            TraceEventKind::Ended { node, ending, cause } => {
                 format!("ended {}: {}", path(*node), self.ending(revision, *ending, *cause))
             }
-            Happening::Started { node, goal, attempt } => {
+            TraceEventKind::Started { node, goal, attempt } => {
                 format!("started {} as {goal}, attempt {attempt}", path(*node))
             }
-            Happening::GoalEnded { node, goal, ending, cause } => {
+            TraceEventKind::GoalEnded { node, goal, ending, cause } => {
                 format!("{goal} of {} ended: {}", path(*node), self.ending(revision, *ending, *cause))
             }
-            Happening::Guard { node, need, truth } => {
+            TraceEventKind::Guard { node, need, truth } => {
                 format!("guard {need} of {}: {truth}", path(*node))
             }
-            Happening::Verified { node, verdict } => format!("verified {}: {verdict}", path(*node)),
-            Happening::Tested { node, truth } => format!("tested {}: {truth}", path(*node)),
-            Happening::Fired { node, watch, truth } => {
+            TraceEventKind::Verified { node, verdict } => format!("verified {}: {verdict}", path(*node)),
+            TraceEventKind::Tested { node, truth } => format!("tested {}: {truth}", path(*node)),
+            TraceEventKind::Fired { node, watch, truth } => {
                 format!("watch {watch} of {} fired: {truth}", path(*node))
             }
-            Happening::WentOn { node, watch } => format!("{} went on after watch {watch}", path(*node)),
-            Happening::Swapped { policy } => format!("swapped to {policy}"),
-            Happening::Kept { node, goal } => format!("{goal} goes on for {}", path(*node)),
-            Happening::Updated { node, goal } => format!("{goal} updated for {}", path(*node)),
-            Happening::Bound { binding, value } => {
+            TraceEventKind::WentOn { node, watch } => format!("{} went on after watch {watch}", path(*node)),
+            TraceEventKind::Swapped { policy } => format!("swapped to {policy}"),
+            TraceEventKind::Kept { node, goal } => format!("{goal} goes on for {}", path(*node)),
+            TraceEventKind::Updated { node, goal } => format!("{goal} updated for {}", path(*node)),
+            TraceEventKind::Bound { binding, value } => {
                 format!("bound {} = {value}", self.name(revision, *binding))
             }
         }
     }
 
-    fn ending(&self, revision: u32, ending: NodeEnding, cause: Cause) -> String {
+    fn ending(&self, revision: u32, ending: NodeEnding, cause: EndCause) -> String {
         match ending {
             NodeEnding::Success => "success".to_owned(),
             NodeEnding::Failure(failure) => {
@@ -92,7 +92,7 @@ impl Engine {
     }
 }
 
-impl std::fmt::Display for Cause {
+impl std::fmt::Display for EndCause {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Completed => "completed",

@@ -134,28 +134,28 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Capabilities {
     /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again after it.
-    pub hold: Primitives,
+    pub hold: PrimitiveSet,
     /// Primitives whose goals take new arguments while they run. Others are cancelled by a swap that changes them.
-    pub update: Primitives,
+    pub update: PrimitiveSet,
 }
 
 impl Default for Capabilities {
     /// Everything can be held, or is said not to be by [`DriverEvent::NotHeld`]; nothing can be updated.
     fn default() -> Self {
-        Self { hold: Primitives::All, update: Primitives::Only(BTreeSet::new()) }
+        Self { hold: PrimitiveSet::All, update: PrimitiveSet::Only(BTreeSet::new()) }
     }
 }
 
 /// A choice of primitives.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Primitives {
+pub enum PrimitiveSet {
     /// Every one.
     All,
     /// Those of these names.
     Only(BTreeSet<SmolStr>),
 }
 
-impl Primitives {
+impl PrimitiveSet {
     /// Whether a primitive is among them.
     #[must_use]
     pub fn contains(&self, primitive: &str) -> bool {

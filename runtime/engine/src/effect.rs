@@ -2,9 +2,9 @@
 
 use crate::event::GoalId;
 use crate::query::Query;
-use crate::record::Record;
 use crate::time::Time;
-use crate::verifier::{CheckId, Motion};
+use crate::trace::TraceEvent;
+use crate::verifier::{CheckId, DeferredMotion};
 use motet_graph::{NodeId, Value};
 use smol_str::SmolStr;
 use std::fmt;
@@ -76,17 +76,17 @@ pub enum Effect {
         query: Arc<Query>,
     },
     /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts, and only where
-    /// [`crate::Settings::verify_within`] says that somebody will answer.
+    /// [`crate::EngineSettings::verify_within`] says that somebody will answer.
     Verify {
         /// The question.
         check: CheckId,
         /// The step that waits for the verdict.
         node: NodeId,
         /// What.
-        motion: Arc<Motion>,
+        motion: Arc<DeferredMotion>,
     },
     /// What happened in the run, for people, traces and journals.
-    Report(Record),
+    Report(TraceEvent),
     /// The run is over; the last effect of a run.
     Finished(Box<RunEnd>),
 }

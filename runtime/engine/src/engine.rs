@@ -3,17 +3,17 @@
 use crate::driver::Capabilities;
 use crate::effect::Effect;
 use crate::event::Event;
-use crate::plan::Plan;
+use crate::prepared_graph::PreparedGraph;
 use crate::query::Pattern;
-use crate::settings::Settings;
+use crate::settings::EngineSettings;
 use crate::snapshot::Snapshot;
 use crate::start::{self, StartState};
 use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
-use crate::verifier::{CheckId, Motion};
-use motet_graph::{BindingId, FailureId, Graph, Invalid, Reason, Value};
+use crate::verifier::{CheckId, DeferredMotion};
+use motet_graph::{BindingId, FailureId, Graph, InvalidGraph, InvalidReason, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -21,12 +21,12 @@ use std::sync::Arc;
 /// effects.
 #[derive(Clone, Debug)]
 pub struct Engine {
-    pub(crate) plan: Arc<Plan>,
+    pub(crate) plan: Arc<PreparedGraph>,
     /// Boxed, so that a swap exchanges it by its address.
     pub(crate) run: Box<Run>,
     /// Graphs that were replaced, with their numbers.
-    pub(crate) older: Vec<(u32, Arc<Plan>)>,
-    settings: Settings,
+    pub(crate) older: Vec<(u32, Arc<PreparedGraph>)>,
+    settings: EngineSettings,
     capabilities: Capabilities,
 }
 
@@ -36,16 +36,16 @@ impl Engine {
     /// # Errors
     ///
     /// What is wrong with the graph, or which name it is to be given and is not.
-    pub fn new(graph: Graph, start: &StartState) -> Result<Self, Vec<Invalid>> {
+    pub fn new(graph: Graph, start: &StartState) -> Result<Self, Vec<InvalidGraph>> {
         motet_graph::validate(&graph)?;
-        let plan = Plan::new(Arc::new(graph));
+        let plan = PreparedGraph::new(Arc::new(graph));
         let beliefs = start::believe(&plan.graph, start);
         let mut run = Run::new(&plan, beliefs);
         for (index, binding) in plan.graph.bindings.iter().enumerate().filter(|(_, binding)| binding.given) {
             let given = start.bindings.iter().find(|(name, _)| *name == binding.name);
             let Some((_, value)) = given.filter(|(_, value)| value.fits(&binding.ty)) else {
-                let reason = Reason::NotGiven(binding.name.clone());
-                return Err(vec![Invalid { at: SmolStr::from(format!("binding {index}")), reason }]);
+                let reason = InvalidReason::NotGiven(binding.name.clone());
+                return Err(vec![InvalidGraph { at: SmolStr::from(format!("binding {index}")), reason }]);
             };
             if let Some(slot) = run.bindings.get_mut(index) {
                 *slot = Some(value.clone());
@@ -55,20 +55,20 @@ impl Engine {
             plan: Arc::new(plan),
             run: Box::new(run),
             older: Vec::new(),
-            settings: Settings::default(),
+            settings: EngineSettings::default(),
             capabilities: Capabilities::default(),
         })
     }
 
     /// With other settings.
     #[must_use]
-    pub fn with_settings(self, settings: Settings) -> Self {
+    pub fn with_settings(self, settings: EngineSettings) -> Self {
         Self { settings, ..self }
     }
 
     /// How patient it is.
     #[must_use]
-    pub const fn settings(&self) -> &Settings {
+    pub const fn settings(&self) -> &EngineSettings {
         &self.settings
     }
 
@@ -115,7 +115,7 @@ impl Engine {
     }
 
     /// Motions that were asked for and have no verdict yet, by question: who goes on with a run asks for them again.
-    pub fn unverified(&self) -> impl Iterator<Item = (CheckId, &Arc<Motion>)> {
+    pub fn unverified(&self) -> impl Iterator<Item = (CheckId, &Arc<DeferredMotion>)> {
         let open = self.run.checks.iter().filter(|check| check.verdict.is_none());
         open.map(|check| (check.id, &check.motion))
     }

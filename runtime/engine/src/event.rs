@@ -27,7 +27,7 @@ impl GoalId {
 impl fmt::Display for GoalId {
     /// The running number of the start, from 1.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "#{}", self.0 >> crate::goals::SLOT_BITS)
+        write!(f, "#{}", self.0 >> crate::goal_table::SLOT_BITS)
     }
 }
 

@@ -29,7 +29,7 @@
 //! let mut effects = Vec::new();
 //! engine.handle(Time::ZERO, Event::Begin, &mut effects);
 //! assert!(matches!(effects.last(), Some(Effect::Finished(_))));
-//! # Ok::<(), Vec<motet_graph::Invalid>>(())
+//! # Ok::<(), Vec<motet_graph::InvalidGraph>>(())
 //! ```
 //!
 //! Inside: `plan` is the graph made ready once; `state` is all that changes, in flat tables; `turn` makes the transitions
@@ -42,41 +42,41 @@ mod driver;
 mod effect;
 mod engine;
 mod event;
-mod goals;
-mod host;
+mod flat_table;
+mod goal_table;
 pub mod journal;
 pub mod memory;
 mod orphan;
 mod perception;
-mod plan;
+mod prepared_graph;
 mod query;
-mod record;
+mod run_loop;
 mod settings;
 mod snapshot;
 mod start;
 mod state;
 mod swap;
-mod table;
 mod time;
 mod timers;
+mod trace;
 mod truth;
 mod turn;
 mod verifier;
 pub mod wire;
-mod work;
+mod work_list;
 
-pub use driver::{Capabilities, Driver, Primitives};
+pub use driver::{Capabilities, Driver, PrimitiveSet};
 pub use effect::{Command, Effect, Fault, RunEnd};
 pub use engine::Engine;
 pub use event::{DriverEvent, Event, GoalId, Outcome};
-pub use host::{Control, Onlooker, go_on, run};
-pub use perception::{Camera, Depth, Detection, Image, Perception, View};
+pub use perception::{CameraImage, CameraModel, DepthImage, Detection, Perception, RgbdView};
 pub use query::{Answer, Pattern, Query};
-pub use record::{Cause, Happening, NodeEnding, Record};
-pub use settings::Settings;
+pub use run_loop::{Observer, RunControl, resume, run};
+pub use settings::EngineSettings;
 pub use snapshot::{LiveGoal, Snapshot};
 pub use start::StartState;
-pub use swap::{Prepared, Refusal, Retired, Running};
+pub use swap::{PreparedSwap, RetiredGraph, RunningGraph, SwapRefusal};
 pub use time::Time;
+pub use trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 pub use truth::Truth;
-pub use verifier::{CheckId, Motion, Verification, Verifier};
+pub use verifier::{CheckId, DeferredMotion, Verification, Verifier};

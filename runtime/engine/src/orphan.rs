@@ -2,19 +2,19 @@
 
 use crate::effect::Command;
 use crate::event::GoalId;
-use crate::plan::Plan;
-use crate::state::{Phase, Wish};
+use crate::prepared_graph::PreparedGraph;
+use crate::state::{GoalIntent, Phase};
 use crate::time::Time;
 use motet_graph::{Graph, NodeId, Value};
 use std::sync::Arc;
 
 /// A goal without a step. It holds its resources until it has ended.
 #[derive(Clone, Debug)]
-pub(crate) struct Orphan {
+pub(crate) struct OrphanGoal {
     pub(crate) goal: GoalId,
     pub(crate) command: Arc<Command>,
     pub(crate) phase: Phase,
-    pub(crate) wish: Wish,
+    pub(crate) wish: GoalIntent,
     /// When its cancel or its safe stop will have taken too long.
     pub(crate) due: Time,
     /// Its resources, as bits of the present graph.
@@ -24,15 +24,15 @@ pub(crate) struct Orphan {
     /// Its step in that graph.
     pub(crate) node: NodeId,
     /// That graph.
-    pub(crate) plan: Arc<Plan>,
+    pub(crate) plan: Arc<PreparedGraph>,
     /// What was bound when that graph was replaced.
     pub(crate) bindings: Arc<Vec<Option<Value>>>,
 }
 
-impl Orphan {
+impl OrphanGoal {
     /// Whether it may go on for a step of the new graph: nothing has been said against it.
     pub(crate) fn is_free(&self) -> bool {
-        matches!(self.wish, Wish::None | Wish::Hold)
+        matches!(self.wish, GoalIntent::None | GoalIntent::Hold)
             && matches!(self.phase, Phase::Starting | Phase::Running | Phase::Held)
     }
 

@@ -24,7 +24,7 @@ pub struct Detection {
 
 /// A picture, as it goes to a model.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Image {
+pub struct CameraImage {
     /// Which camera took it.
     pub camera: SmolStr,
     /// `image/png` or `image/jpeg`.
@@ -37,7 +37,7 @@ pub struct Image {
 
 /// A pinhole camera with its pose: x to the right, y down, z ahead, as images are.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Camera {
+pub struct CameraModel {
     /// Its pose in the frame `map`.
     pub pose: Pose,
     /// fx, fy, cx, cy in pixels, counted from the centre of the pixel in the top left corner.
@@ -46,7 +46,7 @@ pub struct Camera {
 
 /// A depth image, row by row.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Depth {
+pub struct DepthImage {
     /// Columns.
     pub width: usize,
     /// Rows.
@@ -57,13 +57,13 @@ pub struct Depth {
 
 /// A picture with its depth and the camera that took both.
 #[derive(Clone, PartialEq, Debug)]
-pub struct View {
+pub struct RgbdView {
     /// The picture.
-    pub image: Image,
+    pub image: CameraImage,
     /// Depth of the same view, pixel by pixel.
-    pub depth: Depth,
+    pub depth: DepthImage,
     /// Its pose and its intrinsics.
-    pub camera: Camera,
+    pub camera: CameraModel,
 }
 
 /// The eyes of a robot. A driver that has any implements it beside [`crate::Driver`].
@@ -75,15 +75,15 @@ pub struct View {
 /// 3. A confidence is between 0 and 1, and a pose finite.
 /// 4. Looked at twice at the same time, it gives the same.
 ///
-/// [`crate::conformance::perception`] checks them.
+/// [`crate::conformance::check_perception`] checks them.
 pub trait Perception {
     /// What is in view now, or was at the last look, the surest first.
     fn detections(&mut self, now: Time) -> Vec<Detection>;
     /// A fresh picture; none where there is no camera or it has nothing to show.
-    fn image(&mut self, now: Time) -> Option<Image>;
+    fn image(&mut self, now: Time) -> Option<CameraImage>;
     /// A fresh picture of an entity with depth, the camera turned towards it; none where no camera measures depth, or where
     /// none gets to see the entity from here.
-    fn view(&mut self, _now: Time, _of: &str) -> Option<View> {
+    fn view(&mut self, _now: Time, _of: &str) -> Option<RgbdView> {
         None
     }
 }
@@ -94,11 +94,11 @@ impl<P: Perception> Perception for Rc<RefCell<P>> {
         self.borrow_mut().detections(now)
     }
 
-    fn image(&mut self, now: Time) -> Option<Image> {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
         self.borrow_mut().image(now)
     }
 
-    fn view(&mut self, now: Time, of: &str) -> Option<View> {
+    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
         self.borrow_mut().view(now, of)
     }
 }

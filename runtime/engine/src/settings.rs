@@ -4,7 +4,7 @@ use crate::time::Time;
 
 /// How patient the engine is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Settings {
+pub struct EngineSettings {
     /// How long a cancel may go unanswered before the engine asks for a safe stop.
     pub cancel_within: Time,
     /// How long a safe stop may go unanswered before the run ends with [`crate::Fault::NotStopped`].
@@ -18,7 +18,7 @@ pub struct Settings {
     pub step_budget: u32,
 }
 
-impl Default for Settings {
+impl Default for EngineSettings {
     /// 5 s for a cancel, 5 s for a safe stop, 0.5 s unknown, nobody who verifies, 10,000,000 transitions.
     fn default() -> Self {
         Self {

@@ -3,7 +3,7 @@
 use crate::belief::{Beliefs, Facts, truth_of};
 use crate::effect::Command;
 use crate::event::GoalId;
-use crate::plan::Plan;
+use crate::prepared_graph::PreparedGraph;
 use crate::query::{Answer, Pattern, Query};
 use crate::start::StartState;
 use crate::state::Run;
@@ -71,7 +71,7 @@ impl Snapshot {
         said.collect()
     }
 
-    pub(crate) fn of(plan: &Plan, run: &Run) -> Self {
+    pub(crate) fn of(plan: &PreparedGraph, run: &Run) -> Self {
         let graph = &plan.graph;
         let mut fluents: Vec<(&SmolStr, &Facts)> = run.beliefs.fluents.iter().collect();
         fluents.sort_by_key(|(name, _)| *name);

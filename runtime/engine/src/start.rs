@@ -25,7 +25,7 @@ pub struct StartState {
 /// First what the compiler was told, then what the host knows.
 pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
     let mut beliefs = Beliefs::new(graph);
-    let mut ears = Ears { graph, beliefs: &mut beliefs };
+    let mut ears = EntityCollector { graph, beliefs: &mut beliefs };
     // Those that always exist.
     for (id, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
         ears.hear(&SmolStr::new_static(id), kind);
@@ -63,12 +63,12 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
 }
 
 /// Collects the entities that a graph names, with the kinds that their places say.
-struct Ears<'a> {
+struct EntityCollector<'a> {
     graph: &'a Graph,
     beliefs: &'a mut Beliefs,
 }
 
-impl Ears<'_> {
+impl EntityCollector<'_> {
     fn hear(&mut self, id: &SmolStr, kind: &str) {
         self.beliefs.entities.hear(self.graph, id, Some(kind));
     }

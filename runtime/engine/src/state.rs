@@ -3,16 +3,16 @@
 use crate::belief::{Beliefs, CellId};
 use crate::effect::{Command, RunEnd};
 use crate::event::GoalId;
-use crate::goals::Goals;
-use crate::orphan::Orphan;
-use crate::plan::Plan;
-use crate::record::{Cause, NodeEnding};
-use crate::table::Table;
+use crate::flat_table::Table;
+use crate::goal_table::GoalTable;
+use crate::orphan::OrphanGoal;
+use crate::prepared_graph::PreparedGraph;
 use crate::time::Time;
 use crate::timers::Timers;
+use crate::trace::{EndCause, NodeEnding};
 use crate::truth::Truth;
-use crate::verifier::{CheckId, Motion, Verification};
-use crate::work::Work;
+use crate::verifier::{CheckId, DeferredMotion, Verification};
+use crate::work_list::WorkList;
 use motet_graph::{NodeId, RegionId, Value};
 use smol_str::SmolStr;
 use std::cmp::Reverse;
@@ -69,7 +69,7 @@ impl Phase {
 
 /// Why a goal is to end early, or what is to happen once it is acknowledged.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Wish {
+pub(crate) enum GoalIntent {
     /// Nothing.
     None,
     /// To hold.
@@ -86,20 +86,20 @@ pub(crate) enum Wish {
 
 /// What becomes of a node once the regions that it stops are down.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum After {
+pub(crate) enum AfterStop {
     /// Nothing is being stopped.
     Nothing,
     /// It ends.
-    Exit(Exit),
+    Exit(NodeExit),
     /// A monitor starts its body again.
     Restart,
 }
 
 /// How something ended, and where that began.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Exit {
+pub(crate) struct NodeExit {
     pub(crate) ending: NodeEnding,
-    pub(crate) cause: Cause,
+    pub(crate) cause: EndCause,
     /// The step in which a failure arose.
     pub(crate) origin: NodeId,
 }
@@ -108,7 +108,7 @@ pub(crate) struct Exit {
 #[derive(Clone, Debug)]
 pub(crate) struct NodeRun {
     pub(crate) phase: Phase,
-    pub(crate) wish: Wish,
+    pub(crate) wish: GoalIntent,
     /// Call: attempts begun. Loop: runs of the body begun.
     pub(crate) count: u32,
     pub(crate) goal: Option<GoalId>,
@@ -125,13 +125,13 @@ pub(crate) struct NodeRun {
 /// What a composite step keeps beside it; apart, because few steps need it.
 #[derive(Clone, Debug)]
 pub(crate) struct CompositeRun {
-    pub(crate) after: After,
+    pub(crate) after: AfterStop,
     /// Monitor: pauses in force.
     pub(crate) pauses: u32,
     /// Monitor: the watch whose block runs or is about to.
     pub(crate) resuming: Option<u32>,
     /// Monitor: how the body ended while it was interrupted.
-    pub(crate) body_ended: Option<Exit>,
+    pub(crate) body_ended: Option<NodeExit>,
 }
 
 /// A region's state.
@@ -140,7 +140,7 @@ pub(crate) struct RegionRun {
     pub(crate) active: bool,
     pub(crate) current: Option<NodeId>,
     /// Why it is being stopped.
-    pub(crate) stopping: Option<Cause>,
+    pub(crate) stopping: Option<EndCause>,
     /// By how many pauses and interruptions it is suspended.
     pub(crate) suspended: u32,
 }
@@ -166,10 +166,10 @@ pub(crate) struct WatchRun {
 
 /// A motion whose verdict a call awaits, or has had.
 #[derive(Clone, Debug)]
-pub(crate) struct Check {
+pub(crate) struct MotionCheck {
     pub(crate) id: CheckId,
     pub(crate) node: NodeId,
-    pub(crate) motion: Arc<Motion>,
+    pub(crate) motion: Arc<DeferredMotion>,
     pub(crate) verdict: Option<Verification>,
 }
 
@@ -190,7 +190,7 @@ pub(crate) struct Run {
     /// Lists that `each` loops run over, innermost last.
     pub(crate) lists: Vec<(NodeId, Arc<[Value]>)>,
     pub(crate) beliefs: Beliefs,
-    pub(crate) goals: Goals,
+    pub(crate) goals: GoalTable,
     /// Commands of live goals whose arguments had to be worked out.
     pub(crate) commands: Vec<(NodeId, Arc<Command>)>,
     pub(crate) timers: Timers,
@@ -203,19 +203,19 @@ pub(crate) struct Run {
     /// Monitors that wait for their body to be down before they run a block.
     pub(crate) clearing: Vec<NodeId>,
     /// Motions of calls that are about to start.
-    pub(crate) checks: Vec<Check>,
+    pub(crate) checks: Vec<MotionCheck>,
     /// How many were asked for.
     pub(crate) checked: u64,
     /// Observations that steps await.
     pub(crate) asked: Vec<(CellId, NodeId)>,
-    pub(crate) work: Work,
+    pub(crate) work: WorkList,
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
     /// How the run is to end once everything is down.
     pub(crate) ending: Option<RunEnd>,
     /// How the run ends once the goals of replaced policies have ended.
     pub(crate) closing: Option<RunEnd>,
     /// Goals of replaced policies, by start.
-    pub(crate) orphans: Vec<Orphan>,
+    pub(crate) orphans: Vec<OrphanGoal>,
     /// Whether a swap is being made: watches that lose their last watcher are kept until it is.
     pub(crate) swapping: bool,
     /// Those watches.
@@ -229,10 +229,10 @@ pub(crate) struct Run {
 
 impl Run {
     /// Before the beginning.
-    pub(crate) fn new(plan: &Plan, beliefs: Beliefs) -> Self {
+    pub(crate) fn new(plan: &PreparedGraph, beliefs: Beliefs) -> Self {
         let node = NodeRun {
             phase: Phase::Idle,
-            wish: Wish::None,
+            wish: GoalIntent::None,
             count: 0,
             goal: None,
             since: Time::ZERO,
@@ -240,7 +240,8 @@ impl Run {
             left: Time::ZERO,
             judging: false,
         };
-        let composite = CompositeRun { after: After::Nothing, pauses: 0, resuming: None, body_ended: None };
+        let composite =
+            CompositeRun { after: AfterStop::Nothing, pauses: 0, resuming: None, body_ended: None };
         let region = RegionRun { active: false, current: None, stopping: None, suspended: 0 };
         let watch = WatchRun {
             since: Time::ZERO,
@@ -265,7 +266,7 @@ impl Run {
             bindings: vec![None; plan.graph.bindings.len()],
             lists: Vec::new(),
             beliefs,
-            goals: Goals::default(),
+            goals: GoalTable::default(),
             commands: Vec::new(),
             timers: Timers::new(plan.keys()),
             held: 0,
@@ -275,7 +276,7 @@ impl Run {
             checks: Vec::new(),
             checked: 0,
             asked: Vec::new(),
-            work: Work::default(),
+            work: WorkList::default(),
             dirty: BinaryHeap::new(),
             ending: None,
             closing: None,
@@ -289,7 +290,7 @@ impl Run {
     }
 
     /// What the goal of a call does; none where it has no goal.
-    pub(crate) fn command(&self, plan: &Plan, node: NodeId) -> Option<Arc<Command>> {
+    pub(crate) fn command(&self, plan: &PreparedGraph, node: NodeId) -> Option<Arc<Command>> {
         let worked_out = self.commands.iter().find(|(of, _)| *of == node).map(|(_, command)| command);
         worked_out.or(plan.step(node).command.as_ref()).cloned()
     }

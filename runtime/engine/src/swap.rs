@@ -1,47 +1,47 @@
 //! Replacing the graph that runs, at any moment, in two phases.
 //!
-//! A new graph is **prepared** away from the stepping path ([`Prepared::new`]): it is validated, and all that does not
+//! A new graph is **prepared** away from the stepping path ([`PreparedSwap::new`]): it is validated, and all that does not
 //! depend on the moment is worked out. Then [`Engine::swap`] **commits** it between two events, in one move. What the new
 //! policy was proved from is checked against what is believed at that moment; a refused swap changes nothing at all.
 
-use crate::belief::{Beliefs, Entities, Standing, covers};
+use crate::belief::{Beliefs, Entities, FactStanding, covers};
 use crate::effect::Effect;
 use crate::engine::Engine;
-use crate::plan::Plan;
+use crate::prepared_graph::PreparedGraph;
 use crate::query::{Pattern, Query};
 use crate::start::{self, StartState};
 use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
-use motet_graph::{FactArg, Graph, Invalid, Term, Type};
+use motet_graph::{FactArg, Graph, InvalidGraph, Term, Type};
 use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
 
 /// A graph that runs, for others to prepare a swap against. Cheap to clone, and may go to another thread.
 #[derive(Clone, Debug)]
-pub struct Running {
-    plan: Arc<Plan>,
+pub struct RunningGraph {
+    plan: Arc<PreparedGraph>,
 }
 
 /// A graph made ready to take over.
 #[derive(Clone, Debug)]
-pub struct Prepared {
-    plan: Arc<Plan>,
+pub struct PreparedSwap {
+    plan: Arc<PreparedGraph>,
     run: Box<Run>,
     /// The graph that it was prepared against.
-    against: Arc<Plan>,
+    against: Arc<PreparedGraph>,
     /// Whether fluents stand at the same places in both.
     same_fluents: bool,
     /// Names of the old graph that are carried, with their places in both.
     carried: Vec<(u32, u32)>,
     /// What it was proved from.
-    told: Vec<Told>,
+    told: Vec<InitialFact>,
 }
 
 /// A fact that a policy was proved from.
 #[derive(Clone, Debug)]
-struct Told {
+struct InitialFact {
     fluent: SmolStr,
     args: Vec<Pattern>,
     value: bool,
@@ -49,17 +49,17 @@ struct Told {
 
 /// What a swap leaves behind. To free it costs the size of the graph, so drop it away from the stepping path.
 #[derive(Debug)]
-pub struct Retired {
+pub struct RetiredGraph {
     revision: u32,
-    plan: Arc<Plan>,
+    plan: Arc<PreparedGraph>,
     _run: (Box<Run>, Entities),
 }
 
 /// Why a swap was refused. The run goes on as if nobody had asked.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Refusal {
+pub enum SwapRefusal {
     /// The graph is not valid.
-    Invalid(Vec<Invalid>),
+    Invalid(Vec<InvalidGraph>),
     /// It was compiled for another robot.
     Robot {
         /// The robot that runs.
@@ -85,7 +85,7 @@ pub enum Refusal {
     Over,
 }
 
-impl Running {
+impl RunningGraph {
     /// The graph.
     #[must_use]
     pub fn graph(&self) -> &Graph {
@@ -93,7 +93,7 @@ impl Running {
     }
 }
 
-impl Retired {
+impl RetiredGraph {
     /// The graph that was replaced.
     #[must_use]
     pub fn graph(&self) -> &Arc<Graph> {
@@ -107,21 +107,21 @@ impl Retired {
     }
 }
 
-impl Prepared {
+impl PreparedSwap {
     /// Makes a graph ready to take over from the one that runs. Costs the size of the graph. Where another swap is
     /// committed first, it stays good.
     ///
     /// # Errors
     ///
-    /// [`Refusal::Invalid`], [`Refusal::Robot`].
-    pub fn new(graph: Graph, running: &Running) -> Result<Self, Refusal> {
-        motet_graph::validate(&graph).map_err(Refusal::Invalid)?;
+    /// [`SwapRefusal::Invalid`], [`SwapRefusal::Robot`].
+    pub fn new(graph: Graph, running: &RunningGraph) -> Result<Self, SwapRefusal> {
+        motet_graph::validate(&graph).map_err(SwapRefusal::Invalid)?;
         let old = &running.plan.graph;
         if graph.robot != old.robot {
-            return Err(Refusal::Robot { running: old.robot.clone(), wanted: graph.robot });
+            return Err(SwapRefusal::Robot { running: old.robot.clone(), wanted: graph.robot });
         }
         let told = told(&graph);
-        let plan = Plan::new(Arc::new(graph));
+        let plan = PreparedGraph::new(Arc::new(graph));
         let beliefs = start::believe(&plan.graph, &StartState::default());
         let run = Box::new(Run::new(&plan, beliefs));
         let mut prepared = Self {
@@ -158,26 +158,26 @@ impl Prepared {
     }
 
     /// What speaks against it at this moment.
-    fn check(&self, run: &Run, running: &Graph) -> Result<(), Refusal> {
+    fn check(&self, run: &Run, running: &Graph) -> Result<(), SwapRefusal> {
         if run.over || run.is_stopped() {
-            return Err(Refusal::Over);
+            return Err(SwapRefusal::Over);
         }
         let graph = &self.plan.graph;
         if graph.robot != running.robot {
-            return Err(Refusal::Robot { running: running.robot.clone(), wanted: graph.robot.clone() });
+            return Err(SwapRefusal::Robot { running: running.robot.clone(), wanted: graph.robot.clone() });
         }
         for told in &self.told {
             let standing = run.beliefs.standing(&told.fluent, &told.args, told.value);
-            if let Standing::Otherwise(believed) = standing {
+            if let FactStanding::Otherwise(believed) = standing {
                 let fact = Query::Fact { fluent: told.fluent.clone(), args: told.args.clone() };
-                return Err(Refusal::Start { fact, told: told.value, believed });
+                return Err(SwapRefusal::Start { fact, told: told.value, believed });
             }
         }
         for (index, binding) in graph.bindings.iter().enumerate().filter(|(_, binding)| binding.given) {
             let from = self.carried.iter().find(|(_, to)| *to as usize == index);
             let value = from.and_then(|(from, _)| run.bindings.get(*from as usize)?.as_ref());
             if !value.is_some_and(|value| value.fits(&binding.ty)) {
-                return Err(Refusal::Binding { name: binding.name.clone() });
+                return Err(SwapRefusal::Binding { name: binding.name.clone() });
             }
         }
         Ok(())
@@ -187,8 +187,8 @@ impl Prepared {
 impl Engine {
     /// The graph that runs, to prepare a swap against.
     #[must_use]
-    pub fn running(&self) -> Running {
-        Running { plan: self.plan.clone() }
+    pub fn running(&self) -> RunningGraph {
+        RunningGraph { plan: self.plan.clone() }
     }
 
     /// Lets another graph take over, at any moment between two events: while goals run, are held or are being cancelled,
@@ -206,7 +206,12 @@ impl Engine {
     /// # Errors
     ///
     /// Why it was refused; then neither the engine nor `out` has changed.
-    pub fn swap(&mut self, now: Time, prepared: Prepared, out: &mut Vec<Effect>) -> Result<Retired, Refusal> {
+    pub fn swap(
+        &mut self,
+        now: Time,
+        prepared: PreparedSwap,
+        out: &mut Vec<Effect>,
+    ) -> Result<RetiredGraph, SwapRefusal> {
         let mut prepared = prepared;
         if !Arc::ptr_eq(&prepared.against, &self.plan) {
             prepared.against = self.plan.clone();
@@ -216,7 +221,7 @@ impl Engine {
         self.run.now = self.run.now.max(now);
         let plan = self.plan.clone();
         let bindings = self.turn(out).retire(&plan);
-        let Prepared { plan: next, mut run, same_fluents, carried, told, .. } = prepared;
+        let PreparedSwap { plan: next, mut run, same_fluents, carried, told, .. } = prepared;
         let heard = std::mem::take(&mut run.beliefs.entities);
         run.inherit(&mut self.run, &bindings, &carried);
         if !same_fluents {
@@ -229,7 +234,7 @@ impl Engine {
         let old = std::mem::replace(&mut self.run, run);
         self.older.push((revision, std::mem::replace(&mut self.plan, next)));
         self.turn(out).take_over(&heard);
-        Ok(Retired { revision, plan, _run: (old, heard) })
+        Ok(RetiredGraph { revision, plan, _run: (old, heard) })
     }
 
     /// The graph with a number, to read a trace by: the one that runs, or one that was replaced.
@@ -283,7 +288,7 @@ impl Run {
 }
 
 /// The ground facts that a graph was proved from.
-fn told(graph: &Graph) -> Vec<Told> {
+fn told(graph: &Graph) -> Vec<InitialFact> {
     let told = graph.initial.iter().filter_map(|(fact, value)| {
         let args = fact.args.iter().map(|arg| match arg {
             FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
@@ -291,10 +296,10 @@ fn told(graph: &Graph) -> Vec<Told> {
             FactArg::Term(_) => None,
         });
         let fluent = graph.fluents.get(fact.fluent.index())?.name.clone();
-        Some(Told { fluent, args: args.collect::<Option<_>>()?, value: *value })
+        Some(InitialFact { fluent, args: args.collect::<Option<_>>()?, value: *value })
     });
     // Of one fact the later word counts, and so does one about every entity.
-    let mut last: Vec<Told> = Vec::new();
+    let mut last: Vec<InitialFact> = Vec::new();
     for told in told {
         last.retain(|before| before.fluent != told.fluent || !covers(&told.args, &before.args));
         last.push(told);
@@ -313,7 +318,7 @@ fn same_type(a: &Type, of_a: &Graph, b: &Type, of_b: &Graph) -> bool {
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for SwapRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Invalid(wrong) => {
@@ -330,12 +335,12 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for SwapRefusal {}
 
 /// What a run believes of a fact that a policy was proved from.
 impl Beliefs {
     fn hear_told(&mut self, fluent: &SmolStr, args: &[Pattern], value: bool) {
-        if self.standing(fluent, args, value) == Standing::Unheard {
+        if self.standing(fluent, args, value) == FactStanding::Unheard {
             self.tell(fluent, args.to_vec(), Truth::from(value));
         }
     }

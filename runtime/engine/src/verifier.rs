@@ -39,7 +39,7 @@ impl fmt::Display for CheckId {
 
 /// A motion that was left to the run.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Motion {
+pub struct DeferredMotion {
     /// The name of the query, `reach`.
     pub query: SmolStr,
     /// Its arguments.
@@ -48,7 +48,7 @@ pub struct Motion {
     pub command: Arc<Command>,
 }
 
-impl fmt::Display for Motion {
+impl fmt::Display for DeferredMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}(", self.query)?;
         for (index, arg) in self.args.iter().enumerate() {
@@ -89,7 +89,7 @@ impl fmt::Display for Verification {
 }
 
 /// Checks motions that the compiler deferred, in the world as a run has made it. [`crate::run`] shows the one that its
-/// onlooker has ([`crate::Onlooker::verifier`]) all events and effects, asks it, and takes its verdicts as they come.
+/// observer has ([`crate::Observer::verifier`]) all events and effects, asks it, and takes its verdicts as they come.
 ///
 /// # Laws
 ///
@@ -107,7 +107,7 @@ pub trait Verifier {
     fn effect(&mut self, effect: &Effect);
 
     /// Asks whether a motion has a solution in the world as it is.
-    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>);
+    fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>);
 
     /// A verdict that was not given yet, if there is one.
     fn verdict(&mut self) -> Option<(CheckId, Verification)>;

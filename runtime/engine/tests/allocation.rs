@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use motet_graph::Value;
-use motet_graph::arbitrary::{React, Step, When, graph, vocabulary};
+use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary};
 use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Query, StartState, Time};
 
 fn started(out: &[Effect]) -> Option<GoalId> {
@@ -14,7 +14,7 @@ fn started(out: &[Effect]) -> Option<GoalId> {
     })
 }
 
-fn begun(steps: &[Step]) -> (Engine, Vec<Effect>) {
+fn begun(steps: &[StepSketch]) -> (Engine, Vec<Effect>) {
     let mut engine = Engine::new(graph(steps), &StartState::default()).unwrap();
     let mut out = Vec::with_capacity(64);
     engine.handle(Time::ZERO, Event::Begin, &mut out);
@@ -23,7 +23,7 @@ fn begun(steps: &[Step]) -> (Engine, Vec<Effect>) {
 
 #[test]
 fn a_step_of_a_sequence() {
-    let (mut engine, mut out) = begun(&vec![Step::say("hello"); 1_000]);
+    let (mut engine, mut out) = begun(&vec![StepSketch::say("hello"); 1_000]);
     let mut go_on = |steps: usize| {
         for _ in 0..steps {
             let goal = started(&out).unwrap();
@@ -39,8 +39,8 @@ fn a_step_of_a_sequence() {
 
 #[test]
 fn an_idle_tick_and_a_reading_that_fires_nothing() {
-    let watch = When::new(vocabulary::nearer("user", 0.5), React::Pause(60.0));
-    let (mut engine, mut out) = begun(&[Step::Monitor(vec![watch], vec![Step::go("table")])]);
+    let watch = WatchSketch::new(vocabulary::nearer("user", 0.5), ReactionSketch::Pause(60.0));
+    let (mut engine, mut out) = begun(&[StepSketch::Monitor(vec![watch], vec![StepSketch::go("table")])]);
     let query = Query::Measure { measure: "distance".into(), args: vec![Value::Entity("user".into())] };
     let mut readings: Vec<Event> = (0..100)
         .map(|_| DriverEvent::Observed { query: query.clone(), answer: Answer::Value(Value::Number(2.0)) })

@@ -1,16 +1,16 @@
 //! What it costs to write an event down: as a line, in a group, and synced to disk one by one.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motet_graph::arbitrary::{Step, graph};
-use motet_host::journal::{Grouping, Writer};
-use motet_runtime::journal::{Chain, Head};
+use motet_graph::arbitrary::{StepSketch, graph};
+use motet_host::journal::{JournalWriter, SyncGrouping};
+use motet_runtime::journal::{JournalHead, LineChain};
 use motet_runtime::{DriverEvent, Effect, Engine, Event, GoalId, Outcome, StartState, Time};
 use std::hint::black_box;
 use std::path::Path;
 
 /// An event with its effects: a call ends and the next one starts.
 fn step() -> (Event, Vec<Effect>) {
-    let graph = graph(&[Step::go("table"), Step::go("shelf")]);
+    let graph = graph(&[StepSketch::go("table"), StepSketch::go("shelf")]);
     // Without a word where the sketch is invalid: the layout's own tests see to it that none is.
     let Ok(mut engine) = Engine::new(graph, &StartState::default()) else { return (Event::Tick, Vec::new()) };
     let mut out = Vec::new();
@@ -28,7 +28,7 @@ fn step() -> (Event, Vec<Effect>) {
 
 fn lines(c: &mut Criterion) {
     let (event, effects) = step();
-    let mut chain = Chain::default();
+    let mut chain = LineChain::default();
     c.bench_function("line of an event", |b| {
         b.iter(|| black_box(chain.step(Time::ZERO, &event, &effects)));
     });
@@ -39,9 +39,9 @@ fn files(c: &mut Criterion) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("journal_bench");
     for (name, synced) in [("append, synced in groups", false), ("append, each synced", true)] {
         let _ = std::fs::remove_dir_all(&folder);
-        let head = Head::new(&graph(&[Step::go("table")]));
-        let Ok(writer) = Writer::create(&folder, head) else { return };
-        let mut writer = writer.with_grouping(Grouping::default());
+        let head = JournalHead::new(&graph(&[StepSketch::go("table")]));
+        let Ok(writer) = JournalWriter::create(&folder, head) else { return };
+        let mut writer = writer.with_grouping(SyncGrouping::default());
         c.bench_function(name, |b| {
             b.iter(|| {
                 let written = writer.append(|chain| chain.step(Time::ZERO, &event, &effects));

@@ -8,8 +8,8 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use motet_compiler::{Forecast, WorldTracker};
 use motet_graph::Value;
 use motet_runtime::{
-    Answer, CheckId, Command, DriverEvent, Effect, Event, GoalId, Motion, Outcome, Pattern, Query, Time,
-    Verification, Verifier,
+    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
+    Time, Verification, Verifier,
 };
 
 /// How long the engine waits for a verdict: longer than any search within its budget.
@@ -42,7 +42,7 @@ pub enum Verifies {
 enum Told {
     Reported(DriverEvent),
     Began(GoalId, Arc<Command>),
-    Asked(CheckId, Arc<Motion>),
+    Asked(CheckId, Arc<DeferredMotion>),
 }
 
 impl Guard {
@@ -99,7 +99,7 @@ impl Verifier for Guard {
         }
     }
 
-    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+    fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>) {
         self.tell(Told::Asked(check, Arc::clone(motion)));
     }
 
@@ -186,7 +186,7 @@ impl Way {
         self.course.began(&name);
     }
 
-    fn motion(&self, motion: &Motion) -> Verification {
+    fn motion(&self, motion: &DeferredMotion) -> Verification {
         let Command { primitive, args, .. } = &*motion.command;
         match self.course.motion(primitive, args, &motion.query, &motion.args) {
             Forecast::Feasible => Verification::Feasible,

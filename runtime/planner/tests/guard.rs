@@ -10,12 +10,12 @@ use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::guard::{Guard, Verifies, WITHIN};
 use motet_robots::scene::Scene;
-use motet_runtime::journal::{Entry, Head, Replay, Step};
+use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
-    CheckId, Control, Driver, Effect, Engine, Event, Happening, Motion, Onlooker, RunEnd, Settings,
-    StartState, Time, Verification, Verifier, run, wire,
+    CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Observer, RunControl, RunEnd,
+    StartState, Time, TraceEventKind, Verification, Verifier, run, wire,
 };
-use motet_sim::{Options as SimOptions, Script, Sim};
+use motet_sim::{PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ impl Verifier for Waiting {
         self.0.effect(effect);
     }
 
-    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+    fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>) {
         self.0.ask(check, motion);
     }
 
@@ -58,20 +58,20 @@ impl Verifier for Waiting {
 struct Host {
     guard: Waiting,
     event: Option<Event>,
-    entries: Vec<Entry>,
+    entries: Vec<JournalEntry>,
     told: Vec<String>,
 }
 
-impl Onlooker for Host {
+impl Observer for Host {
     fn event(&mut self, _now: Time, event: &Event) {
         self.event = Some(event.clone());
     }
 
-    fn commit(&mut self, now: Time, effects: &[Effect]) -> Control {
+    fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
         let event = self.event.take().map(|event| wire::Event::from(&event));
         let effects = effects.iter().map(wire::Effect::from).collect();
-        self.entries.push(Entry::Step(Step { at: now.nanos(), event, effects }));
-        Control::GoOn
+        self.entries.push(JournalEntry::Step(StepEntry { at: now.nanos(), event, effects }));
+        RunControl::Continue
     }
 
     fn effect(&mut self, _now: Time, effect: &Effect) {
@@ -79,7 +79,7 @@ impl Onlooker for Host {
             Effect::Start { command, .. } => self.told.push(command.to_string()),
             Effect::Verify { motion, .. } => self.told.push(format!("verify {motion}")),
             Effect::Report(record) => {
-                if let Happening::Verified { verdict, .. } = &record.what {
+                if let TraceEventKind::Verified { verdict, .. } = &record.what {
                     self.told.push(verdict.to_string());
                 }
             }
@@ -103,23 +103,23 @@ fn play_with(scene: &Scene, policy: &str, verifies: Verifies) -> (RunEnd, Vec<St
     let graph = compile(&session, policy);
     let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone()));
     let start = StartState { entities: entities.collect(), ..StartState::default() };
-    let script = Script { answers: vec![Some("red mug".into())] };
+    let script = PersonScript { answers: vec![Some("red mug".into())] };
     let mut sim = Sim::new(&hsr(), scene, SimOptions { script, ..SimOptions::default() });
-    let settings = Settings { verify_within: Some(WITHIN), ..Settings::default() };
+    let settings = EngineSettings { verify_within: Some(WITHIN), ..EngineSettings::default() };
     let mut engine = Engine::new(graph.clone(), &start)
         .unwrap()
         .with_capabilities(sim.capabilities())
         .with_settings(settings);
-    let head = Head {
+    let head = JournalHead {
         start: (&start).into(),
         settings: settings.into(),
         capabilities: (&sim.capabilities()).into(),
-        ..Head::new(&graph)
+        ..JournalHead::new(&graph)
     };
     let guard = Guard::new(session.world_tracker().unwrap(), verifies);
     let mut host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let end = run(&mut engine, &mut sim, &mut host, Time::ZERO);
-    let mut replay = Replay::new(&head).unwrap();
+    let mut replay = EngineReplay::new(&head).unwrap();
     for entry in &host.entries {
         assert_eq!(replay.take(entry).unwrap(), None, "the replay differs");
     }
@@ -170,7 +170,7 @@ struct Patient {
     glances: usize,
 }
 
-impl Onlooker for Patient {
+impl Observer for Patient {
     fn event(&mut self, _now: Time, event: &Event) {
         if matches!(event, Event::Verified { .. }) {
             self.is_asked = false;
@@ -198,7 +198,7 @@ impl Verifier for Patient {
         self.host.guard.effect(effect);
     }
 
-    fn ask(&mut self, check: CheckId, motion: &Arc<Motion>) {
+    fn ask(&mut self, check: CheckId, motion: &Arc<DeferredMotion>) {
         self.host.guard.ask(check, motion);
     }
 
@@ -215,7 +215,7 @@ impl Verifier for Patient {
 fn the_loop_goes_on_while_a_verdict_is_awaited() {
     let session = session(&kitchen());
     let mut sim = Sim::new(&hsr(), &kitchen(), SimOptions::default());
-    let settings = Settings { verify_within: Some(WITHIN), ..Settings::default() };
+    let settings = EngineSettings { verify_within: Some(WITHIN), ..EngineSettings::default() };
     let entities = kitchen().entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
     let start = StartState { entities, ..StartState::default() };
     let mut engine = Engine::new(compile(&session, CHOSEN), &start).unwrap().with_settings(settings);

@@ -5,7 +5,7 @@ use motet_robots::scene::{Placement, Shape};
 
 /// Where the robot stands: x and y in m in the frame `map`, heading in rad.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Stance {
+pub struct BasePose {
     /// East, in m.
     pub x: f64,
     /// North, in m.
@@ -14,7 +14,7 @@ pub struct Stance {
     pub heading: f64,
 }
 
-impl Stance {
+impl BasePose {
     /// Metres in the plane to a point.
     #[must_use]
     pub fn distance_to(self, x: f64, y: f64) -> f64 {
@@ -43,7 +43,7 @@ pub(crate) enum Outline {
 
 /// An upright thing.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Body {
+pub(crate) struct UprightBody {
     /// The reference point of its pose.
     pub(crate) xyz: [f64; 3],
     pub(crate) yaw: f64,
@@ -53,7 +53,7 @@ pub(crate) struct Body {
     above: f64,
 }
 
-impl Body {
+impl UprightBody {
     /// A thing as a scene gives it. One without a shape is a disc of 4 cm radius and 8 cm height.
     pub(crate) fn new(pose: Placement, shape: Option<&Shape>, stands_on_pose: bool) -> Self {
         let (outline, height) = match shape {
@@ -152,13 +152,13 @@ impl Body {
 
     /// Stances about it at a distance from its outline, facing it: at the corners' arcs and about every 10 cm along its
     /// sides.
-    pub(crate) fn stances(&self, clearance: f64) -> Vec<Stance> {
+    pub(crate) fn stances(&self, clearance: f64) -> Vec<BasePose> {
         let mut stances = Vec::new();
         let mut add = |at: [f64; 2], normal: [f64; 2]| {
             let [x, y, _] =
                 self.turned_out([at[0] + normal[0] * clearance, at[1] + normal[1] * clearance, 0.0]);
             let [nx, ny, _] = self.turned_out([normal[0], normal[1], 0.0]);
-            stances.push(Stance { x: self.x() + x, y: self.y() + y, heading: (-ny).atan2(-nx) });
+            stances.push(BasePose { x: self.x() + x, y: self.y() + y, heading: (-ny).atan2(-nx) });
         };
         match self.outline {
             Outline::Disc { radius } => {
@@ -197,9 +197,9 @@ impl Body {
 mod tests {
     use super::*;
 
-    fn table() -> Body {
+    fn table() -> UprightBody {
         let pose = Placement { xyz: [2.0, 0.5, 0.36], rpy: [0.0, 0.0, std::f64::consts::FRAC_PI_2] };
-        Body::new(pose, Some(&Shape::Box([1.2, 0.8, 0.72])), false)
+        UprightBody::new(pose, Some(&Shape::Box([1.2, 0.8, 0.72])), false)
     }
 
     #[test]

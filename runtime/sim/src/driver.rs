@@ -1,10 +1,10 @@
 //! The simulator as a driver: goals become tasks, and time goes from one thing that happens to the next.
 
-use crate::deed::Deed;
-use crate::motion::Motion;
+use crate::command::SimCommand;
+use crate::motion::BaseMotion;
 use crate::sim::Sim;
-use crate::task::{Next, Stage, Stageplay, Task};
-use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Primitives, Query, Time};
+use crate::task::{NextStage, Task, TaskContext, TaskStage};
+use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, PrimitiveSet, Query, Time};
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
@@ -23,16 +23,16 @@ impl Driver for Sim {
             return;
         }
         self.report(DriverEvent::Acknowledged { goal });
-        let deed = Deed::of(command);
-        let share = if fault.fails.is_some() { deed.share().max(0.05) } else { deed.share() };
+        let parsed = SimCommand::of(command);
+        let share = if fault.fails.is_some() { parsed.share().max(0.05) } else { parsed.share() };
         let task = Task {
             goal,
             uses: command.uses.clone(),
             work_secs: command.deadline_secs * share * jitter,
-            deed,
+            command: parsed,
             slower: fault.slower,
             fails: fault.fails,
-            stage: Stage::Working(Time::NEVER),
+            stage: TaskStage::Working(Time::NEVER),
             step: 0,
             found: None,
         };
@@ -54,7 +54,7 @@ impl Driver for Sim {
     /// It can hold everything, and `go` somewhere else on the way.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
-            update: Primitives::Only(BTreeSet::from([SmolStr::new_static("go")])),
+            update: PrimitiveSet::Only(BTreeSet::from([SmolStr::new_static("go")])),
             ..Capabilities::default()
         }
     }
@@ -63,11 +63,11 @@ impl Driver for Sim {
         self.pass(now);
         let Some(place) = self.tasks.iter().position(|task| task.goal == goal) else { return };
         let mut task = self.tasks.remove(place);
-        let hangs = task.stage == Stage::Working(Time::NEVER);
-        if matches!(task.stage, Stage::Driving(_)) {
+        let hangs = task.stage == TaskStage::Working(Time::NEVER);
+        if matches!(task.stage, TaskStage::Driving(_)) {
             self.world.motion = None;
         }
-        task.deed = Deed::of(command);
+        task.command = SimCommand::of(command);
         if hangs {
             self.tasks.push(task);
         } else {
@@ -82,16 +82,16 @@ impl Driver for Sim {
         let motion = self.world.motion;
         let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
         task.stage = match (&task.stage, motion) {
-            (Stage::Driving(_), Some(motion)) => {
+            (TaskStage::Driving(_), Some(motion)) => {
                 self.world.motion = None;
-                Stage::HeldDriving(motion)
+                TaskStage::HeldDriving(motion)
             }
-            (Stage::Driving(until) | Stage::Working(until), _) => {
-                Stage::HeldWorking(until_after(*until, now))
+            (TaskStage::Driving(until) | TaskStage::Working(until), _) => {
+                TaskStage::HeldWorking(until_after(*until, now))
             }
-            (held @ (Stage::HeldDriving(_) | Stage::HeldWorking(_)), _) => held.clone(),
+            (held @ (TaskStage::HeldDriving(_) | TaskStage::HeldWorking(_)), _) => held.clone(),
         };
-        if let Stage::HeldDriving(motion) = &mut task.stage {
+        if let TaskStage::HeldDriving(motion) = &mut task.stage {
             *motion = motion.rest(now, now);
         }
     }
@@ -100,13 +100,13 @@ impl Driver for Sim {
         self.pass(now);
         let Some(task) = self.tasks.iter_mut().find(|task| task.goal == goal) else { return };
         task.stage = match task.stage.clone() {
-            Stage::HeldDriving(motion) => {
+            TaskStage::HeldDriving(motion) => {
                 let motion = motion.begun(now);
                 self.world.motion = Some(motion);
-                Stage::Driving(motion.end())
+                TaskStage::Driving(motion.end())
             }
-            Stage::HeldWorking(left) => Stage::Working(now.after(left)),
-            running @ (Stage::Driving(_) | Stage::Working(_)) => running,
+            TaskStage::HeldWorking(left) => TaskStage::Working(now.after(left)),
+            running @ (TaskStage::Driving(_) | TaskStage::Working(_)) => running,
         };
     }
 
@@ -163,17 +163,17 @@ impl Sim {
     /// Takes a task to its next stage, or ends it.
     pub(crate) fn go_on(&mut self, mut task: Task) {
         let now = self.world.now;
-        let mut play = Stageplay { world: &mut self.world, people: &mut self.people, scene: &self.scene };
+        let mut play = TaskContext { world: &mut self.world, people: &mut self.people, scene: &self.scene };
         let next = play.next(&mut task);
         let motion = match next {
-            Next::Drive(to) => Motion::new(&self.world.drive, self.world.base, to, now),
-            Next::Turn(by) => Some(Motion::turn(&self.world.drive, self.world.base, by, now)),
-            Next::Work => {
-                task.stage = Stage::Working(now.after(Time::from_secs(task.work_secs * task.slower)));
+            NextStage::Drive(to) => BaseMotion::new(&self.world.drive, self.world.base, to, now),
+            NextStage::Turn(by) => Some(BaseMotion::turn(&self.world.drive, self.world.base, by, now)),
+            NextStage::Work => {
+                task.stage = TaskStage::Working(now.after(Time::from_secs(task.work_secs * task.slower)));
                 self.tasks.push(task);
                 return;
             }
-            Next::End(outcome) => {
+            NextStage::End(outcome) => {
                 self.report(DriverEvent::Ended { goal: task.goal, outcome });
                 return;
             }
@@ -181,7 +181,7 @@ impl Sim {
         if let Some(motion) = motion {
             let motion = motion.slowed(task.slower);
             self.world.motion = Some(motion);
-            task.stage = Stage::Driving(motion.end());
+            task.stage = TaskStage::Driving(motion.end());
             self.tasks.push(task);
         } else {
             let failure = SmolStr::new_static("unreachable");
@@ -193,7 +193,7 @@ impl Sim {
     fn drop_task(&mut self, goal: GoalId) -> bool {
         let Some(place) = self.tasks.iter().position(|task| task.goal == goal) else { return false };
         let task = self.tasks.remove(place);
-        if matches!(task.stage, Stage::Driving(_)) {
+        if matches!(task.stage, TaskStage::Driving(_)) {
             self.world.motion = None;
         }
         true

@@ -36,13 +36,13 @@ pub struct CallFault {
     #[schemars(range(min = 1))]
     pub nth: Option<u32>,
     /// What happens.
-    pub then: CallEnd,
+    pub then: CallFaultKind,
 }
 
 /// How a call goes wrong.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum CallEnd {
+pub enum CallFaultKind {
     /// It takes its time, changes nothing, and ends in this failure.
     Fails(#[schemars(with = "String")] SmolStr),
     /// It is not accepted, for this failure.
@@ -61,13 +61,13 @@ pub struct WorldChange {
     #[schemars(range(min = 0.0))]
     pub at: f64,
     /// What changes.
-    pub what: Change,
+    pub what: WorldEvent,
 }
 
 /// What changes.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Change {
+pub enum WorldEvent {
     /// Somebody moves a thing.
     Moves {
         /// The thing.
@@ -145,10 +145,16 @@ impl Faults {
     fn ranges(&self) -> Option<String> {
         let wrong_call = self.calls.iter().find_map(|fault| match (&fault.then, fault.nth) {
             (_, Some(0)) => Some("`nth` counts from 1".to_owned()),
-            (CallEnd::Slower(factor), _) if *factor < 0.0 => {
+            (CallFaultKind::Slower(factor), _) if *factor < 0.0 => {
                 Some(format!("`slower` is {factor}, least is 0"))
             }
-            (CallEnd::Slower(_) | CallEnd::Fails(_) | CallEnd::Refuses(_) | CallEnd::Hangs, _) => None,
+            (
+                CallFaultKind::Slower(_)
+                | CallFaultKind::Fails(_)
+                | CallFaultKind::Refuses(_)
+                | CallFaultKind::Hangs,
+                _,
+            ) => None,
         });
         let wrong_change = || self.world.iter().find_map(WorldChange::ranges);
         wrong_call.or_else(wrong_change)
@@ -161,14 +167,19 @@ impl WorldChange {
             return Some(format!("`at` is {} s, least is 0 s", self.at));
         }
         match &self.what {
-            Change::Walks { speed, .. } if *speed < 1e-3 => {
+            WorldEvent::Walks { speed, .. } if *speed < 1e-3 => {
                 Some(format!("`speed` is {speed} m/s, least is 0.001 m/s"))
             }
-            Change::Battery(charge) if !(0.0..=1.0).contains(charge) => {
+            WorldEvent::Battery(charge) if !(0.0..=1.0).contains(charge) => {
                 Some(format!("`battery` is {charge}, which is not between 0 and 1"))
             }
-            Change::Walks { .. } | Change::Battery(_) | Change::Moves { .. } | Change::Slips(_) => None,
-            Change::Opens(_) | Change::Closes(_) | Change::Locks(_) | Change::Unlocks(_) => None,
+            WorldEvent::Walks { .. }
+            | WorldEvent::Battery(_)
+            | WorldEvent::Moves { .. }
+            | WorldEvent::Slips(_) => None,
+            WorldEvent::Opens(_) | WorldEvent::Closes(_) | WorldEvent::Locks(_) | WorldEvent::Unlocks(_) => {
+                None
+            }
         }
     }
 }

@@ -1,9 +1,9 @@
 //! What hands do to the world, and why they cannot.
 
-use crate::body::Stance;
+use crate::body::BasePose;
 use crate::motion::standing_place;
 use crate::thing::{Rest, Role};
-use crate::world::World;
+use crate::world::SimWorld;
 use smol_str::SmolStr;
 
 /// A failure kind of the standard library.
@@ -22,24 +22,24 @@ const PERSON_REACH_M: f64 = 0.5;
 /// How much of its reach a robot gives away to the room that its base takes. One with a long body stands sideways.
 const BASE_SHARE: f64 = 0.4;
 
-impl World {
+impl SimWorld {
     /// Whether a hand reaches a point from a stance: distance in the plane and height.
-    fn serves(&self, stance: Stance, xyz: [f64; 3]) -> bool {
+    fn serves(&self, stance: BasePose, xyz: [f64; 3]) -> bool {
         let [x, y, z] = xyz;
         let near = stance.distance_to(x, y) <= self.reach() + 1e-6;
-        let level = |grip: &crate::world::Grip| {
+        let level = |grip: &crate::world::HandState| {
             (grip.hand.heights_m.least..=grip.hand.heights_m.greatest).contains(&z)
         };
         near && self.hands.values().any(level)
     }
 
     /// Where the base stands to serve an entity: for an object in or on something, at the edge of that.
-    pub(crate) fn place_for(&self, id: &str) -> Option<Stance> {
+    pub(crate) fn place_for(&self, id: &str) -> Option<BasePose> {
         let root = self.root(id).to_owned();
         let (thing, target) = (self.thing(id)?, self.thing(&root)?);
         if target.role == Role::Place && root == id {
             let [x, y, heading] = [target.body.x(), target.body.y(), target.body.yaw];
-            return Some(Stance { x, y, heading });
+            return Some(BasePose { x, y, heading });
         }
         let radius = self.drive.radius_m;
         let clearance = match target.role {
@@ -63,7 +63,7 @@ impl World {
     }
 
     /// The stance from which a hand reaches a thing without going elsewhere: here, or a shuffle along what it stands at.
-    pub(crate) fn stance_for_hand(&self, id: &str) -> Option<Stance> {
+    pub(crate) fn stance_for_hand(&self, id: &str) -> Option<BasePose> {
         let thing = self.thing(id)?;
         if self.serves(self.base, thing.body.xyz) {
             return Some(self.base);
@@ -101,7 +101,7 @@ impl World {
     /// Why a hand cannot take a thing where it is, if so; `wide` failures have no kind of their own.
     fn cannot_take(&self, id: &str) -> Option<Failure> {
         let Some(thing) = self.thing(id) else { return Some("not_found") };
-        let lightest = |grip: &&crate::world::Grip| thing.mass_kg <= grip.hand.payload_kg;
+        let lightest = |grip: &&crate::world::HandState| thing.mass_kg <= grip.hand.payload_kg;
         if self.shut_in(id).is_some() {
             Some("blocked")
         } else if self.stance_for_hand(id).is_none() {

@@ -5,20 +5,19 @@
 //! driver, [`Faults`] what goes wrong.
 //!
 //! Inside: `world`, `thing` and `body` are what is the case, filled from card, scene and state by `build` and `told`;
-//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `camera` takes pictures; `deed` and `task` make a
+//! `motion`, `hand`, `perception` and `people` are what can be done; `observe` answers queries; `camera` takes pictures; `command` and `task` make a
 //! command a run of stages; `faults` and `fate` are what goes wrong; `sim` and `driver` move time.
 
 mod body;
-mod build;
 mod camera;
-mod deed;
+mod command;
 mod driver;
-mod eyes;
-mod fate;
+mod fault_schedule;
 mod faults;
 mod hand;
+mod initial_facts;
 mod motion;
-mod observe;
+mod observation;
 mod options;
 mod people;
 mod perception;
@@ -26,10 +25,11 @@ mod random;
 mod sim;
 mod task;
 mod thing;
-mod told;
+mod visibility;
 mod world;
+mod world_setup;
 
-pub use body::Stance;
-pub use faults::{CallEnd, CallFault, Change, Destination, Faults, FaultsError, WorldChange};
-pub use options::{Options, Script};
+pub use body::BasePose;
+pub use faults::{CallFault, CallFaultKind, Destination, Faults, FaultsError, WorldChange, WorldEvent};
+pub use options::{PersonScript, SimOptions};
 pub use sim::Sim;

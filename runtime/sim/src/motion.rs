@@ -1,21 +1,21 @@
 //! How the base and people move: along straight lines at a steady speed.
 
-use crate::body::{Body, Stance, turned};
+use crate::body::{BasePose, UprightBody, turned};
 use motet_robots::card::{Base, Drive};
 use motet_runtime::Time;
 
 /// A motion of the base.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Motion {
-    from: Stance,
-    to: Stance,
+pub(crate) struct BaseMotion {
+    from: BasePose,
+    to: BasePose,
     start: Time,
     span: Time,
 }
 
-impl Motion {
+impl BaseMotion {
     /// A motion to a stance, or nothing where the base is bolted down and would have to move.
-    pub(crate) fn new(base: &Base, from: Stance, to: Stance, start: Time) -> Option<Self> {
+    pub(crate) fn new(base: &Base, from: BasePose, to: BasePose, start: Time) -> Option<Self> {
         let (distance, angle) = (from.distance_to(to.x, to.y), turned(to.heading - from.heading).abs());
         let driving = distance / base.speed_m_per_s.max(1e-3);
         let turning = angle / base.turn_rad_per_s.max(1e-3);
@@ -30,8 +30,8 @@ impl Motion {
     }
 
     /// A turn on the spot by any angle.
-    pub(crate) fn turn(base: &Base, from: Stance, by: f64, start: Time) -> Self {
-        let to = Stance { heading: from.heading + by, ..from };
+    pub(crate) fn turn(base: &Base, from: BasePose, by: f64, start: Time) -> Self {
+        let to = BasePose { heading: from.heading + by, ..from };
         Self { from, to, start, span: Time::from_secs(by.abs() / base.turn_rad_per_s.max(1e-3)) }
     }
 
@@ -46,13 +46,13 @@ impl Motion {
     }
 
     /// Where the base is at a time.
-    pub(crate) fn at(&self, now: Time) -> Stance {
+    pub(crate) fn at(&self, now: Time) -> BasePose {
         let stance = self.wound(now);
-        Stance { heading: turned(stance.heading), ..stance }
+        BasePose { heading: turned(stance.heading), ..stance }
     }
 
     /// The same, with a heading that tells how often it has turned round.
-    fn wound(&self, now: Time) -> Stance {
+    fn wound(&self, now: Time) -> BasePose {
         if now >= self.end() {
             return self.to;
         }
@@ -61,7 +61,7 @@ impl Motion {
         let is_turn = self.from.distance_to(self.to.x, self.to.y) < 1e-9;
         let turn = self.to.heading - self.from.heading;
         let turn = if is_turn { turn } else { turned(turn) };
-        Stance {
+        BasePose {
             x: self.from.x + done * (self.to.x - self.from.x),
             y: self.from.y + done * (self.to.y - self.from.y),
             heading: self.from.heading + done * turn,
@@ -81,14 +81,14 @@ impl Motion {
 
 /// A walk of a person.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Walk {
+pub(crate) struct PersonWalk {
     from: [f64; 2],
     to: [f64; 2],
     start: Time,
     speed: f64,
 }
 
-impl Walk {
+impl PersonWalk {
     pub(crate) const fn new(from: [f64; 2], to: [f64; 2], start: Time, speed: f64) -> Self {
         Self { from, to, start, speed }
     }
@@ -112,15 +112,15 @@ impl Walk {
 /// Of stances about a thing, the best: one that is free of `others`, then one that serves most of `wanted` within
 /// `reach`, then the nearest.
 pub(crate) fn standing_place(
-    target: &Body,
+    target: &UprightBody,
     clearance: f64,
     reach: f64,
-    from: Stance,
+    from: BasePose,
     wanted: &[[f64; 2]],
-    others: &[Body],
+    others: &[UprightBody],
     radius: f64,
-) -> Option<Stance> {
-    let cost = |stance: &Stance| {
+) -> Option<BasePose> {
+    let cost = |stance: &BasePose| {
         let hits = others.iter().filter(|other| other.gap(stance.x, stance.y) < radius).count();
         let missed = wanted.iter().filter(|[x, y]| stance.distance_to(*x, *y) > reach).count();
         hits as f64 * 1e6 + missed as f64 * 1e3 + stance.distance_to(from.x, from.y)
@@ -138,25 +138,25 @@ mod tests {
 
     #[test]
     fn the_base_keeps_its_speed() {
-        let to = Stance { x: 2.0, y: 0.0, heading: 1.0 };
-        let motion = Motion::new(&BASE, Stance::default(), to, Time::from_secs(1.0)).unwrap();
+        let to = BasePose { x: 2.0, y: 0.0, heading: 1.0 };
+        let motion = BaseMotion::new(&BASE, BasePose::default(), to, Time::from_secs(1.0)).unwrap();
         assert_eq!(motion.end(), Time::from_secs(5.0));
-        assert_eq!(motion.at(Time::from_secs(3.0)), Stance { x: 1.0, y: 0.0, heading: 0.5 });
+        assert_eq!(motion.at(Time::from_secs(3.0)), BasePose { x: 1.0, y: 0.0, heading: 0.5 });
         assert_eq!(motion.rest(Time::from_secs(3.0), Time::from_secs(9.0)).end(), Time::from_secs(11.0));
         let fixed = Base { drive: Drive::Fixed, ..BASE };
-        assert_eq!(Motion::new(&fixed, Stance::default(), to, Time::ZERO), None);
+        assert_eq!(BaseMotion::new(&fixed, BasePose::default(), to, Time::ZERO), None);
     }
 
     #[test]
     fn a_turn_may_go_all_round() {
-        let turn = Motion::turn(&BASE, Stance::default(), std::f64::consts::TAU, Time::ZERO);
+        let turn = BaseMotion::turn(&BASE, BasePose::default(), std::f64::consts::TAU, Time::ZERO);
         assert!((turn.end().secs() - std::f64::consts::TAU).abs() < 1e-6);
         assert!((turn.at(Time::from_secs(2.0)).heading - 2.0).abs() < 1e-6);
     }
 
     #[test]
     fn a_person_walks_and_stops() {
-        let walk = Walk::new([0.0, 0.0], [3.0, 4.0], Time::from_secs(2.0), 1.0);
+        let walk = PersonWalk::new([0.0, 0.0], [3.0, 4.0], Time::from_secs(2.0), 1.0);
         assert_eq!(walk.at(Time::ZERO), [0.0, 0.0]);
         assert_eq!(walk.at(Time::from_secs(4.5)), [1.5, 2.0]);
         assert_eq!(walk.at(Time::from_secs(60.0)), [3.0, 4.0]);

@@ -6,13 +6,13 @@ use smol_str::SmolStr;
 
 /// Choices about a simulated world. The default: seed 0, nothing goes wrong, people answer as it pleases the robot.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Options {
+pub struct SimOptions {
     /// Decides how long things take, within a tenth. Same seed, same run.
     pub seed: u64,
     /// What goes wrong.
     pub faults: Faults,
     /// What people say.
-    pub script: Script,
+    pub script: PersonScript,
     /// The parent of each kind that the policy's library declares, so that a `Tray: Surface` counts as a surface. Kinds of
     /// the standard library need not be in it.
     pub kinds: IndexMap<SmolStr, SmolStr>,
@@ -21,14 +21,14 @@ pub struct Options {
     pub entities: Vec<(SmolStr, SmolStr)>,
     /// Facts that hold at the start, by fluent and arguments. The world is made such that they do: what is told to be on
     /// the table is put there. Those of fluents that it does not simulate answer observations of them.
-    pub told: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
+    pub initial_facts: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
     /// Where the camera is: in the frame of the base on the floor, in m. Above its middle where that is not said.
     pub eye: Option<[f64; 3]>,
 }
 
 /// What people say.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Script {
+pub struct PersonScript {
     /// Answers to `ask` and `choose`, in order; `None` refuses. Where they have run out, people say "yes" and take the
     /// first thing that they are offered.
     pub answers: Vec<Option<String>>,

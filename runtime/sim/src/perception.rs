@@ -1,98 +1,117 @@
-//! What the cameras see, and which things a description means.
+//! The simulator's eyes: what is in view, where it truly is, and no doubt about it; and pictures of it.
+//!
+//! The camera is where the options say and turns to wherever it has to, within its view to show where most is to be seen; what is in view is told by distance and bearing
+//! alone, while in a picture what stands in front hides what is behind.
 
-use crate::hand::Failure;
-use crate::thing::{Role, Thing};
-use crate::world::World;
-use motet_robots::scene::Scene;
+use crate::body::turned;
+use crate::camera::{CameraLens, encoded, render};
+use crate::sim::Sim;
+use crate::thing::Role;
+use crate::visibility::ViewDirection;
+use motet_graph::Pose;
+use motet_runtime::{CameraImage, Detection, Perception, RgbdView, Time};
 use smol_str::SmolStr;
+use std::f64::consts::TAU;
 
-/// Whether the robot may turn its head and body towards what it looks for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Look {
-    /// It looks where it looks.
-    Ahead,
-    /// It turns until it has seen everything about it.
-    Around,
+/// How far below the horizon the camera looks where it looks about, in rad: at what stands on tables.
+const BELOW: f64 = 0.35;
+/// How far to the side of the middle a thing is well in a picture, in rad; the picture itself goes to 0.7.
+const ASIDE: f64 = 0.55;
+/// By how much the camera turns from one look to the next, in rad.
+const TURN: f64 = 0.2;
+/// How many pieces of furniture are worth as much as one thing that can be taken.
+const FURNITURE: i64 = 4;
+
+impl Perception for Sim {
+    fn detections(&mut self, now: Time) -> Vec<Detection> {
+        // Looking moves nothing: what is seen is as of the time that the world has reached.
+        let at = self.now().min(now);
+        let in_view = self.world.things.iter().filter(|(id, thing)| {
+            matches!(thing.role, Role::Object | Role::Surface | Role::Container) && self.world.is_visible(id)
+        });
+        let seen = in_view.map(|(id, thing)| {
+            let (sin, cos) = (thing.body.yaw / 2.0).sin_cos();
+            Detection {
+                entity: Some(id.clone()),
+                class: self
+                    .scene
+                    .entities
+                    .get(id)
+                    .map_or_else(SmolStr::default, |entity| entity.class.clone()),
+                pose: Some(Pose { xyz: thing.body.xyz, quaternion: [0.0, 0.0, sin, cos] }),
+                confidence: 1.0,
+                at,
+            }
+        });
+        seen.collect()
+    }
+
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
+        let lens = CameraLens::new(self.eye(), self.world.base.heading + self.gaze(), BELOW);
+        Some(self.shot(&lens, now)?.image)
+    }
+
+    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
+        if !self.world.sees(of, ViewDirection::Around) {
+            return None;
+        }
+        let body = self.world.thing(of)?.body;
+        let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
+        let lens = CameraLens::towards(self.eye(), middle, self.world.base.heading);
+        self.shot(&lens, now)
+    }
 }
 
-impl World {
-    /// Whether a camera sees a thing now. What the scene says of it counts until the base has moved or the thing has.
-    pub(crate) fn is_visible(&self, id: &str) -> bool {
-        let Some(thing) = self.thing(id) else { return false };
-        if let Some(said) = thing.visible_at_start
-            && self.unmoved
-            && !thing.moved
-        {
-            return said;
-        }
-        self.sees(id, Look::Ahead)
+impl Sim {
+    /// Where the camera is, in the frame `map`.
+    fn eye(&self) -> [f64; 3] {
+        let (base, [x, y, z]) = (self.world.base, self.eye);
+        let (sin, cos) = base.heading.sin_cos();
+        [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
     }
 
-    /// Whether a thing is in range and view and not shut in.
-    pub(crate) fn sees(&self, id: &str, look: Look) -> bool {
-        let Some(thing) = self.thing(id) else { return false };
-        let body = &thing.body;
-        let (distance, bearing) =
-            (body.gap(self.base.x, self.base.y), self.base.bearing_of(body.x(), body.y()).abs());
-        let in_view = self.cameras.iter().any(|camera| {
-            let beside = distance < 1e-9 || bearing <= camera.view_rad / 2.0;
-            distance <= camera.range_m && (beside || look == Look::Around)
-        });
-        in_view && self.shut_in(id).is_none()
-    }
-
-    /// The objects in view that fit a description, in the order of the scene.
-    pub(crate) fn found(&self, scene: &Scene, what: &str, look: Look) -> Vec<SmolStr> {
-        let in_view = |id: &SmolStr| match look {
-            Look::Ahead => self.is_visible(id),
-            Look::Around => self.sees(id, Look::Around),
+    /// How far the camera turns from straight ahead, in rad, to have most of what is visible in a picture; of directions that
+    /// show as much, the one nearest to straight ahead.
+    fn gaze(&self) -> f64 {
+        let base = self.world.base;
+        let view = self.world.cameras.first().map_or(0.0, |camera| camera.view_rad.min(TAU));
+        let steps = ((view / 2.0 - ASIDE).max(0.0) / TURN).floor() as i64;
+        let seen: Vec<(f64, i64)> = self
+            .world
+            .things
+            .iter()
+            .filter(|(id, _)| self.world.is_visible(id))
+            .filter_map(|(_, thing)| {
+                let worth = match thing.role {
+                    Role::Object => FURNITURE,
+                    Role::Surface | Role::Container | Role::Person => 1,
+                    Role::Place => return None,
+                };
+                Some((base.bearing_of(thing.body.x(), thing.body.y()), worth))
+            })
+            .collect();
+        let worth = |turn: f64| -> i64 {
+            seen.iter()
+                .filter(|(bearing, _)| turned(bearing - turn).abs() < ASIDE)
+                .map(|(_, worth)| worth)
+                .sum()
         };
-        self.described(scene, what).into_iter().filter(in_view).collect()
+        let turns = (-steps..=steps).map(|step| step as f64 * TURN);
+        let best = turns
+            .max_by(|one, other| worth(*one).cmp(&worth(*other)).then(other.abs().total_cmp(&one.abs())));
+        best.unwrap_or(0.0)
     }
 
-    /// The objects that fit a description, seen or not.
-    pub(crate) fn described(&self, scene: &Scene, what: &str) -> Vec<SmolStr> {
-        let is_object = |id: &SmolStr| self.thing(id).is_some_and(|thing| thing.role == Role::Object);
-        let mut fitting: Vec<SmolStr> =
-            scene.matches(what).into_iter().map(|entity| entity.id.clone()).filter(is_object).collect();
-        // Entities that only the options name are called by their name.
-        let added = self.things.keys().filter(|id| id.as_str() == what && is_object(id));
-        for id in added {
-            if !fitting.contains(id) {
-                fitting.push(id.clone());
-            }
-        }
-        fitting
-    }
-
-    /// The one of several, or why there is none.
-    pub(crate) fn the_one(found: Vec<SmolStr>) -> Result<SmolStr, Failure> {
-        let mut found = found.into_iter();
-        match (found.next(), found.next()) {
-            (None, _) => Err("not_found"),
-            (Some(only), None) => Ok(only),
-            (Some(_), Some(_)) => Err("ambiguous"),
-        }
-    }
-
-    /// Looks at a thing, turning towards it.
-    pub(crate) fn look_at(&mut self, id: &str) -> Result<&Thing, Failure> {
-        if !self.sees(id, Look::Around) {
-            return Err("not_found");
-        }
-        if !self.is_visible(id) {
-            // The scene's word counts no longer, now that it has been looked at.
-            if let Some(thing) = self.things.get_mut(id) {
-                thing.visible_at_start = None;
-            }
-            if !self.sees(id, Look::Ahead)
-                && let Some(body) = self.thing(id).map(|thing| thing.body)
-            {
-                self.base.heading += self.base.bearing_of(body.x(), body.y());
-                self.carry();
-            }
-        }
-        self.saw(id);
-        self.thing(id).ok_or("not_found")
+    /// A picture as of now; none of a robot without a camera.
+    fn shot(&self, lens: &CameraLens, now: Time) -> Option<RgbdView> {
+        let camera = self.camera.clone()?;
+        let shot = render(&self.world, &self.scene, lens);
+        let image = CameraImage {
+            camera,
+            media_type: SmolStr::new_static("image/png"),
+            bytes: encoded(&shot)?,
+            at: self.now().min(now),
+        };
+        Some(RgbdView { image, depth: shot.depth, camera: lens.camera() })
     }
 }

@@ -2,9 +2,9 @@
 
 /// A stream of numbers.
 #[derive(Clone, Debug)]
-pub(crate) struct Random(u64);
+pub(crate) struct SimRng(u64);
 
-impl Random {
+impl SimRng {
     pub(crate) const fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -27,12 +27,12 @@ impl Random {
 
 #[cfg(test)]
 mod tests {
-    use super::Random;
+    use super::SimRng;
 
     #[test]
     fn the_seed_decides() {
         let take = |seed| {
-            let mut random = Random::new(seed);
+            let mut random = SimRng::new(seed);
             [random.between(0.0, 1.0), random.between(0.0, 1.0)]
         };
         assert_eq!(take(1), take(1));
@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn it_is_splitmix64() {
         // The first outputs for the seed 1234567 of the reference implementation.
-        let mut random = Random::new(1_234_567);
+        let mut random = SimRng::new(1_234_567);
         assert_eq!([random.next(), random.next()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
     }
 }

@@ -1,13 +1,13 @@
 //! The simulator: a world, the goals that run in it, and who watches it.
 
-use crate::body::Stance;
-use crate::fate::Fate;
-use crate::observe::Told;
-use crate::options::Options;
+use crate::body::BasePose;
+use crate::fault_schedule::FaultSchedule;
+use crate::observation::InitialFacts;
+use crate::options::SimOptions;
 use crate::people::People;
-use crate::random::Random;
+use crate::random::SimRng;
 use crate::task::Task;
-use crate::world::World;
+use crate::world::SimWorld;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, DriverEvent, Query, Time};
@@ -24,11 +24,11 @@ const EYE: [f64; 3] = [0.0, 0.0, 1.1];
 /// The same robot, scene and options and the same calls at the same times give the same reports, byte for byte.
 #[derive(Clone, Debug)]
 pub struct Sim {
-    pub(crate) world: World,
+    pub(crate) world: SimWorld,
     pub(crate) people: People,
     pub(crate) scene: Scene,
-    pub(crate) faults: Fate,
-    pub(crate) random: Random,
+    pub(crate) faults: FaultSchedule,
+    pub(crate) random: SimRng,
     pub(crate) tasks: Vec<Task>,
     pub(crate) watches: Vec<(Query, Answer)>,
     pub(crate) outbox: VecDeque<(Time, DriverEvent)>,
@@ -37,34 +37,34 @@ pub struct Sim {
     /// The name of the first camera.
     pub(crate) camera: Option<SmolStr>,
     observes: Vec<SmolStr>,
-    told: Told,
+    initial_facts: InitialFacts,
 }
 
 impl Sim {
     /// A world at time 0. What the scene leaves open is filled in: a thing without a pose gets a place of its own, an
     /// object without mass or width is light and slim; `start` and `user` always exist.
     #[must_use]
-    pub fn new(robot: &Robot, scene: &Scene, options: Options) -> Self {
+    pub fn new(robot: &Robot, scene: &Scene, options: SimOptions) -> Self {
         let answers = options.script.answers.iter().chain(&options.faults.answers).cloned();
         Self {
-            world: World::new(robot, scene, &options),
+            world: SimWorld::new(robot, scene, &options),
             people: People::new(answers),
             scene: scene.clone(),
-            faults: Fate::new(&options.faults),
-            random: Random::new(options.seed),
+            faults: FaultSchedule::new(&options.faults),
+            random: SimRng::new(options.seed),
             tasks: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
             eye: options.eye.unwrap_or(EYE),
             camera: robot.cameras.keys().next().cloned(),
             observes: robot.observes.clone(),
-            told: options.told,
+            initial_facts: options.initial_facts,
         }
     }
 
     /// Where the base is now.
     #[must_use]
-    pub const fn base(&self) -> Stance {
+    pub const fn base(&self) -> BasePose {
         self.world.base
     }
 
@@ -91,7 +91,7 @@ impl Sim {
     /// Arguments are names of entities and hands.
     #[must_use]
     pub fn holds(&self, fluent: &str, args: &[&str]) -> Option<bool> {
-        self.world.fact(fluent, args, &self.told)
+        self.world.fact(fluent, args, &self.initial_facts)
     }
 
     /// What the robot has said aloud, with the time at which it had said it.
@@ -112,7 +112,7 @@ impl Sim {
             }
             Query::Field { .. } => true,
         };
-        if observable { self.world.answer(query, &self.told) } else { Answer::Unknown }
+        if observable { self.world.answer(query, &self.initial_facts) } else { Answer::Unknown }
     }
 
     /// When something happens next.

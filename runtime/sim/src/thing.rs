@@ -1,7 +1,7 @@
 //! One thing of the world.
 
-use crate::body::Body;
-use crate::motion::Walk;
+use crate::body::UprightBody;
+use crate::motion::PersonWalk;
 use indexmap::IndexMap;
 use motet_robots::scene::Travel;
 use smol_str::SmolStr;
@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Thing {
     pub(crate) role: Role,
-    pub(crate) body: Body,
+    pub(crate) body: UprightBody,
     pub(crate) rest: Rest,
     pub(crate) fixed: bool,
     pub(crate) door: Option<Door>,
@@ -18,7 +18,7 @@ pub(crate) struct Thing {
     pub(crate) visible_at_start: Option<bool>,
     /// Where the robot saw it last.
     pub(crate) seen_at: Option<[f64; 3]>,
-    pub(crate) walk: Option<Walk>,
+    pub(crate) walk: Option<PersonWalk>,
     /// It has been moved since the beginning.
     pub(crate) moved: bool,
     pub(crate) mass_kg: f64,

@@ -1,9 +1,9 @@
 //! What is the case in the simulated world: where everything is, what rests on what, what the hands hold.
 //!
-//! It knows nothing of goals and events. Positions are those of its present time; [`World::advance`] moves on.
+//! It knows nothing of goals and events. Positions are those of its present time; [`SimWorld::advance`] moves on.
 
-use crate::body::{Body, Stance};
-use crate::motion::{Motion, Walk};
+use crate::body::{BasePose, UprightBody};
+use crate::motion::{BaseMotion, PersonWalk};
 use crate::thing::{Rest, Role, Thing};
 use indexmap::IndexMap;
 use motet_robots::card::{Base, Camera, Hand};
@@ -16,15 +16,15 @@ const DRAIN_PER_M: f64 = 0.001;
 
 /// The whole world.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct World {
+pub(crate) struct SimWorld {
     pub(crate) now: Time,
-    pub(crate) base: Stance,
-    pub(crate) motion: Option<Motion>,
+    pub(crate) base: BasePose,
+    pub(crate) motion: Option<BaseMotion>,
     pub(crate) drive: Base,
-    pub(crate) hands: IndexMap<SmolStr, Grip>,
+    pub(crate) hands: IndexMap<SmolStr, HandState>,
     pub(crate) cameras: Vec<Camera>,
     pub(crate) things: IndexMap<SmolStr, Thing>,
-    pub(crate) arm: Arm,
+    pub(crate) arm: ArmPose,
     pub(crate) standing: bool,
     pub(crate) battery: f64,
     /// The base has not moved since the beginning.
@@ -36,7 +36,7 @@ pub(crate) struct World {
 
 /// A hand and what it holds.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Grip {
+pub(crate) struct HandState {
     pub(crate) hand: Hand,
     pub(crate) holds: Option<SmolStr>,
     pub(crate) lifted: bool,
@@ -44,7 +44,7 @@ pub(crate) struct Grip {
 
 /// The posture of the arm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Arm {
+pub(crate) enum ArmPose {
     /// Folded.
     Home,
     /// Raised to look.
@@ -55,7 +55,7 @@ pub(crate) enum Arm {
     Out,
 }
 
-impl World {
+impl SimWorld {
     pub(crate) fn thing(&self, id: &str) -> Option<&Thing> {
         self.things.get(id)
     }
@@ -189,7 +189,7 @@ impl World {
     }
 
     /// Bodies that the base has to keep out of, but for one.
-    pub(crate) fn obstacles(&self, but: &str) -> Vec<Body> {
+    pub(crate) fn obstacles(&self, but: &str) -> Vec<UprightBody> {
         let stands_there = |thing: &Thing| match thing.role {
             Role::Surface | Role::Container | Role::Person => thing.body.bottom() < 1.0,
             Role::Object | Role::Place => false,
@@ -208,7 +208,7 @@ impl World {
     ) -> Option<[f64; 2]> {
         let (thing, target) = (self.thing(id)?, self.thing(support)?.body);
         let radius = thing.body.radius();
-        let taken: Vec<Body> =
+        let taken: Vec<UprightBody> =
             self.resting(support).filter(|(other, _)| *other != id).map(|(_, other)| other.body).collect();
         let is_free = |[x, y]: &[f64; 2]| {
             target.holds_disc(*x, *y, radius.min(0.9 * target.radius() / std::f64::consts::SQRT_2))
@@ -242,7 +242,7 @@ impl World {
         let now = self.now;
         if let Some(thing) = self.things.get_mut(id) {
             let from = from.unwrap_or([thing.body.x(), thing.body.y()]);
-            thing.walk = Some(Walk::new(from, to, now, speed));
+            thing.walk = Some(PersonWalk::new(from, to, now, speed));
         }
     }
 }

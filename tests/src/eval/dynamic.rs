@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use motet_compiler::CheckOptions;
 use motet_planner::conversation::{Builtin, Conversation, Nobody, Outcome, Setting, Watcher};
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};
-use motet_sim::{Faults, Options, Sim};
+use motet_sim::{Faults, Sim, SimOptions};
 use serde::Serialize;
 
 use crate::setup;
@@ -169,7 +169,7 @@ fn play(task: &Task, robot: &str, wording: usize, change_at: Option<f64>) -> (Tr
         _ => "{}".to_owned(),
     };
     let faults = Faults::from_json(&world).unwrap_or_default();
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions { faults, ..SimOptions::default() });
     let mut observer = Observer {
         says: change_at.zip(instead).map(|(at, says)| (Time::from_secs(at), says)),
         running: BTreeMap::new(),

@@ -4,7 +4,7 @@
 use motet_planner::builtin;
 use motet_requests::RequestContext;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::Sources;
 use serde::Serialize;
 
@@ -83,7 +83,7 @@ fn run(row: &Row, result: &mut Try) -> Result<(), String> {
     let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
     let start = StartState { entities: entities.collect(), ..StartState::default() };
     let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
-    let mut sim = Sim::new(&robot, &scene, Options::default());
+    let mut sim = Sim::new(&robot, &scene, SimOptions::default());
     let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
     if !matches!(end, RunEnd::Done { .. }) {
         return Err(format!("ended in {end:?}"));

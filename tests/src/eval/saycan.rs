@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use motet_runtime::{Engine, RunEnd, StartState, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Severity, Source, Sources};
 
 use super::Judged;
@@ -52,7 +52,7 @@ pub fn run(row: &Row) -> (Result<(), String>, Duration) {
         let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
         let start = StartState { entities: entities.collect(), ..StartState::default() };
         let mut engine = Engine::new(graph, &start).map_err(|wrong| format!("{wrong:?}"))?;
-        let mut sim = Sim::new(&robot, &scene, Options::default());
+        let mut sim = Sim::new(&robot, &scene, SimOptions::default());
         let end = motet_runtime::run(&mut engine, &mut sim, &mut (), Time::ZERO);
         if !matches!(end, RunEnd::Done { .. }) {
             return Err(format!("ended in {end:?}"));

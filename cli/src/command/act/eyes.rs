@@ -8,7 +8,7 @@ use motet_graph::Graph;
 use motet_planner::builtin::Answered;
 use motet_planner::conversation::{Outcome, Problem, Scribe, Watcher};
 use motet_planner::guard::Verifies;
-use motet_runtime::{Control, Effect, Engine, Onlooker as _, Refusal, RunEnd, StartState, Time};
+use motet_runtime::{Effect, Engine, Observer as _, RunControl, RunEnd, StartState, SwapRefusal, Time};
 use serde_json::json;
 
 use super::model::printable;
@@ -139,8 +139,8 @@ impl Watcher for Eyes<'_> {
         }
     }
 
-    fn reached(&mut self, now: Time) -> Control {
-        self.pace.as_mut().map_or(Control::GoOn, |pace| pace.reached(now))
+    fn reached(&mut self, now: Time) -> RunControl {
+        self.pace.as_mut().map_or(RunControl::Continue, |pace| pace.reached(now))
     }
 
     fn at_least_every(&self) -> Time {
@@ -163,7 +163,7 @@ impl Watcher for Eyes<'_> {
         Some(line)
     }
 
-    fn swapped(&mut self, _now: Time, refusal: Option<&Refusal>) {
+    fn swapped(&mut self, _now: Time, refusal: Option<&SwapRefusal>) {
         match refusal {
             None => {
                 self.is_swapping = true;

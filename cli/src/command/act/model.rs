@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write as _};
 use std::time::Duration;
 
-use motet_client::{Address, Client, Image, Notation, Settings};
+use motet_client::{Client, ClientSettings, EncodedImage, Notation, ServerUrl};
 use motet_decode::export::Dialect;
 use motet_planner::builtin::{Answered, Unplanned};
 use motet_planner::conversation::{Ask, Builtin, Planner, Rest, Wait};
@@ -75,7 +75,7 @@ pub(super) fn client(asking: &ModelArgs) -> Result<Client, Trouble> {
     Client::new(settings).map_err(|why| Trouble::Other(format!("cannot ask `{name}`: {why}")))
 }
 
-fn settings(args: &ModelArgs) -> Result<Settings, Trouble> {
+fn settings(args: &ModelArgs) -> Result<ClientSettings, Trouble> {
     let dialect = match args.dialect {
         Held::None => None,
         Held::Vllm => Some(Dialect::Vllm),
@@ -90,18 +90,18 @@ fn settings(args: &ModelArgs) -> Result<Settings, Trouble> {
         return Err(Trouble::Other(why.to_owned()));
     }
     let notation = if args.lark { Notation::Lark } else { Notation::Usual };
-    let address = Address::new(&args.planner, dialect).map_err(Trouble::Other)?;
+    let address = ServerUrl::new(&args.planner, dialect).map_err(Trouble::Other)?;
     let mut images = Vec::new();
     for path in &args.image {
-        let image = Image::new(&read_small(path)?).map_err(|why| {
+        let image = EncodedImage::new(&read_small(path)?).map_err(|why| {
             Trouble::Other(format!("`{}` cannot be shown to a model: {why}", path.display()))
         })?;
         images.push(image);
     }
     let key = args.key_from.as_deref().map(grammar::key).transpose()?;
     let timeout = Duration::from_secs(args.timeout);
-    let new = Settings::new(address, &args.model);
-    Ok(Settings {
+    let new = ClientSettings::new(address, &args.model);
+    Ok(ClientSettings {
         dialect,
         notation,
         key,

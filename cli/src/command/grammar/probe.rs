@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use motet_client::{Address, Client, Key, Settings, content};
+use motet_client::{ApiKey, Client, ClientSettings, ServerUrl, content};
 use motet_decode::export::probe_body;
 use serde_json::Value;
 
@@ -21,7 +21,7 @@ const SHOWN_CHARS: usize = 80;
 /// The server cannot be reached, refuses the request, or answers with something that is no chat answer.
 pub(super) fn run(args: &ProbeArgs) -> Result<Exit, Trouble> {
     let dialect = dialect(args.dialect);
-    let url = Address::new(&args.url, Some(dialect)).map_err(Trouble::Other)?;
+    let url = ServerUrl::new(&args.url, Some(dialect)).map_err(Trouble::Other)?;
     let (body, demanded) = probe_body(dialect, &args.model);
     let answer = ask(args, url.clone(), &body)?;
     let said = content(&answer)
@@ -53,12 +53,16 @@ fn is_cut(said: &str, demanded: &Value) -> bool {
     bare(&demanded.to_string()).starts_with(&bare(said))
 }
 
-fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, Trouble> {
+fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, Trouble> {
     let trouble = |why: String| Trouble::Other(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
     let key = args.key_from.as_deref().map(key).transpose()?;
-    let settings =
-        Settings { key, timeout, idle_timeout: timeout, ..Settings::new(address.clone(), &args.model) };
+    let settings = ClientSettings {
+        key,
+        timeout,
+        idle_timeout: timeout,
+        ..ClientSettings::new(address.clone(), &args.model)
+    };
     let answer = Client::new(settings).and_then(|client| client.once(body));
     answer.map_err(|why| trouble(why.to_string()))
 }
@@ -68,7 +72,7 @@ fn ask(args: &ProbeArgs, address: Address, body: &Value) -> Result<Value, Troubl
 /// # Errors
 ///
 /// There is none.
-pub(in crate::command) fn key(variable: &str) -> Result<Key, Trouble> {
-    Key::from_variable(variable)
+pub(in crate::command) fn key(variable: &str) -> Result<ApiKey, Trouble> {
+    ApiKey::from_variable(variable)
         .ok_or_else(|| Trouble::Other(format!("there is no variable `{variable}` with a key in it")))
 }

@@ -1,9 +1,9 @@
 //! `motet drive`: checks a policy and runs it on a driver in another process.
 
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{Address, Patience, RemoteDriver};
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::guard::{Guard, Verifies};
-use motet_runtime::{Driver, Event, Settings, Time};
+use motet_runtime::{Driver, EngineSettings, Event, Time};
 
 use super::pace::Pace;
 use super::play::{self, Play};
@@ -57,9 +57,9 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
 }
 
 /// A safe stop is waited for until a driver that went silent can have been called again.
-fn settings() -> Settings {
-    let recovery = u64::try_from(Patience::default().recovery().as_nanos()).unwrap_or(u64::MAX);
-    Settings { safe_stop_within: Time::from_nanos(recovery), ..Settings::default() }
+fn settings() -> EngineSettings {
+    let recovery = u64::try_from(DriverTimeouts::default().recovery().as_nanos()).unwrap_or(u64::MAX);
+    EngineSettings { safe_stop_within: Time::from_nanos(recovery), ..EngineSettings::default() }
 }
 
 /// Starts or calls a driver.
@@ -67,8 +67,8 @@ fn settings() -> Settings {
 /// # Errors
 ///
 /// It cannot be reached, or does not speak the protocol.
-pub(super) fn connect(address: &Address, hello: Hello, from: Time) -> Result<RemoteDriver, Trouble> {
+pub(super) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, Trouble> {
     let say = |text: &str| note(&format!("driver: {}", plain(text)));
-    RemoteDriver::connect(address.clone(), hello, Patience::default(), from, Box::new(say))
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(say))
         .map_err(|breakage| Trouble::Other(format!("{} ({address})", plain(&breakage.to_string()))))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, Value};
 use motet_runtime::{
-    Cause, Command, Effect, Event, GoalId, Happening, NodeEnding, Record, RunEnd, Time, Truth,
+    Command, Effect, EndCause, Event, GoalId, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Truth,
 };
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
@@ -44,7 +44,7 @@ impl Events {
         self.out.line(&serde_json::Value::Object(line).to_string());
     }
 
-    fn ended(&mut self, ending: NodeEnding, cause: Cause) -> serde_json::Value {
+    fn ended(&mut self, ending: NodeEnding, cause: EndCause) -> serde_json::Value {
         let failure = match ending {
             NodeEnding::Failure(kind) => Some(self.made_up.name(&self.graph, kind)),
             NodeEnding::Success | NodeEnding::Interrupted => None,
@@ -52,36 +52,36 @@ impl Events {
         ended(failure, ending, cause)
     }
 
-    fn record(&mut self, record: &Record) {
+    fn record(&mut self, record: &TraceEvent) {
         let at = record.at;
         let graph = Arc::clone(&self.graph);
         match &record.what {
-            Happening::Entered { node } => self.write(at, "entered", Some(*node), json!({})),
-            Happening::Ended { node, ending, cause } => {
+            TraceEventKind::Entered { node } => self.write(at, "entered", Some(*node), json!({})),
+            TraceEventKind::Ended { node, ending, cause } => {
                 let more = self.ended(*ending, *cause);
                 self.write(at, "ended", Some(*node), more);
             }
-            Happening::Started { node, goal, attempt } => {
+            TraceEventKind::Started { node, goal, attempt } => {
                 let more = json!({"goal": goal.to_string(), "attempt": attempt});
                 self.write(at, "started", Some(*node), more);
             }
-            Happening::GoalEnded { node, goal, ending, cause } => {
+            TraceEventKind::GoalEnded { node, goal, ending, cause } => {
                 let mut more = self.ended(*ending, *cause);
                 if let serde_json::Value::Object(more) = &mut more {
                     more.insert("goal".to_owned(), json!(goal.to_string()));
                 }
                 self.write(at, "goal_ended", Some(*node), more);
             }
-            Happening::Guard { node, need, truth } => {
+            TraceEventKind::Guard { node, need, truth } => {
                 self.write(at, "guard", Some(*node), json!({"need": need, "truth": word(*truth)}));
             }
-            Happening::Verified { node, verdict } => {
+            TraceEventKind::Verified { node, verdict } => {
                 self.write(at, "verified", Some(*node), json!({"verdict": verdict.to_string()}));
             }
-            Happening::Tested { node, truth } => {
+            TraceEventKind::Tested { node, truth } => {
                 self.write(at, "tested", Some(*node), json!({"truth": word(*truth)}));
             }
-            Happening::Fired { node, watch, truth } => {
+            TraceEventKind::Fired { node, watch, truth } => {
                 let when = tree::watched(&graph, *node, *watch);
                 self.write(
                     at,
@@ -90,19 +90,19 @@ impl Events {
                     json!({"watch": watch, "when": when, "truth": word(*truth)}),
                 );
             }
-            Happening::WentOn { node, watch } => {
+            TraceEventKind::WentOn { node, watch } => {
                 self.write(at, "went_on", Some(*node), json!({"watch": watch}));
             }
-            Happening::Swapped { policy } => {
+            TraceEventKind::Swapped { policy } => {
                 self.write(at, "swapped", None, json!({"policy": &**policy}));
             }
-            Happening::Kept { node, goal } => {
+            TraceEventKind::Kept { node, goal } => {
                 self.write(at, "kept", Some(*node), json!({"goal": goal.to_string()}));
             }
-            Happening::Updated { node, goal } => {
+            TraceEventKind::Updated { node, goal } => {
                 self.write(at, "updated", Some(*node), json!({"goal": goal.to_string()}));
             }
-            Happening::Bound { binding, value: bound } => {
+            TraceEventKind::Bound { binding, value: bound } => {
                 let name = graph.bindings.get(binding.index()).map_or("_", |binding| binding.name.as_str());
                 self.write(at, "bound", None, json!({"binding": name, "value": value(bound)}));
             }
@@ -186,22 +186,22 @@ fn commanded(goal: GoalId, command: &Command, deadline: Time) -> serde_json::Val
     })
 }
 
-fn ended(failure: Option<String>, ending: NodeEnding, cause: Cause) -> serde_json::Value {
+fn ended(failure: Option<String>, ending: NodeEnding, cause: EndCause) -> serde_json::Value {
     let cause = match cause {
-        Cause::Completed => "completed",
-        Cause::Failed => "failed",
-        Cause::Refused => "refused",
-        Cause::GuardRefuted => "guard_refuted",
-        Cause::Deadline => "deadline",
-        Cause::Exhausted => "exhausted",
-        Cause::BadValue => "bad_value",
-        Cause::Monitor => "monitor",
-        Cause::SiblingFailed => "sibling_failed",
-        Cause::ParentEnded => "parent_ended",
-        Cause::Person => "person",
-        Cause::Driver => "driver",
-        Cause::Swap => "swap",
-        Cause::Lost => "lost",
+        EndCause::Completed => "completed",
+        EndCause::Failed => "failed",
+        EndCause::Refused => "refused",
+        EndCause::GuardRefuted => "guard_refuted",
+        EndCause::Deadline => "deadline",
+        EndCause::Exhausted => "exhausted",
+        EndCause::BadValue => "bad_value",
+        EndCause::Monitor => "monitor",
+        EndCause::SiblingFailed => "sibling_failed",
+        EndCause::ParentEnded => "parent_ended",
+        EndCause::Person => "person",
+        EndCause::Driver => "driver",
+        EndCause::Swap => "swap",
+        EndCause::Lost => "lost",
     };
     match ending {
         NodeEnding::Success => json!({"ending": "success", "cause": cause}),

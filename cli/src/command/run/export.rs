@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use motet_host::mcap::{Body, Exporter, Picture, Solid};
+use motet_host::mcap::{McapBody, McapExporter, McapScene, McapSolid};
 use motet_robots::scene::{Scene, Shape};
-use motet_runtime::journal::{Entry, Retrace};
+use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
 
 use super::play::journal_trouble;
@@ -41,14 +41,14 @@ pub(crate) fn mcap(args: &McapArgs) -> Result<Exit, Trouble> {
 fn write(folder: &Path, path: &Path) -> Result<u64, Trouble> {
     let file = File::create(path).map_err(|source| Trouble::Write { path: path.to_owned(), source })?;
     let wrong = |error: motet_host::mcap::ExportError| Trouble::Other(error.to_string());
-    let mut exporter = Exporter::new(BufWriter::new(file)).map_err(wrong)?;
+    let mut exporter = McapExporter::new(BufWriter::new(file)).map_err(wrong)?;
     let mut world = None;
     let (mut result, mut entries) = (Ok(()), 0);
     let read = motet_host::journal::read(folder, &mut |seq, entry| {
         if result.is_err() {
             return;
         }
-        if let Entry::Head(head) = &entry {
+        if let JournalEntry::Head(head) = &entry {
             world = World::of(&head.driver);
         }
         let picture = world.as_mut().and_then(|world| world.after(&entry));
@@ -64,7 +64,7 @@ fn write(folder: &Path, path: &Path) -> Result<u64, Trouble> {
 struct World {
     sim: Sim,
     scene: Scene,
-    retrace: Retrace,
+    retrace: DriverReplay,
 }
 
 impl World {
@@ -73,35 +73,37 @@ impl World {
         match Saved::of(driver).ok()? {
             Saved::Simulator(saved) => {
                 let (sim, scene) = (saved.make().ok()?, saved.scene().ok()?);
-                Some(Self { sim, scene, retrace: Retrace::default() })
+                Some(Self { sim, scene, retrace: DriverReplay::default() })
             }
             Saved::Process { .. } => None,
         }
     }
 
     /// The world after an entry; none once it goes another way than it went.
-    fn after(&mut self, entry: &Entry) -> Option<Picture> {
+    fn after(&mut self, entry: &JournalEntry) -> Option<McapScene> {
         self.retrace.take(&mut self.sim, entry).ok()?;
         let base = self.sim.base();
         let bodies = self.scene.entities.values().filter_map(|entity| {
             let pose = entity.pose?;
             let solid = match entity.shape.as_ref()? {
-                Shape::Box(size) => Solid::Box(*size),
-                Shape::Cylinder { radius, height } => Solid::Cylinder { radius: *radius, height: *height },
-                Shape::Capsule { radius, height } => {
-                    Solid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                Shape::Box(size) => McapSolid::Box(*size),
+                Shape::Cylinder { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: *height }
                 }
-                Shape::Sphere { radius } => Solid::Sphere { radius: *radius },
+                Shape::Capsule { radius, height } => {
+                    McapSolid::Cylinder { radius: *radius, height: height + 2.0 * radius }
+                }
+                Shape::Sphere { radius } => McapSolid::Sphere { radius: *radius },
                 Shape::Mesh { .. } => return None,
             };
             let mut xyz = self.sim.position(&entity.id)?;
-            if let (true, Solid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
+            if let (true, McapSolid::Cylinder { height, .. }) = (entity.kind == "Person", solid) {
                 // A person's pose is that of the feet.
                 xyz[2] = 0.5 * height;
             }
             let heading = pose.rpy[2];
-            Some(Body { id: entity.id.to_string(), xyz, heading, solid })
+            Some(McapBody { id: entity.id.to_string(), xyz, heading, solid })
         });
-        Some(Picture { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
+        Some(McapScene { base: [base.x, base.y, base.heading], bodies: bodies.collect() })
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use motet_graph::{Graph, NodeId, NodeKind};
-use motet_runtime::{Effect, Event, Happening, NodeEnding, Record, RunEnd, Time, Verification};
+use motet_runtime::{Effect, Event, NodeEnding, RunEnd, Time, TraceEvent, TraceEventKind, Verification};
 
 use super::tree::{Row, Tree};
 use super::view::{self, Clock, View, duration, mark, paint};
@@ -23,18 +23,20 @@ impl Lines {
         Self { tree: Tree::new(Arc::clone(&graph)), graph, out: Out::default(), is_colored, clock }
     }
 
-    fn record(&mut self, record: &Record) {
+    fn record(&mut self, record: &TraceEvent) {
         let Some(node) = self.tree.take(record) else { return };
         let is_told = match &record.what {
             // A call is told of when its goal starts, after its guards.
-            Happening::Entered { node } => !self.is_call(*node),
-            Happening::Started { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => true,
-            Happening::GoalEnded { .. } | Happening::Tested { .. } => true,
-            Happening::Kept { .. } | Happening::Updated { .. } => true,
-            Happening::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
-            Happening::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
-            Happening::Verified { verdict, .. } => matches!(**verdict, Verification::Infeasible { .. }),
-            Happening::Swapped { .. } | Happening::Bound { .. } => false,
+            TraceEventKind::Entered { node } => !self.is_call(*node),
+            TraceEventKind::Started { .. } | TraceEventKind::Fired { .. } | TraceEventKind::WentOn { .. } => {
+                true
+            }
+            TraceEventKind::GoalEnded { .. } | TraceEventKind::Tested { .. } => true,
+            TraceEventKind::Kept { .. } | TraceEventKind::Updated { .. } => true,
+            TraceEventKind::Ended { ending, .. } => self.is_leaf(node) || *ending != NodeEnding::Success,
+            TraceEventKind::Guard { truth, .. } => *truth != motet_runtime::Truth::True,
+            TraceEventKind::Verified { verdict, .. } => matches!(**verdict, Verification::Infeasible { .. }),
+            TraceEventKind::Swapped { .. } | TraceEventKind::Bound { .. } => false,
         };
         if let (true, Some(row)) = (is_told, self.tree.row(node)) {
             let line = self.line(row, record.at);

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use motet_planner::guard::Guard;
-use motet_runtime::{Control, Effect, Event, Onlooker, RunEnd, Time, Verifier};
+use motet_runtime::{Effect, Event, Observer, RunControl, RunEnd, Time, Verifier};
 
 use super::view::View;
 use crate::args::Speed;
@@ -90,7 +90,7 @@ impl Pace {
     }
 }
 
-impl Onlooker for Pace {
+impl Observer for Pace {
     fn event(&mut self, _now: Time, event: &Event) {
         self.view.event(event);
     }
@@ -103,12 +103,12 @@ impl Onlooker for Pace {
         self.view.effect(now, effect);
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.now = now;
         self.wait(now);
         self.view.reached(now);
         // A run that nobody watches is not left to itself.
-        if is_interrupted() || self.view.is_closed() { Control::Stop } else { Control::GoOn }
+        if is_interrupted() || self.view.is_closed() { RunControl::Stop } else { RunControl::Continue }
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {

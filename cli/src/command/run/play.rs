@@ -6,10 +6,10 @@ use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use motet_graph::Graph;
-use motet_host::journal::{JournalError, Recorder, Writer};
+use motet_host::journal::{JournalError, JournalWriter, RunRecorder};
 use motet_planner::guard::{Guard, WITHIN};
-use motet_runtime::journal::Head;
-use motet_runtime::{Capabilities, Driver, Engine, Event, RunEnd, Settings, StartState, Time, go_on};
+use motet_runtime::journal::JournalHead;
+use motet_runtime::{Capabilities, Driver, Engine, EngineSettings, Event, RunEnd, StartState, Time, resume};
 
 use super::pace::{Pace, catch_interrupts};
 use super::saved::Saved;
@@ -23,7 +23,7 @@ use crate::out::Colors;
 pub(super) struct Play<'a> {
     pub(super) engine: Engine,
     pub(super) driver: &'a mut dyn Driver,
-    pub(super) journal: Option<Writer>,
+    pub(super) journal: Option<JournalWriter>,
     /// The driver's present time.
     pub(super) from: Time,
     /// What the engine takes in first.
@@ -39,10 +39,10 @@ impl Play<'_> {
     pub(super) fn run(mut self, mut pace: Pace) -> Result<RunEnd, Trouble> {
         catch_interrupts()?;
         let end = match self.journal {
-            None => go_on(&mut self.engine, self.driver, &mut pace, self.from, self.events),
+            None => resume(&mut self.engine, self.driver, &mut pace, self.from, self.events),
             Some(writer) => {
-                let mut recorder = Recorder::new(writer, &mut pace);
-                let end = go_on(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
+                let mut recorder = RunRecorder::new(writer, &mut pace);
+                let end = resume(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
                 recorder.finish().map_err(journal_trouble)?;
                 end
             }
@@ -58,13 +58,13 @@ pub(super) fn engine(
     start: &StartState,
     can: Capabilities,
     guard: Option<&Guard>,
-    settings: Settings,
+    settings: EngineSettings,
 ) -> Result<Engine, Trouble> {
     let engine = Engine::new(graph, start).map_err(|wrong| {
         let first = wrong.first().map_or_else(String::new, |wrong| format!(": {wrong}"));
         Trouble::Other(format!("the compiled graph is not valid{first}"))
     })?;
-    let settings = Settings { verify_within: guard.map(|_| WITHIN), ..settings };
+    let settings = EngineSettings { verify_within: guard.map(|_| WITHIN), ..settings };
     Ok(engine.with_capabilities(can).with_settings(settings))
 }
 
@@ -74,19 +74,19 @@ pub(super) fn journal(
     engine: &Engine,
     start: &StartState,
     driver: &Saved,
-) -> Result<Writer, Trouble> {
-    let head = Head { driver: driver.to_json()?, ..head(engine, start) };
-    Writer::create(folder, head).map_err(journal_trouble)
+) -> Result<JournalWriter, Trouble> {
+    let head = JournalHead { driver: driver.to_json()?, ..head(engine, start) };
+    JournalWriter::create(folder, head).map_err(journal_trouble)
 }
 
 /// The head of a journal of a run that begins now, at time 0.
-pub(in crate::command) fn head(engine: &Engine, start: &StartState) -> Head {
-    Head {
+pub(in crate::command) fn head(engine: &Engine, start: &StartState) -> JournalHead {
+    JournalHead {
         began_unix_ns: unix_ns(),
         start: start.into(),
         settings: (*engine.settings()).into(),
         capabilities: engine.capabilities().into(),
-        ..Head::new(engine.graph())
+        ..JournalHead::new(engine.graph())
     }
 }
 

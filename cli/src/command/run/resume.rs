@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use motet_host::journal::Writer;
+use motet_host::journal::JournalWriter;
 use motet_host::remote::protocol::Hello;
 use motet_planner::guard::{Guard, Verifies};
-use motet_runtime::journal::{Entry, Head, Ledger, Replay, Resumed, Retrace, Step};
+use motet_runtime::journal::{
+    DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
+};
 use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
 
 use super::drive;
@@ -25,11 +27,11 @@ use crate::out::{Colors, note};
 pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Exit, Trouble> {
     let mut entries = Vec::new();
     let (mut writer, tail) =
-        Writer::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_trouble)?;
-    let Some(Entry::Head(head)) = entries.first() else {
+        JournalWriter::open(folder, &mut |_, entry| entries.push(entry)).map_err(journal_trouble)?;
+    let Some(JournalEntry::Head(head)) = entries.first() else {
         return Err(Trouble::Other("the journal has no head".to_owned()));
     };
-    let mut replay = Replay::new(head).map_err(|error| Trouble::Other(error.to_string()))?;
+    let mut replay = EngineReplay::new(head).map_err(|error| Trouble::Other(error.to_string()))?;
     let saved = Saved::of(&head.driver)?;
     let mut world = match &saved {
         Saved::Simulator(saved) => Some(saved.make()?),
@@ -41,7 +43,7 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     };
     let view = play::view(args.format, replay.engine().graph(), colors, clock);
     let mut pace = Pace::new(view, args.simulated.speed);
-    let (mut ledger, mut retrace) = (Ledger::default(), Retrace::default());
+    let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let verifies = match &saved {
         Saved::Simulator(_) => args.simulated.speed.verifies(),
         Saved::Process { .. } => Verifies::Beside,
@@ -64,14 +66,14 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
             retrace.take(world, entry).map_err(|astray| differs(astray.to_string()))?;
         }
         if let Some(guard) = &mut guard {
-            if let Entry::Step(Step { event: Some(event), .. }) = entry {
+            if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
                 guard.event(&event.clone().into());
             }
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
         pace.past(replay.now(), replay.effects());
-        begun |= matches!(entry, Entry::Step(step) if step.event == Some(wire::Event::Begin));
+        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(wire::Event::Begin));
     }
     if ledger.is_over {
         note("the run is over, nothing is left to do");
@@ -84,7 +86,7 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
     let from = now(head, &saved, replay.now());
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
     let unix_ns = play::unix_ns();
-    let resumed = Entry::Resumed(Resumed { unix_ns, cut_bytes: tail.torn_bytes });
+    let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
     writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_trouble)?;
     let cut = match tail.torn_bytes {
         0 => String::new(),
@@ -111,7 +113,7 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
 }
 
 /// The time at which the run goes on. A world of its own has stood still meanwhile; for a robot the time went on.
-fn now(head: &Head, saved: &Saved, last: Time) -> Time {
+fn now(head: &JournalHead, saved: &Saved, last: Time) -> Time {
     match saved {
         Saved::Simulator(_) => last,
         Saved::Process { .. } => {

@@ -3,9 +3,9 @@
 use std::net::SocketAddr;
 
 use indexmap::IndexMap;
-use motet_host::remote::Address;
+use motet_host::remote::DriverAddress;
 use motet_robots::{card, scene};
-use motet_sim::{Faults, Options, Script, Sim};
+use motet_sim::{Faults, PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -67,11 +67,11 @@ impl Saved {
     pub(super) fn simulator(
         robot: &Card,
         scene: Option<String>,
-        options: &Options,
+        options: &SimOptions,
         guard: Option<SavedGuard>,
     ) -> Self {
         let (card, declarations) = robot.texts();
-        let told = options.told.iter();
+        let told = options.initial_facts.iter();
         Self::Simulator(Box::new(SavedSim {
             card,
             declarations,
@@ -86,10 +86,10 @@ impl Saved {
         }))
     }
 
-    pub(super) fn process(address: &Address, instance: &str, guard: Option<SavedGuard>) -> Self {
+    pub(super) fn process(address: &DriverAddress, instance: &str, guard: Option<SavedGuard>) -> Self {
         let address = match address {
-            Address::Command(words) => SavedAddress::Command(words.clone()),
-            Address::Tcp(socket) => SavedAddress::Tcp(*socket),
+            DriverAddress::Command(words) => SavedAddress::Command(words.clone()),
+            DriverAddress::Tcp(socket) => SavedAddress::Tcp(*socket),
         };
         Self::Process { address, instance: instance.to_owned(), guard: guard.map(Box::new) }
     }
@@ -150,20 +150,20 @@ impl SavedSim {
         let robot = robot.ok_or_else(|| unreadable("robot card"))?;
         let scene = self.scene()?;
         let told = self.told.iter();
-        let options = Options {
+        let options = SimOptions {
             seed: self.seed,
             faults: self.faults.clone(),
-            script: Script { answers: self.answers.clone() },
+            script: PersonScript { answers: self.answers.clone() },
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
-            told: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
+            initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
             eye: None,
         };
         Ok(Sim::new(&robot, &scene, options))
     }
 }
 
-impl From<SavedAddress> for Address {
+impl From<SavedAddress> for DriverAddress {
     fn from(address: SavedAddress) -> Self {
         match address {
             SavedAddress::Command(words) => Self::Command(words),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT};
-use motet_runtime::{Event, Happening, NodeEnding, Record, Time, Verification};
+use motet_runtime::{Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
 
 use super::branch::{Open, branches};
 use super::made_up::MadeUp;
@@ -111,40 +111,40 @@ impl Tree {
     }
 
     /// Takes a record in. Returns the node that it is about.
-    pub(super) fn take(&mut self, record: &Record) -> Option<NodeId> {
+    pub(super) fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
         let graph = Arc::clone(&self.graph);
         let (node, note) = match &record.what {
-            Happening::Entered { node } => {
+            TraceEventKind::Entered { node } => {
                 self.enter(*node, record.at);
                 (*node, Some(String::new()))
             }
-            Happening::Started { node, attempt, .. } => {
+            TraceEventKind::Started { node, attempt, .. } => {
                 (*node, (*attempt > 1).then(|| format!("attempt {attempt}{}", of_all(&graph, *node))))
             }
-            Happening::Ended { node, ending, .. } => {
+            TraceEventKind::Ended { node, ending, .. } => {
                 self.end(*node, *ending, record.at);
                 (*node, self.why(*ending))
             }
-            Happening::GoalEnded { node, ending, .. } => (*node, self.why(*ending)),
-            Happening::Guard { node, need, truth } => {
+            TraceEventKind::GoalEnded { node, ending, .. } => (*node, self.why(*ending)),
+            TraceEventKind::Guard { node, need, truth } => {
                 let need = needed(&graph, *node, *need);
                 (
                     *node,
                     (*truth != motet_runtime::Truth::True).then(|| format!("needs {need}, which is {truth}")),
                 )
             }
-            Happening::Verified { node, verdict } => {
+            TraceEventKind::Verified { node, verdict } => {
                 (*node, matches!(**verdict, Verification::Infeasible { .. }).then(|| verdict.to_string()))
             }
-            Happening::Tested { node, truth } => (*node, Some(truth.to_string())),
-            Happening::Fired { node, watch, .. } => {
+            TraceEventKind::Tested { node, truth } => (*node, Some(truth.to_string())),
+            TraceEventKind::Fired { node, watch, .. } => {
                 (*node, Some(format!("fired: {}", watched(&graph, *node, *watch))))
             }
-            Happening::WentOn { node, .. } => (*node, Some("went on".to_owned())),
-            Happening::Swapped { .. } => return None,
-            Happening::Kept { node, .. } => (*node, Some("goes on".to_owned())),
-            Happening::Updated { node, .. } => (*node, Some("updated".to_owned())),
-            Happening::Bound { binding, value } => {
+            TraceEventKind::WentOn { node, .. } => (*node, Some("went on".to_owned())),
+            TraceEventKind::Swapped { .. } => return None,
+            TraceEventKind::Kept { node, .. } => (*node, Some("goes on".to_owned())),
+            TraceEventKind::Updated { node, .. } => (*node, Some("updated".to_owned())),
+            TraceEventKind::Bound { binding, value } => {
                 let binds = |kind: &NodeKind| match kind {
                     NodeKind::Call(call) => call.binds == Some(*binding),
                     NodeKind::Each { item, .. } => item == binding,

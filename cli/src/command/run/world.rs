@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
-use motet_sim::{Faults, Options, Script};
+use motet_sim::{Faults, PersonScript, SimOptions};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::json;
 use motet_syntax::{FileId, Source, Sources};
@@ -59,18 +59,18 @@ impl Choices {
 
     /// The choices about the simulated world. `files` are the document and the domains, whose entities have a place in it
     /// too.
-    pub(super) fn options(self, graph: &Graph, files: &[&File]) -> Options {
+    pub(super) fn options(self, graph: &Graph, files: &[&File]) -> SimOptions {
         let parent = |kind: &motet_graph::Kind| {
             let parent = graph.kinds.get(kind.parent?.index())?;
             Some((kind.name.clone(), parent.name.clone()))
         };
-        Options {
+        SimOptions {
             seed: self.seed,
             faults: self.faults,
-            script: Script { answers: self.answers },
+            script: PersonScript { answers: self.answers },
             kinds: graph.kinds.iter().filter_map(parent).collect(),
             entities: files.iter().flat_map(|file| entities(file)).collect(),
-            told: graph
+            initial_facts: graph
                 .initial
                 .iter()
                 .filter_map(|(fact, value)| Some((told(graph, fact)?, *value)))

@@ -1,17 +1,17 @@
 //! Lays sketched steps out as a graph.
 
-use super::sketch::{Call, React, Step, When};
+use super::sketch::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use super::vocabulary::{self as v, SAY};
 use crate::model::{
-    Binding, BindingId, Bounds, CallNode, Condition, Ending, Fact, FactArg, Graph, Handler, Node, NodeId,
-    NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,
+    Binding, BindingId, CallNode, Condition, DurationBounds, Ending, Fact, FactArg, Graph, Handler, Node,
+    NodeId, NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, Type, Watch,
 };
 use smol_str::SmolStr;
 
 /// The graph of a policy with these steps. Always valid: a call in a branch that would need what an earlier branch needs
 /// becomes a `say`.
 #[must_use]
-pub fn graph(steps: &[Step]) -> Graph {
+pub fn graph(steps: &[StepSketch]) -> Graph {
     let mut layout =
         Layout { graph: v::declarations(), objects: Vec::new(), taken: Vec::new(), inline: None };
     layout.graph.regions.push(Region { owner: None, entry: None });
@@ -30,21 +30,21 @@ struct Layout {
 }
 
 impl Layout {
-    fn region(&mut self, owner: NodeId, steps: &[Step], path: &str) -> RegionId {
+    fn region(&mut self, owner: NodeId, steps: &[StepSketch], path: &str) -> RegionId {
         let id = RegionId(self.graph.regions.len() as u32);
         self.graph.regions.push(Region { owner: Some(owner), entry: None });
         self.fill(id, steps, path);
         id
     }
 
-    fn fill(&mut self, region: RegionId, steps: &[Step], path: &str) {
+    fn fill(&mut self, region: RegionId, steps: &[StepSketch], path: &str) {
         let bound = self.objects.len();
         let mut before: Option<NodeId> = None;
         for (index, step) in steps.iter().enumerate() {
             let id = NodeId(self.graph.nodes.len() as u32);
             let path = format!("{path}/{index}");
             let kind = NodeKind::Parallel { branches: Vec::new() };
-            let duration = Bounds { least_secs: 0.0, greatest_secs: 10.0 };
+            let duration = DurationBounds { least_secs: 0.0, greatest_secs: 10.0 };
             self.graph.nodes.push(Node { path: SmolStr::new(&path), region, next: None, duration, kind });
             let kind = self.kind(id, step, &path);
             if let Some(node) = self.graph.nodes.get_mut(id.index()) {
@@ -63,28 +63,28 @@ impl Layout {
         self.objects.truncate(bound);
     }
 
-    fn kind(&mut self, id: NodeId, step: &Step, path: &str) -> NodeKind {
+    fn kind(&mut self, id: NodeId, step: &StepSketch, path: &str) -> NodeKind {
         match step {
-            Step::Call(call) => NodeKind::Call(self.call(call)),
-            Step::Sequence(steps) => {
+            StepSketch::Call(call) => NodeKind::Call(self.call(call)),
+            StepSketch::Sequence(steps) => {
                 NodeKind::Sequence { name: SmolStr::new_static("group"), body: self.region(id, steps, path) }
             }
-            Step::Inline(steps) => {
+            StepSketch::Inline(steps) => {
                 let outer = self.inline.replace(id);
                 let body = self.region(id, steps, &format!("{path}:/steps"));
                 self.inline = outer;
                 NodeKind::Inline { policy: SmolStr::new_static("part"), body }
             }
-            Step::If(condition, then, otherwise) => NodeKind::If {
+            StepSketch::If(condition, then, otherwise) => NodeKind::If {
                 condition: self.condition(condition),
                 then: self.region(id, then, &format!("{path}/then")),
                 otherwise: otherwise.as_ref().map(|steps| self.region(id, steps, &format!("{path}/else"))),
             },
-            Step::Wait(condition, within_secs) => {
+            StepSketch::Wait(condition, within_secs) => {
                 NodeKind::Wait { condition: self.condition(condition), within_secs: *within_secs }
             }
-            Step::Monitor(whens, steps) => self.monitor(id, whens, steps, path),
-            Step::Try(body, handlers) => {
+            StepSketch::Monitor(whens, steps) => self.monitor(id, whens, steps, path),
+            StepSketch::Try(body, handlers) => {
                 let body = self.region(id, body, &format!("{path}/try"));
                 let handlers = handlers.iter().enumerate().map(|(index, (on, steps))| Handler {
                     on: on.clone(),
@@ -92,7 +92,7 @@ impl Layout {
                 });
                 NodeKind::Try { body, handlers: handlers.collect() }
             }
-            Step::Repeat(times, steps, until) => {
+            StepSketch::Repeat(times, steps, until) => {
                 let body = self.region(id, steps, &format!("{path}/steps"));
                 NodeKind::Repeat {
                     times: *times,
@@ -100,7 +100,7 @@ impl Layout {
                     until: until.as_ref().map(|until| self.condition(until)),
                 }
             }
-            Step::Each(list, at_most, steps) => {
+            StepSketch::Each(list, at_most, steps) => {
                 let list = self.term(list);
                 let item = self.binding("item", Type::Entity(v::OBJECT));
                 self.objects.push(item);
@@ -108,14 +108,14 @@ impl Layout {
                 self.objects.pop();
                 NodeKind::Each { item, list, at_most: *at_most, body }
             }
-            Step::Parallel(branches) => self.parallel(id, branches, path),
-            Step::End(how) => {
+            StepSketch::Parallel(branches) => self.parallel(id, branches, path),
+            StepSketch::End(how) => {
                 NodeKind::End { how: *how, of: self.inline.filter(|_| *how != Ending::Replan), why: None }
             }
         }
     }
 
-    fn call(&mut self, call: &Call) -> CallNode {
+    fn call(&mut self, call: &CallSketch) -> CallNode {
         let declared = self.graph.primitives.get(call.primitive.index());
         let clashes = |id: &ResourceId| self.taken.iter().any(|taken| self.conflict(*taken, *id));
         let free = declared.is_some_and(|primitive| !primitive.uses.iter().any(clashes));
@@ -146,19 +146,19 @@ impl Layout {
         }
     }
 
-    fn monitor(&mut self, id: NodeId, whens: &[When], steps: &[Step], path: &str) -> NodeKind {
+    fn monitor(&mut self, id: NodeId, whens: &[WatchSketch], steps: &[StepSketch], path: &str) -> NodeKind {
         let conditions: Vec<Condition> = whens.iter().map(|when| self.condition(&when.condition)).collect();
         // Regions in the order in which a monitor names them: the body, then the blocks.
         let body = self.region(id, steps, &format!("{path}/during"));
         let watches = whens.iter().zip(conditions).enumerate().map(|(index, (when, condition))| {
             let reaction = match &when.react {
-                React::Pause(within_secs) => Reaction::Pause { within_secs: *within_secs },
-                React::Restart(at_most) => Reaction::Restart { at_most: *at_most },
-                React::Resume(at_most, steps) => {
+                ReactionSketch::Pause(within_secs) => Reaction::Pause { within_secs: *within_secs },
+                ReactionSketch::Restart(at_most) => Reaction::Restart { at_most: *at_most },
+                ReactionSketch::Resume(at_most, steps) => {
                     let path = format!("{path}/monitor/{index}/then/steps");
                     Reaction::Resume { at_most: *at_most, body: self.region(id, steps, &path) }
                 }
-                React::End(how) => {
+                ReactionSketch::End(how) => {
                     Reaction::End { how: *how, of: self.inline.filter(|_| *how != Ending::Replan), why: None }
                 }
             };
@@ -167,7 +167,7 @@ impl Layout {
         NodeKind::Monitor { watches: watches.collect(), body }
     }
 
-    fn parallel(&mut self, id: NodeId, branches: &[Vec<Step>], path: &str) -> NodeKind {
+    fn parallel(&mut self, id: NodeId, branches: &[Vec<StepSketch>], path: &str) -> NodeKind {
         let outer = self.taken.len();
         let mut regions = Vec::new();
         for (index, steps) in branches.iter().enumerate() {
@@ -206,7 +206,7 @@ impl Layout {
 
     fn term(&self, term: &Term) -> Term {
         match term {
-            term if *term == Call::NEAREST => {
+            term if *term == CallSketch::NEAREST => {
                 self.objects.last().map_or_else(|| v::entity("mug"), |binding| Term::Binding(*binding))
             }
             Term::Literal(_) | Term::Binding(_) | Term::Each => term.clone(),

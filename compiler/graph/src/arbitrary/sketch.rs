@@ -5,37 +5,37 @@ use crate::model::{BindingId, Condition, Ending, FailureId, PrimitiveId, Term, V
 
 /// A step.
 #[derive(Clone, Debug)]
-pub enum Step {
+pub enum StepSketch {
     /// A call.
-    Call(Call),
+    Call(CallSketch),
     /// A named group.
-    Sequence(Vec<Step>),
+    Sequence(Vec<StepSketch>),
     /// A sub-policy.
-    Inline(Vec<Step>),
+    Inline(Vec<StepSketch>),
     /// A branch.
-    If(Condition, Vec<Step>, Option<Vec<Step>>),
+    If(Condition, Vec<StepSketch>, Option<Vec<StepSketch>>),
     /// A wait, with its deadline in seconds.
     Wait(Condition, f64),
     /// A monitor.
-    Monitor(Vec<When>, Vec<Step>),
+    Monitor(Vec<WatchSketch>, Vec<StepSketch>),
     /// A body and its handlers.
-    Try(Vec<Step>, Vec<(Option<Vec<FailureId>>, Vec<Step>)>),
+    Try(Vec<StepSketch>, Vec<(Option<Vec<FailureId>>, Vec<StepSketch>)>),
     /// A loop with its bound and its test.
-    Repeat(u32, Vec<Step>, Option<Condition>),
+    Repeat(u32, Vec<StepSketch>, Option<Condition>),
     /// A loop over a list of objects, with its bound.
-    Each(Term, u32, Vec<Step>),
+    Each(Term, u32, Vec<StepSketch>),
     /// Branches.
-    Parallel(Vec<Vec<Step>>),
+    Parallel(Vec<Vec<StepSketch>>),
     /// Ends the sub-policy around it, or the policy where there is none, or where it says `replan`.
     End(Ending),
 }
 
 /// A call of a primitive of the vocabulary.
 #[derive(Clone, Debug)]
-pub struct Call {
+pub struct CallSketch {
     /// Which.
     pub primitive: PrimitiveId,
-    /// Its arguments; [`Call::NEAREST`] stands for the object that was bound last, or `mug` where none was.
+    /// Its arguments; [`CallSketch::NEAREST`] stands for the object that was bound last, or `mug` where none was.
     pub args: Vec<Term>,
     /// The deadline in seconds.
     pub deadline_secs: f64,
@@ -47,29 +47,29 @@ pub struct Call {
 
 /// A watched condition.
 #[derive(Clone, Debug)]
-pub struct When {
+pub struct WatchSketch {
     /// The condition.
     pub condition: Condition,
     /// Seconds for which it must hold.
     pub hold_secs: f64,
     /// What then happens.
-    pub react: React,
+    pub react: ReactionSketch,
 }
 
 /// A reaction.
 #[derive(Clone, Debug)]
-pub enum React {
+pub enum ReactionSketch {
     /// Hold for at most so many seconds.
     Pause(f64),
     /// Start again at most so often.
     Restart(u32),
     /// Interrupt, run steps, go on, at most so often.
-    Resume(u32, Vec<Step>),
-    /// End, as [`Step::End`] does.
+    Resume(u32, Vec<StepSketch>),
+    /// End, as [`StepSketch::End`] does.
     End(Ending),
 }
 
-impl Call {
+impl CallSketch {
     /// The object that was bound last.
     pub const NEAREST: Term = Term::Binding(BindingId(u32::MAX));
 
@@ -92,36 +92,36 @@ impl Call {
     }
 }
 
-impl Step {
+impl StepSketch {
     /// `go(to)`
     #[must_use]
     pub fn go(to: &str) -> Self {
-        Self::Call(Call::new(v::GO, vec![v::entity(to)]))
+        Self::Call(CallSketch::new(v::GO, vec![v::entity(to)]))
     }
 
     /// `say(text)`
     #[must_use]
     pub fn say(text: &str) -> Self {
-        Self::Call(Call::new(v::SAY, vec![v::text(text)]))
+        Self::Call(CallSketch::new(v::SAY, vec![v::text(text)]))
     }
 
     /// `pick(object)`
     #[must_use]
     pub fn pick(object: &str) -> Self {
-        Self::Call(Call::new(v::PICK, vec![v::entity(object)]))
+        Self::Call(CallSketch::new(v::PICK, vec![v::entity(object)]))
     }
 
     /// `let it = detect(what)`
     #[must_use]
     pub fn detect(what: &str) -> Self {
-        Self::Call(Call::new(v::DETECT, vec![v::text(what)]))
+        Self::Call(CallSketch::new(v::DETECT, vec![v::text(what)]))
     }
 }
 
-impl When {
+impl WatchSketch {
     /// A watch without a debounce.
     #[must_use]
-    pub fn new(condition: Condition, react: React) -> Self {
+    pub fn new(condition: Condition, react: ReactionSketch) -> Self {
         Self { condition, hold_secs: 0.0, react }
     }
 }

@@ -1,7 +1,7 @@
 //! Sketches drawn at random.
 
 use super::layout;
-use super::sketch::{Call, React, Step, When};
+use super::sketch::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use super::vocabulary::{self as v, entity, fact};
 use crate::model::{Comparison, Condition, Ending, Fact, FactArg, Graph, PrimitiveId, Term, Value, Verdict};
 use proptest::collection::vec;
@@ -15,19 +15,19 @@ pub fn graphs() -> impl Strategy<Value = Graph> {
 }
 
 /// The steps of a policy.
-pub fn steps() -> impl Strategy<Value = Vec<Step>> {
+pub fn steps() -> impl Strategy<Value = Vec<StepSketch>> {
     let step = leaf().prop_recursive(4, 40, 4, |inner| {
         let body = vec(inner, 0..4);
         let handlers = vec((option::of(vec(failure(), 0..3)), body.clone()), 0..3);
         prop_oneof![
-            2 => body.clone().prop_map(Step::Sequence),
-            2 => body.clone().prop_map(Step::Inline),
-            2 => (conditions(), body.clone(), option::of(body.clone())).prop_map(|(c, t, e)| Step::If(c, t, e)),
-            5 => (vec(when(body.clone()), 1..4), body.clone()).prop_map(|(whens, body)| Step::Monitor(whens, body)),
-            3 => (body.clone(), handlers).prop_map(|(body, handlers)| Step::Try(body, handlers)),
-            2 => (1..4_u32, body.clone(), option::of(conditions())).prop_map(|(n, b, u)| Step::Repeat(n, b, u)),
-            2 => (list(), 0..4_u32, body.clone()).prop_map(|(list, n, body)| Step::Each(list, n, body)),
-            3 => vec(body, 0..4).prop_map(Step::Parallel),
+            2 => body.clone().prop_map(StepSketch::Sequence),
+            2 => body.clone().prop_map(StepSketch::Inline),
+            2 => (conditions(), body.clone(), option::of(body.clone())).prop_map(|(c, t, e)| StepSketch::If(c, t, e)),
+            5 => (vec(when(body.clone()), 1..4), body.clone()).prop_map(|(whens, body)| StepSketch::Monitor(whens, body)),
+            3 => (body.clone(), handlers).prop_map(|(body, handlers)| StepSketch::Try(body, handlers)),
+            2 => (1..4_u32, body.clone(), option::of(conditions())).prop_map(|(n, b, u)| StepSketch::Repeat(n, b, u)),
+            2 => (list(), 0..4_u32, body.clone()).prop_map(|(list, n, body)| StepSketch::Each(list, n, body)),
+            3 => vec(body, 0..4).prop_map(StepSketch::Parallel),
         ]
     });
     vec(step, 0..6)
@@ -58,16 +58,16 @@ pub fn conditions() -> impl Strategy<Value = Condition> {
     })
 }
 
-fn leaf() -> impl Strategy<Value = Step> {
+fn leaf() -> impl Strategy<Value = StepSketch> {
     let ending = prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)];
     prop_oneof![
-        12 => call().prop_map(Step::Call),
-        2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| Step::Wait(condition, within)),
-        1 => ending.prop_map(Step::End),
+        12 => call().prop_map(StepSketch::Call),
+        2 => (conditions(), 0.0..3.0).prop_map(|(condition, within)| StepSketch::Wait(condition, within)),
+        1 => ending.prop_map(StepSketch::End),
     ]
 }
 
-fn call() -> impl Strategy<Value = Call> {
+fn call() -> impl Strategy<Value = CallSketch> {
     let what = || prop_oneof![Just(v::text("mug")), Just(v::text("cup"))];
     let primitive = prop_oneof![
         3 => place().prop_map(|to| (v::GO, vec![to])),
@@ -81,24 +81,28 @@ fn call() -> impl Strategy<Value = Call> {
         |((primitive, args), deadline_secs, retries, proven)| {
             let verdict = if proven { Verdict::Proven } else { Verdict::Deferred };
             let _: PrimitiveId = primitive;
-            Call { primitive, args, deadline_secs, retries, verdict }
+            CallSketch { primitive, args, deadline_secs, retries, verdict }
         },
     )
 }
 
-fn when(body: impl Strategy<Value = Vec<Step>> + 'static) -> impl Strategy<Value = When> {
+fn when(body: impl Strategy<Value = Vec<StepSketch>> + 'static) -> impl Strategy<Value = WatchSketch> {
     let react = prop_oneof![
-        3 => (0.0..3.0).prop_map(React::Pause),
-        2 => (0..3_u32).prop_map(React::Restart),
-        3 => (0..3_u32, body).prop_map(|(at_most, steps)| React::Resume(at_most, steps)),
-        1 => prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)].prop_map(React::End),
+        3 => (0.0..3.0).prop_map(ReactionSketch::Pause),
+        2 => (0..3_u32).prop_map(ReactionSketch::Restart),
+        3 => (0..3_u32, body).prop_map(|(at_most, steps)| ReactionSketch::Resume(at_most, steps)),
+        1 => prop_oneof![Just(Ending::Done), Just(Ending::Fail), Just(Ending::Replan)].prop_map(ReactionSketch::End),
     ];
     let hold = prop_oneof![Just(0.0), 0.0..1.0];
-    (conditions(), hold, react).prop_map(|(condition, hold_secs, react)| When { condition, hold_secs, react })
+    (conditions(), hold, react).prop_map(|(condition, hold_secs, react)| WatchSketch {
+        condition,
+        hold_secs,
+        react,
+    })
 }
 
 fn object() -> impl Strategy<Value = Term> {
-    prop_oneof![Just(entity("mug")), Just(entity("cup")), Just(Call::NEAREST)]
+    prop_oneof![Just(entity("mug")), Just(entity("cup")), Just(CallSketch::NEAREST)]
 }
 
 fn place() -> impl Strategy<Value = Term> {

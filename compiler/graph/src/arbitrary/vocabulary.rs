@@ -1,9 +1,9 @@
 //! The declarations that sketched graphs use.
 
 use crate::model::{
-    Binding, Bounds, Comparison, Condition, Effect, Fact, FactArg, FailureId, Fluent, FluentId, Graph, Kind,
-    KindId, Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type, Unsettled,
-    Value, Verdict,
+    Binding, CallEffect, Comparison, Condition, DurationBounds, Fact, FactArg, FailureId, Fluent, FluentId,
+    Graph, Kind, KindId, Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type,
+    Unsettled, Value, Verdict,
 };
 use smol_str::SmolStr;
 
@@ -115,7 +115,7 @@ pub fn declarations() -> Graph {
         regions: Vec::new(),
         initial: vec![(Fact { fluent: HOLDING, args: vec![FactArg::Any] }, false)],
         observe_within_secs: 0.5,
-        duration: Bounds::default(),
+        duration: DurationBounds::default(),
     }
 }
 
@@ -147,7 +147,7 @@ pub fn nearer(to: &str, limit_m: f64) -> Condition {
 /// What a primitive needs, makes and unsettles with these arguments.
 pub(super) fn contract(primitive: PrimitiveId, args: &[Term], verdict: Verdict) -> Contract {
     let arg = |index: usize| args.get(index).cloned().unwrap_or_else(|| entity("mug"));
-    let effect = |fact, value| Effect { fact, value, when: None, each: None };
+    let effect = |fact, value| CallEffect { fact, value, when: None, each: None };
     let need = |condition, failure| Need { condition, when: None, each: None, verdict, failure };
     let nowhere = Fact { fluent: AT, args: vec![FactArg::Term(entity("robot")), FactArg::Any] };
     let somewhere_else = Fact { fluent: AT, args: vec![FactArg::Term(arg(0)), FactArg::Any] };
@@ -183,6 +183,6 @@ pub(super) fn contract(primitive: PrimitiveId, args: &[Term], verdict: Verdict) 
 #[derive(Default)]
 pub(super) struct Contract {
     pub(super) needs: Vec<Need>,
-    pub(super) effects: Vec<Effect>,
+    pub(super) effects: Vec<CallEffect>,
     pub(super) unsettles: Vec<Unsettled>,
 }

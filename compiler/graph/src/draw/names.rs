@@ -2,8 +2,8 @@
 
 use super::quantity;
 use crate::model::{
-    BindingId, CallNode, Condition, Effect, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId, Motion,
-    Need, NodeKind, Reaction, Term, Unsettled, Watch,
+    BindingId, CallEffect, CallNode, Condition, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId,
+    Motion, Need, NodeKind, Reaction, Term, Unsettled, Watch,
 };
 
 /// Names things by a graph's tables, any graph's: an id that names nothing is `?`.
@@ -113,7 +113,7 @@ impl<'a> Names<'a> {
         format!("{}({})", motion.query, self.terms(&motion.args))
     }
 
-    pub(super) fn effect(&self, effect: &Effect) -> String {
+    pub(super) fn effect(&self, effect: &CallEffect) -> String {
         let not = if effect.value { "" } else { "not " };
         self.quantified(format!("{not}{}", self.fact(&effect.fact)), effect.each, effect.when.as_ref())
     }

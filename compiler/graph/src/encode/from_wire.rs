@@ -60,8 +60,8 @@ fn text(text: String) -> SmolStr {
     SmolStr::from(text)
 }
 
-fn bounds([least_secs, greatest_secs]: [f64; 2]) -> m::Bounds {
-    m::Bounds { least_secs, greatest_secs }
+fn bounds([least_secs, greatest_secs]: [f64; 2]) -> m::DurationBounds {
+    m::DurationBounds { least_secs, greatest_secs }
 }
 
 fn ty(of: w::Type) -> m::Type {
@@ -177,7 +177,7 @@ fn call(call: w::Call) -> m::CallNode {
             witness: motion.witness.map(|found| Box::new(witness(*found))),
             why: motion.why.map(text),
         }),
-        effects: list(call.effects, |effect| m::Effect {
+        effects: list(call.effects, |effect| m::CallEffect {
             fact: fact(effect.fact),
             value: effect.value,
             when: effect.when.map(condition),

@@ -62,7 +62,7 @@ fn text(text: &SmolStr) -> String {
     text.to_string()
 }
 
-fn bounds(bounds: m::Bounds) -> [f64; 2] {
+fn bounds(bounds: m::DurationBounds) -> [f64; 2] {
     [bounds.least_secs, bounds.greatest_secs]
 }
 

@@ -81,7 +81,7 @@ pub struct Graph {
     /// Seconds that one observation may take.
     pub observe_within_secs: f64,
     /// Least and greatest duration of the whole policy.
-    pub duration: Bounds,
+    pub duration: DurationBounds,
 }
 
 /// The policy's own region.
@@ -91,7 +91,7 @@ pub const TIMEOUT: FailureId = FailureId(0);
 
 /// Least and greatest duration in seconds; `0 <= least <= greatest`, both finite.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Bounds {
+pub struct DurationBounds {
     /// Least.
     pub least_secs: f64,
     /// Greatest.

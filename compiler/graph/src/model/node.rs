@@ -2,7 +2,9 @@
 
 use smol_str::SmolStr;
 
-use super::{BindingId, Bounds, Condition, Fact, FailureId, KindId, NodeId, PrimitiveId, RegionId, Term};
+use super::{
+    BindingId, Condition, DurationBounds, Fact, FailureId, KindId, NodeId, PrimitiveId, RegionId, Term,
+};
 
 /// A list of nodes with one thread of control.
 #[derive(Clone, PartialEq, Debug)]
@@ -24,7 +26,7 @@ pub struct Node {
     /// The success edge: the next node of the region; none ends the region in success.
     pub next: Option<NodeId>,
     /// Least and greatest duration, retries included.
-    pub duration: Bounds,
+    pub duration: DurationBounds,
     /// What it does.
     pub kind: NodeKind,
 }
@@ -143,7 +145,7 @@ pub struct CallNode {
     /// Its motion with its verdict.
     pub motion: Option<Motion>,
     /// What is true after success, applied in order after all conditions were evaluated.
-    pub effects: Vec<Effect>,
+    pub effects: Vec<CallEffect>,
     /// Facts that are unknown as soon as it starts; after a failure also those that `effects` name.
     pub unsettles: Vec<Unsettled>,
 }
@@ -237,7 +239,7 @@ pub struct Grasp {
 
 /// A change of what is believed.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Effect {
+pub struct CallEffect {
     /// What changes.
     pub fact: Fact,
     /// Its new value.

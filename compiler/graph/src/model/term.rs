@@ -78,7 +78,7 @@ pub enum Term {
     Literal(Value),
     /// A binding.
     Binding(BindingId),
-    /// The variable of a quantified entry; only in [`Effect`], [`Unsettled`] and [`Need`].
+    /// The variable of a quantified entry; only in [`CallEffect`], [`Unsettled`] and [`Need`].
     Each,
     /// A field of an entity, observed like a measure.
     Field(Box<Term>, SmolStr),

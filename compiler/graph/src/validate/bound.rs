@@ -3,7 +3,7 @@
 //! A given name is bound everywhere. Any other is bound by a call or a loop and holds to the end of the region that binds it, so a walk in document order that
 //! forgets at the end of each region what was bound in it knows at each node what is bound.
 
-use super::{Findings, Reason};
+use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Condition, Fact, FactArg, Graph, Node, NodeId, NodeKind, Reaction, RegionId, Term,
 };
@@ -178,7 +178,7 @@ impl<'a> Walk<'a> {
                 Term::Binding(id) => {
                     if self.bound.get(id.index()) == Some(&false) {
                         let name = self.graph.bindings.get(id.index()).map(|binding| binding.name.clone());
-                        self.findings.node(node, Reason::Unbound(name.unwrap_or_default()));
+                        self.findings.node(node, InvalidReason::Unbound(name.unwrap_or_default()));
                     }
                 }
                 Term::Field(of, _) => self.terms.push(of),

@@ -6,16 +6,16 @@ use thiserror::Error;
 /// One reason for which a graph cannot be run.
 #[derive(Clone, PartialEq, Debug, Error)]
 #[error("{at}: {reason}")]
-pub struct Invalid {
+pub struct InvalidGraph {
     /// The path of the node, or the table and the index in it.
     pub at: SmolStr,
     /// What is wrong there.
-    pub reason: Reason,
+    pub reason: InvalidReason,
 }
 
 /// What is wrong.
 #[derive(Clone, PartialEq, Debug, Error)]
-pub enum Reason {
+pub enum InvalidReason {
     /// A table or the nesting is larger than a limit.
     #[error("{count} {what} are more than the limit of {limit}")]
     TooMany {

@@ -12,7 +12,7 @@ mod structure;
 mod tables;
 mod types;
 
-pub use invalid::{Invalid, Reason};
+pub use invalid::{InvalidGraph, InvalidReason};
 pub use limits::{MAX_DEPTH, MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
 
 use crate::model::{Graph, Node};
@@ -24,7 +24,7 @@ use smol_str::SmolStr;
 ///
 /// Everything that was found, in document order within each pass. A graph whose structure is unsound is not looked at
 /// further.
-pub fn validate(graph: &Graph) -> Result<(), Vec<Invalid>> {
+pub fn validate(graph: &Graph) -> Result<(), Vec<InvalidGraph>> {
     let mut findings = Findings::default();
     tables::check(graph, &mut findings);
     structure::check(graph, &mut findings);
@@ -41,24 +41,24 @@ pub fn validate(graph: &Graph) -> Result<(), Vec<Invalid>> {
 /// What was found so far.
 #[derive(Debug, Default)]
 struct Findings {
-    list: Vec<Invalid>,
+    list: Vec<InvalidGraph>,
 }
 
 impl Findings {
     /// A finding about a table.
-    fn table(&mut self, table: &str, index: usize, reason: Reason) {
+    fn table(&mut self, table: &str, index: usize, reason: InvalidReason) {
         self.add(SmolStr::from(format!("{table} {index}")), reason);
     }
 
     /// A finding about a node.
-    fn node(&mut self, node: &Node, reason: Reason) {
+    fn node(&mut self, node: &Node, reason: InvalidReason) {
         self.add(node.path.clone(), reason);
     }
 
     /// A graph with many mistakes does not give a list without end.
-    fn add(&mut self, at: SmolStr, reason: Reason) {
+    fn add(&mut self, at: SmolStr, reason: InvalidReason) {
         if self.list.len() < limits::MAX_FINDINGS {
-            self.list.push(Invalid { at, reason });
+            self.list.push(InvalidGraph { at, reason });
         }
     }
 }

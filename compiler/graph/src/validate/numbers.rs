@@ -1,13 +1,14 @@
 //! Durations, deadlines, bounds and the numbers of witnesses.
 
-use super::{Findings, Reason};
-use crate::model::{Bounds, Graph, Motion, Node, NodeKind, Reaction, Verdict};
+use super::{Findings, InvalidReason};
+use crate::model::{DurationBounds, Graph, Motion, Node, NodeKind, Reaction, Verdict};
 use smol_str::SmolStr;
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
     let whole = SmolStr::new_static("policy");
     if !is_span(graph.observe_within_secs) {
-        let reason = Reason::Number { what: "the time for an observation", value: graph.observe_within_secs };
+        let reason =
+            InvalidReason::Number { what: "the time for an observation", value: graph.observe_within_secs };
         findings.add(whole.clone(), reason);
     }
     if let Some(reason) = bad_bounds(graph.duration) {
@@ -21,11 +22,11 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
             NodeKind::Call(call) => {
                 span(findings, node, "the deadline", call.deadline_secs);
                 if let Some(why) = call.motion.as_ref().and_then(bad_motion) {
-                    findings.node(node, Reason::Witness(why));
+                    findings.node(node, InvalidReason::Witness(why));
                 }
             }
             NodeKind::Wait { within_secs, .. } => span(findings, node, "the deadline", *within_secs),
-            NodeKind::Repeat { times: 0, .. } => findings.node(node, Reason::NoRuns),
+            NodeKind::Repeat { times: 0, .. } => findings.node(node, InvalidReason::NoRuns),
             NodeKind::Monitor { watches, .. } => {
                 for watch in watches {
                     span(findings, node, "the time that a condition must hold", watch.hold_secs);
@@ -46,7 +47,7 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
 
 fn span(findings: &mut Findings, node: &Node, what: &'static str, value: f64) {
     if !is_span(value) {
-        findings.node(node, Reason::Number { what, value });
+        findings.node(node, InvalidReason::Number { what, value });
     }
 }
 
@@ -54,14 +55,15 @@ fn is_span(secs: f64) -> bool {
     secs.is_finite() && secs >= 0.0
 }
 
-fn bad_bounds(bounds: Bounds) -> Option<Reason> {
-    let Bounds { least_secs, greatest_secs } = bounds;
+fn bad_bounds(bounds: DurationBounds) -> Option<InvalidReason> {
+    let DurationBounds { least_secs, greatest_secs } = bounds;
     for (what, value) in [("the least duration", least_secs), ("the greatest duration", greatest_secs)] {
         if !is_span(value) {
-            return Some(Reason::Number { what, value });
+            return Some(InvalidReason::Number { what, value });
         }
     }
-    (least_secs > greatest_secs).then_some(Reason::Bounds { least: least_secs, greatest: greatest_secs })
+    (least_secs > greatest_secs)
+        .then_some(InvalidReason::Bounds { least: least_secs, greatest: greatest_secs })
 }
 
 /// What is wrong with a motion: nothing is called feasible without a solution, and a solution is made of numbers.

@@ -1,6 +1,6 @@
 //! What runs at once must not need the same resource, nor one that contains another's.
 
-use super::{Findings, Reason};
+use super::{Findings, InvalidReason};
 use crate::model::{Graph, NodeKind, RegionId};
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
@@ -30,7 +30,9 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
                 let resource = graph.resources.get(clash.trailing_zeros() as usize);
                 findings.node(
                     node,
-                    Reason::Conflict(resource.map(|resource| resource.name.clone()).unwrap_or_default()),
+                    InvalidReason::Conflict(
+                        resource.map(|resource| resource.name.clone()).unwrap_or_default(),
+                    ),
                 );
                 break;
             }

@@ -1,7 +1,7 @@
 //! Regions and edges: that they form a tree in document order, each node in its one place.
 
 use super::limits::MAX_DEPTH;
-use super::{Findings, Reason};
+use super::{Findings, InvalidReason};
 use crate::model::{Ending, Graph, Node, NodeId, NodeKind, ROOT, Reaction, RegionId};
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
@@ -41,9 +41,9 @@ fn owners(graph: &Graph, findings: &mut Findings) {
     for (index, node) in graph.nodes.iter().enumerate() {
         for region in owned(node) {
             match graph.regions.get(region.index()) {
-                None => findings.node(node, Reason::NoSuch { what: "region", id: region.0 }),
+                None => findings.node(node, InvalidReason::NoSuch { what: "region", id: region.0 }),
                 Some(own) if own.owner != Some(NodeId(index as u32)) => {
-                    findings.node(node, Reason::Ownership(region.0));
+                    findings.node(node, InvalidReason::Ownership(region.0));
                 }
                 Some(_) => {
                     if let Some(count) = named.get_mut(region.index()) {
@@ -54,14 +54,14 @@ fn owners(graph: &Graph, findings: &mut Findings) {
         }
     }
     if graph.regions.is_empty() {
-        findings.table("region", 0, Reason::NoSuch { what: "region", id: ROOT.0 });
+        findings.table("region", 0, InvalidReason::NoSuch { what: "region", id: ROOT.0 });
     }
     for (index, (region, named)) in graph.regions.iter().zip(named).enumerate() {
         let id = index as u32;
         if region.owner.is_some() == (index == ROOT.index()) {
-            findings.table("region", index, Reason::Owner(id));
+            findings.table("region", index, InvalidReason::Owner(id));
         } else if named != u32::from(index != ROOT.index()) {
-            findings.table("region", index, Reason::Ownership(id));
+            findings.table("region", index, InvalidReason::Ownership(id));
         }
     }
 }
@@ -71,36 +71,36 @@ fn edges(graph: &Graph, findings: &mut Findings) {
     for (index, region) in graph.regions.iter().enumerate() {
         let Some(entry) = region.entry else { continue };
         match graph.nodes.get(entry.index()) {
-            None => findings.table("region", index, Reason::NoSuch { what: "node", id: entry.0 }),
+            None => findings.table("region", index, InvalidReason::NoSuch { what: "node", id: entry.0 }),
             Some(node) if node.region.index() != index => {
-                findings.table("region", index, Reason::EdgeLeavesRegion(entry.0));
+                findings.table("region", index, InvalidReason::EdgeLeavesRegion(entry.0));
             }
             Some(_) => count(&mut led_to, entry),
         }
     }
     for (index, node) in graph.nodes.iter().enumerate() {
         match graph.regions.get(node.region.index()) {
-            None => findings.node(node, Reason::NoSuch { what: "region", id: node.region.0 }),
+            None => findings.node(node, InvalidReason::NoSuch { what: "region", id: node.region.0 }),
             Some(region) if region.owner.is_some_and(|owner| owner.index() >= index) => {
-                findings.node(node, Reason::BeforeOwner);
+                findings.node(node, InvalidReason::BeforeOwner);
             }
             Some(_) => {}
         }
         let Some(next) = node.next else { continue };
         match graph.nodes.get(next.index()) {
-            None => findings.node(node, Reason::NoSuch { what: "node", id: next.0 }),
-            Some(_) if next.index() <= index => findings.node(node, Reason::EdgeLeadsBack(next.0)),
+            None => findings.node(node, InvalidReason::NoSuch { what: "node", id: next.0 }),
+            Some(_) if next.index() <= index => findings.node(node, InvalidReason::EdgeLeadsBack(next.0)),
             Some(other) if other.region != node.region => {
-                findings.node(node, Reason::EdgeLeavesRegion(next.0))
+                findings.node(node, InvalidReason::EdgeLeavesRegion(next.0))
             }
             Some(_) => count(&mut led_to, next),
         }
     }
     for (node, led_to) in graph.nodes.iter().zip(led_to) {
         match led_to {
-            0 => findings.node(node, Reason::Unreachable),
+            0 => findings.node(node, InvalidReason::Unreachable),
             1 => {}
-            _ => findings.node(node, Reason::TwoEdges),
+            _ => findings.node(node, InvalidReason::TwoEdges),
         }
     }
 }
@@ -121,7 +121,10 @@ fn depth(graph: &Graph, findings: &mut Findings) {
             *own = depth;
         }
         if depth > MAX_DEPTH {
-            findings.node(node, Reason::TooMany { what: "levels of steps", count: depth, limit: MAX_DEPTH });
+            findings.node(
+                node,
+                InvalidReason::TooMany { what: "levels of steps", count: depth, limit: MAX_DEPTH },
+            );
             return;
         }
     }
@@ -149,7 +152,7 @@ fn endings(graph: &Graph, findings: &mut Findings) {
 fn ending(graph: &Graph, node: &Node, how: Ending, of: Option<NodeId>, findings: &mut Findings) {
     let Some(of) = of else { return };
     if how == Ending::Replan {
-        findings.node(node, Reason::ReplanOfPart);
+        findings.node(node, InvalidReason::ReplanOfPart);
     }
     let mut owner = graph.regions.get(node.region.index()).and_then(|region| region.owner);
     while let Some(here) = owner {
@@ -161,5 +164,5 @@ fn ending(graph: &Graph, node: &Node, how: Ending, of: Option<NodeId>, findings:
         let region = around.and_then(|node| graph.regions.get(node.region.index()));
         owner = region.and_then(|region| region.owner);
     }
-    findings.node(node, Reason::NotEnclosing(of.0));
+    findings.node(node, InvalidReason::NotEnclosing(of.0));
 }

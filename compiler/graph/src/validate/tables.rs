@@ -1,7 +1,7 @@
 //! The tables of declarations.
 
 use super::limits::{MAX_NODES, MAX_RESOURCES, MAX_TERM_DEPTH};
-use super::{Findings, Reason};
+use super::{Findings, InvalidReason};
 use crate::model::{FactArg, Graph, Term, Type};
 
 pub(super) fn check(graph: &Graph, findings: &mut Findings) {
@@ -12,15 +12,15 @@ pub(super) fn check(graph: &Graph, findings: &mut Findings) {
         ("resources", graph.resources.len(), MAX_RESOURCES),
     ] {
         if count > limit {
-            findings.table(what, limit, Reason::TooMany { what, count, limit });
+            findings.table(what, limit, InvalidReason::TooMany { what, count, limit });
         }
     }
     if graph.failures.first().is_none_or(|first| first != "timeout") {
-        findings.table("failure", 0, Reason::NoTimeout);
+        findings.table("failure", 0, InvalidReason::NoTimeout);
     }
     for (index, kind) in graph.kinds.iter().enumerate() {
         if kind.parent.is_some_and(|parent| parent.index() >= index) {
-            findings.table("kind", index, Reason::KindOrder(kind.name.clone()));
+            findings.table("kind", index, InvalidReason::KindOrder(kind.name.clone()));
         }
     }
     declarations(graph, findings);
@@ -58,13 +58,17 @@ fn declarations(graph: &Graph, findings: &mut Findings) {
 fn initial(graph: &Graph, findings: &mut Findings) {
     for (index, (fact, _)) in graph.initial.iter().enumerate() {
         let Some(fluent) = graph.fluents.get(fact.fluent.index()) else {
-            findings.table("initial fact", index, Reason::NoSuch { what: "fluent", id: fact.fluent.0 });
+            findings.table(
+                "initial fact",
+                index,
+                InvalidReason::NoSuch { what: "fluent", id: fact.fluent.0 },
+            );
             continue;
         };
         let (expected, given) = (fluent.params.len(), fact.args.len());
         if expected != given {
             let of = fluent.name.clone();
-            findings.table("initial fact", index, Reason::Arity { of, expected, given });
+            findings.table("initial fact", index, InvalidReason::Arity { of, expected, given });
         }
         for (place, (arg, ty)) in fact.args.iter().zip(&fluent.params).enumerate() {
             match arg {
@@ -72,9 +76,9 @@ fn initial(graph: &Graph, findings: &mut Findings) {
                 FactArg::Term(Term::Literal(value)) if value.fits(ty) => {}
                 FactArg::Term(Term::Literal(_)) => {
                     let of = fluent.name.clone();
-                    findings.table("initial fact", index, Reason::Argument { of, index: place });
+                    findings.table("initial fact", index, InvalidReason::Argument { of, index: place });
                 }
-                FactArg::Term(_) => findings.table("initial fact", index, Reason::NotGround),
+                FactArg::Term(_) => findings.table("initial fact", index, InvalidReason::NotGround),
             }
         }
     }
@@ -87,7 +91,8 @@ fn type_known(graph: &Graph, findings: &mut Findings, table: &str, index: usize,
         inner = item;
         depth += 1;
         if depth > MAX_TERM_DEPTH {
-            let reason = Reason::TooMany { what: "levels of a type", count: depth, limit: MAX_TERM_DEPTH };
+            let reason =
+                InvalidReason::TooMany { what: "levels of a type", count: depth, limit: MAX_TERM_DEPTH };
             findings.table(table, index, reason);
             return;
         }
@@ -99,6 +104,6 @@ fn type_known(graph: &Graph, findings: &mut Findings, table: &str, index: usize,
 
 fn known(findings: &mut Findings, table: &str, index: usize, what: &'static str, id: u32, len: usize) {
     if id as usize >= len {
-        findings.table(table, index, Reason::NoSuch { what, id });
+        findings.table(table, index, InvalidReason::NoSuch { what, id });
     }
 }

@@ -1,7 +1,7 @@
 //! Arguments and conditions: ids in range, the right number of arguments, types that fit.
 
 use super::limits::MAX_TERM_DEPTH;
-use super::{Findings, Reason};
+use super::{Findings, InvalidReason};
 use crate::model::{
     BindingId, CallNode, Comparison, Condition, Fact, FactArg, FailureId, Graph, KindId, Node, NodeKind,
     Reaction, Term, Type, Value,
@@ -67,19 +67,19 @@ impl Types<'_> {
         }
     }
 
-    fn say(&mut self, reason: Reason) {
+    fn say(&mut self, reason: InvalidReason) {
         self.findings.node(self.node, reason);
     }
 
     fn failure(&mut self, failure: FailureId) {
         if failure.index() >= self.graph.failures.len() {
-            self.say(Reason::NoSuch { what: "failure", id: failure.0 });
+            self.say(InvalidReason::NoSuch { what: "failure", id: failure.0 });
         }
     }
 
     fn call(&mut self, call: &CallNode) {
         let Some(primitive) = self.graph.primitives.get(call.primitive.index()) else {
-            self.say(Reason::NoSuch { what: "primitive", id: call.primitive.0 });
+            self.say(InvalidReason::NoSuch { what: "primitive", id: call.primitive.0 });
             return;
         };
         let params = primitive.params.iter().map(|(_, ty)| ty);
@@ -87,7 +87,7 @@ impl Types<'_> {
         match (call.binds, &primitive.result) {
             (None, None) => {}
             (Some(binding), Some(result)) => self.bound_to(binding, result),
-            (Some(_), None) | (None, Some(_)) => self.say(Reason::Result(primitive.name.clone())),
+            (Some(_), None) | (None, Some(_)) => self.say(InvalidReason::Result(primitive.name.clone())),
         }
         for need in &call.needs {
             self.failure(need.failure);
@@ -115,7 +115,7 @@ impl Types<'_> {
 
     fn quantified(&mut self, each: Option<KindId>, check: impl FnOnce(&mut Self)) {
         if let Some(kind) = each.filter(|kind| kind.index() >= self.graph.kinds.len()) {
-            self.say(Reason::NoSuch { what: "kind", id: kind.0 });
+            self.say(InvalidReason::NoSuch { what: "kind", id: kind.0 });
             return;
         }
         self.each = each;
@@ -126,22 +126,22 @@ impl Types<'_> {
     fn each_loop(&mut self, item: BindingId, list: &Term) {
         self.ground(list);
         let Some(binding) = self.graph.bindings.get(item.index()) else {
-            self.say(Reason::NoSuch { what: "binding", id: item.0 });
+            self.say(InvalidReason::NoSuch { what: "binding", id: item.0 });
             return;
         };
         let expected = Type::List(Box::new(binding.ty.clone()));
         if !matches!(self.term(list, 0), Class::List | Class::Any) {
-            self.say(Reason::NotAList);
+            self.say(InvalidReason::NotAList);
         } else if !self.fits(list, &expected) {
-            self.say(Reason::BindingType(binding.name.clone()));
+            self.say(InvalidReason::BindingType(binding.name.clone()));
         }
     }
 
     fn bound_to(&mut self, id: BindingId, ty: &Type) {
         match self.graph.bindings.get(id.index()) {
-            None => self.say(Reason::NoSuch { what: "binding", id: id.0 }),
+            None => self.say(InvalidReason::NoSuch { what: "binding", id: id.0 }),
             Some(binding) if !is_subtype(self.graph, ty, &binding.ty) => {
-                self.say(Reason::BindingType(binding.name.clone()));
+                self.say(InvalidReason::BindingType(binding.name.clone()));
             }
             Some(_) => {}
         }
@@ -156,31 +156,31 @@ impl Types<'_> {
     ) {
         let (expected, given) = (params.len(), args.len());
         if expected != given {
-            self.say(Reason::Arity { of: of.clone(), expected, given });
+            self.say(InvalidReason::Arity { of: of.clone(), expected, given });
         }
         for (index, (ty, arg)) in params.zip(args).enumerate() {
             self.term(arg, depth);
             if !self.fits(arg, ty) {
-                self.say(Reason::Argument { of: of.clone(), index });
+                self.say(InvalidReason::Argument { of: of.clone(), index });
             }
         }
     }
 
     fn fact(&mut self, fact: &Fact, depth: usize) {
         let Some(fluent) = self.graph.fluents.get(fact.fluent.index()) else {
-            self.say(Reason::NoSuch { what: "fluent", id: fact.fluent.0 });
+            self.say(InvalidReason::NoSuch { what: "fluent", id: fact.fluent.0 });
             return;
         };
         let (expected, given) = (fluent.params.len(), fact.args.len());
         if expected != given {
-            self.say(Reason::Arity { of: fluent.name.clone(), expected, given });
+            self.say(InvalidReason::Arity { of: fluent.name.clone(), expected, given });
         }
         for (index, (ty, arg)) in fluent.params.iter().zip(&fact.args).enumerate() {
             let FactArg::Term(arg) = arg else { continue };
             self.ground(arg);
             self.term(arg, depth);
             if !self.fits(arg, ty) {
-                self.say(Reason::Argument { of: fluent.name.clone(), index });
+                self.say(InvalidReason::Argument { of: fluent.name.clone(), index });
             }
         }
     }
@@ -200,7 +200,7 @@ impl Types<'_> {
             Condition::Compare(comparison, left, right) => {
                 let (left, right) = (self.term(left, depth + 1), self.term(right, depth + 1));
                 if !comparable(*comparison, &left, &right) {
-                    self.say(Reason::Comparison);
+                    self.say(InvalidReason::Comparison);
                 }
             }
         }
@@ -208,7 +208,7 @@ impl Types<'_> {
 
     fn too_deep(&mut self) {
         let limit = MAX_TERM_DEPTH;
-        self.say(Reason::TooMany { what: "levels of a condition or a term", count: limit + 1, limit });
+        self.say(InvalidReason::TooMany { what: "levels of a condition or a term", count: limit + 1, limit });
     }
 
     /// Checks a term, and says what is known of its type.
@@ -222,20 +222,20 @@ impl Types<'_> {
             Term::Binding(id) => match self.graph.bindings.get(id.index()) {
                 Some(binding) => class(&binding.ty),
                 None => {
-                    self.say(Reason::NoSuch { what: "binding", id: id.0 });
+                    self.say(InvalidReason::NoSuch { what: "binding", id: id.0 });
                     Class::Any
                 }
             },
             Term::Each => {
                 if self.each.is_none() {
-                    self.say(Reason::Each);
+                    self.say(InvalidReason::Each);
                 }
                 Class::Entity
             }
             Term::Field(of, field) => {
                 self.ground(of);
                 if !matches!(self.term(of, depth + 1), Class::Entity | Class::Any) {
-                    self.say(Reason::FieldOf(field.clone()));
+                    self.say(InvalidReason::FieldOf(field.clone()));
                 }
                 Class::Any
             }
@@ -249,7 +249,7 @@ impl Types<'_> {
             Term::Arith(_, left, right) => {
                 for side in [left, right] {
                     if !matches!(self.term(side, depth + 1), Class::Number(_) | Class::Any) {
-                        self.say(Reason::Arithmetic);
+                        self.say(InvalidReason::Arithmetic);
                     }
                 }
                 Class::Number(None)
@@ -259,7 +259,7 @@ impl Types<'_> {
 
     fn measure(&mut self, index: usize, args: &[Term], depth: usize) -> Class {
         let Some(measure) = self.graph.measures.get(index) else {
-            self.say(Reason::NoSuch { what: "measure", id: index as u32 });
+            self.say(InvalidReason::NoSuch { what: "measure", id: index as u32 });
             return Class::Any;
         };
         args.iter().for_each(|arg| self.ground(arg));
@@ -277,7 +277,7 @@ impl Types<'_> {
             Value::Int(_) => Class::Number(None),
             Value::Number(number) => {
                 if !number.is_finite() {
-                    self.say(Reason::NotFinite(*number));
+                    self.say(InvalidReason::NotFinite(*number));
                 }
                 Class::Number(None)
             }
@@ -302,7 +302,7 @@ impl Types<'_> {
             match term {
                 Term::Literal(_) | Term::Binding(_) | Term::Each => {}
                 Term::Field(..) | Term::Measure(..) => {
-                    self.say(Reason::Nested);
+                    self.say(InvalidReason::Nested);
                     return;
                 }
                 Term::List(items) => open.extend(items),

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Duration;
 
-use motet_client::{Address, Client, Settings};
+use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_decode::{Surface, canonical};
 use motet_geometry::query::Budget;
@@ -14,7 +14,7 @@ use motet_planner::conversation::{Conversation, Nobody, Outcome, Person, Planner
 use motet_planner::model::{self, Happening, Listener, ModelPlanner};
 use motet_requests::RequestContext;
 use motet_runtime::Time;
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Source, Sources};
 
 use super::server::Server;
@@ -60,8 +60,8 @@ pub(crate) fn right(setting: &Setting, request: &str) -> String {
 }
 
 /// Settings with short times.
-pub(crate) fn brisk(server: &Server) -> Settings {
-    Settings {
+pub(crate) fn brisk(server: &Server) -> ClientSettings {
+    ClientSettings {
         connect_timeout: Duration::from_secs(2),
         // Longer than a loaded machine lets a thread of the server wait.
         idle_timeout: Duration::from_secs(1),
@@ -70,7 +70,7 @@ pub(crate) fn brisk(server: &Server) -> Settings {
         back_off: Duration::from_millis(1),
         longest_back_off: Duration::from_millis(20),
         max_bytes: 1 << 20,
-        ..Settings::new(Address::new(&server.url, None).unwrap(), "scripted")
+        ..ClientSettings::new(ServerUrl::new(&server.url, None).unwrap(), "scripted")
     }
 }
 
@@ -96,7 +96,7 @@ impl Listener for Heard {
 }
 
 /// A planner that asks a server.
-pub(crate) fn planner(settings: Settings, heard: &Heard) -> ModelPlanner<'static> {
+pub(crate) fn planner(settings: ClientSettings, heard: &Heard) -> ModelPlanner<'static> {
     ModelPlanner::new(Client::new(settings).unwrap(), heard.clone(), model::Settings::default())
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn carry_out_with(
     person: &mut dyn Person,
     request: &str,
 ) -> (Outcome, Sim) {
-    let mut sim = Sim::new(&setting.robot, &setting.scene, Options::default());
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
     let mut talk = Conversation::new(setting);
     let (outcome, _) = talk.carry_out(request, planner, &mut sim, person, &mut (), Time::ZERO);
     (outcome, sim)

@@ -2,22 +2,22 @@
 
 use super::engine;
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput};
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_graph::{BindingId, Graph, Value};
-use motet_runtime::{DriverEvent, Effect, Engine, Event, Outcome, Prepared, Time};
+use motet_runtime::{DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, Time};
 use std::hint::black_box;
 
 /// Goes, then says so many words.
 fn policy(nodes: usize) -> Graph {
-    let mut steps = vec![Step::go("table")];
-    steps.resize(nodes, Step::say("hello"));
+    let mut steps = vec![StepSketch::go("table")];
+    steps.resize(nodes, StepSketch::say("hello"));
     graph(&steps)
 }
 
 /// On its way.
 fn going(nodes: usize) -> Engine {
-    let mut steps = vec![Step::go("table")];
-    steps.resize(nodes, Step::say("hello"));
+    let mut steps = vec![StepSketch::go("table")];
+    steps.resize(nodes, StepSketch::say("hello"));
     let mut engine = engine(&steps);
     engine.handle(Time::ZERO, Event::Begin, &mut Vec::new());
     engine
@@ -31,7 +31,7 @@ pub(crate) fn swaps(c: &mut Criterion) {
         let mut out: Vec<Effect> = Vec::with_capacity(64);
         group.bench_function(BenchmarkId::new("commit", nodes), |b| {
             b.iter_batched(
-                || Some((base.clone(), Prepared::new(policy(nodes), &base.running()).ok()?)),
+                || Some((base.clone(), PreparedSwap::new(policy(nodes), &base.running()).ok()?)),
                 |ready| {
                     out.clear();
                     // What is left behind is handed out, to be freed outside the measurement.
@@ -47,7 +47,7 @@ pub(crate) fn swaps(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("prepare", nodes), |b| {
             b.iter_batched(
                 || policy(nodes),
-                |graph| Prepared::new(graph, &base.running()),
+                |graph| PreparedSwap::new(graph, &base.running()),
                 BatchSize::LargeInput,
             );
         });
@@ -57,7 +57,7 @@ pub(crate) fn swaps(c: &mut Criterion) {
 
 /// Reading a name that is bound.
 pub(crate) fn bindings(c: &mut Criterion) {
-    let mut engine = engine(&[Step::detect("mug"), Step::say("found")]);
+    let mut engine = engine(&[StepSketch::detect("mug"), StepSketch::say("found")]);
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
     let goal = out.iter().find_map(|effect| match effect {

@@ -42,7 +42,7 @@ pub(crate) struct Cell {
 
 /// What was written to all facts that a pattern covers.
 #[derive(Clone, Debug)]
-pub(crate) struct Wide {
+pub(crate) struct PatternWrite {
     pub(crate) args: Vec<Pattern>,
     pub(crate) answer: Answer,
     pub(crate) seen: u64,
@@ -58,7 +58,7 @@ pub(crate) struct Facts {
     /// Facts with `any`.
     pub(crate) patterns: Vec<CellId>,
     /// Later ones win.
-    pub(crate) wides: Vec<Wide>,
+    pub(crate) wides: Vec<PatternWrite>,
     pub(crate) observable: bool,
 }
 

@@ -3,7 +3,7 @@
 //! A pattern write covers all facts that fit it, also those that nobody has asked for yet; a later write wins. A cell
 //! that has `any` itself says whether some entity fits.
 
-use super::cells::{Beliefs, CellId, Wide};
+use super::cells::{Beliefs, CellId, PatternWrite};
 use crate::query::{Answer, Pattern};
 use crate::time::Time;
 use crate::truth::Truth;
@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 /// A change of what is believed, worked out before any change is made.
 #[derive(Clone, Debug)]
-pub(crate) struct Change {
+pub(crate) struct BeliefChange {
     pub(crate) fluent: SmolStr,
     /// `any` means every entity.
     pub(crate) args: Vec<Pattern>,
@@ -24,7 +24,7 @@ pub(crate) struct Change {
 
 /// How what is believed stands to a fact that somebody claims.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Standing {
+pub(crate) enum FactStanding {
     /// It is believed.
     So,
     /// Something else is believed, or it is no longer known.
@@ -56,13 +56,13 @@ impl Beliefs {
 
     /// What a host or a compiler says.
     pub(crate) fn tell(&mut self, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
-        let change = Change { fluent: fluent.clone(), args, value, sure: true, rest: false };
+        let change = BeliefChange { fluent: fluent.clone(), args, value, sure: true, rest: false };
         self.apply(&change, Time::ZERO);
     }
 
     /// How what is believed stands to a fact that a policy was proved from; with `any` it was meant of every entity.
-    pub(crate) fn standing(&self, fluent: &str, args: &[Pattern], value: bool) -> Standing {
-        let Some(facts) = self.fluents.get(fluent) else { return Standing::Unheard };
+    pub(crate) fn standing(&self, fluent: &str, args: &[Pattern], value: bool) -> FactStanding {
+        let Some(facts) = self.fluents.get(fluent) else { return FactStanding::Unheard };
         let is_written = |id: &CellId| self.cell(*id).is_some_and(|cell| cell.written);
         let is_heard = facts.wides.iter().any(|wide| overlaps(&wide.args, args));
         let (believed, is_heard) = if args.contains(&Pattern::Any) {
@@ -77,14 +77,14 @@ impl Beliefs {
             (self.fact(fluent, args).0, is_heard || is_written)
         };
         match believed {
-            _ if !is_heard => Standing::Unheard,
-            believed if believed == Truth::from(value) => Standing::So,
-            believed => Standing::Otherwise(believed),
+            _ if !is_heard => FactStanding::Unheard,
+            believed if believed == Truth::from(value) => FactStanding::So,
+            believed => FactStanding::Otherwise(believed),
         }
     }
 
     /// Makes a change. All who depend on what becomes different are noted.
-    pub(crate) fn apply(&mut self, change: &Change, now: Time) {
+    pub(crate) fn apply(&mut self, change: &BeliefChange, now: Time) {
         if change.args.contains(&Pattern::Any) {
             self.write_wide(change, now);
         } else {
@@ -107,7 +107,7 @@ impl Beliefs {
         if let crate::query::Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
             let change =
-                Change { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
+                BeliefChange { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
             // That none fits says something of each; that some does, or that it is not known, says nothing of any.
             if args.contains(&Pattern::Any) && value != Truth::False {
                 self.set(id, answer, now);
@@ -160,7 +160,7 @@ impl Beliefs {
         })
     }
 
-    fn write_one(&mut self, change: &Change, now: Time) {
+    fn write_one(&mut self, change: &BeliefChange, now: Time) {
         let query = crate::query::Query::Fact { fluent: change.fluent.clone(), args: change.args.clone() };
         let id = self.intern(query);
         let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
@@ -169,7 +169,7 @@ impl Beliefs {
         self.unsettle_patterns(change, new, now);
     }
 
-    fn write_wide(&mut self, change: &Change, now: Time) {
+    fn write_wide(&mut self, change: &BeliefChange, now: Time) {
         let written = if change.sure { change.value } else { Truth::Unknown };
         let ids: Vec<CellId> =
             if change.rest { Vec::new() } else { self.covered(&change.fluent, &change.args).collect() };
@@ -181,13 +181,13 @@ impl Beliefs {
         let seen = self.observing;
         if let Some(facts) = self.fluents.get_mut(&change.fluent) {
             facts.wides.retain(|wide| !covers(&change.args, &wide.args));
-            facts.wides.push(Wide { args: change.args.clone(), answer: answer_of(written), seen });
+            facts.wides.push(PatternWrite { args: change.args.clone(), answer: answer_of(written), seen });
         }
         self.unsettle_patterns(change, written, now);
     }
 
     /// Cells with `any` that a write touches.
-    fn unsettle_patterns(&mut self, change: &Change, written: Truth, now: Time) {
+    fn unsettle_patterns(&mut self, change: &BeliefChange, written: Truth, now: Time) {
         let Some(facts) = self.fluents.get(&change.fluent) else { return };
         let mut touched = Vec::new();
         for id in &facts.patterns {

@@ -5,10 +5,10 @@
 
 mod cells;
 mod entities;
-mod eval;
+mod evaluator;
 mod facts;
 
 pub(crate) use cells::{Beliefs, CellId, Facts};
 pub(crate) use entities::{Entities, OfKind};
-pub(crate) use eval::{Freshness, Judge};
-pub(crate) use facts::{Change, Standing, covers, truth_of};
+pub(crate) use evaluator::{Evaluator, Freshness};
+pub(crate) use facts::{BeliefChange, FactStanding, covers, truth_of};

@@ -31,7 +31,7 @@ pub enum Law {
 
 /// A law that was broken.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Breach {
+pub struct LawViolation {
     /// Which.
     pub law: Law,
     /// How, in words.
@@ -58,7 +58,7 @@ impl Law {
     }
 }
 
-impl fmt::Display for Breach {
+impl fmt::Display for LawViolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.law.text(), self.told)
     }

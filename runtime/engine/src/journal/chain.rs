@@ -1,6 +1,6 @@
 //! The end of a chain of lines, to which the next one is added.
 
-use super::entry::{Entry, Head, Step, Swap};
+use super::entry::{JournalEntry, JournalHead, StepEntry, SwapEntry};
 use super::line::{self, Body};
 use crate::effect::Effect;
 use crate::event::Event;
@@ -9,19 +9,19 @@ use motet_graph::Graph;
 
 /// Numbers lines and links each to the one before.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Chain {
+pub struct LineChain {
     seq: u64,
     prev: String,
 }
 
-impl Default for Chain {
+impl Default for LineChain {
     /// Before the first line.
     fn default() -> Self {
         Self { seq: 0, prev: line::hash(b"") }
     }
 }
 
-impl Chain {
+impl LineChain {
     /// The number that the next line gets.
     #[must_use]
     pub const fn next_seq(&self) -> u64 {
@@ -40,7 +40,7 @@ impl Chain {
     }
 
     /// The line of an entry, with its line feed.
-    pub fn line(&mut self, entry: Entry) -> String {
+    pub fn line(&mut self, entry: JournalEntry) -> String {
         let body = Body { seq: self.seq, prev: std::mem::take(&mut self.prev), entry };
         let mut line = line::encode(&body);
         self.advance(line.as_bytes());
@@ -49,24 +49,28 @@ impl Chain {
     }
 
     /// The first line.
-    pub fn head(&mut self, head: Head) -> String {
-        self.line(Entry::Head(Box::new(head)))
+    pub fn head(&mut self, head: JournalHead) -> String {
+        self.line(JournalEntry::Head(Box::new(head)))
     }
 
     /// The line of an event with its effects.
     pub fn step(&mut self, at: Time, event: &Event, effects: &[Effect]) -> String {
-        self.line(Entry::Step(Step { at: at.nanos(), event: Some(event.into()), effects: wire(effects) }))
+        self.line(JournalEntry::Step(StepEntry {
+            at: at.nanos(),
+            event: Some(event.into()),
+            effects: wire(effects),
+        }))
     }
 
     /// The line of giving up.
     pub fn gave_up(&mut self, at: Time, effects: &[Effect]) -> String {
-        self.line(Entry::GaveUp(Step { at: at.nanos(), event: None, effects: wire(effects) }))
+        self.line(JournalEntry::GaveUp(StepEntry { at: at.nanos(), event: None, effects: wire(effects) }))
     }
 
     /// The line of a new policy.
     pub fn swap(&mut self, at: Time, graph: &Graph, effects: &[Effect]) -> String {
         let graph = motet_graph::encode::document(graph);
-        self.line(Entry::Swap(Box::new(Swap { at: at.nanos(), graph, effects: wire(effects) })))
+        self.line(JournalEntry::Swap(Box::new(SwapEntry { at: at.nanos(), graph, effects: wire(effects) })))
     }
 }
 

@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 /// An entry of a journal.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Entry {
+pub enum JournalEntry {
     /// The first: what the engine was made from.
-    Head(Box<Head>),
+    Head(Box<JournalHead>),
     /// An event and the effects that followed.
-    Step(Step),
+    Step(StepEntry),
     /// The policy was replaced.
-    Swap(Box<Swap>),
+    Swap(Box<SwapEntry>),
     /// Nothing was left to wait for: the engine gave up. No event stands here.
-    GaveUp(Step),
+    GaveUp(StepEntry),
     /// The process ended before the run did, and another one went on. The engine took no part in it.
-    Resumed(Resumed),
+    Resumed(ResumeEntry),
 }
 
 /// What an engine was made from.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Head {
+pub struct JournalHead {
     /// The version of the journal, 1.
     pub motet_journal: u32,
     /// The version of the wire forms, 1.
@@ -50,7 +50,7 @@ pub struct Head {
 /// An event and the effects that followed.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Step {
+pub struct StepEntry {
     /// The engine's time.
     pub at: u64,
     /// What it took in.
@@ -63,7 +63,7 @@ pub struct Step {
 /// A replacement of the policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Swap {
+pub struct SwapEntry {
     /// The engine's time.
     pub at: u64,
     /// The new graph.
@@ -75,14 +75,14 @@ pub struct Swap {
 /// Another process went on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Resumed {
+pub struct ResumeEntry {
     /// When by the host's clock, in ns since 1970.
     pub unix_ns: u64,
     /// Bytes of a line that was not written to its end and was cut off.
     pub cut_bytes: u64,
 }
 
-impl Entry {
+impl JournalEntry {
     /// The engine's time, and what it gave out; none where it took no part.
     #[must_use]
     pub fn happened(&self) -> Option<(u64, &[Effect])> {
@@ -95,7 +95,7 @@ impl Entry {
     }
 }
 
-impl Head {
+impl JournalHead {
     /// The head of a run of a graph that begins at time 0, with the engine's own settings and nothing known beside what
     /// the graph says.
     #[must_use]
@@ -108,7 +108,7 @@ impl Head {
             instruction: None,
             graph: motet_graph::encode::document(graph),
             start: StartState::default(),
-            settings: crate::Settings::default().into(),
+            settings: crate::EngineSettings::default().into(),
             capabilities: (&crate::Capabilities::default()).into(),
             driver: serde_json::Value::Null,
         }

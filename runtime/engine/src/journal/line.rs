@@ -1,7 +1,7 @@
 //! One line: checksum, sequence number, hash of the line before, entry.
 
 use super::crc;
-use super::entry::Entry;
+use super::entry::JournalEntry;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -21,7 +21,7 @@ pub(super) struct Body {
     /// The hash of the line before; that of no bytes before the first.
     pub(super) prev: String,
     /// What it says.
-    pub(super) entry: Entry,
+    pub(super) entry: JournalEntry,
 }
 
 /// What is wrong with a line.
@@ -58,7 +58,7 @@ pub(super) fn encode(body: &Body) -> String {
 /// # Errors
 ///
 /// Where the checksum does not hold, or the JSON is not that of an entry.
-pub fn decode(line: &[u8]) -> Result<(u64, String, Entry), LineError> {
+pub fn decode(line: &[u8]) -> Result<(u64, String, JournalEntry), LineError> {
     let json = checked(line)?;
     let body: Body = serde_json::from_slice(json).map_err(|error| LineError::Form(error.to_string()))?;
     Ok((body.seq, body.prev, body.entry))

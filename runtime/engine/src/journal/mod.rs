@@ -1,7 +1,7 @@
 //! The journal: everything that an engine took in and gave out, a line each, from which a run can be replayed.
 //!
 //! A line is the CRC-32 (IEEE 802.3) of its JSON as eight hexadecimal digits, a blank, the JSON, and a line feed. The JSON
-//! holds the line's sequence number, the hash of the line before, and an [`Entry`]: first the [`Head`] with all that the
+//! holds the line's sequence number, the hash of the line before, and an [`JournalEntry`]: first the [`JournalHead`] with all that the
 //! engine was made from, then one entry for each thing that happened together with the effects that followed from it. The
 //! CRC tells a line that was not written to its end, the chain of hashes a line that is missing or was changed.
 //!
@@ -11,20 +11,20 @@
 
 mod chain;
 mod crc;
+mod driver_replay;
+mod engine_replay;
 mod entry;
-mod ledger;
 mod line;
+mod open_goals;
 mod read;
-mod replay;
-mod retrace;
 
-pub use chain::Chain;
-pub use entry::{Entry, Head, Resumed, Step, Swap};
-pub use ledger::{Ledger, Open};
+pub use chain::LineChain;
+pub use driver_replay::{DriverReplay, ReplayMismatch};
+pub use engine_replay::{EffectMismatch, EngineReplay, ReplayError};
+pub use entry::{JournalEntry, JournalHead, ResumeEntry, StepEntry, SwapEntry};
 pub use line::{LineError, decode};
-pub use read::{Damage, Ending, Place, Reader, Wrong};
-pub use replay::{CannotReplay, Difference, Replay};
-pub use retrace::{Astray, Retrace};
+pub use open_goals::{OpenGoal, OpenGoals};
+pub use read::{DamageKind, JournalDamage, JournalReader, SegmentEnd, SegmentPosition};
 
 use crate::effect::Effect;
 

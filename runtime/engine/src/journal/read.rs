@@ -1,7 +1,7 @@
 //! Reading lines: what holds, where a torn tail begins, and where a journal is damaged.
 
-use super::chain::Chain;
-use super::entry::Entry;
+use super::chain::LineChain;
+use super::entry::JournalEntry;
 use super::line::{self, LineError};
 use super::{MAX_LINE_BYTES, VERSION};
 use std::fmt;
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// Which segment is read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Place {
+pub enum SegmentPosition {
     /// Others follow: it has to be whole.
     Middle,
     /// The last one: what was being written when the process ended may be torn.
@@ -18,7 +18,7 @@ pub enum Place {
 
 /// How a segment ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Ending {
+pub enum SegmentEnd {
     /// With a whole line.
     Whole,
     /// With a line that was not written to its end.
@@ -32,7 +32,7 @@ pub enum Ending {
 
 /// A journal that cannot be trusted, with the place of the first line that is wrong.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-pub struct Damage {
+pub struct JournalDamage {
     /// The segment's name.
     pub segment: String,
     /// The line in the segment, from 1.
@@ -40,12 +40,12 @@ pub struct Damage {
     /// Where the line begins, in bytes from the beginning of the segment.
     pub offset: u64,
     /// What is wrong.
-    pub wrong: Wrong,
+    pub wrong: DamageKind,
 }
 
 /// What is wrong with a line of a journal.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-pub enum Wrong {
+pub enum DamageKind {
     /// The line in itself.
     #[error("{0}")]
     Line(LineError),
@@ -77,7 +77,7 @@ pub enum Wrong {
     },
 }
 
-impl fmt::Display for Damage {
+impl fmt::Display for JournalDamage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { segment, line, offset, wrong } = self;
         write!(f, "the journal is damaged in {segment}, line {line} (byte {offset}): {wrong}")
@@ -86,11 +86,11 @@ impl fmt::Display for Damage {
 
 /// Reads the segments of a journal, in order.
 #[derive(Clone, Debug, Default)]
-pub struct Reader {
-    chain: Chain,
+pub struct JournalReader {
+    chain: LineChain,
 }
 
-impl Reader {
+impl JournalReader {
     /// Reads a segment and gives every entry with its number to `take`. Tells how the segment ended.
     ///
     /// A last line without a line feed is torn. So is one with it whose checksum fails and that holds a NUL byte: a block
@@ -103,23 +103,32 @@ impl Reader {
         &mut self,
         name: &str,
         bytes: &[u8],
-        place: Place,
-        take: &mut dyn FnMut(u64, Entry),
-    ) -> Result<Ending, Damage> {
+        place: SegmentPosition,
+        take: &mut dyn FnMut(u64, JournalEntry),
+    ) -> Result<SegmentEnd, JournalDamage> {
         let (mut rest, mut offset, mut number) = (bytes, 0_usize, 0_u64);
         while !rest.is_empty() {
             number += 1;
-            let at = |wrong| Damage { segment: name.to_owned(), line: number, offset: offset as u64, wrong };
-            let torn = Ending::Torn { good_bytes: offset as u64, torn_bytes: rest.len() as u64 };
+            let at = |wrong| JournalDamage {
+                segment: name.to_owned(),
+                line: number,
+                offset: offset as u64,
+                wrong,
+            };
+            let torn = SegmentEnd::Torn { good_bytes: offset as u64, torn_bytes: rest.len() as u64 };
             let Some(end) = rest.iter().position(|byte| *byte == b'\n') else {
-                return if place == Place::Last { Ok(torn) } else { Err(at(Wrong::Unfinished)) };
+                return if place == SegmentPosition::Last {
+                    Ok(torn)
+                } else {
+                    Err(at(DamageKind::Unfinished))
+                };
             };
             let (line, after) = rest.split_at(end);
             let after = after.split_first().map_or(&[][..], |(_, after)| after);
             match self.line(line) {
                 Ok((seq, entry)) => take(seq, entry),
-                Err(Wrong::Line(LineError::Checksum { .. } | LineError::NoChecksum))
-                    if place == Place::Last && after.is_empty() && line.contains(&0) =>
+                Err(DamageKind::Line(LineError::Checksum { .. } | LineError::NoChecksum))
+                    if place == SegmentPosition::Last && after.is_empty() && line.contains(&0) =>
                 {
                     return Ok(torn);
                 }
@@ -128,36 +137,44 @@ impl Reader {
             offset += end + 1;
             rest = after;
         }
-        Ok(Ending::Whole)
+        Ok(SegmentEnd::Whole)
     }
 
     /// The end of what was read, to append to.
     #[must_use]
-    pub fn into_chain(self) -> Chain {
+    pub fn into_chain(self) -> LineChain {
         self.chain
     }
 
-    fn line(&mut self, line: &[u8]) -> Result<(u64, Entry), Wrong> {
+    fn line(&mut self, line: &[u8]) -> Result<(u64, JournalEntry), DamageKind> {
         if line.len() > MAX_LINE_BYTES {
-            return Err(Wrong::TooLong);
+            return Err(DamageKind::TooLong);
         }
-        let (seq, prev, entry) = line::decode(line).map_err(Wrong::Line)?;
+        let (seq, prev, entry) = line::decode(line).map_err(DamageKind::Line)?;
         if seq != self.chain.next_seq() {
-            return Err(Wrong::Order { found: seq, expected: self.chain.next_seq() });
+            return Err(DamageKind::Order { found: seq, expected: self.chain.next_seq() });
         }
         if prev != self.chain.prev() {
-            return Err(Wrong::Chain);
+            return Err(DamageKind::Chain);
         }
         match (&entry, seq) {
-            (Entry::Head(head), 0) => {
+            (JournalEntry::Head(head), 0) => {
                 let found = if head.motet_journal == VERSION { head.wire } else { head.motet_journal };
                 if found != VERSION {
-                    return Err(Wrong::Version { found });
+                    return Err(DamageKind::Version { found });
                 }
             }
-            (Entry::Head(_), _) => return Err(Wrong::Head("a journal has one head, and here is another")),
-            (_, 0) => return Err(Wrong::Head("a journal begins with its head")),
-            (Entry::Step(_) | Entry::Swap(_) | Entry::GaveUp(_) | Entry::Resumed(_), _) => {}
+            (JournalEntry::Head(_), _) => {
+                return Err(DamageKind::Head("a journal has one head, and here is another"));
+            }
+            (_, 0) => return Err(DamageKind::Head("a journal begins with its head")),
+            (
+                JournalEntry::Step(_)
+                | JournalEntry::Swap(_)
+                | JournalEntry::GaveUp(_)
+                | JournalEntry::Resumed(_),
+                _,
+            ) => {}
         }
         self.chain.advance(line);
         Ok((seq, entry))

@@ -8,19 +8,19 @@ use std::fmt;
 /// Something that is remembered.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Entry {
+pub struct MemoryEntry {
     /// When it was over, in seconds since the run's origin.
     pub at_secs: f64,
     /// The number of the policy that ran: 0, and one more with each swap.
     pub revision: u32,
     /// What.
-    pub what: Remembered,
+    pub what: MemoryEvent,
 }
 
 /// What is remembered.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Remembered {
+pub enum MemoryEvent {
     /// A person said what to do.
     Instruction {
         /// In their words.
@@ -35,7 +35,7 @@ pub enum Remembered {
         /// How long it took.
         took_secs: f64,
         /// How it ended.
-        ended: HowEnded,
+        ended: StepEnd,
     },
     /// A step that is no call failed by itself: a wait, a loop.
     Stuck {
@@ -70,7 +70,7 @@ pub enum Remembered {
 /// How a step ended.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum HowEnded {
+pub enum StepEnd {
     /// It did what it was for; with its result where it has one.
     Success(Option<Value>),
     /// It failed.
@@ -87,7 +87,7 @@ pub enum HowEnded {
 /// A step that runs now.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Doing {
+pub struct RunningStep {
     /// The call.
     pub call: String,
     /// JSON Pointer to the step in its policy.
@@ -96,49 +96,49 @@ pub struct Doing {
     pub since_secs: f64,
 }
 
-impl Entry {
+impl MemoryEntry {
     /// Whether it is something that went wrong.
     #[must_use]
     pub const fn is_failure(&self) -> bool {
         match &self.what {
-            Remembered::Step { ended: HowEnded::Failure { .. }, .. } | Remembered::Stuck { .. } => true,
-            Remembered::Ended { done, .. } => !*done,
-            Remembered::Step { ended: HowEnded::Success(_) | HowEnded::Interrupted(_), .. }
-            | Remembered::Instruction { .. }
-            | Remembered::Question { .. }
-            | Remembered::Swap { .. } => false,
+            MemoryEvent::Step { ended: StepEnd::Failure { .. }, .. } | MemoryEvent::Stuck { .. } => true,
+            MemoryEvent::Ended { done, .. } => !*done,
+            MemoryEvent::Step { ended: StepEnd::Success(_) | StepEnd::Interrupted(_), .. }
+            | MemoryEvent::Instruction { .. }
+            | MemoryEvent::Question { .. }
+            | MemoryEvent::Swap { .. } => false,
         }
     }
 }
 
-impl fmt::Display for Entry {
+impl fmt::Display for MemoryEntry {
     /// A line for a prompt, without its time.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.what {
-            Remembered::Instruction { text } => write!(f, "instruction: {text}"),
-            Remembered::Step { call, ended, .. } => write!(f, "{call}: {ended}"),
-            Remembered::Stuck { path, kind, cause } => {
-                write!(f, "step {path}: failed with {kind} ({})", crate::Cause::from(*cause))
+            MemoryEvent::Instruction { text } => write!(f, "instruction: {text}"),
+            MemoryEvent::Step { call, ended, .. } => write!(f, "{call}: {ended}"),
+            MemoryEvent::Stuck { path, kind, cause } => {
+                write!(f, "step {path}: failed with {kind} ({})", crate::EndCause::from(*cause))
             }
-            Remembered::Question { question, answer: Some(answer) } => {
+            MemoryEvent::Question { question, answer: Some(answer) } => {
                 write!(f, "asked {question:?}: answered {answer:?}")
             }
-            Remembered::Question { question, answer: None } => write!(f, "asked {question:?}: no answer"),
-            Remembered::Swap { policy } => write!(f, "new policy `{policy}`"),
-            Remembered::Ended { how, .. } => write!(f, "the policy ended: {how}"),
+            MemoryEvent::Question { question, answer: None } => write!(f, "asked {question:?}: no answer"),
+            MemoryEvent::Swap { policy } => write!(f, "new policy `{policy}`"),
+            MemoryEvent::Ended { how, .. } => write!(f, "the policy ended: {how}"),
         }
     }
 }
 
-impl fmt::Display for HowEnded {
+impl fmt::Display for StepEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Success(None) => f.write_str("done"),
             Self::Success(Some(value)) => write!(f, "done, gave {}", motet_graph::Value::from(value.clone())),
             Self::Failure { kind, cause } => {
-                write!(f, "failed with {kind} ({})", crate::Cause::from(*cause))
+                write!(f, "failed with {kind} ({})", crate::EndCause::from(*cause))
             }
-            Self::Interrupted(cause) => write!(f, "interrupted ({})", crate::Cause::from(*cause)),
+            Self::Interrupted(cause) => write!(f, "interrupted ({})", crate::EndCause::from(*cause)),
         }
     }
 }

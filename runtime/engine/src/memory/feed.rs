@@ -1,17 +1,17 @@
 //! How a memory learns: from the events that go into an engine and the effects that come out.
 
-use super::entry::{HowEnded, Remembered};
+use super::entry::{MemoryEvent, StepEnd};
 use super::store::Memory;
 use crate::effect::{Command, Effect, RunEnd};
 use crate::event::{DriverEvent, Event, GoalId, Outcome};
-use crate::record::{Cause, Happening, NodeEnding, Record};
 use crate::time::Time;
+use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
 use std::sync::Arc;
 
 /// A goal that has not ended.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Open {
+pub(super) struct OpenStep {
     /// The policy that it is a step of.
     revision: u32,
     pub(super) node: NodeId,
@@ -32,7 +32,7 @@ impl Memory {
     pub fn policy(&mut self, at: Time, revision: u32, graph: Arc<Graph>) {
         self.revision = revision;
         if revision > 0 {
-            let entry = self.entry(at, Remembered::Swap { policy: self.cut(&graph.policy) });
+            let entry = self.entry(at, MemoryEvent::Swap { policy: self.cut(&graph.policy) });
             self.push(entry);
         }
         self.graph = Some(graph);
@@ -83,7 +83,7 @@ impl Memory {
     fn started(&mut self, at: Time, goal: GoalId, node: NodeId, command: &Command) {
         let asks = self.limits.questions.contains(&command.primitive);
         let question = command.arg("question").filter(|_| asks).map(|question| self.cut(&plain(question)));
-        let open = Open {
+        let open = OpenStep {
             revision: self.revision,
             node,
             call: self.cut(&command.to_string()),
@@ -99,18 +99,18 @@ impl Memory {
         }
     }
 
-    fn record(&mut self, record: &Record) {
+    fn record(&mut self, record: &TraceEvent) {
         match &record.what {
-            Happening::GoalEnded { goal, ending, cause, .. } => {
+            TraceEventKind::GoalEnded { goal, ending, cause, .. } => {
                 if let Some(open) = self.running.remove(&goal.number()) {
                     self.ended(record.at, open, *ending, *cause);
                 }
             }
             // The goal of a step that ended because another policy took over goes on, for a step of that or until it has
             // been stopped.
-            Happening::Ended { cause: Cause::Swap, .. } => {}
-            Happening::Ended { node, ending, cause } => {
-                let is_its = |open: &Open| open.node == *node && open.revision == record.revision;
+            TraceEventKind::Ended { cause: EndCause::Swap, .. } => {}
+            TraceEventKind::Ended { node, ending, cause } => {
+                let is_its = |open: &OpenStep| open.node == *node && open.revision == record.revision;
                 let live = self.running.iter().find(|(_, open)| is_its(open)).map(|(goal, _)| *goal);
                 if let Some(open) = live.and_then(|goal| self.running.remove(&goal)) {
                     self.ended(record.at, open, *ending, *cause);
@@ -118,31 +118,35 @@ impl Memory {
                     self.stuck(record.at, *node, *kind, *cause);
                 }
             }
-            Happening::Kept { node, goal } => {
+            TraceEventKind::Kept { node, goal } => {
                 let path = self.path(*node);
                 if let Some(open) = self.running.get_mut(&goal.number()) {
                     (open.node, open.path, open.revision) = (*node, path, record.revision);
                 }
             }
-            Happening::Entered { .. } | Happening::Started { .. } | Happening::Guard { .. } => {}
-            Happening::Verified { .. } => {}
-            Happening::Tested { .. } | Happening::Fired { .. } | Happening::WentOn { .. } => {}
-            Happening::Swapped { .. } | Happening::Updated { .. } | Happening::Bound { .. } => {}
+            TraceEventKind::Entered { .. }
+            | TraceEventKind::Started { .. }
+            | TraceEventKind::Guard { .. } => {}
+            TraceEventKind::Verified { .. } => {}
+            TraceEventKind::Tested { .. } | TraceEventKind::Fired { .. } | TraceEventKind::WentOn { .. } => {}
+            TraceEventKind::Swapped { .. }
+            | TraceEventKind::Updated { .. }
+            | TraceEventKind::Bound { .. } => {}
         }
     }
 
-    fn ended(&mut self, at: Time, open: Open, ending: NodeEnding, cause: Cause) {
+    fn ended(&mut self, at: Time, open: OpenStep, ending: NodeEnding, cause: EndCause) {
         if let Some(question) = open.question {
             let answer = open.result.clone().filter(|_| ending == NodeEnding::Success);
             let answer = answer.map(|answer| self.cut(&plain(&answer)));
-            let entry = self.entry(at, Remembered::Question { question, answer });
+            let entry = self.entry(at, MemoryEvent::Question { question, answer });
             self.push(entry);
             if ending == NodeEnding::Success {
                 return;
             }
         }
         let ended = match ending {
-            NodeEnding::Success => HowEnded::Success(open.result.as_ref().map(|value| self.small(value))),
+            NodeEnding::Success => StepEnd::Success(open.result.as_ref().map(|value| self.small(value))),
             NodeEnding::Failure(kind) => {
                 let kind = if open.revision == self.revision {
                     self.kind(kind, open.kind, cause)
@@ -150,30 +154,36 @@ impl Memory {
                     // Its number means a failure of the policy before.
                     self.cut(&open.kind.unwrap_or_else(|| own_kind(cause).to_owned()))
                 };
-                HowEnded::Failure { kind, cause: cause.into() }
+                StepEnd::Failure { kind, cause: cause.into() }
             }
-            NodeEnding::Interrupted => HowEnded::Interrupted(cause.into()),
+            NodeEnding::Interrupted => StepEnd::Interrupted(cause.into()),
         };
         let took_secs = at.since(open.since).secs();
-        let step = Remembered::Step { call: open.call, path: open.path, took_secs, ended };
+        let step = MemoryEvent::Step { call: open.call, path: open.path, took_secs, ended };
         let entry = self.entry(at, step);
         self.push(entry);
     }
 
     /// A step failed that has no goal: a guard that did not hold, or a step that is no call and failed by itself.
-    fn stuck(&mut self, at: Time, node: NodeId, kind: FailureId, cause: Cause) {
+    fn stuck(&mut self, at: Time, node: NodeId, kind: FailureId, cause: EndCause) {
         let own = match cause {
-            Cause::GuardRefuted | Cause::Deadline | Cause::Exhausted | Cause::BadValue => true,
+            EndCause::GuardRefuted | EndCause::Deadline | EndCause::Exhausted | EndCause::BadValue => true,
             // What failed was told of already.
-            Cause::Completed | Cause::Failed | Cause::Refused | Cause::Monitor | Cause::SiblingFailed => {
+            EndCause::Completed
+            | EndCause::Failed
+            | EndCause::Refused
+            | EndCause::Monitor
+            | EndCause::SiblingFailed => false,
+            EndCause::ParentEnded | EndCause::Person | EndCause::Driver | EndCause::Swap | EndCause::Lost => {
                 false
             }
-            Cause::ParentEnded | Cause::Person | Cause::Driver | Cause::Swap | Cause::Lost => false,
         };
         let told = self.entries.back().is_some_and(|last| match &last.what {
-            Remembered::Step { path, .. } => last.is_failure() && *path == self.path(node),
-            Remembered::Instruction { .. } | Remembered::Stuck { .. } | Remembered::Question { .. } => false,
-            Remembered::Swap { .. } | Remembered::Ended { .. } => false,
+            MemoryEvent::Step { path, .. } => last.is_failure() && *path == self.path(node),
+            MemoryEvent::Instruction { .. } | MemoryEvent::Stuck { .. } | MemoryEvent::Question { .. } => {
+                false
+            }
+            MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => false,
         });
         if !own || told {
             return;
@@ -181,13 +191,13 @@ impl Memory {
         let (path, kind) = (self.path(node), self.kind(kind, None, cause));
         let call = self.graph.as_ref().and_then(|graph| called(graph, node));
         let what = match call {
-            Some(call) => Remembered::Step {
+            Some(call) => MemoryEvent::Step {
                 call,
                 path,
                 took_secs: 0.0,
-                ended: HowEnded::Failure { kind, cause: cause.into() },
+                ended: StepEnd::Failure { kind, cause: cause.into() },
             },
-            None => Remembered::Stuck { path, kind, cause: cause.into() },
+            None => MemoryEvent::Stuck { path, kind, cause: cause.into() },
         };
         let entry = self.entry(at, what);
         self.push(entry);
@@ -199,7 +209,7 @@ impl Memory {
         // A failure that nothing caught was told of with its step.
         let told = matches!(end, RunEnd::Failed { why: None, .. });
         let latest = self.latest_failure.clone().filter(|_| told);
-        let entry = self.entry(at, Remembered::Ended { how, done });
+        let entry = self.entry(at, MemoryEvent::Ended { how, done });
         self.push(entry);
         if latest.is_some() {
             self.latest_failure = latest;
@@ -214,7 +224,7 @@ impl Memory {
     }
 
     /// A failure's name: the graph's, else what the driver said, else the engine's own.
-    fn kind(&self, kind: FailureId, said: Option<String>, cause: Cause) -> String {
+    fn kind(&self, kind: FailureId, said: Option<String>, cause: EndCause) -> String {
         let graph = self.graph.as_ref();
         let named = graph.and_then(|graph| graph.failures.get(kind.index())).map(ToString::to_string);
         self.cut(&named.or(said).unwrap_or_else(|| own_kind(cause).to_owned()))
@@ -231,13 +241,17 @@ impl Memory {
 }
 
 /// The failure that the engine itself gives a step.
-const fn own_kind(cause: Cause) -> &'static str {
+const fn own_kind(cause: EndCause) -> &'static str {
     match cause {
-        Cause::Exhausted => "exhausted",
-        Cause::Deadline | Cause::Lost => "timeout",
-        Cause::Completed | Cause::Failed | Cause::Refused | Cause::Monitor | Cause::SiblingFailed => "failed",
-        Cause::ParentEnded | Cause::Person | Cause::Driver | Cause::Swap => "failed",
-        Cause::GuardRefuted | Cause::BadValue => "failed",
+        EndCause::Exhausted => "exhausted",
+        EndCause::Deadline | EndCause::Lost => "timeout",
+        EndCause::Completed
+        | EndCause::Failed
+        | EndCause::Refused
+        | EndCause::Monitor
+        | EndCause::SiblingFailed => "failed",
+        EndCause::ParentEnded | EndCause::Person | EndCause::Driver | EndCause::Swap => "failed",
+        EndCause::GuardRefuted | EndCause::BadValue => "failed",
     }
 }
 

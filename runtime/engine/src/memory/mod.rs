@@ -2,8 +2,8 @@
 //! new policies, endings. Bounded, with what was dropped counted.
 //!
 //! A [`Memory`] is fed with the events and effects of a run, by its host, and changes nothing. It has two views for a
-//! language model: [`Short`], the first request and the latest failure, as InteLiPlan keeps it, and
-//! [`Working`], the state and the executed steps, as VLP keeps its working memory; and [`Whole`], everything.
+//! language model: [`ShortHistory`], the first request and the latest failure, as InteLiPlan keeps it, and
+//! [`WorkingMemory`], the state and the executed steps, as VLP keeps its working memory; and [`FullMemory`], everything.
 //!
 //! ```
 //! use motet_runtime::memory::{Limits, Memory};
@@ -18,8 +18,8 @@
 mod entry;
 mod feed;
 mod store;
-mod view;
+mod views;
 
-pub use entry::{Doing, Entry, HowEnded, Remembered};
-pub use store::{Dropped, Limits, Memory};
-pub use view::{Short, Whole, Working};
+pub use entry::{MemoryEntry, MemoryEvent, RunningStep, StepEnd};
+pub use store::{DroppedCounts, Memory, MemoryLimits};
+pub use views::{FullMemory, ShortHistory, WorkingMemory};

@@ -1,7 +1,7 @@
 //! The bounded store.
 
-use super::entry::{Doing, Entry, Remembered};
-use super::feed::Open;
+use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
+use super::feed::OpenStep;
 use crate::time::Time;
 use motet_graph::Graph;
 use schemars::JsonSchema;
@@ -15,7 +15,7 @@ const ENTRY_BYTES: usize = 64;
 
 /// How much is remembered.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Limits {
+pub struct MemoryLimits {
     /// The most entries. The first instruction and the latest failure are kept beside them.
     pub entries: usize,
     /// The most bytes of all entries, texts and 64 for each.
@@ -28,7 +28,7 @@ pub struct Limits {
     pub questions: Vec<SmolStr>,
 }
 
-impl Default for Limits {
+impl Default for MemoryLimits {
     /// 256 entries of 64 KiB in all, texts of 2 KiB, 128 running steps; `ask` and `choose` are questions.
     fn default() -> Self {
         Self {
@@ -43,7 +43,7 @@ impl Default for Limits {
 
 /// How many entries were dropped, oldest first, to stay within the limits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
-pub struct Dropped {
+pub struct DroppedCounts {
     /// Instructions.
     pub instructions: u64,
     /// Steps that did not fail.
@@ -61,12 +61,12 @@ pub struct Dropped {
 /// What a run remembers. See the [module](super).
 #[derive(Clone, Debug)]
 pub struct Memory {
-    pub(super) limits: Limits,
-    pub(super) first: Option<Entry>,
-    pub(super) latest_failure: Option<Entry>,
-    pub(super) entries: VecDeque<Entry>,
-    pub(super) dropped: Dropped,
-    pub(super) running: BTreeMap<u64, Open>,
+    pub(super) limits: MemoryLimits,
+    pub(super) first: Option<MemoryEntry>,
+    pub(super) latest_failure: Option<MemoryEntry>,
+    pub(super) entries: VecDeque<MemoryEntry>,
+    pub(super) dropped: DroppedCounts,
+    pub(super) running: BTreeMap<u64, OpenStep>,
     pub(super) revision: u32,
     pub(super) graph: Option<Arc<Graph>>,
     bytes: usize,
@@ -75,13 +75,13 @@ pub struct Memory {
 impl Memory {
     /// Remembers nothing yet.
     #[must_use]
-    pub fn new(limits: Limits) -> Self {
+    pub fn new(limits: MemoryLimits) -> Self {
         Self {
             limits,
             first: None,
             latest_failure: None,
             entries: VecDeque::new(),
-            dropped: Dropped::default(),
+            dropped: DroppedCounts::default(),
             running: BTreeMap::new(),
             revision: 0,
             graph: None,
@@ -92,7 +92,7 @@ impl Memory {
     /// A person said what to do. The first instruction is never dropped.
     pub fn instruct(&mut self, at: Time, text: &str) {
         let text = self.cut(text);
-        let entry = self.entry(at, Remembered::Instruction { text });
+        let entry = self.entry(at, MemoryEvent::Instruction { text });
         if self.first.is_none() {
             self.first = Some(entry.clone());
         }
@@ -100,13 +100,13 @@ impl Memory {
     }
 
     /// The entries that are kept, oldest first.
-    pub fn entries(&self) -> impl ExactSizeIterator<Item = &Entry> {
+    pub fn entries(&self) -> impl ExactSizeIterator<Item = &MemoryEntry> {
         self.entries.iter()
     }
 
     /// How many were dropped.
     #[must_use]
-    pub const fn dropped(&self) -> Dropped {
+    pub const fn dropped(&self) -> DroppedCounts {
         self.dropped
     }
 
@@ -118,30 +118,30 @@ impl Memory {
 
     /// The first instruction.
     #[must_use]
-    pub const fn first_instruction(&self) -> Option<&Entry> {
+    pub const fn first_instruction(&self) -> Option<&MemoryEntry> {
         self.first.as_ref()
     }
 
     /// The latest failure.
     #[must_use]
-    pub const fn latest_failure(&self) -> Option<&Entry> {
+    pub const fn latest_failure(&self) -> Option<&MemoryEntry> {
         self.latest_failure.as_ref()
     }
 
     /// What runs now, by start.
-    pub fn running(&self) -> impl Iterator<Item = Doing> + '_ {
-        self.running.values().map(|open| Doing {
+    pub fn running(&self) -> impl Iterator<Item = RunningStep> + '_ {
+        self.running.values().map(|open| RunningStep {
             call: open.call.clone(),
             path: open.path.clone(),
             since_secs: open.since.secs(),
         })
     }
 
-    pub(super) fn entry(&self, at: Time, what: Remembered) -> Entry {
-        Entry { at_secs: at.secs(), revision: self.revision, what }
+    pub(super) fn entry(&self, at: Time, what: MemoryEvent) -> MemoryEntry {
+        MemoryEntry { at_secs: at.secs(), revision: self.revision, what }
     }
 
-    pub(super) fn push(&mut self, entry: Entry) {
+    pub(super) fn push(&mut self, entry: MemoryEntry) {
         if entry.is_failure() {
             self.latest_failure = Some(entry.clone());
         }
@@ -154,15 +154,15 @@ impl Memory {
         }
     }
 
-    fn count(&mut self, entry: &Entry) {
+    fn count(&mut self, entry: &MemoryEntry) {
         let counter = match &entry.what {
-            Remembered::Instruction { .. } => &mut self.dropped.instructions,
-            Remembered::Step { .. } if entry.is_failure() => &mut self.dropped.failures,
-            Remembered::Step { .. } => &mut self.dropped.steps,
-            Remembered::Stuck { .. } => &mut self.dropped.failures,
-            Remembered::Question { .. } => &mut self.dropped.questions,
-            Remembered::Swap { .. } => &mut self.dropped.swaps,
-            Remembered::Ended { .. } => &mut self.dropped.endings,
+            MemoryEvent::Instruction { .. } => &mut self.dropped.instructions,
+            MemoryEvent::Step { .. } if entry.is_failure() => &mut self.dropped.failures,
+            MemoryEvent::Step { .. } => &mut self.dropped.steps,
+            MemoryEvent::Stuck { .. } => &mut self.dropped.failures,
+            MemoryEvent::Question { .. } => &mut self.dropped.questions,
+            MemoryEvent::Swap { .. } => &mut self.dropped.swaps,
+            MemoryEvent::Ended { .. } => &mut self.dropped.endings,
         };
         *counter += 1;
     }
@@ -179,24 +179,24 @@ impl Memory {
     }
 }
 
-fn size(entry: &Entry) -> usize {
-    use super::entry::HowEnded;
+fn size(entry: &MemoryEntry) -> usize {
+    use super::entry::StepEnd;
     let texts = match &entry.what {
-        Remembered::Instruction { text } => text.len(),
-        Remembered::Step { call, path, ended, .. } => {
+        MemoryEvent::Instruction { text } => text.len(),
+        MemoryEvent::Step { call, path, ended, .. } => {
             let ended = match ended {
-                HowEnded::Success(Some(value)) => crate::wire::json(value).len(),
-                HowEnded::Failure { kind, .. } => kind.len(),
-                HowEnded::Success(None) | HowEnded::Interrupted(_) => 0,
+                StepEnd::Success(Some(value)) => crate::wire::json(value).len(),
+                StepEnd::Failure { kind, .. } => kind.len(),
+                StepEnd::Success(None) | StepEnd::Interrupted(_) => 0,
             };
             call.len() + path.len() + ended
         }
-        Remembered::Stuck { path, kind, .. } => path.len() + kind.len(),
-        Remembered::Question { question, answer } => {
+        MemoryEvent::Stuck { path, kind, .. } => path.len() + kind.len(),
+        MemoryEvent::Question { question, answer } => {
             question.len() + answer.as_ref().map_or(0, |answer| answer.len())
         }
-        Remembered::Swap { policy } => policy.len(),
-        Remembered::Ended { how, .. } => how.len(),
+        MemoryEvent::Swap { policy } => policy.len(),
+        MemoryEvent::Ended { how, .. } => how.len(),
     };
     ENTRY_BYTES + texts
 }

@@ -3,33 +3,33 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
-use crate::plan::Step;
-use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{Exit, Phase, Wish};
+use crate::prepared_graph::PreparedNode;
+use crate::state::{GoalIntent, NodeExit, Phase};
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use crate::truth::Truth;
-use crate::verifier::Motion;
-use crate::work::Micro;
+use crate::verifier::DeferredMotion;
+use crate::work_list::Transition;
 use motet_graph::{FailureId, NodeId, Term, Value, Verdict};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
 /// What a look at the guards gives.
-pub(super) enum Look {
+pub(super) enum GuardCheck {
     /// All hold, and the arguments are known.
     Go(Arc<Command>),
     /// All but the motion are known to hold: somebody is to be asked for that.
-    Ask(Motion),
+    Ask(DeferredMotion),
     /// Somebody was.
-    Wait(Arc<Motion>),
+    Wait(Arc<DeferredMotion>),
     /// Something would have to be observed.
-    Unknown(Refusal),
+    Unknown(StartRefusal),
     /// A guard does not hold.
-    Refused(Refusal),
+    Refused(StartRefusal),
 }
 
 /// Why a call does not start.
 #[derive(Clone, Copy)]
-pub(super) enum Refusal {
+pub(super) enum StartRefusal {
     /// A need by its place, with its failure.
     Need(u32, FailureId, Truth),
     /// The motion has no solution.
@@ -44,7 +44,7 @@ impl Turn<'_> {
         let step = self.plan.step(node);
         let region = self.run.regions.at(step.region.index());
         if let Some(cause) = region.stopping {
-            self.exit(node, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+            self.exit(node, NodeExit { ending: NodeEnding::Interrupted, cause, origin: node });
         } else if region.suspended > 0 {
             self.run.nodes.at_mut(node.index()).phase = Phase::Suspended;
         } else {
@@ -54,7 +54,7 @@ impl Turn<'_> {
 
     /// The same where the step's region runs.
     #[inline]
-    pub(super) fn begin(&mut self, node: NodeId, step: &Step) {
+    pub(super) fn begin(&mut self, node: NodeId, step: &PreparedNode) {
         if !self.run.orphans.is_empty() && self.claim(node) {
             // A goal of the policy before goes on for it.
         } else if !self.reserve(step) {
@@ -68,21 +68,21 @@ impl Turn<'_> {
 
     fn check(&mut self, node: NodeId) {
         match self.first_look(node) {
-            Look::Unknown(refusal) => {
+            GuardCheck::Unknown(refusal) => {
                 if self.ask(node) {
                     self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
                 } else {
                     self.refuse(node, refusal);
                 }
             }
-            Look::Ask(motion) => self.ask_for_motion(node, motion),
-            Look::Wait(_) => {}
-            Look::Refused(refusal) => self.refuse(node, refusal),
-            Look::Go(command) => self.start(node, command),
+            GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
+            GuardCheck::Wait(_) => {}
+            GuardCheck::Refused(refusal) => self.refuse(node, refusal),
+            GuardCheck::Go(command) => self.start(node, command),
         }
     }
 
-    fn first_look(&mut self, node: NodeId) -> Look {
+    fn first_look(&mut self, node: NodeId) -> GuardCheck {
         let (now, seen) = (self.run.now, self.run.beliefs.observations);
         let state = self.run.nodes.at_mut(node.index());
         state.since = now;
@@ -94,8 +94,10 @@ impl Turn<'_> {
     /// The command of a call whose guards are known to hold at once.
     pub(super) fn may_start(&mut self, node: NodeId) -> Option<Arc<Command>> {
         match self.first_look(node) {
-            Look::Go(command) => Some(command),
-            Look::Unknown(_) | Look::Ask(_) | Look::Wait(_) | Look::Refused(_) => None,
+            GuardCheck::Go(command) => Some(command),
+            GuardCheck::Unknown(_) | GuardCheck::Ask(_) | GuardCheck::Wait(_) | GuardCheck::Refused(_) => {
+                None
+            }
         }
     }
 
@@ -103,13 +105,13 @@ impl Turn<'_> {
     pub(super) fn check_again(&mut self, node: NodeId) {
         self.run.missing.clear();
         match self.look(node) {
-            Look::Unknown(_) if self.awaits(node) => {}
+            GuardCheck::Unknown(_) if self.awaits(node) => {}
             // What was known when the motion was asked for may have become unknown since.
-            Look::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
-            Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
-            Look::Ask(motion) => self.ask_for_motion(node, motion),
-            Look::Wait(_) => {}
-            Look::Go(command) => self.start(node, command),
+            GuardCheck::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
+            GuardCheck::Unknown(refusal) | GuardCheck::Refused(refusal) => self.refuse(node, refusal),
+            GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
+            GuardCheck::Wait(_) => {}
+            GuardCheck::Go(command) => self.start(node, command),
         }
     }
 
@@ -118,17 +120,17 @@ impl Turn<'_> {
         self.run.missing.clear();
         let is_verifying = self.is_verifying(node);
         match self.look(node) {
-            Look::Unknown(refusal) | Look::Refused(refusal) => self.refuse(node, refusal),
-            Look::Ask(motion) if is_verifying => self.start(node, motion.command),
-            Look::Ask(motion) => self.ask_for_motion(node, motion),
-            Look::Wait(motion) => self.start(node, motion.command.clone()),
-            Look::Go(command) => self.start(node, command),
+            GuardCheck::Unknown(refusal) | GuardCheck::Refused(refusal) => self.refuse(node, refusal),
+            GuardCheck::Ask(motion) if is_verifying => self.start(node, motion.command),
+            GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
+            GuardCheck::Wait(motion) => self.start(node, motion.command.clone()),
+            GuardCheck::Go(command) => self.start(node, command),
         }
     }
 
-    fn look(&mut self, node: NodeId) -> Look {
+    fn look(&mut self, node: NodeId) -> GuardCheck {
         let plan = self.plan;
-        let Some(call) = plan.call(node) else { return Look::Unknown(Refusal::Argument) };
+        let Some(call) = plan.call(node) else { return GuardCheck::Unknown(StartRefusal::Argument) };
         let (since, seen, attempt) = {
             let state = self.run.nodes.at(node.index());
             (state.since, state.seen, state.count)
@@ -144,20 +146,21 @@ impl Turn<'_> {
                 // A retry looks afresh: what refused it before may have changed.
                 truth = self.need(need, Freshness::Facts(since, seen));
             }
-            let refusal = Refusal::Need(index as u32, need.failure, truth);
+            let refusal = StartRefusal::Need(index as u32, need.failure, truth);
             match truth {
                 Truth::True => {}
-                Truth::False => return Look::Refused(refusal),
+                Truth::False => return GuardCheck::Refused(refusal),
                 Truth::Unknown => unknown = unknown.or(Some(refusal)),
             }
         }
         if let Some(command) = &plan.step(node).command {
-            return unknown.map_or_else(|| self.look_at_motion(node, call, command.clone()), Look::Unknown);
+            return unknown
+                .map_or_else(|| self.look_at_motion(node, call, command.clone()), GuardCheck::Unknown);
         }
         let args: Option<Vec<Value>> = self.values(&call.args, fresh);
         match (unknown, args.and_then(|args| plan.command(call, args.into_iter().map(Some)))) {
-            (Some(refusal), _) => Look::Unknown(refusal),
-            (None, None) => Look::Unknown(Refusal::Argument),
+            (Some(refusal), _) => GuardCheck::Unknown(refusal),
+            (None, None) => GuardCheck::Unknown(StartRefusal::Argument),
             (None, Some(command)) => self.look_at_motion(node, call, Arc::new(command)),
         }
     }
@@ -175,28 +178,28 @@ impl Turn<'_> {
         known
     }
 
-    fn refuse(&mut self, node: NodeId, refusal: Refusal) {
+    fn refuse(&mut self, node: NodeId, refusal: StartRefusal) {
         self.stop_checking(node);
         self.release(self.plan.step(node));
         match refusal {
-            Refusal::Need(need, failure, truth) => {
-                self.report(move || Happening::Guard { node, need, truth });
-                self.attempt_failed(node, failure, Cause::GuardRefuted);
+            StartRefusal::Need(need, failure, truth) => {
+                self.report(move || TraceEventKind::Guard { node, need, truth });
+                self.attempt_failed(node, failure, EndCause::GuardRefuted);
             }
-            Refusal::Motion(failure) => self.attempt_failed(node, failure, Cause::GuardRefuted),
-            Refusal::Argument => self.attempt_failed(node, motet_graph::TIMEOUT, Cause::BadValue),
+            StartRefusal::Motion(failure) => self.attempt_failed(node, failure, EndCause::GuardRefuted),
+            StartRefusal::Argument => self.attempt_failed(node, motet_graph::TIMEOUT, EndCause::BadValue),
         }
     }
 
     /// An attempt failed: the next one, if one is left.
-    pub(super) fn attempt_failed(&mut self, node: NodeId, failure: FailureId, cause: Cause) {
+    pub(super) fn attempt_failed(&mut self, node: NodeId, failure: FailureId, cause: EndCause) {
         let retries = self.plan.call(node).map_or(0, |call| call.retries);
         let state = self.run.nodes.at_mut(node.index());
         if state.count <= retries && self.stopping(self.region_of(node)).is_none() {
             let state = self.run.nodes.at_mut(node.index());
             state.count += 1;
             state.phase = Phase::Entering;
-            self.push(Micro::Acquire(node));
+            self.push(Transition::Acquire(node));
         } else {
             self.fail(node, failure, cause);
         }
@@ -216,7 +219,7 @@ impl Turn<'_> {
         let Some(call) = plan.call(node) else { return };
         for (index, need) in call.needs.iter().enumerate() {
             if need.verdict == Verdict::Deferred {
-                self.report(move || Happening::Guard { node, need: index as u32, truth: Truth::True });
+                self.report(move || TraceEventKind::Guard { node, need: index as u32, truth: Truth::True });
             }
         }
         if !call.unsettles.is_empty() {
@@ -226,19 +229,19 @@ impl Turn<'_> {
 
     /// The goal goes out.
     #[inline(always)]
-    fn launch(&mut self, node: NodeId, step: &Step, command: Arc<Command>) {
+    fn launch(&mut self, node: NodeId, step: &PreparedNode, command: Arc<Command>) {
         let goal = self.run.goals.open(node);
         let deadline = self.run.now.after(step.deadline);
         self.run.timers.set(self.plan.node_key(node), deadline);
         let state = self.run.nodes.at_mut(node.index());
         state.phase = Phase::Starting;
-        state.wish = Wish::None;
+        state.wish = GoalIntent::None;
         state.goal = Some(goal);
         let attempt = state.count;
         if step.command.is_none() {
             self.run.commands.push((node, command.clone()));
         }
-        self.report(move || Happening::Started { node, goal, attempt });
+        self.report(move || TraceEventKind::Started { node, goal, attempt });
         self.emit(move || Effect::Start { goal, node, command, deadline });
     }
 

@@ -1,7 +1,7 @@
 //! What a call changes in the beliefs: effects after success, doubt after everything else.
 
 use super::Turn;
-use crate::belief::{Beliefs, Change, Freshness, Judge, OfKind};
+use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
 use crate::query::Pattern;
 use crate::time::Time;
 use crate::truth::Truth;
@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
 #[derive(Clone, Copy)]
-struct Entry<'a> {
+struct ContractEntry<'a> {
     fact: &'a Fact,
     value: Truth,
     when: Option<&'a Condition>,
@@ -99,7 +99,8 @@ impl Contracts<'_> {
         let mut changes = Vec::new();
         for effect in &call.effects {
             let value = Truth::from(effect.value);
-            let entry = Entry { fact: &effect.fact, value, when: effect.when.as_ref(), each: effect.each };
+            let entry =
+                ContractEntry { fact: &effect.fact, value, when: effect.when.as_ref(), each: effect.each };
             self.expand(entry, &mut changes);
         }
         // What is both made and unmade is made.
@@ -122,25 +123,25 @@ impl Contracts<'_> {
         let mut changes = Vec::new();
         for effect in &call.effects {
             let (fact, when) = (&effect.fact, effect.when.as_ref());
-            self.expand(Entry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
+            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
         }
         self.expand_unsettled(call, &mut changes);
         self.apply(&changes);
     }
 
-    fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<Change>) {
+    fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
         for unsettled in &call.unsettles {
             let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
-            self.expand(Entry { fact, value: Truth::Unknown, when, each: unsettled.each }, changes);
+            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: unsettled.each }, changes);
         }
     }
 
-    fn apply(&mut self, changes: &[Change]) {
+    fn apply(&mut self, changes: &[BeliefChange]) {
         changes.iter().for_each(|change| self.beliefs.apply(change, self.now));
     }
 
     /// Works out the changes of one entry in the state as it is.
-    fn expand(&mut self, entry: Entry<'_>, changes: &mut Vec<Change>) {
+    fn expand(&mut self, entry: ContractEntry<'_>, changes: &mut Vec<BeliefChange>) {
         let Some(kind) = entry.each else {
             self.expand_for(entry, None, OfKind::Surely, changes);
             return;
@@ -158,10 +159,10 @@ impl Contracts<'_> {
 
     fn expand_for(
         &mut self,
-        entry: Entry<'_>,
+        entry: ContractEntry<'_>,
         each: Option<Value>,
         of_kind: OfKind,
-        changes: &mut Vec<Change>,
+        changes: &mut Vec<BeliefChange>,
     ) {
         let mut judge = self.judge(each);
         let holds = entry.when.map_or(Truth::True, |when| judge.condition(when));
@@ -171,10 +172,16 @@ impl Contracts<'_> {
         let Some(args) = judge.patterns(entry.fact) else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
         let sure = holds == Truth::True && of_kind == OfKind::Surely;
-        changes.push(Change { fluent: fluent.name.clone(), args, value: entry.value, sure, rest: false });
+        changes.push(BeliefChange {
+            fluent: fluent.name.clone(),
+            args,
+            value: entry.value,
+            sure,
+            rest: false,
+        });
     }
 
-    fn expand_rest(&mut self, entry: Entry<'_>, changes: &mut Vec<Change>) {
+    fn expand_rest(&mut self, entry: ContractEntry<'_>, changes: &mut Vec<BeliefChange>) {
         let mut judge = self.judge(Some(Value::Entity(NOBODY)));
         if entry.when.is_some_and(|when| judge.condition(when) == Truth::False) {
             return;
@@ -186,7 +193,7 @@ impl Contracts<'_> {
         let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
         // Some of them may be of another kind, so it is never sure.
-        changes.push(Change {
+        changes.push(BeliefChange {
             fluent: fluent.name.clone(),
             args,
             value: entry.value,
@@ -195,8 +202,8 @@ impl Contracts<'_> {
         });
     }
 
-    fn judge(&mut self, each: Option<Value>) -> Judge<'_> {
-        Judge {
+    fn judge(&mut self, each: Option<Value>) -> Evaluator<'_> {
+        Evaluator {
             graph: self.graph,
             beliefs: self.beliefs,
             bindings: self.bindings,

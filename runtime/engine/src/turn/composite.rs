@@ -2,14 +2,14 @@
 
 use super::Turn;
 use crate::effect::RunEnd;
-use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{After, Exit};
+use crate::state::{AfterStop, NodeExit};
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{BindingId, Ending, Handler, NodeId, NodeKind, ROOT, RegionId, TIMEOUT, Term, Value};
 use smol_str::SmolStr;
 
 impl Turn<'_> {
     /// A region ended that nobody stopped.
-    pub(super) fn child_ended(&mut self, owner: NodeId, region: RegionId, exit: Exit) {
+    pub(super) fn child_ended(&mut self, owner: NodeId, region: RegionId, exit: NodeExit) {
         match &self.plan.node(owner).kind {
             NodeKind::Sequence { .. } | NodeKind::Inline { .. } | NodeKind::If { .. } => {
                 self.exit_at_once(owner, exit)
@@ -33,7 +33,7 @@ impl Turn<'_> {
         }
     }
 
-    fn handle_failure(&mut self, node: NodeId, handlers: &[Handler], exit: Exit) {
+    fn handle_failure(&mut self, node: NodeId, handlers: &[Handler], exit: NodeExit) {
         let NodeEnding::Failure(failure) = exit.ending else {
             self.exit(node, exit);
             return;
@@ -67,15 +67,15 @@ impl Turn<'_> {
         let now = self.run.now;
         match self.judge(crate::belief::Freshness::Readings(now)).term(list) {
             Some(Value::List(items)) if items.len() > at_most as usize => {
-                self.fail(node, self.plan.exhausted, Cause::Exhausted);
+                self.fail(node, self.plan.exhausted, EndCause::Exhausted);
             }
             Some(Value::List(items)) => {
                 self.run.lists.push((node, items.into()));
                 self.run.nodes.at_mut(node.index()).count = 0;
                 self.next_item(node, item, body);
             }
-            Some(_) => self.fail(node, self.plan.failed, Cause::BadValue),
-            None => self.fail(node, TIMEOUT, Cause::BadValue),
+            Some(_) => self.fail(node, self.plan.failed, EndCause::BadValue),
+            None => self.fail(node, TIMEOUT, EndCause::BadValue),
         }
     }
 
@@ -98,16 +98,16 @@ impl Turn<'_> {
         let ty = graph.bindings.get(binding.index()).map(|binding| &binding.ty);
         self.run.beliefs.entities.hear_value(graph, &value, ty);
         let bound = Box::new(value.clone());
-        self.report(move || Happening::Bound { binding, value: bound });
+        self.report(move || TraceEventKind::Bound { binding, value: bound });
         if let Some(slot) = self.run.bindings.get_mut(binding.index()) {
             *slot = Some(value);
         }
     }
 
-    fn branch_ended(&mut self, node: NodeId, branches: &[RegionId], exit: Exit) {
+    fn branch_ended(&mut self, node: NodeId, branches: &[RegionId], exit: NodeExit) {
         if exit.ending != NodeEnding::Success {
-            self.run.composites.at_mut(node.index()).after = After::Exit(exit);
-            branches.iter().for_each(|branch| self.stop(*branch, Cause::SiblingFailed));
+            self.run.composites.at_mut(node.index()).after = AfterStop::Exit(exit);
+            branches.iter().for_each(|branch| self.stop(*branch, EndCause::SiblingFailed));
         }
         if self.is_down(node) {
             self.exit(node, exit);
@@ -121,7 +121,7 @@ impl Turn<'_> {
         how: Ending,
         of: Option<NodeId>,
         why: Option<&Term>,
-        cause: Cause,
+        cause: EndCause,
     ) {
         let inline = of.filter(|_| how != Ending::Replan).and_then(|of| match &self.plan.node(of).kind {
             NodeKind::Inline { body, .. } => Some((of, *body)),
@@ -136,10 +136,10 @@ impl Turn<'_> {
                 Ending::Done | Ending::Replan => NodeEnding::Success,
                 Ending::Fail => NodeEnding::Failure(self.plan.failed),
             };
-            let own = if ending == NodeEnding::Success { Cause::Completed } else { Cause::Failed };
+            let own = if ending == NodeEnding::Success { EndCause::Completed } else { EndCause::Failed };
             let state = self.run.composites.at_mut(of.index());
-            if state.after == After::Nothing {
-                state.after = After::Exit(Exit { ending, cause: own, origin: node });
+            if state.after == AfterStop::Nothing {
+                state.after = AfterStop::Exit(NodeExit { ending, cause: own, origin: node });
                 self.stop(body, cause);
             }
         } else if self.run.ending.is_none() {

@@ -3,9 +3,9 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::Effect;
-use crate::record::{Cause, Happening};
 use crate::state::Phase;
 use crate::time::Time;
+use crate::trace::{EndCause, TraceEventKind};
 use crate::truth::Truth;
 use motet_graph::{Condition, NodeId, NodeKind, TIMEOUT};
 
@@ -51,7 +51,7 @@ impl Turn<'_> {
     pub(super) fn tested(&mut self, node: NodeId, truth: Truth) {
         self.forget_asked(node);
         self.run.nodes.at_mut(node.index()).phase = Phase::Inside;
-        self.report(move || Happening::Tested { node, truth });
+        self.report(move || TraceEventKind::Tested { node, truth });
         let holds = truth == Truth::True;
         match &self.plan.node(node).kind {
             NodeKind::If { then, .. } if holds => self.enter_region(*then),
@@ -60,7 +60,7 @@ impl Turn<'_> {
             NodeKind::Repeat { .. } if holds => self.succeed(node),
             NodeKind::Repeat { times, body, .. } => {
                 if self.run.nodes.at(node.index()).count >= *times {
-                    self.fail(node, self.plan.exhausted, Cause::Exhausted);
+                    self.fail(node, self.plan.exhausted, EndCause::Exhausted);
                 } else {
                     self.again(node, *times, *body);
                 }
@@ -155,7 +155,7 @@ impl Turn<'_> {
             }
             Phase::Waiting => {
                 self.leave_wait(node);
-                self.fail(node, TIMEOUT, Cause::Deadline);
+                self.fail(node, TIMEOUT, EndCause::Deadline);
             }
             Phase::Checking => self.check_last(node),
             Phase::Starting | Phase::Running | Phase::Held | Phase::Cancelling | Phase::SafeStopping => {

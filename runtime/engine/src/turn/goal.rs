@@ -4,9 +4,9 @@ use super::Turn;
 use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, GoalId, Outcome};
 use crate::query::{Answer, Query};
-use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{Exit, Phase, Wish};
-use crate::work::Micro;
+use crate::state::{GoalIntent, NodeExit, Phase};
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
+use crate::work_list::Transition;
 use motet_graph::{FailureId, NodeId, TIMEOUT, Value};
 
 impl Turn<'_> {
@@ -38,7 +38,7 @@ impl Turn<'_> {
             DriverEvent::Refused { goal, failure } => {
                 if let Some((node, _)) = self.close(goal) {
                     let failure = self.failure_id(&failure);
-                    self.goal_failed(node, goal, failure, Cause::Refused);
+                    self.goal_failed(node, goal, failure, EndCause::Refused);
                     self.check_clearing();
                 }
             }
@@ -51,7 +51,7 @@ impl Turn<'_> {
                 if let Some(node) = self.run.goals.node(goal)
                     && self.run.nodes.at(node.index()).phase == Phase::Held
                 {
-                    self.cancel(node, Wish::Suspend);
+                    self.cancel(node, GoalIntent::Suspend);
                 }
             }
             DriverEvent::Feedback { .. } => {}
@@ -65,12 +65,12 @@ impl Turn<'_> {
             return;
         }
         match state.wish {
-            Wish::None => state.phase = Phase::Running,
-            Wish::Hold => {
+            GoalIntent::None => state.phase = Phase::Running,
+            GoalIntent::Hold => {
                 state.phase = Phase::Held;
                 self.out.push(Effect::Hold { goal });
             }
-            Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop => {
+            GoalIntent::Lose | GoalIntent::Suspend | GoalIntent::Expire | GoalIntent::Stop => {
                 state.phase = Phase::Cancelling;
                 self.out.push(Effect::Cancel { goal });
             }
@@ -78,14 +78,14 @@ impl Turn<'_> {
     }
 
     /// Ends a goal early; while it is not acknowledged, as soon as it is. The strongest wish counts.
-    pub(super) fn cancel(&mut self, node: NodeId, wish: Wish) {
+    pub(super) fn cancel(&mut self, node: NodeId, wish: GoalIntent) {
         let deadline = self.run.now.after(self.settings.cancel_within);
         let key = self.plan.node_key(node);
         let state = self.run.nodes.at_mut(node.index());
         let Some(goal) = state.goal else { return };
         match state.phase {
             Phase::Starting => {
-                if matches!(state.wish, Wish::None | Wish::Hold) {
+                if matches!(state.wish, GoalIntent::None | GoalIntent::Hold) {
                     self.run.timers.set(key, deadline);
                 }
                 state.wish = stronger(state.wish, wish);
@@ -112,10 +112,13 @@ impl Turn<'_> {
                 self.fault(Fault::NotStopped { node, revision });
             }
             (Phase::Cancelling, _)
-            | (Phase::Starting, Wish::Lose | Wish::Suspend | Wish::Expire | Wish::Stop) => {
+            | (
+                Phase::Starting,
+                GoalIntent::Lose | GoalIntent::Suspend | GoalIntent::Expire | GoalIntent::Stop,
+            ) => {
                 self.stop_safely(node, goal);
             }
-            (_, _) => self.cancel(node, Wish::Expire),
+            (_, _) => self.cancel(node, GoalIntent::Expire),
         }
     }
 
@@ -123,7 +126,7 @@ impl Turn<'_> {
     fn lost(&mut self, goal: GoalId) {
         let Some(node) = self.run.goals.node(goal) else { return };
         let state = self.run.nodes.at_mut(node.index());
-        state.wish = stronger(state.wish, Wish::Lose);
+        state.wish = stronger(state.wish, GoalIntent::Lose);
         if state.phase != Phase::SafeStopping {
             self.stop_safely(node, goal);
         }
@@ -138,7 +141,7 @@ impl Turn<'_> {
 
     /// A goal is no longer live: what it kept is free. Gives its step, and why it was to end early.
     #[inline(always)]
-    fn close(&mut self, goal: GoalId) -> Option<(NodeId, Wish)> {
+    fn close(&mut self, goal: GoalId) -> Option<(NodeId, GoalIntent)> {
         let node = self.run.goals.close(goal)?;
         let step = self.plan.step(node);
         self.run.timers.clear(self.plan.node_key(node));
@@ -148,20 +151,25 @@ impl Turn<'_> {
         }
         let state = self.run.nodes.at_mut(node.index());
         state.goal = None;
-        Some((node, std::mem::replace(&mut state.wish, Wish::None)))
+        Some((node, std::mem::replace(&mut state.wish, GoalIntent::None)))
     }
 
     #[inline(always)]
-    fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: Wish, outcome: Outcome) {
+    fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: GoalIntent, outcome: Outcome) {
         match (outcome, wish) {
             (Outcome::Success(value), _) => self.goal_succeeded(node, goal, value),
             (Outcome::Failure(kind), _) => {
                 let failure = self.failure_id(&kind);
-                self.goal_failed(node, goal, failure, Cause::Failed);
+                self.goal_failed(node, goal, failure, EndCause::Failed);
             }
-            (Outcome::Interrupted, Wish::Expire) => self.goal_failed(node, goal, TIMEOUT, Cause::Deadline),
-            (Outcome::Interrupted, Wish::Lose) => self.goal_failed(node, goal, TIMEOUT, Cause::Lost),
-            (Outcome::Interrupted, Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop) => {
+            (Outcome::Interrupted, GoalIntent::Expire) => {
+                self.goal_failed(node, goal, TIMEOUT, EndCause::Deadline)
+            }
+            (Outcome::Interrupted, GoalIntent::Lose) => self.goal_failed(node, goal, TIMEOUT, EndCause::Lost),
+            (
+                Outcome::Interrupted,
+                GoalIntent::None | GoalIntent::Hold | GoalIntent::Suspend | GoalIntent::Stop,
+            ) => {
                 self.goal_interrupted(node, goal, wish);
             }
         }
@@ -173,7 +181,7 @@ impl Turn<'_> {
         let plan = self.plan;
         if plan.step(node).is_silent && self.is_quiet() && self.run.clearing.is_empty() {
             // The common case, without a detour over the work list. What waits for this goal to end has its own place there.
-            let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node };
+            let exit = NodeExit { ending: NodeEnding::Success, cause: EndCause::Completed, origin: node };
             self.node_ended(node, exit);
         } else {
             self.goal_made(node, goal, value);
@@ -189,7 +197,7 @@ impl Turn<'_> {
             match value.filter(|value| ty.is_some_and(|ty| value.fits(ty))) {
                 Some(value) => self.bind(binding, value),
                 None => {
-                    self.goal_failed(node, goal, plan.failed, Cause::BadValue);
+                    self.goal_failed(node, goal, plan.failed, EndCause::BadValue);
                     return;
                 }
             }
@@ -198,28 +206,40 @@ impl Turn<'_> {
         self.succeed(node);
     }
 
-    fn goal_failed(&mut self, node: NodeId, goal: GoalId, failure: FailureId, cause: Cause) {
+    fn goal_failed(&mut self, node: NodeId, goal: GoalId, failure: FailureId, cause: EndCause) {
         self.doubt(node);
-        self.report(move || Happening::GoalEnded { node, goal, ending: NodeEnding::Failure(failure), cause });
+        self.report(move || TraceEventKind::GoalEnded {
+            node,
+            goal,
+            ending: NodeEnding::Failure(failure),
+            cause,
+        });
         self.attempt_failed(node, failure, cause);
     }
 
-    fn goal_interrupted(&mut self, node: NodeId, goal: GoalId, wish: Wish) {
+    fn goal_interrupted(&mut self, node: NodeId, goal: GoalId, wish: GoalIntent) {
         self.doubt(node);
         let stopped = self.stopping(self.region_of(node));
         let cause = match (stopped, wish) {
             (Some(cause), _) => cause,
-            (None, Wish::Suspend) => Cause::Monitor,
-            (None, Wish::None | Wish::Hold | Wish::Lose | Wish::Expire | Wish::Stop) => Cause::Driver,
+            (None, GoalIntent::Suspend) => EndCause::Monitor,
+            (
+                None,
+                GoalIntent::None
+                | GoalIntent::Hold
+                | GoalIntent::Lose
+                | GoalIntent::Expire
+                | GoalIntent::Stop,
+            ) => EndCause::Driver,
         };
         let ending = NodeEnding::Interrupted;
-        self.report(move || Happening::GoalEnded { node, goal, ending, cause });
-        if stopped.is_none() && wish == Wish::Suspend {
+        self.report(move || TraceEventKind::GoalEnded { node, goal, ending, cause });
+        if stopped.is_none() && wish == GoalIntent::Suspend {
             // It starts again: at once where what suspended it has gone on already.
             self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
-            self.push(Micro::Acquire(node));
+            self.push(Transition::Acquire(node));
         } else {
-            self.exit(node, Exit { ending, cause, origin: node });
+            self.exit(node, NodeExit { ending, cause, origin: node });
         }
     }
 
@@ -262,14 +282,14 @@ impl Turn<'_> {
     }
 }
 
-pub(super) fn stronger(a: Wish, b: Wish) -> Wish {
-    let strength = |wish: Wish| match wish {
-        Wish::None => 0,
-        Wish::Hold => 1,
-        Wish::Lose => 2,
-        Wish::Suspend => 3,
-        Wish::Expire => 4,
-        Wish::Stop => 5,
+pub(super) fn stronger(a: GoalIntent, b: GoalIntent) -> GoalIntent {
+    let strength = |wish: GoalIntent| match wish {
+        GoalIntent::None => 0,
+        GoalIntent::Hold => 1,
+        GoalIntent::Lose => 2,
+        GoalIntent::Suspend => 3,
+        GoalIntent::Expire => 4,
+        GoalIntent::Stop => 5,
     };
     if strength(b) > strength(a) { b } else { a }
 }

@@ -3,10 +3,10 @@
 use super::Turn;
 use crate::belief::Freshness;
 use crate::effect::Effect;
-use crate::plan::Step;
+use crate::prepared_graph::PreparedNode;
 use crate::state::Phase;
 use crate::time::Time;
-use crate::work::Micro;
+use crate::work_list::Transition;
 use motet_graph::{Condition, NodeId};
 
 impl Turn<'_> {
@@ -66,7 +66,7 @@ impl Turn<'_> {
 
     /// Takes a call's resources. False where somebody else holds what conflicts.
     #[inline]
-    pub(super) fn reserve(&mut self, step: &Step) -> bool {
+    pub(super) fn reserve(&mut self, step: &PreparedNode) -> bool {
         let orphans = self.run.orphans.iter().fold(0, |bits, orphan| bits | orphan.uses);
         if (self.run.held | orphans) & step.mask.conflicts != 0 {
             return false;
@@ -77,7 +77,7 @@ impl Turn<'_> {
 
     /// Gives a call's resources back.
     #[inline]
-    pub(super) fn release(&mut self, step: &Step) {
+    pub(super) fn release(&mut self, step: &PreparedNode) {
         self.run.held &= !step.mask.uses;
         self.run.freed = !self.run.queue.is_empty();
     }
@@ -88,7 +88,7 @@ impl Turn<'_> {
         let queue = std::mem::take(&mut self.run.queue);
         for node in queue {
             self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
-            self.push(Micro::Acquire(node));
+            self.push(Transition::Acquire(node));
         }
     }
 

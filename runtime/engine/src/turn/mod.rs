@@ -18,24 +18,24 @@ mod takeover;
 mod verify;
 mod watch;
 
-use crate::belief::{Freshness, Judge};
+use crate::belief::{Evaluator, Freshness};
 use crate::driver::Capabilities;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::event::Event;
-use crate::plan::{Key, Plan};
-use crate::record::{Cause, Happening, NodeEnding, Record};
-use crate::settings::Settings;
-use crate::state::{Exit, Phase, Run};
+use crate::prepared_graph::{Dependent, PreparedGraph};
+use crate::settings::EngineSettings;
+use crate::state::{NodeExit, Phase, Run};
 use crate::time::Time;
-use crate::work::Micro;
+use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
+use crate::work_list::Transition;
 use motet_graph::{NodeId, ROOT, RegionId};
 use std::cmp::Reverse;
 
 /// The engine while it handles one event.
 pub(crate) struct Turn<'a> {
-    pub(crate) plan: &'a Plan,
+    pub(crate) plan: &'a PreparedGraph,
     pub(crate) run: &'a mut Run,
-    pub(crate) settings: &'a Settings,
+    pub(crate) settings: &'a EngineSettings,
     pub(crate) capabilities: &'a Capabilities,
     pub(crate) out: &'a mut Vec<Effect>,
 }
@@ -91,7 +91,7 @@ impl Turn<'_> {
 
     /// The next key that is due.
     #[inline]
-    fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Key> {
+    fn due(&mut self, is_due: impl Fn(Time) -> bool) -> Option<Dependent> {
         let own = self.run.timers.next();
         if self.run.orphans.is_empty() && own.is_none_or(|(at, _)| !is_due(at)) {
             return None;
@@ -100,14 +100,14 @@ impl Turn<'_> {
     }
 
     #[cold]
-    fn first_due(&mut self, own: Option<(Time, u32)>, is_due: impl Fn(Time) -> bool) -> Option<Key> {
+    fn first_due(&mut self, own: Option<(Time, u32)>, is_due: impl Fn(Time) -> bool) -> Option<Dependent> {
         if self.run.over {
             return None;
         }
         if let Some(orphan) = self.run.orphans.iter().min_by_key(|orphan| orphan.due)
             && own.is_none_or(|(at, _)| orphan.due <= at)
         {
-            return Some(Key::Orphan(orphan.goal))
+            return Some(Dependent::Orphan(orphan.goal))
                 .filter(|_| is_due(orphan.due) && orphan.due != Time::NEVER);
         }
         let (_, key) = own.filter(|(at, _)| is_due(*at))?;
@@ -115,11 +115,11 @@ impl Turn<'_> {
         Some(self.plan.of_key(key))
     }
 
-    fn wake(&mut self, key: Key) {
+    fn wake(&mut self, key: Dependent) {
         match key {
-            Key::Watch(watch) => self.watch_due(watch),
-            Key::Node(node) => self.node_due(node),
-            Key::Orphan(goal) => self.orphan_due(goal),
+            Dependent::Watch(watch) => self.watch_due(watch),
+            Dependent::Node(node) => self.node_due(node),
+            Dependent::Orphan(goal) => self.orphan_due(goal),
         }
     }
 
@@ -153,13 +153,13 @@ impl Turn<'_> {
         }
     }
 
-    fn step(&mut self, micro: Micro) {
+    fn step(&mut self, micro: Transition) {
         match micro {
-            Micro::Enter(node) => self.enter(node),
-            Micro::Acquire(node) => self.acquire(node),
-            Micro::Judge(node) => self.judge_node(node),
-            Micro::NodeEnded(node, exit) => self.node_ended(node, exit),
-            Micro::RegionEnded(region, exit) => self.region_ended(region, exit),
+            Transition::Enter(node) => self.enter(node),
+            Transition::Acquire(node) => self.acquire(node),
+            Transition::Judge(node) => self.judge_node(node),
+            Transition::NodeEnded(node, exit) => self.node_ended(node, exit),
+            Transition::RegionEnded(region, exit) => self.region_ended(region, exit),
         }
     }
 
@@ -174,9 +174,9 @@ impl Turn<'_> {
         let mut changed = std::mem::take(&mut self.run.beliefs.changed);
         for key in changed.drain(..) {
             match self.plan.of_key(key) {
-                Key::Watch(watch) => self.mark(watch),
-                Key::Node(node) => self.push_judge(node),
-                Key::Orphan(_) => {}
+                Dependent::Watch(watch) => self.mark(watch),
+                Dependent::Node(node) => self.push_judge(node),
+                Dependent::Orphan(_) => {}
             }
         }
         self.run.beliefs.changed = changed;
@@ -195,25 +195,26 @@ impl Turn<'_> {
         let state = self.run.nodes.at_mut(node.index());
         if !state.judging {
             state.judging = true;
-            self.push(Micro::Judge(node));
+            self.push(Transition::Judge(node));
         }
     }
 
-    fn push(&mut self, micro: Micro) {
+    fn push(&mut self, micro: Transition) {
         let place = match micro {
-            Micro::Enter(node) | Micro::Acquire(node) | Micro::Judge(node) | Micro::NodeEnded(node, _) => {
-                node.0
-            }
-            Micro::RegionEnded(region, _) => self.plan.region(region).owner.map_or(0, |owner| owner.0),
+            Transition::Enter(node)
+            | Transition::Acquire(node)
+            | Transition::Judge(node)
+            | Transition::NodeEnded(node, _) => node.0,
+            Transition::RegionEnded(region, _) => self.plan.region(region).owner.map_or(0, |owner| owner.0),
         };
         self.run.work.push(place, micro);
     }
 
     /// Writes down what happened.
     #[inline(always)]
-    fn report(&mut self, what: impl FnOnce() -> Happening) {
+    fn report(&mut self, what: impl FnOnce() -> TraceEventKind) {
         let (at, revision) = (self.run.now, self.run.revision);
-        self.emit(move || Effect::Report(Record { at, revision, what: what() }));
+        self.emit(move || Effect::Report(TraceEvent { at, revision, what: what() }));
     }
 
     /// Gives out an effect. It is built in its place: built apart and copied, it costs several times as much.
@@ -236,12 +237,12 @@ impl Turn<'_> {
         }
         if self.run.ending.is_none() {
             self.run.ending = Some(RunEnd::Interrupted);
-            self.stop(ROOT, Cause::Person);
+            self.stop(ROOT, EndCause::Person);
         }
     }
 
     /// The body of the policy is over.
-    fn root_ended(&mut self, exit: Exit) {
+    fn root_ended(&mut self, exit: NodeExit) {
         let end = self.run.ending.take().unwrap_or_else(|| match exit.ending {
             NodeEnding::Success => RunEnd::Done { why: None },
             NodeEnding::Failure(failure) => {
@@ -258,8 +259,8 @@ impl Turn<'_> {
     }
 
     /// A judge of conditions in the world as it is believed to be.
-    fn judge(&mut self, fresh: Freshness) -> Judge<'_> {
-        Judge {
+    fn judge(&mut self, fresh: Freshness) -> Evaluator<'_> {
+        Evaluator {
             graph: &self.plan.graph,
             beliefs: &mut self.run.beliefs,
             bindings: &self.run.bindings,
@@ -270,8 +271,8 @@ impl Turn<'_> {
     }
 
     /// The same, which notes in `run.missing` what would have to be observed.
-    fn judge_missing(&mut self, fresh: Freshness) -> Judge<'_> {
-        Judge {
+    fn judge_missing(&mut self, fresh: Freshness) -> Evaluator<'_> {
+        Evaluator {
             graph: &self.plan.graph,
             beliefs: &mut self.run.beliefs,
             bindings: &self.run.bindings,
@@ -282,7 +283,7 @@ impl Turn<'_> {
     }
 
     #[inline]
-    fn stopping(&self, region: RegionId) -> Option<Cause> {
+    fn stopping(&self, region: RegionId) -> Option<EndCause> {
         self.run.regions.at(region.index()).stopping
     }
 

@@ -1,9 +1,9 @@
 //! Monitors: their life, and what becomes of the body when a reaction has run its course.
 
 use super::Turn;
-use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{After, Exit, Phase, Wish};
+use crate::state::{AfterStop, GoalIntent, NodeExit, Phase};
 use crate::time::Time;
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{NodeId, NodeKind, Reaction, RegionId, Watch};
 
 impl Turn<'_> {
@@ -70,7 +70,7 @@ impl Turn<'_> {
     pub(super) fn restart(&mut self, node: NodeId) {
         let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
         let state = self.run.composites.at_mut(node.index());
-        state.after = After::Nothing;
+        state.after = AfterStop::Nothing;
         state.body_ended = None;
         for index in 0..watches.len() as u32 {
             let number = self.plan.watch_number(node, index);
@@ -89,13 +89,13 @@ impl Turn<'_> {
     }
 
     /// Ends everything in a monitor, and then the monitor in a failure.
-    pub(super) fn monitor_fails(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: Cause) {
-        let exit = Exit { ending: NodeEnding::Failure(failure), cause, origin: node };
-        self.stop_within(node, After::Exit(exit));
+    pub(super) fn monitor_fails(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: EndCause) {
+        let exit = NodeExit { ending: NodeEnding::Failure(failure), cause, origin: node };
+        self.stop_within(node, AfterStop::Exit(exit));
     }
 
     /// Stops everything in a monitor; what is to happen then follows once all is down.
-    pub(super) fn stop_within(&mut self, node: NodeId, after: After) {
+    pub(super) fn stop_within(&mut self, node: NodeId, after: AfterStop) {
         let NodeKind::Monitor { watches, .. } = &self.plan.node(node).kind else { return };
         for index in 0..watches.len() as u32 {
             self.stop_pausing(self.plan.watch_number(node, index));
@@ -106,20 +106,20 @@ impl Turn<'_> {
         state.resuming = None;
         self.run.clearing.retain(|clearing| *clearing != node);
         for region in self.plan.owned(node) {
-            self.stop(*region, Cause::Monitor);
+            self.stop(*region, EndCause::Monitor);
         }
         // Everything may be down already: the body ended while a block was about to run.
         if self.is_down(node) && self.run.nodes.at(node.index()).phase == Phase::Inside {
             match after {
-                After::Exit(exit) => self.exit(node, exit),
-                After::Restart => self.restart(node),
-                After::Nothing => {}
+                AfterStop::Exit(exit) => self.exit(node, exit),
+                AfterStop::Restart => self.restart(node),
+                AfterStop::Nothing => {}
             }
         }
     }
 
     /// The body ended by itself.
-    pub(super) fn body_ended(&mut self, node: NodeId, exit: Exit) {
+    pub(super) fn body_ended(&mut self, node: NodeId, exit: NodeExit) {
         let state = self.run.composites.at_mut(node.index());
         if state.resuming.is_some() {
             state.body_ended = Some(exit);
@@ -132,7 +132,7 @@ impl Turn<'_> {
     /// Interrupts the body to run a block.
     pub(super) fn begin_block(&mut self, node: NodeId, number: u32) {
         let NodeKind::Monitor { body, .. } = &self.plan.node(node).kind else { return };
-        self.suspend(*body, Wish::Suspend);
+        self.suspend(*body, GoalIntent::Suspend);
         self.run.composites.at_mut(node.index()).resuming = Some(number);
         self.run.clearing.push(node);
         self.check_clearing();
@@ -161,7 +161,7 @@ impl Turn<'_> {
     }
 
     /// A block is over: the body goes on.
-    pub(super) fn block_ended(&mut self, node: NodeId, exit: Exit) {
+    pub(super) fn block_ended(&mut self, node: NodeId, exit: NodeExit) {
         let NodeKind::Monitor { watches, body } = &self.plan.node(node).kind else { return };
         let state = self.run.composites.at_mut(node.index());
         let number = state.resuming.take();
@@ -171,15 +171,15 @@ impl Turn<'_> {
             return;
         }
         if exit.ending != NodeEnding::Success {
-            self.stop_within(node, After::Exit(exit));
+            self.stop_within(node, AfterStop::Exit(exit));
             return;
         }
         let pauses = state.pauses;
         // Pauses that held the block hold the body now.
-        (0..pauses).for_each(|_| self.suspend(*body, Wish::Hold));
+        (0..pauses).for_each(|_| self.suspend(*body, GoalIntent::Hold));
         self.go_on(*body);
         if let Some((_, watch, _)) = number.and_then(|number| self.plan.watch(number)) {
-            self.report(move || Happening::WentOn { node, watch });
+            self.report(move || TraceEventKind::WentOn { node, watch });
         }
         if let Some(number) = number {
             self.rearm(number);

@@ -5,10 +5,10 @@ use super::change::Contracts;
 use super::goal::stronger;
 use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, GoalId, Outcome};
-use crate::orphan::Orphan;
-use crate::record::{Cause, Happening, NodeEnding, Record};
-use crate::state::{Phase, Wish};
+use crate::orphan::OrphanGoal;
+use crate::state::{GoalIntent, Phase};
 use crate::time::Time;
+use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, NodeId, TIMEOUT};
 use smol_str::SmolStr;
 
@@ -51,7 +51,7 @@ impl Turn<'_> {
             return false;
         }
         let conflicts = plan.step(node).mask.conflicts;
-        let fits = |index: usize, orphan: &Orphan| {
+        let fits = |index: usize, orphan: &OrphanGoal| {
             let others = self.run.orphans.iter().enumerate().filter(|(other, _)| *other != index);
             let held = others.fold(self.run.held, |bits, (_, other)| bits | other.uses);
             orphan.is_free()
@@ -70,17 +70,17 @@ impl Turn<'_> {
         true
     }
 
-    fn keep(&mut self, node: NodeId, orphan: &Orphan) {
+    fn keep(&mut self, node: NodeId, orphan: &OrphanGoal) {
         let phase = if orphan.phase == Phase::Starting { Phase::Starting } else { Phase::Running };
         self.take_goal(node, orphan.goal, phase);
         if self.plan.step(node).command.is_none() {
             self.run.commands.push((node, orphan.command.clone()));
         }
-        self.report(move || Happening::Kept { node, goal: orphan.goal });
+        self.report(move || TraceEventKind::Kept { node, goal: orphan.goal });
         self.go_on_if_held(orphan);
     }
 
-    fn update(&mut self, node: NodeId, orphan: &Orphan, command: std::sync::Arc<crate::effect::Command>) {
+    fn update(&mut self, node: NodeId, orphan: &OrphanGoal, command: std::sync::Arc<crate::effect::Command>) {
         let goal = orphan.goal;
         // What it did before was interrupted.
         self.contracts_of(orphan).doubt_node(orphan);
@@ -89,12 +89,12 @@ impl Turn<'_> {
         if self.plan.step(node).command.is_none() {
             self.run.commands.push((node, command.clone()));
         }
-        self.report(move || Happening::Updated { node, goal });
+        self.report(move || TraceEventKind::Updated { node, goal });
         self.out.push(Effect::Update { goal, node, command, deadline });
         self.go_on_if_held(orphan);
     }
 
-    fn go_on_if_held(&mut self, orphan: &Orphan) {
+    fn go_on_if_held(&mut self, orphan: &OrphanGoal) {
         if orphan.phase == Phase::Held {
             self.out.push(Effect::Proceed { goal: orphan.goal });
         }
@@ -109,7 +109,7 @@ impl Turn<'_> {
         self.run.timers.set(self.plan.node_key(node), deadline);
         let state = self.run.nodes.at_mut(node.index());
         state.phase = phase;
-        state.wish = Wish::None;
+        state.wish = GoalIntent::None;
         state.goal = Some(goal);
         deadline
     }
@@ -118,7 +118,7 @@ impl Turn<'_> {
     pub(super) fn cancel_orphans(&mut self) {
         let due = self.run.now.after(self.settings.cancel_within);
         for orphan in self.run.orphans.iter_mut().filter(|orphan| orphan.is_free()) {
-            orphan.wish = Wish::Stop;
+            orphan.wish = GoalIntent::Stop;
             orphan.due = due;
             if orphan.phase != Phase::Starting {
                 orphan.phase = Phase::Cancelling;
@@ -145,17 +145,17 @@ impl Turn<'_> {
                 }
                 None
             }
-            DriverEvent::Refused { failure, .. } => failed(failure, Cause::Refused),
+            DriverEvent::Refused { failure, .. } => failed(failure, EndCause::Refused),
             DriverEvent::Ended { outcome: Outcome::Success(_), .. } => {
-                Some((NodeEnding::Success, Cause::Completed))
+                Some((NodeEnding::Success, EndCause::Completed))
             }
-            DriverEvent::Ended { outcome: Outcome::Failure(kind), .. } => failed(kind, Cause::Failed),
+            DriverEvent::Ended { outcome: Outcome::Failure(kind), .. } => failed(kind, EndCause::Failed),
             DriverEvent::Ended { outcome: Outcome::Interrupted, .. } | DriverEvent::Stopped { .. } => {
-                Some(match self.run.orphans.get(index).map_or(Wish::None, |orphan| orphan.wish) {
-                    Wish::Expire => (NodeEnding::Failure(TIMEOUT), Cause::Deadline),
-                    Wish::Lose => (NodeEnding::Failure(TIMEOUT), Cause::Lost),
-                    Wish::None | Wish::Hold | Wish::Suspend | Wish::Stop => {
-                        (NodeEnding::Interrupted, Cause::Swap)
+                Some(match self.run.orphans.get(index).map_or(GoalIntent::None, |orphan| orphan.wish) {
+                    GoalIntent::Expire => (NodeEnding::Failure(TIMEOUT), EndCause::Deadline),
+                    GoalIntent::Lose => (NodeEnding::Failure(TIMEOUT), EndCause::Lost),
+                    GoalIntent::None | GoalIntent::Hold | GoalIntent::Suspend | GoalIntent::Stop => {
+                        (NodeEnding::Interrupted, EndCause::Swap)
                     }
                 })
             }
@@ -172,7 +172,7 @@ impl Turn<'_> {
 
     pub(super) fn orphan_lost(&mut self, index: usize) {
         let Some(orphan) = self.run.orphans.get_mut(index) else { return };
-        orphan.wish = stronger(orphan.wish, Wish::Lose);
+        orphan.wish = stronger(orphan.wish, GoalIntent::Lose);
         if orphan.phase != Phase::SafeStopping {
             self.stop_orphan_safely(index);
         }
@@ -199,7 +199,7 @@ impl Turn<'_> {
         }
     }
 
-    fn orphan_ended(&mut self, index: usize, ending: NodeEnding, cause: Cause) {
+    fn orphan_ended(&mut self, index: usize, ending: NodeEnding, cause: EndCause) {
         let orphan = self.run.orphans.remove(index);
         self.run.goals.close(orphan.goal);
         self.run.freed = !self.run.queue.is_empty();
@@ -208,9 +208,9 @@ impl Turn<'_> {
             NodeEnding::Success => contracts.make_node(&orphan),
             NodeEnding::Failure(_) | NodeEnding::Interrupted => contracts.doubt_node(&orphan),
         }
-        let what = Happening::GoalEnded { node: orphan.node, goal: orphan.goal, ending, cause };
+        let what = TraceEventKind::GoalEnded { node: orphan.node, goal: orphan.goal, ending, cause };
         let (at, revision) = (self.run.now, orphan.revision);
-        self.out.push(Effect::Report(Record { at, revision, what }));
+        self.out.push(Effect::Report(TraceEvent { at, revision, what }));
         if self.run.orphans.is_empty()
             && let Some(end) = self.run.closing.take()
         {
@@ -232,7 +232,7 @@ impl Turn<'_> {
         known.map_or(orphan.plan.failed, |index| FailureId(index as u32))
     }
 
-    fn contracts_of<'o>(&'o mut self, orphan: &'o Orphan) -> Contracts<'o> {
+    fn contracts_of<'o>(&'o mut self, orphan: &'o OrphanGoal) -> Contracts<'o> {
         Contracts {
             graph: &orphan.plan.graph,
             bindings: &orphan.bindings,
@@ -243,13 +243,13 @@ impl Turn<'_> {
 }
 
 impl Contracts<'_> {
-    fn make_node(&mut self, orphan: &Orphan) {
+    fn make_node(&mut self, orphan: &OrphanGoal) {
         if let Some(call) = orphan.plan.call(orphan.node) {
             self.make(call);
         }
     }
 
-    fn doubt_node(&mut self, orphan: &Orphan) {
+    fn doubt_node(&mut self, orphan: &OrphanGoal) {
         if let Some(call) = orphan.plan.call(orphan.node) {
             self.doubt(call);
         }

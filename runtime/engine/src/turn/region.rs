@@ -1,9 +1,9 @@
 //! Control: entering regions and steps, and what follows when they end.
 
 use super::Turn;
-use crate::record::{Cause, Happening, NodeEnding};
-use crate::state::{After, Exit, Phase};
-use crate::work::Micro;
+use crate::state::{AfterStop, NodeExit, Phase};
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
+use crate::work_list::Transition;
 use motet_graph::{Ending, NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
@@ -23,8 +23,8 @@ impl Turn<'_> {
             Some(node) => self.plan_entry(node),
             None => {
                 let origin = plan.region(region).owner.unwrap_or(NodeId(0));
-                let exit = Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin };
-                self.push(Micro::RegionEnded(region, exit));
+                let exit = NodeExit { ending: NodeEnding::Success, cause: EndCause::Completed, origin };
+                self.push(Transition::RegionEnded(region, exit));
             }
         }
     }
@@ -32,7 +32,7 @@ impl Turn<'_> {
     /// The work list shall enter a step.
     pub(super) fn plan_entry(&mut self, node: NodeId) {
         self.run.nodes.at_mut(node.index()).phase = Phase::Entering;
-        self.push(Micro::Enter(node));
+        self.push(Transition::Enter(node));
     }
 
     /// Enters a step.
@@ -43,11 +43,11 @@ impl Turn<'_> {
         if let Some(cause) = region.stopping {
             // It was never entered, so it has no ending of its own.
             self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
-            self.leave_region(step.region, Exit { ending: NodeEnding::Interrupted, cause, origin: node });
+            self.leave_region(step.region, NodeExit { ending: NodeEnding::Interrupted, cause, origin: node });
         } else if region.suspended > 0 {
             self.run.nodes.at_mut(node.index()).phase = Phase::Parked;
         } else {
-            self.report(move || Happening::Entered { node });
+            self.report(move || TraceEventKind::Entered { node });
             if step.is_call {
                 self.run.nodes.at_mut(node.index()).count = 1;
                 self.begin(node, step);
@@ -67,9 +67,9 @@ impl Turn<'_> {
             NodeKind::End { how, of, why } => {
                 match how {
                     Ending::Done | Ending::Replan => self.succeed(node),
-                    Ending::Fail => self.fail(node, self.plan.failed, Cause::Failed),
+                    Ending::Fail => self.fail(node, self.plan.failed, EndCause::Failed),
                 }
-                self.end_policy(node, *how, *of, why.as_ref(), Cause::ParentEnded);
+                self.end_policy(node, *how, *of, why.as_ref(), EndCause::ParentEnded);
             }
             NodeKind::Monitor { watches, body } => self.enter_monitor(node, watches, *body),
             NodeKind::Each { item, list, at_most, body } => {
@@ -88,14 +88,14 @@ impl Turn<'_> {
     }
 
     /// A step is over: the work list shall see to it.
-    pub(super) fn exit(&mut self, node: NodeId, exit: Exit) {
+    pub(super) fn exit(&mut self, node: NodeId, exit: NodeExit) {
         self.run.nodes.at_mut(node.index()).phase = Phase::Ending;
-        self.push(Micro::NodeEnded(node, exit));
+        self.push(Transition::NodeEnded(node, exit));
     }
 
     /// The same from a region's end, which only the work list calls: without a detour over it where nothing else is to be
     /// done first.
-    pub(super) fn exit_at_once(&mut self, node: NodeId, exit: Exit) {
+    pub(super) fn exit_at_once(&mut self, node: NodeId, exit: NodeExit) {
         if self.is_quiet() {
             self.node_ended(node, exit);
         } else {
@@ -104,21 +104,21 @@ impl Turn<'_> {
     }
 
     pub(super) fn succeed(&mut self, node: NodeId) {
-        self.exit(node, Exit { ending: NodeEnding::Success, cause: Cause::Completed, origin: node });
+        self.exit(node, NodeExit { ending: NodeEnding::Success, cause: EndCause::Completed, origin: node });
     }
 
-    pub(super) fn fail(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: Cause) {
-        self.exit(node, Exit { ending: NodeEnding::Failure(failure), cause, origin: node });
+    pub(super) fn fail(&mut self, node: NodeId, failure: motet_graph::FailureId, cause: EndCause) {
+        self.exit(node, NodeExit { ending: NodeEnding::Failure(failure), cause, origin: node });
     }
 
     /// A step is over: goes on to the next, or ends the region.
-    pub(super) fn node_ended(&mut self, node: NodeId, exit: Exit) {
+    pub(super) fn node_ended(&mut self, node: NodeId, exit: NodeExit) {
         let step = self.plan.step(node);
         if step.is_composite {
             self.leave_composite(node);
         }
         self.run.nodes.at_mut(node.index()).phase = Phase::Idle;
-        self.report(move || Happening::Ended { node, ending: exit.ending, cause: exit.cause });
+        self.report(move || TraceEventKind::Ended { node, ending: exit.ending, cause: exit.cause });
         let region = self.run.regions.at_mut(step.region.index());
         match (region.stopping, exit.ending, step.next) {
             (None, NodeEnding::Success, Some(next)) => {
@@ -126,7 +126,7 @@ impl Turn<'_> {
                 self.enter(next);
             }
             (Some(cause), _, _) => {
-                let exit = Exit { ending: NodeEnding::Interrupted, cause, origin: node };
+                let exit = NodeExit { ending: NodeEnding::Interrupted, cause, origin: node };
                 self.leave_region(step.region, exit);
             }
             (None, _, _) => self.leave_region(step.region, exit),
@@ -134,13 +134,13 @@ impl Turn<'_> {
     }
 
     /// The region has no step left that runs.
-    pub(super) fn leave_region(&mut self, region: RegionId, exit: Exit) {
+    pub(super) fn leave_region(&mut self, region: RegionId, exit: NodeExit) {
         self.run.regions.at_mut(region.index()).current = None;
-        self.push(Micro::RegionEnded(region, exit));
+        self.push(Transition::RegionEnded(region, exit));
     }
 
     /// A region is over: its owner goes on.
-    pub(super) fn region_ended(&mut self, region: RegionId, exit: Exit) {
+    pub(super) fn region_ended(&mut self, region: RegionId, exit: NodeExit) {
         let state = self.run.regions.at_mut(region.index());
         state.active = false;
         state.current = None;
@@ -152,15 +152,15 @@ impl Turn<'_> {
         };
         if let Some(cause) = self.stopping(self.region_of(owner)) {
             if self.is_down(owner) {
-                self.exit(owner, Exit { ending: NodeEnding::Interrupted, cause, origin: owner });
+                self.exit(owner, NodeExit { ending: NodeEnding::Interrupted, cause, origin: owner });
             }
             return;
         }
         match self.run.composites.at(owner.index()).after {
-            After::Nothing => self.child_ended(owner, region, exit),
-            After::Exit(_) | After::Restart if !self.is_down(owner) => {}
-            After::Exit(exit) => self.exit(owner, exit),
-            After::Restart => self.restart(owner),
+            AfterStop::Nothing => self.child_ended(owner, region, exit),
+            AfterStop::Exit(_) | AfterStop::Restart if !self.is_down(owner) => {}
+            AfterStop::Exit(exit) => self.exit(owner, exit),
+            AfterStop::Restart => self.restart(owner),
         }
     }
 
@@ -183,6 +183,6 @@ impl Turn<'_> {
             NodeKind::Wait { .. } | NodeKind::Try { .. } | NodeKind::Repeat { .. } => {}
             NodeKind::Parallel { .. } | NodeKind::End { .. } => {}
         }
-        self.run.composites.at_mut(node.index()).after = After::Nothing;
+        self.run.composites.at_mut(node.index()).after = AfterStop::Nothing;
     }
 }

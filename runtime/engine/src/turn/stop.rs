@@ -1,14 +1,14 @@
 //! Stopping a region: every goal in it is cancelled, and it is over once all of them have ended.
 
 use super::Turn;
-use crate::record::{Cause, NodeEnding};
-use crate::state::{Exit, Phase, Wish};
+use crate::state::{GoalIntent, NodeExit, Phase};
+use crate::trace::{EndCause, NodeEnding};
 use motet_graph::{NodeId, RegionId};
 
 impl Turn<'_> {
     /// Stops a region and everything in it, in document order. Its end comes through the work list, at once where
     /// nothing in it has a live goal.
-    pub(super) fn stop(&mut self, region: RegionId, cause: Cause) {
+    pub(super) fn stop(&mut self, region: RegionId, cause: EndCause) {
         let mut walk = std::mem::take(&mut self.run.walk);
         walk.clear();
         walk.push(region);
@@ -25,8 +25,8 @@ impl Turn<'_> {
         self.run.walk = walk;
     }
 
-    fn stop_node(&mut self, node: NodeId, region: RegionId, cause: Cause, walk: &mut Vec<RegionId>) {
-        let interrupted = Exit { ending: NodeEnding::Interrupted, cause, origin: node };
+    fn stop_node(&mut self, node: NodeId, region: RegionId, cause: EndCause, walk: &mut Vec<RegionId>) {
+        let interrupted = NodeExit { ending: NodeEnding::Interrupted, cause, origin: node };
         match self.run.nodes.at(node.index()).phase {
             // The work list has it.
             Phase::Idle | Phase::Entering | Phase::Ending => {}
@@ -39,7 +39,7 @@ impl Turn<'_> {
                 self.exit(node, interrupted);
             }
             Phase::Starting | Phase::Running | Phase::Held | Phase::Cancelling | Phase::SafeStopping => {
-                self.cancel(node, Wish::Stop);
+                self.cancel(node, GoalIntent::Stop);
             }
             Phase::Inside => walk.extend(self.plan.owned(node).iter().rev()),
         }

@@ -2,13 +2,13 @@
 
 use super::Turn;
 use crate::effect::Effect;
-use crate::state::{Phase, Wish};
-use crate::work::Micro;
+use crate::state::{GoalIntent, Phase};
+use crate::work_list::Transition;
 use motet_graph::{NodeId, NodeKind, RegionId};
 
 impl Turn<'_> {
-    /// Suspends a region once more. Its goals hold, or with [`Wish::Suspend`] end early to start again later.
-    pub(super) fn suspend(&mut self, region: RegionId, wish: Wish) {
+    /// Suspends a region once more. Its goals hold, or with [`GoalIntent::Suspend`] end early to start again later.
+    pub(super) fn suspend(&mut self, region: RegionId, wish: GoalIntent) {
         self.walk_down(region, |turn, node, count| {
             *count += 1;
             turn.suspend_node(node, wish);
@@ -46,21 +46,21 @@ impl Turn<'_> {
         self.run.walk = walk;
     }
 
-    fn suspend_node(&mut self, node: Option<NodeId>, wish: Wish) {
+    fn suspend_node(&mut self, node: Option<NodeId>, wish: GoalIntent) {
         let Some(node) = node else { return };
-        let wish = if wish == Wish::Hold && !self.can_hold(node) { Wish::Suspend } else { wish };
+        let wish = if wish == GoalIntent::Hold && !self.can_hold(node) { GoalIntent::Suspend } else { wish };
         let key = self.plan.node_key(node);
         let now = self.run.now;
         let state = self.run.nodes.at_mut(node.index());
         match state.phase {
-            Phase::Starting if wish == Wish::Hold => {
-                if state.wish == Wish::None {
-                    state.wish = Wish::Hold;
+            Phase::Starting if wish == GoalIntent::Hold => {
+                if state.wish == GoalIntent::None {
+                    state.wish = GoalIntent::Hold;
                     state.left = self.run.timers.get(key).map_or(state.left, |at| at.since(now));
                     self.run.timers.clear(key);
                 }
             }
-            Phase::Running if wish == Wish::Hold => {
+            Phase::Running if wish == GoalIntent::Hold => {
                 state.left = self.run.timers.get(key).map_or(state.left, |at| at.since(now));
                 state.phase = Phase::Held;
                 self.run.timers.clear(key);
@@ -68,7 +68,7 @@ impl Turn<'_> {
                     self.out.push(Effect::Hold { goal });
                 }
             }
-            Phase::Held if wish == Wish::Hold => {}
+            Phase::Held if wish == GoalIntent::Hold => {}
             Phase::Starting | Phase::Running | Phase::Held => self.cancel(node, wish),
             Phase::Waiting => {
                 // One that is suspended already has no instant.
@@ -103,10 +103,10 @@ impl Turn<'_> {
             Phase::Parked => self.plan_entry(node),
             Phase::Suspended => {
                 state.phase = Phase::Entering;
-                self.push(Micro::Acquire(node));
+                self.push(Transition::Acquire(node));
             }
-            Phase::Starting if state.wish == Wish::Hold => {
-                state.wish = Wish::None;
+            Phase::Starting if state.wish == GoalIntent::Hold => {
+                state.wish = GoalIntent::None;
                 self.run.timers.set(key, now.after(state.left));
             }
             Phase::Held => {

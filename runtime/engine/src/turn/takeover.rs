@@ -3,18 +3,18 @@
 use super::Turn;
 use crate::belief::Entities;
 use crate::effect::Effect;
-use crate::orphan::Orphan;
-use crate::plan::Plan;
-use crate::record::{Cause, Happening, NodeEnding};
+use crate::orphan::OrphanGoal;
+use crate::prepared_graph::PreparedGraph;
 use crate::state::Phase;
 use crate::time::Time;
+use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::{NodeId, NodeKind, ROOT, Value};
 use std::sync::Arc;
 
 impl Turn<'_> {
     /// Ends every step of the policy that is replaced, inner before outer. Goals that run become orphans; what was watched
     /// stays so until the new policy has said what it watches.
-    pub(crate) fn retire(&mut self, plan: &Arc<Plan>) -> Arc<Vec<Option<Value>>> {
+    pub(crate) fn retire(&mut self, plan: &Arc<PreparedGraph>) -> Arc<Vec<Option<Value>>> {
         self.run.swapping = true;
         let bindings = Arc::new(std::mem::take(&mut self.run.bindings));
         for node in self.open_nodes().into_iter().rev() {
@@ -34,10 +34,10 @@ impl Turn<'_> {
                     self.orphan_goal(node, plan, &bindings);
                 }
             }
-            self.report(move || Happening::Ended {
+            self.report(move || TraceEventKind::Ended {
                 node,
                 ending: NodeEnding::Interrupted,
-                cause: Cause::Swap,
+                cause: EndCause::Swap,
             });
         }
         // Goals by start, so that the earliest is taken first.
@@ -45,10 +45,10 @@ impl Turn<'_> {
         bindings
     }
 
-    fn orphan_goal(&mut self, node: NodeId, plan: &Arc<Plan>, bindings: &Arc<Vec<Option<Value>>>) {
+    fn orphan_goal(&mut self, node: NodeId, plan: &Arc<PreparedGraph>, bindings: &Arc<Vec<Option<Value>>>) {
         let state = self.run.nodes.at(node.index());
         let (Some(goal), Some(command)) = (state.goal, self.run.command(plan, node)) else { return };
-        self.run.orphans.push(Orphan {
+        self.run.orphans.push(OrphanGoal {
             goal,
             command,
             phase: state.phase,
@@ -89,7 +89,7 @@ impl Turn<'_> {
         }
         // What the old policy alone depended on concerns nobody any more.
         self.run.beliefs.changed.clear();
-        self.report(move || Happening::Swapped { policy: graph.policy.as_str().into() });
+        self.report(move || TraceEventKind::Swapped { policy: graph.policy.as_str().into() });
         if self.run.begun {
             self.enter_region(ROOT);
             self.settle();

@@ -1,47 +1,52 @@
 //! Motions that were left to the run: somebody is asked for them just before their call starts.
 
 use super::Turn;
-use super::call::{Look, Refusal};
+use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
-use crate::record::Happening;
-use crate::state::{Check, Phase};
-use crate::verifier::{CheckId, Motion, Verification};
+use crate::state::{MotionCheck, Phase};
+use crate::trace::TraceEventKind;
+use crate::verifier::{CheckId, DeferredMotion, Verification};
 use motet_graph::{CallNode, NodeId, Verdict};
 use std::sync::Arc;
 
 impl Turn<'_> {
     /// What is known of a call's motion, where all else holds.
-    pub(super) fn look_at_motion(&mut self, node: NodeId, call: &CallNode, command: Arc<Command>) -> Look {
+    pub(super) fn look_at_motion(
+        &mut self,
+        node: NodeId,
+        call: &CallNode,
+        command: Arc<Command>,
+    ) -> GuardCheck {
         let deferred = call.motion.as_ref().filter(|motion| motion.verdict == Verdict::Deferred);
         let Some(motion) = deferred.filter(|_| self.settings.verify_within.is_some()) else {
-            return Look::Go(command);
+            return GuardCheck::Go(command);
         };
         let now = self.run.now;
         let Some(args) = self.values(&motion.args, Freshness::Readings(now)) else {
-            return Look::Go(command);
+            return GuardCheck::Go(command);
         };
-        let motion = Motion { query: motion.query.clone(), args, command };
+        let motion = DeferredMotion { query: motion.query.clone(), args, command };
         let known = self.run.checks.iter().find(|check| check.node == node && *check.motion == motion);
         match known.map(|check| (&check.verdict, &check.motion)) {
-            None => Look::Ask(motion),
-            Some((None, asked)) => Look::Wait(asked.clone()),
+            None => GuardCheck::Ask(motion),
+            Some((None, asked)) => GuardCheck::Wait(asked.clone()),
             Some((Some(Verification::Feasible | Verification::Unknown { .. }), _)) => {
-                Look::Go(motion.command)
+                GuardCheck::Go(motion.command)
             }
             Some((Some(Verification::Infeasible { failure, .. }), _)) => {
                 let failure = failure.clone();
-                Look::Refused(Refusal::Motion(self.failure_id(&failure)))
+                GuardCheck::Refused(StartRefusal::Motion(self.failure_id(&failure)))
             }
         }
     }
 
     /// The call waits for a verdict on its motion. Its resources are its own meanwhile.
-    pub(super) fn ask_for_motion(&mut self, node: NodeId, motion: Motion) {
+    pub(super) fn ask_for_motion(&mut self, node: NodeId, motion: DeferredMotion) {
         self.stop_checking(node);
         self.run.checked += 1;
         let (id, motion) = (CheckId(self.run.checked), Arc::new(motion));
-        self.run.checks.push(Check { id, node, motion: motion.clone(), verdict: None });
+        self.run.checks.push(MotionCheck { id, node, motion: motion.clone(), verdict: None });
         self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
         if let Some(within) = self.settings.verify_within {
             self.run.timers.set(self.plan.node_key(node), self.run.now.after(within));
@@ -57,7 +62,7 @@ impl Turn<'_> {
         }
         let (node, told) = (check.node, Box::new(verdict.clone()));
         check.verdict = Some(verdict);
-        self.report(move || Happening::Verified { node, verdict: told });
+        self.report(move || TraceEventKind::Verified { node, verdict: told });
         self.push_judge(node);
     }
 

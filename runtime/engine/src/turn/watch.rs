@@ -2,9 +2,9 @@
 
 use super::Turn;
 use crate::belief::Freshness;
-use crate::record::{Cause, Happening};
-use crate::state::{After, Phase, Wish};
+use crate::state::{AfterStop, GoalIntent, Phase};
 use crate::time::Time;
+use crate::trace::{EndCause, TraceEventKind};
 use crate::truth::Truth;
 use motet_graph::{NodeId, Reaction, TIMEOUT, Watch};
 
@@ -32,7 +32,7 @@ impl Turn<'_> {
             Some(_) => {
                 self.run.timers.clear(number);
                 if self.may_fire(node, number, watch) {
-                    self.report(move || Happening::Fired { node, watch: index, truth });
+                    self.report(move || TraceEventKind::Fired { node, watch: index, truth });
                     self.fire(node, number, watch);
                 }
             }
@@ -69,7 +69,7 @@ impl Turn<'_> {
     fn may_fire(&self, node: NodeId, number: u32, watch: &Watch) -> bool {
         let region = self.region_of(node);
         let state = self.run.composites.at(node.index());
-        if self.stopping(region).is_some() || self.suspended(region) || state.after != After::Nothing {
+        if self.stopping(region).is_some() || self.suspended(region) || state.after != AfterStop::Nothing {
             return false;
         }
         match &watch.reaction {
@@ -83,33 +83,35 @@ impl Turn<'_> {
     fn fire(&mut self, node: NodeId, number: u32, watch: &Watch) {
         let now = self.run.now;
         match &watch.reaction {
-            Reaction::End { how, of, why } => self.end_policy(node, *how, *of, why.as_ref(), Cause::Monitor),
+            Reaction::End { how, of, why } => {
+                self.end_policy(node, *how, *of, why.as_ref(), EndCause::Monitor)
+            }
             Reaction::Restart { at_most } => {
                 if self.fires_again(number, *at_most) {
-                    self.stop_within(node, After::Restart);
+                    self.stop_within(node, AfterStop::Restart);
                 } else {
-                    self.monitor_fails(node, self.plan.exhausted, Cause::Exhausted);
+                    self.monitor_fails(node, self.plan.exhausted, EndCause::Exhausted);
                 }
             }
             Reaction::Resume { at_most, .. } => {
                 if self.fires_again(number, *at_most) {
                     self.begin_block(node, number);
                 } else {
-                    self.monitor_fails(node, self.plan.exhausted, Cause::Exhausted);
+                    self.monitor_fails(node, self.plan.exhausted, EndCause::Exhausted);
                 }
             }
             Reaction::Pause { within_secs } => {
                 let state = self.run.watches.at_mut(number as usize);
                 let left = Time::from_secs(*within_secs).since(state.spent);
                 if left == Time::ZERO {
-                    self.monitor_fails(node, TIMEOUT, Cause::Deadline);
+                    self.monitor_fails(node, TIMEOUT, EndCause::Deadline);
                     return;
                 }
                 state.paused_at = Some(now);
                 self.run.timers.set(number, now.after(left));
                 self.run.composites.at_mut(node.index()).pauses += 1;
                 if let Some(part) = self.running_part(node) {
-                    self.suspend(part, Wish::Hold);
+                    self.suspend(part, GoalIntent::Hold);
                 }
             }
         }
@@ -127,14 +129,14 @@ impl Turn<'_> {
         if self.run.watches.at(number as usize).paused_at.is_none() {
             self.mark(number);
         } else if self.stopping(self.region_of(node)).is_none() {
-            self.monitor_fails(node, TIMEOUT, Cause::Deadline);
+            self.monitor_fails(node, TIMEOUT, EndCause::Deadline);
         }
     }
 
     /// What a pause held goes on.
     fn end_pause(&mut self, node: NodeId, number: u32, index: u32) {
         self.stop_pausing(number);
-        self.report(move || Happening::WentOn { node, watch: index });
+        self.report(move || TraceEventKind::WentOn { node, watch: index });
         let state = self.run.composites.at_mut(node.index());
         state.pauses = state.pauses.saturating_sub(1);
         if let Some(part) = self.running_part(node) {

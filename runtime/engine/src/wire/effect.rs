@@ -4,7 +4,7 @@ use super::{Query, Record, Value};
 use crate::effect as m;
 use crate::event::GoalId;
 use crate::time::Time;
-use crate::verifier::{CheckId, Motion};
+use crate::verifier::{CheckId, DeferredMotion};
 use motet_graph::NodeId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -221,7 +221,7 @@ impl From<Effect> for m::Effect {
             Effect::Verify(verify) => Self::Verify {
                 check: CheckId::from_number(verify.check),
                 node: NodeId(verify.node),
-                motion: Arc::new(Motion {
+                motion: Arc::new(DeferredMotion {
                     query: verify.query.into(),
                     args: verify.args.into_iter().map(motet_graph::Value::from).collect(),
                     command: Arc::new(verify.command.into()),

@@ -2,8 +2,8 @@
 
 use super::{Value, Verification};
 use crate::event::GoalId;
-use crate::record as m;
 use crate::time::Time;
+use crate::trace as m;
 use motet_graph::{BindingId, FailureId, NodeId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -158,15 +158,15 @@ macro_rules! causes {
             $($(#[$doc])* $name,)*
         }
 
-        impl From<m::Cause> for Cause {
-            fn from(cause: m::Cause) -> Self {
+        impl From<m::EndCause> for Cause {
+            fn from(cause: m::EndCause) -> Self {
                 match cause {
-                    $(m::Cause::$name => Self::$name,)*
+                    $(m::EndCause::$name => Self::$name,)*
                 }
             }
         }
 
-        impl From<Cause> for m::Cause {
+        impl From<Cause> for m::EndCause {
             fn from(cause: Cause) -> Self {
                 match cause {
                     $(Cause::$name => Self::$name,)*
@@ -247,56 +247,58 @@ impl From<NodeEnding> for m::NodeEnding {
     }
 }
 
-impl From<&m::Record> for Record {
-    fn from(record: &m::Record) -> Self {
+impl From<&m::TraceEvent> for Record {
+    fn from(record: &m::TraceEvent) -> Self {
         Self { at: record.at.nanos(), revision: record.revision, what: (&record.what).into() }
     }
 }
 
-impl From<Record> for m::Record {
+impl From<Record> for m::TraceEvent {
     fn from(record: Record) -> Self {
         Self { at: Time::from_nanos(record.at), revision: record.revision, what: record.what.into() }
     }
 }
 
-impl From<&m::Happening> for Happening {
-    fn from(what: &m::Happening) -> Self {
+impl From<&m::TraceEventKind> for Happening {
+    fn from(what: &m::TraceEventKind) -> Self {
         match what {
-            m::Happening::Entered { node } => Self::Entered { node: node.0 },
-            m::Happening::Ended { node, ending, cause } => {
+            m::TraceEventKind::Entered { node } => Self::Entered { node: node.0 },
+            m::TraceEventKind::Ended { node, ending, cause } => {
                 Self::Ended { node: node.0, ending: (*ending).into(), cause: (*cause).into() }
             }
-            m::Happening::Started { node, goal, attempt } => {
+            m::TraceEventKind::Started { node, goal, attempt } => {
                 Self::Started { node: node.0, goal: goal.number(), attempt: *attempt }
             }
-            m::Happening::GoalEnded { node, goal, ending, cause } => Self::GoalEnded {
+            m::TraceEventKind::GoalEnded { node, goal, ending, cause } => Self::GoalEnded {
                 node: node.0,
                 goal: goal.number(),
                 ending: (*ending).into(),
                 cause: (*cause).into(),
             },
-            m::Happening::Guard { node, need, truth } => {
+            m::TraceEventKind::Guard { node, need, truth } => {
                 Self::Guard { node: node.0, need: *need, truth: (*truth).into() }
             }
-            m::Happening::Verified { node, verdict } => {
+            m::TraceEventKind::Verified { node, verdict } => {
                 Self::Verified { node: node.0, verdict: (&**verdict).into() }
             }
-            m::Happening::Tested { node, truth } => Self::Tested { node: node.0, truth: (*truth).into() },
-            m::Happening::Fired { node, watch, truth } => {
+            m::TraceEventKind::Tested { node, truth } => {
+                Self::Tested { node: node.0, truth: (*truth).into() }
+            }
+            m::TraceEventKind::Fired { node, watch, truth } => {
                 Self::Fired { node: node.0, watch: *watch, truth: (*truth).into() }
             }
-            m::Happening::WentOn { node, watch } => Self::WentOn { node: node.0, watch: *watch },
-            m::Happening::Swapped { policy } => Self::Swapped { policy: policy.to_string() },
-            m::Happening::Kept { node, goal } => Self::Kept { node: node.0, goal: goal.number() },
-            m::Happening::Updated { node, goal } => Self::Updated { node: node.0, goal: goal.number() },
-            m::Happening::Bound { binding, value } => {
+            m::TraceEventKind::WentOn { node, watch } => Self::WentOn { node: node.0, watch: *watch },
+            m::TraceEventKind::Swapped { policy } => Self::Swapped { policy: policy.to_string() },
+            m::TraceEventKind::Kept { node, goal } => Self::Kept { node: node.0, goal: goal.number() },
+            m::TraceEventKind::Updated { node, goal } => Self::Updated { node: node.0, goal: goal.number() },
+            m::TraceEventKind::Bound { binding, value } => {
                 Self::Bound { binding: binding.0, value: (&**value).into() }
             }
         }
     }
 }
 
-impl From<Happening> for m::Happening {
+impl From<Happening> for m::TraceEventKind {
     fn from(what: Happening) -> Self {
         match what {
             Happening::Entered { node } => Self::Entered { node: NodeId(node) },

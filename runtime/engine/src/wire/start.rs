@@ -137,16 +137,16 @@ impl From<Capabilities> for d::Capabilities {
     }
 }
 
-impl From<&d::Primitives> for Primitives {
-    fn from(primitives: &d::Primitives) -> Self {
+impl From<&d::PrimitiveSet> for Primitives {
+    fn from(primitives: &d::PrimitiveSet) -> Self {
         match primitives {
-            d::Primitives::All => Self::All,
-            d::Primitives::Only(names) => Self::Only(names.iter().map(ToString::to_string).collect()),
+            d::PrimitiveSet::All => Self::All,
+            d::PrimitiveSet::Only(names) => Self::Only(names.iter().map(ToString::to_string).collect()),
         }
     }
 }
 
-impl From<Primitives> for d::Primitives {
+impl From<Primitives> for d::PrimitiveSet {
     fn from(primitives: Primitives) -> Self {
         match primitives {
             Primitives::All => Self::All,
@@ -155,8 +155,8 @@ impl From<Primitives> for d::Primitives {
     }
 }
 
-impl From<s::Settings> for Settings {
-    fn from(settings: s::Settings) -> Self {
+impl From<s::EngineSettings> for Settings {
+    fn from(settings: s::EngineSettings) -> Self {
         Self {
             cancel_within: settings.cancel_within.nanos(),
             safe_stop_within: settings.safe_stop_within.nanos(),
@@ -167,7 +167,7 @@ impl From<s::Settings> for Settings {
     }
 }
 
-impl From<Settings> for s::Settings {
+impl From<Settings> for s::EngineSettings {
     fn from(settings: Settings) -> Self {
         Self {
             cancel_within: Time::from_nanos(settings.cancel_within),

@@ -7,10 +7,10 @@ use crate::script::Feed::{
 use crate::script::{at, entity, holding, holding_any};
 use motet_graph::Value;
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, Step};
+use motet_graph::arbitrary::{CallSketch, StepSketch};
 
-fn pick(object: &str) -> Call {
-    Call::new(v::PICK, vec![v::entity(object)])
+fn pick(object: &str) -> CallSketch {
+    CallSketch::new(v::PICK, vec![v::entity(object)])
 }
 
 #[test]
@@ -21,111 +21,132 @@ fn an_empty_policy_is_done() {
 #[test]
 fn one_call_after_the_other() {
     check!(
-        [Step::go("table"), Step::say("there")],
+        [StepSketch::go("table"), StepSketch::say("there")],
         [(0.1, Ack(1)), (2.0, Done(1)), (2.0, Ack(2)), (3.0, Done(2))]
     );
 }
 
 #[test]
 fn an_end_without_an_acknowledgement_counts() {
-    check!([Step::go("table")], [(2.0, Done(1))]);
+    check!([StepSketch::go("table")], [(2.0, Done(1))]);
 }
 
 #[test]
 fn a_failure_that_nothing_catches_ends_the_policy() {
-    check!([Step::go("table"), Step::say("there")], [(0.1, Ack(1)), (2.0, Fails(1, "unreachable"))]);
+    check!(
+        [StepSketch::go("table"), StepSketch::say("there")],
+        [(0.1, Ack(1)), (2.0, Fails(1, "unreachable"))]
+    );
 }
 
 #[test]
 fn a_refusal_is_a_failure() {
-    check!([Step::go("table")], [(0.1, Refused(1, "unsafe"))]);
+    check!([StepSketch::go("table")], [(0.1, Refused(1, "unsafe"))]);
 }
 
 #[test]
 fn retries_start_new_goals() {
-    let go = Call::new(v::GO, vec![v::entity("table")]).retry(1);
-    check!([Step::Call(go)], [(1.0, Fails(1, "unreachable")), (2.0, Fails(2, "unreachable"))]);
+    let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
+    check!([StepSketch::Call(go)], [(1.0, Fails(1, "unreachable")), (2.0, Fails(2, "unreachable"))]);
 }
 
 #[test]
 fn a_deadline_cancels_and_is_a_timeout() {
-    check!([Step::go("table")], [(0.1, Ack(1)), (10.0, Tick), (10.2, Interrupted(1))]);
+    check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (10.2, Interrupted(1))]);
 }
 
 #[test]
 fn success_after_the_cancel_is_respected() {
-    check!([Step::go("table"), Step::say("there")], [(0.1, Ack(1)), (10.0, Tick), (10.2, Done(1))]);
+    check!(
+        [StepSketch::go("table"), StepSketch::say("there")],
+        [(0.1, Ack(1)), (10.0, Tick), (10.2, Done(1))]
+    );
 }
 
 #[test]
 fn a_cancel_waits_for_the_acknowledgement() {
-    check!([Step::go("table")], [(10.0, Tick), (10.1, Ack(1)), (10.2, Interrupted(1))]);
+    check!([StepSketch::go("table")], [(10.0, Tick), (10.1, Ack(1)), (10.2, Interrupted(1))]);
 }
 
 #[test]
 fn an_unanswered_cancel_becomes_a_safe_stop() {
-    check!([Step::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (16.0, Stopped(1))]);
+    check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (16.0, Stopped(1))]);
 }
 
 #[test]
 fn an_unanswered_safe_stop_is_a_fault() {
-    check!([Step::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (20.0, Tick)]);
+    check!([StepSketch::go("table")], [(0.1, Ack(1)), (10.0, Tick), (15.0, Tick), (20.0, Tick)]);
 }
 
 #[test]
 fn a_late_tick_makes_up_for_what_was_due() {
-    check!([Step::go("table")], [(0.1, Ack(1)), (60.0, Tick)]);
+    check!([StepSketch::go("table")], [(0.1, Ack(1)), (60.0, Tick)]);
 }
 
 #[test]
 fn a_person_stops() {
-    check!([Step::go("table"), Step::say("there")], [(0.1, Ack(1)), (1.0, Stop), (1.5, Interrupted(1))]);
+    check!(
+        [StepSketch::go("table"), StepSketch::say("there")],
+        [(0.1, Ack(1)), (1.0, Stop), (1.5, Interrupted(1))]
+    );
 }
 
 #[test]
 fn an_interruption_by_the_driver_is_not_retried() {
-    let go = Call::new(v::GO, vec![v::entity("table")]).retry(3);
-    check!([Step::Try(vec![Step::Call(go)], vec![(None, vec![])])], [(0.1, Ack(1)), (1.0, Interrupted(1))]);
+    let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(3);
+    check!(
+        [StepSketch::Try(vec![StepSketch::Call(go)], vec![(None, vec![])])],
+        [(0.1, Ack(1)), (1.0, Interrupted(1))]
+    );
 }
 
 #[test]
 fn a_result_is_bound_and_used() {
-    let place = Call::new(v::PLACE, vec![Call::NEAREST, v::entity("table")]).proven();
-    check!([Step::detect("mug"), Step::Call(place)], [(1.0, Gives(1, entity("mug_3"))), (2.0, Done(2))]);
+    let place = CallSketch::new(v::PLACE, vec![CallSketch::NEAREST, v::entity("table")]).proven();
+    check!(
+        [StepSketch::detect("mug"), StepSketch::Call(place)],
+        [(1.0, Gives(1, entity("mug_3"))), (2.0, Done(2))]
+    );
 }
 
 #[test]
 fn a_result_of_the_wrong_type_is_a_failure() {
-    check!([Step::detect("mug")], [(1.0, Gives(1, Value::Int(3)))]);
+    check!([StepSketch::detect("mug")], [(1.0, Gives(1, Value::Int(3)))]);
 }
 
 #[test]
 fn a_guard_that_is_known_to_hold_needs_no_observation() {
-    check!([Step::Call(pick("mug"))], [(1.0, Done(1))]);
+    check!([StepSketch::Call(pick("mug"))], [(1.0, Done(1))]);
 }
 
 #[test]
 fn a_guard_that_is_known_not_to_hold_refuses() {
-    check!([Step::Call(pick("mug").proven()), Step::Call(pick("cup"))], [(1.0, Done(1))]);
+    check!([StepSketch::Call(pick("mug").proven()), StepSketch::Call(pick("cup"))], [(1.0, Done(1))]);
 }
 
 #[test]
 fn a_guard_that_is_unknown_is_observed() {
-    check!([Step::Call(pick("mug").retry(1))], [(1.0, Fails(1, "not_found")), (1.1, holding_any(false))]);
+    check!(
+        [StepSketch::Call(pick("mug").retry(1))],
+        [(1.0, Fails(1, "not_found")), (1.1, holding_any(false))]
+    );
 }
 
 #[test]
 fn a_retry_looks_again_at_a_guard_that_refused() {
     check!(
-        [Step::Call(pick("mug").proven()), Step::Call(pick("cup").retry(1))],
+        [StepSketch::Call(pick("mug").proven()), StepSketch::Call(pick("cup").retry(1))],
         [(1.0, Done(1)), (1.1, holding_any(false)), (2.0, Done(2)),]
     );
 }
 
 /// `pick` fails, so nothing is known of `holding(mug)`; then `place` needs it.
-fn place_after_failed_pick() -> [Step; 1] {
-    let place = Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
-    [Step::Try(vec![Step::Call(pick("mug").proven())], vec![(None, vec![Step::Call(place)])])]
+fn place_after_failed_pick() -> [StepSketch; 1] {
+    let place = CallSketch::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
+    [StepSketch::Try(
+        vec![StepSketch::Call(pick("mug").proven())],
+        vec![(None, vec![StepSketch::Call(place)])],
+    )]
 }
 
 #[test]
@@ -149,32 +170,32 @@ fn time_to_observe_is_bounded() {
 #[test]
 fn events_about_ended_goals_are_ignored() {
     check!(
-        [Step::go("table"), Step::say("a")],
+        [StepSketch::go("table"), StepSketch::say("a")],
         [(1.0, Done(1)), (1.1, Done(1)), (1.2, Ack(1)), (1.3, NotHeld(1))]
     );
 }
 
 #[test]
 fn what_is_seen_in_passing_is_believed() {
-    check!([Step::Call(pick("mug"))], [(0.5, at("table", true)), (1.0, Done(1))]);
+    check!([StepSketch::Call(pick("mug"))], [(0.5, at("table", true)), (1.0, Done(1))]);
 }
 
 #[test]
 fn a_lost_goal_is_stopped_safely_and_fails() {
-    let go = Call::new(v::GO, vec![v::entity("table")]).retry(1);
+    let go = CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
     check!(
-        [Step::Call(go)],
+        [StepSketch::Call(go)],
         [(0.1, Ack(1)), (1.0, Lost(1)), (1.1, Lost(1)), (1.5, Stopped(1)), (2.0, Lost(2))]
     );
 }
 
 #[test]
 fn a_lost_driver_loses_every_goal() {
-    let both = Step::Parallel(vec![vec![Step::go("table")], vec![Step::detect("mug")]]);
+    let both = StepSketch::Parallel(vec![vec![StepSketch::go("table")], vec![StepSketch::detect("mug")]]);
     check!([both], [(0.1, Ack(1)), (1.0, DriverLost), (1.5, Stopped(2)), (1.6, Stopped(1))]);
 }
 
 #[test]
 fn the_end_of_a_lost_goal_counts() {
-    check!([Step::go("table")], [(1.0, Lost(1)), (1.5, Done(1))]);
+    check!([StepSketch::go("table")], [(1.0, Lost(1)), (1.5, Done(1))]);
 }

@@ -4,9 +4,9 @@ use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Tick};
 use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, Step};
+use motet_graph::arbitrary::{CallSketch, StepSketch};
 use motet_graph::{Condition, Ending, Fact, FactArg, Term, Value};
-use motet_runtime::{Effect, Engine, Event, Fault, RunEnd, Settings, StartState, Time};
+use motet_runtime::{Effect, Engine, EngineSettings, Event, Fault, RunEnd, StartState, Time};
 
 fn held(object: &str) -> Condition {
     Condition::Fact(v::fact(v::HOLDING, vec![v::entity(object)]))
@@ -19,32 +19,38 @@ fn trusted() -> Condition {
 #[test]
 fn groups_nest() {
     check!(
-        [Step::Sequence(vec![Step::Sequence(vec![Step::say("a")]), Step::say("b")])],
+        [StepSketch::Sequence(vec![StepSketch::Sequence(vec![StepSketch::say("a")]), StepSketch::say("b")])],
         [(1.0, Done(1)), (2.0, Done(2)),]
     );
 }
 
 #[test]
 fn done_ends_the_policy() {
-    check!([Step::Sequence(vec![Step::End(Ending::Done), Step::say("never")])], []);
+    check!([StepSketch::Sequence(vec![StepSketch::End(Ending::Done), StepSketch::say("never")])], []);
 }
 
 #[test]
 fn fail_ends_the_policy() {
-    check!([Step::Try(vec![Step::End(Ending::Fail)], vec![(None, vec![Step::say("never")])])], []);
+    check!(
+        [StepSketch::Try(vec![StepSketch::End(Ending::Fail)], vec![(None, vec![StepSketch::say("never")])])],
+        []
+    );
 }
 
 #[test]
 fn replan_ends_the_policy() {
-    check!([Step::Inline(vec![Step::End(Ending::Replan)]), Step::say("never")], []);
+    check!([StepSketch::Inline(vec![StepSketch::End(Ending::Replan)]), StepSketch::say("never")], []);
 }
 
 #[test]
 fn done_ends_a_sub_policy() {
     check!(
         [
-            Step::Inline(vec![Step::Sequence(vec![Step::End(Ending::Done), Step::say("never")])]),
-            Step::say("on")
+            StepSketch::Inline(vec![StepSketch::Sequence(vec![
+                StepSketch::End(Ending::Done),
+                StepSketch::say("never")
+            ])]),
+            StepSketch::say("on")
         ],
         [(1.0, Done(1)),]
     );
@@ -52,90 +58,100 @@ fn done_ends_a_sub_policy() {
 
 #[test]
 fn fail_fails_a_sub_policy() {
-    let part = Step::Inline(vec![Step::End(Ending::Fail)]);
+    let part = StepSketch::Inline(vec![StepSketch::End(Ending::Fail)]);
     check!(
-        [Step::Try(vec![part], vec![(Some(vec![v::FAILED]), vec![Step::say("caught")])])],
+        [StepSketch::Try(vec![part], vec![(Some(vec![v::FAILED]), vec![StepSketch::say("caught")])])],
         [(1.0, Done(1))]
     );
 }
 
 #[test]
 fn done_in_a_branch_waits_for_the_other() {
-    let part = Step::Inline(vec![Step::Parallel(vec![
-        vec![Step::go("table")],
-        vec![Step::say("a"), Step::End(Ending::Done)],
+    let part = StepSketch::Inline(vec![StepSketch::Parallel(vec![
+        vec![StepSketch::go("table")],
+        vec![StepSketch::say("a"), StepSketch::End(Ending::Done)],
     ])]);
-    check!([part, Step::say("on")], [(0.1, Ack(1)), (1.0, Done(2)), (1.5, Interrupted(1))]);
+    check!([part, StepSketch::say("on")], [(0.1, Ack(1)), (1.0, Done(2)), (1.5, Interrupted(1))]);
 }
 
 #[test]
 fn a_known_condition_is_tested_at_once() {
-    check!([Step::If(held("mug"), vec![Step::say("yes")], Some(vec![Step::say("no")]))], []);
+    check!(
+        [StepSketch::If(held("mug"), vec![StepSketch::say("yes")], Some(vec![StepSketch::say("no")]))],
+        []
+    );
 }
 
 #[test]
 fn an_unknown_condition_is_observed_first() {
-    let near = Step::If(v::nearer("user", 1.0), vec![Step::say("yes")], Some(vec![Step::say("no")]));
+    let near = StepSketch::If(
+        v::nearer("user", 1.0),
+        vec![StepSketch::say("yes")],
+        Some(vec![StepSketch::say("no")]),
+    );
     check!([near], [(0.1, distance(0.4))]);
 }
 
 #[test]
 fn a_condition_that_stays_unknown_counts_as_false() {
-    check!([Step::If(v::nearer("user", 1.0), vec![Step::say("yes")], None)], [(0.5, Tick)]);
+    check!([StepSketch::If(v::nearer("user", 1.0), vec![StepSketch::say("yes")], None)], [(0.5, Tick)]);
 }
 
 #[test]
 fn a_reading_that_is_no_number_counts_as_unknown() {
     check!(
-        [Step::If(v::nearer("user", 1.0), vec![], Some(vec![Step::say("no")]))],
+        [StepSketch::If(v::nearer("user", 1.0), vec![], Some(vec![StepSketch::say("no")]))],
         [(0.1, distance(f64::NAN))]
     );
 }
 
 #[test]
 fn what_nobody_can_observe_counts_as_false_at_once() {
-    check!([Step::If(trusted(), vec![], Some(vec![Step::say("no")]))], []);
+    check!([StepSketch::If(trusted(), vec![], Some(vec![StepSketch::say("no")]))], []);
 }
 
 #[test]
 fn an_old_reading_does_not_count() {
-    let near = || Step::If(v::nearer("user", 1.0), vec![Step::say("near")], None);
+    let near = || StepSketch::If(v::nearer("user", 1.0), vec![StepSketch::say("near")], None);
     check!([near(), near()], [(0.1, distance(0.4)), (5.0, Done(1)), (5.1, distance(2.0))]);
 }
 
 #[test]
 fn a_wait_ends_when_its_condition_holds() {
-    check!([Step::Wait(v::nearer("user", 1.0), 10.0)], [(0.1, distance(3.0)), (2.0, distance(0.9))]);
+    check!([StepSketch::Wait(v::nearer("user", 1.0), 10.0)], [(0.1, distance(3.0)), (2.0, distance(0.9))]);
 }
 
 #[test]
 fn a_wait_for_what_holds_is_over_at_once() {
-    check!([Step::Wait(Condition::Not(Box::new(held("mug"))), 10.0)], []);
+    check!([StepSketch::Wait(Condition::Not(Box::new(held("mug"))), 10.0)], []);
 }
 
 #[test]
 fn a_wait_times_out() {
-    check!([Step::Wait(held("mug"), 10.0)], [(0.1, holding("mug", false)), (10.0, Tick)]);
+    check!([StepSketch::Wait(held("mug"), 10.0)], [(0.1, holding("mug", false)), (10.0, Tick)]);
 }
 
 #[test]
 fn the_first_handler_that_fits_wins() {
     let handlers = vec![
-        (Some(vec![v::NOT_FOUND]), vec![Step::say("not this")]),
-        (Some(vec![v::UNREACHABLE, v::TIMEOUT]), vec![Step::say("this")]),
-        (None, vec![Step::say("nor this")]),
+        (Some(vec![v::NOT_FOUND]), vec![StepSketch::say("not this")]),
+        (Some(vec![v::UNREACHABLE, v::TIMEOUT]), vec![StepSketch::say("this")]),
+        (None, vec![StepSketch::say("nor this")]),
     ];
     check!(
-        [Step::Try(vec![Step::go("table"), Step::say("never")], handlers), Step::say("on")],
+        [
+            StepSketch::Try(vec![StepSketch::go("table"), StepSketch::say("never")], handlers),
+            StepSketch::say("on")
+        ],
         [(1.0, Fails(1, "unreachable")), (2.0, Done(2)), (3.0, Done(3)),]
     );
 }
 
 #[test]
 fn a_failure_without_a_handler_goes_on_upwards() {
-    let inner = Step::Try(vec![Step::go("table")], vec![(Some(vec![v::NOT_FOUND]), vec![])]);
+    let inner = StepSketch::Try(vec![StepSketch::go("table")], vec![(Some(vec![v::NOT_FOUND]), vec![])]);
     check!(
-        [Step::Try(vec![inner], vec![(None, vec![Step::say("caught")])])],
+        [StepSketch::Try(vec![inner], vec![(None, vec![StepSketch::say("caught")])])],
         [(1.0, Fails(1, "unreachable"))]
     );
 }
@@ -143,7 +159,7 @@ fn a_failure_without_a_handler_goes_on_upwards() {
 #[test]
 fn a_failure_in_a_handler_is_not_handled_by_it() {
     check!(
-        [Step::Try(vec![Step::go("a")], vec![(None, vec![Step::go("b")])])],
+        [StepSketch::Try(vec![StepSketch::go("a")], vec![(None, vec![StepSketch::go("b")])])],
         [(1.0, Fails(1, "unreachable")), (2.0, Fails(2, "unreachable")),]
     );
 }
@@ -151,31 +167,31 @@ fn a_failure_in_a_handler_is_not_handled_by_it() {
 #[test]
 fn a_failure_kind_of_the_drivers_own_is_caught_by_any() {
     check!(
-        [Step::Try(vec![Step::go("a")], vec![(None, vec![Step::say("caught")])])],
+        [StepSketch::Try(vec![StepSketch::go("a")], vec![(None, vec![StepSketch::say("caught")])])],
         [(1.0, Fails(1, "puncture"))]
     );
 }
 
 #[test]
 fn a_loop_without_a_test_runs_so_often() {
-    check!([Step::Repeat(2, vec![Step::say("a")], None)], [(1.0, Done(1)), (2.0, Done(2))]);
+    check!([StepSketch::Repeat(2, vec![StepSketch::say("a")], None)], [(1.0, Done(1)), (2.0, Done(2))]);
 }
 
 #[test]
 fn a_loop_ends_when_its_test_holds() {
-    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]).proven());
-    check!([Step::Repeat(3, vec![pick], Some(held("mug")))], [(1.0, Done(1))]);
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
+    check!([StepSketch::Repeat(3, vec![pick], Some(held("mug")))], [(1.0, Done(1))]);
 }
 
 #[test]
 fn a_loop_whose_test_never_holds_is_exhausted() {
-    check!([Step::Repeat(2, vec![], Some(held("mug")))], []);
+    check!([StepSketch::Repeat(2, vec![], Some(held("mug")))], []);
 }
 
 #[test]
 fn a_test_of_a_loop_is_observed() {
     check!(
-        [Step::Repeat(2, vec![], Some(v::nearer("user", 1.0)))],
+        [StepSketch::Repeat(2, vec![], Some(v::nearer("user", 1.0)))],
         [(0.1, distance(3.0)), (0.2, distance(0.3))]
     );
 }
@@ -183,35 +199,45 @@ fn a_test_of_a_loop_is_observed() {
 #[test]
 fn each_binds_every_item() {
     let list = Term::List(vec![v::entity("mug"), v::entity("cup")]);
-    let go = Step::Call(Call::new(v::GO, vec![Call::NEAREST]));
-    check!([Step::Each(list, 2, vec![go])], [(1.0, Done(1)), (2.0, Done(2))]);
+    let go = StepSketch::Call(CallSketch::new(v::GO, vec![CallSketch::NEAREST]));
+    check!([StepSketch::Each(list, 2, vec![go])], [(1.0, Done(1)), (2.0, Done(2))]);
 }
 
 #[test]
 fn a_longer_list_is_exhausted_before_the_first_item() {
     let list = Term::List(vec![v::entity("mug"), v::entity("cup")]);
-    check!([Step::Each(list, 1, vec![Step::say("never")])], []);
+    check!([StepSketch::Each(list, 1, vec![StepSketch::say("never")])], []);
 }
 
 #[test]
 fn an_empty_list_is_no_failure() {
-    check!([Step::Each(Term::Literal(Value::List(vec![])), 1, vec![Step::say("never")])], []);
+    check!([StepSketch::Each(Term::Literal(Value::List(vec![])), 1, vec![StepSketch::say("never")])], []);
 }
 
 #[test]
 fn branches_run_at_once() {
     check!(
-        [Step::Parallel(vec![vec![Step::go("table")], vec![Step::detect("mug")], vec![]]), Step::say("on")],
+        [
+            StepSketch::Parallel(vec![
+                vec![StepSketch::go("table")],
+                vec![StepSketch::detect("mug")],
+                vec![]
+            ]),
+            StepSketch::say("on")
+        ],
         [(1.0, Gives(2, entity("mug_1"))), (2.0, Done(1)),]
     );
 }
 
 #[test]
 fn a_failing_branch_interrupts_the_others() {
-    let branches =
-        vec![vec![Step::go("table")], vec![Step::say("a")], vec![Step::detect("mug"), Step::say("never")]];
+    let branches = vec![
+        vec![StepSketch::go("table")],
+        vec![StepSketch::say("a")],
+        vec![StepSketch::detect("mug"), StepSketch::say("never")],
+    ];
     check!(
-        [Step::Try(vec![Step::Parallel(branches)], vec![(None, vec![Step::go("shelf")])])],
+        [StepSketch::Try(vec![StepSketch::Parallel(branches)], vec![(None, vec![StepSketch::go("shelf")])])],
         [
             (0.1, Ack(1)),
             (0.1, Ack(3)),
@@ -226,9 +252,16 @@ fn a_failing_branch_interrupts_the_others() {
 #[test]
 fn a_fact_with_any_is_known_by_its_witness() {
     let any = Condition::Fact(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] });
-    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]).proven());
-    let place = Step::Call(Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]).proven());
-    let test = || Step::If(any.clone(), vec![Step::say("holds one")], Some(vec![Step::say("holds none")]));
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
+    let place =
+        StepSketch::Call(CallSketch::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]).proven());
+    let test = || {
+        StepSketch::If(
+            any.clone(),
+            vec![StepSketch::say("holds one")],
+            Some(vec![StepSketch::say("holds none")]),
+        )
+    };
     check!(
         [test(), pick, test(), place, test()],
         [
@@ -244,9 +277,9 @@ fn a_fact_with_any_is_known_by_its_witness() {
 
 #[test]
 fn more_transitions_at_one_instant_than_its_budget_end_a_run() {
-    let nested = (0..10).fold(Step::say("deep"), |step, _| Step::Sequence(vec![step]));
+    let nested = (0..10).fold(StepSketch::say("deep"), |step, _| StepSketch::Sequence(vec![step]));
     let engine = Engine::new(motet_graph::arbitrary::graph(&[nested]), &StartState::default()).unwrap();
-    let mut engine = engine.with_settings(Settings { step_budget: 3, ..Settings::default() });
+    let mut engine = engine.with_settings(EngineSettings { step_budget: 3, ..EngineSettings::default() });
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
     let fault = RunEnd::Fault(Fault::StepBudget { steps: 3 });

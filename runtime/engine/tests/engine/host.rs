@@ -1,9 +1,9 @@
 //! The host loop with a small driver in virtual time.
 
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_runtime::{
-    Command, Control, Driver, DriverEvent, Effect, Engine, Fault, GoalId, Onlooker, Outcome, Query, RunEnd,
-    StartState, Time, run,
+    Command, Driver, DriverEvent, Effect, Engine, Fault, GoalId, Observer, Outcome, Query, RunControl,
+    RunEnd, StartState, Time, run,
 };
 
 /// Every goal takes two seconds; a cancel a tenth of one.
@@ -46,15 +46,15 @@ struct Stopwatch {
     every: Time,
 }
 
-impl Onlooker for Stopwatch {
+impl Observer for Stopwatch {
     fn effect(&mut self, now: Time, effect: &Effect) {
         if matches!(effect, Effect::Finished(_)) {
             self.ended_at = Some(now);
         }
     }
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.reached += 1;
-        if now >= self.stop_at { Control::Stop } else { Control::GoOn }
+        if now >= self.stop_at { RunControl::Stop } else { RunControl::Continue }
     }
     fn at_least_every(&self) -> Time {
         self.every
@@ -63,7 +63,8 @@ impl Onlooker for Stopwatch {
 
 fn check(stop_at: f64, every: f64, expected: RunEnd, ended_at: f64, reached: u32) {
     let mut engine =
-        Engine::new(graph(&[Step::go("table"), Step::say("there")]), &StartState::default()).unwrap();
+        Engine::new(graph(&[StepSketch::go("table"), StepSketch::say("there")]), &StartState::default())
+            .unwrap();
     let mut watch = Stopwatch {
         stop_at: Time::from_secs(stop_at),
         ended_at: None,
@@ -93,7 +94,7 @@ fn an_onlooker_stops_the_run() {
 
 #[test]
 fn a_driver_that_says_nothing_ends_in_a_fault() {
-    let mut engine = Engine::new(graph(&[Step::go("table")]), &StartState::default()).unwrap();
+    let mut engine = Engine::new(graph(&[StepSketch::go("table")]), &StartState::default()).unwrap();
     let end = run(&mut engine, &mut TwoSeconds { mute: true, ..TwoSeconds::default() }, &mut (), Time::ZERO);
     assert!(matches!(end, RunEnd::Fault(Fault::NotStopped { .. })), "{end:?}");
 }

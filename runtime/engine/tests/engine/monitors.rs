@@ -4,25 +4,25 @@ use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Interrupted, NotHeld, Stop, Tick};
 use crate::script::{distance, holding};
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
 use motet_graph::{Condition, Ending};
 
 fn near(limit_m: f64) -> Condition {
     v::nearer("user", limit_m)
 }
 
-fn when(condition: Condition, react: React) -> When {
-    When::new(condition, react)
+fn when(condition: Condition, react: ReactionSketch) -> WatchSketch {
+    WatchSketch::new(condition, react)
 }
 
-fn over(whens: Vec<When>, body: Vec<Step>) -> Vec<Step> {
-    vec![Step::Monitor(whens, body), Step::say("on")]
+fn over(whens: Vec<WatchSketch>, body: Vec<StepSketch>) -> Vec<StepSketch> {
+    vec![StepSketch::Monitor(whens, body), StepSketch::say("on")]
 }
 
 #[test]
 fn a_monitor_that_never_fires_ends_with_its_body() {
     check!(
-        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(2.0)), (2.0, Done(1)),]
     );
 }
@@ -31,13 +31,16 @@ fn a_monitor_that_never_fires_ends_with_its_body() {
 fn a_condition_that_holds_on_entry_fires_before_the_body() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     let not_held = Condition::Not(Box::new(held));
-    check!(over(vec![when(not_held, React::End(Ending::Replan))], vec![Step::go("table")]), []);
+    check!(
+        over(vec![when(not_held, ReactionSketch::End(Ending::Replan))], vec![StepSketch::go("table")]),
+        []
+    );
 }
 
 #[test]
 fn an_ending_waits_for_what_runs() {
     check!(
-        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -50,18 +53,19 @@ fn an_ending_waits_for_what_runs() {
 
 #[test]
 fn an_ending_of_a_sub_policy() {
-    let body = over(vec![when(near(0.5), React::End(Ending::Done))], vec![Step::go("table")]);
+    let body = over(vec![when(near(0.5), ReactionSketch::End(Ending::Done))], vec![StepSketch::go("table")]);
     check!(
-        [Step::Inline(body), Step::say("after")],
+        [StepSketch::Inline(body), StepSketch::say("after")],
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1))]
     );
 }
 
 #[test]
 fn a_condition_must_hold_without_a_break() {
-    let watch = When { condition: near(0.5), hold_secs: 0.2, react: React::End(Ending::Fail) };
+    let watch =
+        WatchSketch { condition: near(0.5), hold_secs: 0.2, react: ReactionSketch::End(Ending::Fail) };
     check!(
-        over(vec![watch], vec![Step::go("table")]),
+        over(vec![watch], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.0, Ack(1)),
@@ -77,21 +81,25 @@ fn a_condition_must_hold_without_a_break() {
 #[test]
 fn a_condition_that_is_unknown_for_too_long_fires() {
     check!(
-        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![StepSketch::go("table")]),
         [(0.0, Ack(1)), (0.5, Tick)]
     );
 }
 
 #[test]
 fn what_was_unknown_may_have_been_true() {
-    let watch = When { condition: near(0.5), hold_secs: 1.0, react: React::End(Ending::Fail) };
-    check!(over(vec![watch], vec![Step::go("table")]), [(0.0, Ack(1)), (0.9, distance(0.1)), (1.0, Tick)]);
+    let watch =
+        WatchSketch { condition: near(0.5), hold_secs: 1.0, react: ReactionSketch::End(Ending::Fail) };
+    check!(
+        over(vec![watch], vec![StepSketch::go("table")]),
+        [(0.0, Ack(1)), (0.9, distance(0.1)), (1.0, Tick)]
+    );
 }
 
 #[test]
 fn a_pause_holds_and_goes_on() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -106,7 +114,7 @@ fn a_pause_holds_and_goes_on() {
 #[test]
 fn a_pause_before_the_acknowledgement_holds_after_it() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [(0.1, distance(0.3)), (0.2, Ack(1)), (0.3, distance(3.0)),]
     );
 }
@@ -114,7 +122,7 @@ fn a_pause_before_the_acknowledgement_holds_after_it() {
 #[test]
 fn what_cannot_be_held_is_cancelled_and_started_again() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -130,7 +138,7 @@ fn what_cannot_be_held_is_cancelled_and_started_again() {
 #[test]
 fn a_pause_that_is_over_before_the_cancel_is_answered() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -145,7 +153,10 @@ fn a_pause_that_is_over_before_the_cancel_is_answered() {
 #[test]
 fn a_paused_call_that_ends_lets_no_other_start() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table"), Step::say("there")]),
+        over(
+            vec![when(near(0.5), ReactionSketch::Pause(60.0))],
+            vec![StepSketch::go("table"), StepSketch::say("there")]
+        ),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.1, Done(1)), (2.0, distance(3.0)),]
     );
 }
@@ -153,7 +164,7 @@ fn a_paused_call_that_ends_lets_no_other_start() {
 #[test]
 fn all_pauses_together_are_bounded() {
     check!(
-        over(vec![when(near(0.5), React::Pause(2.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(2.0))], vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -171,7 +182,7 @@ fn a_pause_on_entry_starts_nothing() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     let not_held = Condition::Not(Box::new(held));
     check!(
-        over(vec![when(not_held, React::Pause(5.0))], vec![Step::go("table")]),
+        over(vec![when(not_held, ReactionSketch::Pause(5.0))], vec![StepSketch::go("table")]),
         [(1.0, holding("mug", true))]
     );
 }
@@ -180,7 +191,7 @@ fn a_pause_on_entry_starts_nothing() {
 fn a_paused_wait_keeps_its_time() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::Wait(held, 10.0)]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::Wait(held, 10.0)]),
         [(0.0, distance(3.0)), (4.0, distance(0.3)), (14.0, distance(3.0)),]
     );
 }
@@ -188,7 +199,10 @@ fn a_paused_wait_keeps_its_time() {
 #[test]
 fn a_restart_begins_the_body_again() {
     check!(
-        over(vec![when(near(0.5), React::Restart(1))], vec![Step::say("a"), Step::go("table")]),
+        over(
+            vec![when(near(0.5), ReactionSketch::Restart(1))],
+            vec![StepSketch::say("a"), StepSketch::go("table")]
+        ),
         [
             (0.0, distance(3.0)),
             (0.5, Done(1)),
@@ -204,7 +218,7 @@ fn a_restart_begins_the_body_again() {
 #[test]
 fn a_condition_that_still_holds_exhausts_the_restarts() {
     check!(
-        over(vec![when(near(0.5), React::Restart(2))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Restart(2))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.2, Interrupted(1)),]
     );
 }
@@ -212,7 +226,10 @@ fn a_condition_that_still_holds_exhausts_the_restarts() {
 #[test]
 fn resume_runs_a_block_and_goes_on() {
     check!(
-        over(vec![when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))], vec![Step::go("table")]),
+        over(
+            vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")]))],
+            vec![StepSketch::go("table")]
+        ),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -228,7 +245,10 @@ fn resume_runs_a_block_and_goes_on() {
 #[test]
 fn resume_after_a_body_that_ended_meanwhile() {
     check!(
-        over(vec![when(near(0.5), React::Resume(1, vec![Step::say("oh")]))], vec![Step::go("table")]),
+        over(
+            vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::say("oh")]))],
+            vec![StepSketch::go("table")]
+        ),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Done(1)), (2.0, Done(2)),]
     );
 }
@@ -236,17 +256,19 @@ fn resume_after_a_body_that_ended_meanwhile() {
 #[test]
 fn resume_too_often_is_exhausted() {
     check!(
-        over(vec![when(near(0.5), React::Resume(1, vec![]))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Resume(1, vec![]))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1)),]
     );
 }
 
 #[test]
 fn a_failing_block_fails_the_monitor() {
-    let body =
-        over(vec![when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))], vec![Step::go("table")]);
+    let body = over(
+        vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")]))],
+        vec![StepSketch::go("table")],
+    );
     check!(
-        [Step::Try(body, vec![(Some(vec![v::UNREACHABLE]), vec![Step::say("caught")])])],
+        [StepSketch::Try(body, vec![(Some(vec![v::UNREACHABLE]), vec![StepSketch::say("caught")])])],
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -259,10 +281,12 @@ fn a_failing_block_fails_the_monitor() {
 
 #[test]
 fn a_pause_covers_the_block_of_another_reaction() {
-    let whens =
-        vec![when(near(0.2), React::Pause(60.0)), when(near(0.5), React::Resume(1, vec![Step::go("shelf")]))];
+    let whens = vec![
+        when(near(0.2), ReactionSketch::Pause(60.0)),
+        when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::go("shelf")])),
+    ];
     check!(
-        over(whens, vec![Step::go("table")]),
+        over(whens, vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -278,27 +302,34 @@ fn a_pause_covers_the_block_of_another_reaction() {
 
 #[test]
 fn an_outer_monitor_wins() {
-    let inner = Step::Monitor(vec![when(near(0.5), React::End(Ending::Replan))], vec![Step::go("table")]);
+    let inner = StepSketch::Monitor(
+        vec![when(near(0.5), ReactionSketch::End(Ending::Replan))],
+        vec![StepSketch::go("table")],
+    );
     check!(
-        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![inner]),
+        over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![inner]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, Interrupted(1)),]
     );
 }
 
 #[test]
 fn an_earlier_watch_wins() {
-    let whens = vec![when(near(0.5), React::Restart(1)), when(near(0.5), React::End(Ending::Fail))];
+    let whens =
+        vec![when(near(0.5), ReactionSketch::Restart(1)), when(near(0.5), ReactionSketch::End(Ending::Fail))];
     check!(
-        over(whens, vec![Step::go("table")]),
+        over(whens, vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (1.5, distance(2.0))]
     );
 }
 
 #[test]
 fn an_inner_monitor_is_judged_again_after_an_outer_pause() {
-    let inner = Step::Monitor(vec![when(near(0.8), React::End(Ending::Fail))], vec![Step::go("table")]);
+    let inner = StepSketch::Monitor(
+        vec![when(near(0.8), ReactionSketch::End(Ending::Fail))],
+        vec![StepSketch::go("table")],
+    );
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![inner]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![inner]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -311,9 +342,12 @@ fn an_inner_monitor_is_judged_again_after_an_outer_pause() {
 
 #[test]
 fn an_ending_during_a_pause() {
-    let whens = vec![when(near(0.5), React::Pause(60.0)), when(near(0.2), React::End(Ending::Fail))];
+    let whens = vec![
+        when(near(0.5), ReactionSketch::Pause(60.0)),
+        when(near(0.2), ReactionSketch::End(Ending::Fail)),
+    ];
     check!(
-        over(whens, vec![Step::go("table")]),
+        over(whens, vec![StepSketch::go("table")]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),
@@ -327,35 +361,39 @@ fn an_ending_during_a_pause() {
 #[test]
 fn a_call_makes_a_monitor_fire_before_the_next_step() {
     let held = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")]));
-    let pick = Step::Call(Call::new(v::PICK, vec![v::entity("mug")]).proven());
-    check!(over(vec![when(held, React::End(Ending::Done))], vec![pick, Step::go("table")]), [(1.0, Done(1))]);
+    let pick = StepSketch::Call(CallSketch::new(v::PICK, vec![v::entity("mug")]).proven());
+    check!(
+        over(vec![when(held, ReactionSketch::End(Ending::Done))], vec![pick, StepSketch::go("table")]),
+        [(1.0, Done(1))]
+    );
 }
 
 #[test]
 fn a_person_stops_during_a_pause() {
     check!(
-        over(vec![when(near(0.5), React::Pause(60.0))], vec![Step::go("table")]),
+        over(vec![when(near(0.5), ReactionSketch::Pause(60.0))], vec![StepSketch::go("table")]),
         [(0.0, distance(3.0)), (0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Stop), (2.5, Interrupted(1)),]
     );
 }
 
 #[test]
 fn one_watch_serves_all_who_need_it() {
-    let inner = Step::Monitor(vec![when(near(0.2), React::Pause(1.0))], vec![Step::say("a")]);
+    let inner =
+        StepSketch::Monitor(vec![when(near(0.2), ReactionSketch::Pause(1.0))], vec![StepSketch::say("a")]);
     check!(
-        over(vec![when(near(0.5), React::End(Ending::Fail))], vec![inner, Step::say("b")]),
+        over(vec![when(near(0.5), ReactionSketch::End(Ending::Fail))], vec![inner, StepSketch::say("b")]),
         [(0.0, distance(3.0)), (1.0, Done(1)), (2.0, Done(2)),]
     );
 }
 
 #[test]
 fn a_block_that_was_about_to_run_is_dropped_when_its_monitor_is_stopped() {
-    let inner = Step::Monitor(
-        vec![when(near(0.5), React::Resume(1, vec![Step::say("oh")]))],
-        vec![Step::go("table")],
+    let inner = StepSketch::Monitor(
+        vec![when(near(0.5), ReactionSketch::Resume(1, vec![StepSketch::say("oh")]))],
+        vec![StepSketch::go("table")],
     );
     check!(
-        over(vec![when(near(0.2), React::Restart(0))], vec![inner]),
+        over(vec![when(near(0.2), ReactionSketch::Restart(0))], vec![inner]),
         [
             (0.0, distance(3.0)),
             (0.1, Ack(1)),

@@ -2,14 +2,14 @@
 //! reads it from its end. Policies with a single thread of control, also across a swap in the middle of an action; what runs
 //! at once (monitors, waits, parallel branches) is made one after the other before: `rescan.rs` has that.
 
-use motet_graph::arbitrary::{Call, Step, graph, steps};
+use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps};
 use motet_graph::{
     Arithmetic, BindingId, CallNode, Comparison, Condition, Ending, Fact, FactArg, Graph, NodeId, NodeKind,
     ROOT, RegionId, Term, Value, Verdict,
 };
 use motet_runtime::{
-    Answer, Command, DriverEvent, Effect, Engine, Event, GoalId, Happening, Outcome, Pattern, Prepared,
-    Query, RunEnd, StartState, Time, Truth,
+    Answer, Command, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap, Query,
+    RunEnd, StartState, Time, TraceEventKind, Truth,
 };
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -17,34 +17,38 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// The same steps one after the other.
-fn single(steps: &[Step]) -> Vec<Step> {
+fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
     steps
         .iter()
         .map(|step| match step {
-            Step::Call(call) => {
+            StepSketch::Call(call) => {
                 let verdict = if call.retries > 0 { Verdict::Proven } else { call.verdict };
-                Step::Call(Call { deadline_secs: 10.0, verdict, ..call.clone() })
+                StepSketch::Call(CallSketch { deadline_secs: 10.0, verdict, ..call.clone() })
             }
-            Step::Sequence(steps) | Step::Monitor(_, steps) => Step::Sequence(single(steps)),
-            Step::Inline(steps) => Step::Inline(single(steps)),
-            Step::If(condition, then, other) => {
-                Step::If(condition.clone(), single(then), other.as_ref().map(|steps| single(steps)))
+            StepSketch::Sequence(steps) | StepSketch::Monitor(_, steps) => {
+                StepSketch::Sequence(single(steps))
             }
-            Step::Wait(condition, _) => Step::If(condition.clone(), Vec::new(), None),
-            Step::Try(body, handlers) => {
+            StepSketch::Inline(steps) => StepSketch::Inline(single(steps)),
+            StepSketch::If(condition, then, other) => {
+                StepSketch::If(condition.clone(), single(then), other.as_ref().map(|steps| single(steps)))
+            }
+            StepSketch::Wait(condition, _) => StepSketch::If(condition.clone(), Vec::new(), None),
+            StepSketch::Try(body, handlers) => {
                 let handlers = handlers.iter().map(|(on, steps)| (on.clone(), single(steps)));
-                Step::Try(single(body), handlers.collect())
+                StepSketch::Try(single(body), handlers.collect())
             }
-            Step::Repeat(times, steps, until) => Step::Repeat(*times, single(steps), until.clone()),
-            Step::Each(list, most, steps) => Step::Each(list.clone(), *most, single(steps)),
-            Step::Parallel(branches) => Step::Sequence(single(&branches.concat())),
-            Step::End(how) => Step::End(*how),
+            StepSketch::Repeat(times, steps, until) => {
+                StepSketch::Repeat(*times, single(steps), until.clone())
+            }
+            StepSketch::Each(list, most, steps) => StepSketch::Each(list.clone(), *most, single(steps)),
+            StepSketch::Parallel(branches) => StepSketch::Sequence(single(&branches.concat())),
+            StepSketch::End(how) => StepSketch::End(*how),
         })
         .collect()
 }
 
 /// A graph whose conditions speak of single facts only, proved from nothing where it takes over.
-fn ground(steps: &[Step]) -> Graph {
+fn ground(steps: &[StepSketch]) -> Graph {
     fn condition(of: &mut Condition) {
         match of {
             Condition::Literal(_) | Condition::Compare(..) => {}
@@ -528,7 +532,7 @@ fn observed(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
                 Effect::Cancel { goal } => live.get_mut(&goal).unwrap().2 = true,
                 Effect::Observe { query } => asked.push((*query).clone()),
                 Effect::Report(record) => {
-                    if let Happening::Kept { goal, .. } = record.what {
+                    if let TraceEventKind::Kept { goal, .. } = record.what {
                         log.push(format!("kept {}", live[&goal].1));
                     }
                 }
@@ -539,7 +543,7 @@ fn observed(seed: u64, first: &Graph, second: &Graph, swap_at: Option<usize>) ->
         if swap {
             let goal = *live.keys().next().unwrap();
             engine.handle(Time::ZERO, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
-            let prepared = Prepared::new(second.clone(), &engine.running()).unwrap();
+            let prepared = PreparedSwap::new(second.clone(), &engine.running()).unwrap();
             log.push("swap".into());
             engine.swap(Time::ZERO, prepared, &mut out).unwrap();
             continue;

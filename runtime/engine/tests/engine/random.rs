@@ -3,11 +3,12 @@
 
 use crate::verify::with_motions;
 use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
-use motet_graph::arbitrary::{Step, graph, steps};
+use motet_graph::arbitrary::{StepSketch, graph, steps};
 use motet_graph::{Graph, NodeId, NodeKind, PrimitiveId, Type, Value};
 use motet_runtime::{
-    Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, Event, Fault, GoalId, Happening, NodeEnding,
-    Outcome, Prepared, Primitives, Query, RunEnd, Settings, StartState, Time, Verification,
+    Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, EngineSettings, Event, Fault, GoalId,
+    NodeEnding, Outcome, PreparedSwap, PrimitiveSet, Query, RunEnd, StartState, Time, TraceEventKind,
+    Verification,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -173,19 +174,19 @@ impl Ledger {
                     assert_eq!(self.watched.len() + 1, before, "unwatched without a watch");
                 }
                 Effect::Report(record) => match &record.what {
-                    Happening::Entered { node } => {
+                    TraceEventKind::Entered { node } => {
                         assert!(self.entered.insert((record.revision, *node)), "entered twice")
                     }
-                    Happening::Ended { node, ending, .. } => {
+                    TraceEventKind::Ended { node, ending, .. } => {
                         if *ending == NodeEnding::Success {
                             self.unended.retain(|_, of| *of != (record.revision, *node));
                         }
                         assert!(self.entered.remove(&(record.revision, *node)), "ended without an entry")
                     }
-                    Happening::Started { node, .. } | Happening::Updated { node, .. } => {
+                    TraceEventKind::Started { node, .. } | TraceEventKind::Updated { node, .. } => {
                         assert!(self.entered.contains(&(record.revision, *node)), "a step that does not run");
                     }
-                    Happening::GoalEnded { node, goal, .. } => {
+                    TraceEventKind::GoalEnded { node, goal, .. } => {
                         assert!(self.unended.remove(goal).is_some(), "a goal ends twice");
                         let here = self.entered.contains(&(record.revision, *node));
                         assert!(
@@ -193,20 +194,24 @@ impl Ledger {
                             "a goal of a step that does not run"
                         );
                     }
-                    Happening::Kept { node, goal } => {
+                    TraceEventKind::Kept { node, goal } => {
                         let state = self.live.get_mut(goal).expect("a goal that is not live goes on");
                         assert!(!state.cancelled, "a cancelled goal goes on");
                         state.node = (record.revision, *node);
                         self.unended.insert(*goal, state.node);
                         self.counts.kept += 1;
                     }
-                    Happening::Swapped { .. } => {
+                    TraceEventKind::Swapped { .. } => {
                         assert!(self.entered.is_empty(), "swapped with running steps");
                         assert_eq!(record.revision, self.revision + 1);
                         self.revision = record.revision;
                     }
-                    Happening::Guard { .. } | Happening::Tested { .. } | Happening::Fired { .. } => {}
-                    Happening::WentOn { .. } | Happening::Bound { .. } | Happening::Verified { .. } => {}
+                    TraceEventKind::Guard { .. }
+                    | TraceEventKind::Tested { .. }
+                    | TraceEventKind::Fired { .. } => {}
+                    TraceEventKind::WentOn { .. }
+                    | TraceEventKind::Bound { .. }
+                    | TraceEventKind::Verified { .. } => {}
                 },
                 Effect::Finished(end) => {
                     if !matches!(**end, RunEnd::Fault(_)) {
@@ -346,11 +351,12 @@ enum Input {
 }
 
 /// It can update `go` and `pick`, and hold all but `place`.
-fn engine(graph: Graph) -> Result<Engine, Vec<motet_graph::Invalid>> {
-    let only = |names: &[&str]| Primitives::Only(names.iter().map(|name| (*name).into()).collect());
+fn engine(graph: Graph) -> Result<Engine, Vec<motet_graph::InvalidGraph>> {
+    let only = |names: &[&str]| PrimitiveSet::Only(names.iter().map(|name| (*name).into()).collect());
     let hold = only(&["go", "pick", "detect", "detect_all", "say"]);
     let capabilities = Capabilities { hold, update: only(&["go", "pick"]) };
-    let settings = Settings { verify_within: Some(Time::from_nanos(300_000_000)), ..Settings::default() };
+    let settings =
+        EngineSettings { verify_within: Some(Time::from_nanos(300_000_000)), ..EngineSettings::default() };
     let engine = Engine::new(graph, &StartState::default())?.with_settings(settings);
     Ok(engine.with_capabilities(capabilities))
 }
@@ -360,7 +366,7 @@ fn swap(engine: &mut Engine, ledger: &mut Ledger, now: Time, graph: Graph, out: 
     ledger.counts.swaps += 1;
     let live = !ledger.live.is_empty();
     let before = engine.clone();
-    let prepared = Prepared::new(graph, &engine.running()).expect("sketched graphs are valid");
+    let prepared = PreparedSwap::new(graph, &engine.running()).expect("sketched graphs are valid");
     match engine.swap(now, prepared, out) {
         Ok(retired) => {
             assert_eq!(retired.revision() + 1, engine.revision());
@@ -465,7 +471,7 @@ fn replay(engine: &Engine, inputs: &[(Time, Input)]) -> Vec<Effect> {
         match input {
             Input::Event(event) => engine.handle(*now, event.clone(), &mut out),
             Input::Swap(graph) => {
-                let prepared = Prepared::new(graph.clone(), &engine.running()).unwrap();
+                let prepared = PreparedSwap::new(graph.clone(), &engine.running()).unwrap();
                 engine.swap(*now, prepared, &mut out).unwrap();
             }
         }
@@ -477,7 +483,7 @@ fn replay(engine: &Engine, inputs: &[(Time, Input)]) -> Vec<Effect> {
 fn bound_values_fit(graphs: &[&Graph], log: &[Effect]) -> bool {
     log.iter().all(|effect| match effect {
         Effect::Report(record) => match &record.what {
-            Happening::Bound { binding, value } => {
+            TraceEventKind::Bound { binding, value } => {
                 let ty: &Type = &graphs[record.revision as usize].bindings[binding.index()].ty;
                 value.fits(ty)
             }
@@ -515,7 +521,7 @@ fn is_expected(end: &RunEnd, graph: &Graph, strict: bool) -> bool {
 fn cases() -> impl Strategy<Value = (Graph, Vec<Graph>, u64)> {
     (vec(steps(), 2..5), steps(), any::<bool>(), any::<u64>()).prop_map(|(own, other, proved, seed)| {
         let own = own.concat();
-        let graph = |steps: &[Step]| with_motions(graph(steps), &ASKED);
+        let graph = |steps: &[StepSketch]| with_motions(graph(steps), &ASKED);
         let mut others = vec![graph(&other), graph(&own), graph(&[own.clone(), other.clone()].concat())];
         others.iter_mut().skip(usize::from(proved)).for_each(|graph| graph.initial.clear());
         (graph(&own), others, seed)

@@ -1,10 +1,10 @@
 //! Runs a sketched policy through a script of events and writes down every effect.
 
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_graph::{Graph, Value};
 use motet_runtime::{
-    Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Prepared, Primitives,
-    Query, StartState, Time,
+    Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap,
+    PrimitiveSet, Query, StartState, Time,
 };
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -24,17 +24,17 @@ pub(crate) enum Feed {
     See(Query, Answer),
     Tick,
     Stop,
-    Swap(Vec<Step>),
+    Swap(Vec<StepSketch>),
 }
 
 /// The transcript of a policy under a script.
-pub(crate) fn transcript(steps: &[Step], script: Vec<(f64, Feed)>) -> String {
+pub(crate) fn transcript(steps: &[StepSketch], script: Vec<(f64, Feed)>) -> String {
     transcript_of(graph(steps), script)
 }
 
 /// The transcript of a graph under a script.
 pub(crate) fn transcript_of(graph: Graph, script: Vec<(f64, Feed)>) -> String {
-    let go = Primitives::Only(["go".into()].into());
+    let go = PrimitiveSet::Only(["go".into()].into());
     let capabilities = Capabilities { update: go, ..Capabilities::default() };
     let mut engine = Engine::new(graph, &StartState::default()).unwrap().with_capabilities(capabilities);
     let mut goals = BTreeMap::new();
@@ -97,11 +97,17 @@ fn step(
 }
 
 /// The new policy is proved from nothing.
-fn swap(engine: &mut Engine, at: f64, steps: &[Step], goals: &mut BTreeMap<u32, GoalId>, text: &mut String) {
+fn swap(
+    engine: &mut Engine,
+    at: f64,
+    steps: &[StepSketch],
+    goals: &mut BTreeMap<u32, GoalId>,
+    text: &mut String,
+) {
     writeln!(text, "{at} s: swap").unwrap();
     let mut graph = graph(steps);
     graph.initial.clear();
-    let prepared = Prepared::new(graph, &engine.running()).unwrap();
+    let prepared = PreparedSwap::new(graph, &engine.running()).unwrap();
     let mut out = Vec::new();
     match engine.swap(Time::from_secs(at), prepared, &mut out) {
         Ok(_) => write_down(engine, &out, goals, text),

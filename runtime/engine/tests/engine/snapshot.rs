@@ -1,14 +1,14 @@
 //! The state that an engine hands out, and an engine that starts from it.
 
 use motet_graph::Value;
-use motet_graph::arbitrary::{Step, graph};
+use motet_graph::arbitrary::{StepSketch, graph};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Query, Snapshot, StartState, Time,
 };
 
 /// Picks the mug, sees the distance to the user, and looks for the cup.
 fn halfway() -> Engine {
-    let steps = [Step::pick("mug"), Step::detect("cup"), Step::detect("bowl")];
+    let steps = [StepSketch::pick("mug"), StepSketch::detect("cup"), StepSketch::detect("bowl")];
     let mut engine = Engine::new(graph(&steps), &StartState::default()).unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);

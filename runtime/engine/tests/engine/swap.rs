@@ -4,23 +4,23 @@ use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
 use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Fact, FactArg, Graph, NodeId, Value};
 use motet_runtime::{
-    DriverEvent, Effect, Engine, Event, Outcome, Prepared, Refusal, RunEnd, StartState, Time, Truth,
+    DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, RunEnd, StartState, SwapRefusal, Time, Truth,
 };
 
-fn pauses(within: f64, steps: Vec<Step>) -> Step {
-    Step::Monitor(vec![When::new(v::nearer("user", 0.5), React::Pause(within))], steps)
+fn pauses(within: f64, steps: Vec<StepSketch>) -> StepSketch {
+    StepSketch::Monitor(vec![WatchSketch::new(v::nearer("user", 0.5), ReactionSketch::Pause(within))], steps)
 }
 
 #[test]
 fn the_same_call_goes_on() {
     check!(
-        [Step::go("table"), Step::say("old")],
+        [StepSketch::go("table"), StepSketch::say("old")],
         [
             (0.1, Ack(1)),
-            (1.0, Swap(vec![Step::go("table"), Step::say("new")])),
+            (1.0, Swap(vec![StepSketch::go("table"), StepSketch::say("new")])),
             (2.0, Done(1)),
             (3.0, Done(2))
         ]
@@ -29,24 +29,27 @@ fn the_same_call_goes_on() {
 
 #[test]
 fn a_call_that_was_not_acknowledged_goes_on() {
-    check!([Step::go("table")], [(1.0, Swap(vec![Step::go("table")])), (1.1, Ack(1)), (11.0, Tick)]);
+    check!(
+        [StepSketch::go("table")],
+        [(1.0, Swap(vec![StepSketch::go("table")])), (1.1, Ack(1)), (11.0, Tick)]
+    );
 }
 
 #[test]
 fn another_target_is_an_update() {
     check!(
-        [Step::go("table")],
-        [(0.1, Ack(1)), (1.0, Swap(vec![Step::go("shelf"), Step::say("new")])), (2.0, Done(1))]
+        [StepSketch::go("table")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::go("shelf"), StepSketch::say("new")])), (2.0, Done(1))]
     );
 }
 
 #[test]
 fn what_cannot_be_updated_is_cancelled_and_waited_for() {
     check!(
-        [Step::detect("mug"), Step::say("old")],
+        [StepSketch::detect("mug"), StepSketch::say("old")],
         [
             (0.1, Ack(1)),
-            (1.0, Swap(vec![Step::detect("cup")])),
+            (1.0, Swap(vec![StepSketch::detect("cup")])),
             (1.5, Interrupted(1)),
             (2.0, Gives(2, entity("cup_1")))
         ]
@@ -56,10 +59,10 @@ fn what_cannot_be_updated_is_cancelled_and_waited_for() {
 #[test]
 fn what_does_not_conflict_starts_at_once() {
     check!(
-        [Step::go("table")],
+        [StepSketch::go("table")],
         [
             (0.1, Ack(1)),
-            (1.0, Swap(vec![Step::detect("cup")])),
+            (1.0, Swap(vec![StepSketch::detect("cup")])),
             (1.5, Gives(2, entity("cup_1"))),
             (1.6, Interrupted(1))
         ]
@@ -68,42 +71,50 @@ fn what_does_not_conflict_starts_at_once() {
 
 #[test]
 fn success_after_the_swap_is_respected() {
-    let place = Call::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
+    let place = CallSketch::new(v::PLACE, vec![v::entity("mug"), v::entity("table")]);
     check!(
-        [Step::pick("mug")],
-        [(0.1, Ack(1)), (1.0, Swap(vec![Step::Call(place)])), (1.5, Done(1)), (2.0, Done(2))]
+        [StepSketch::pick("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::Call(place)])), (1.5, Done(1)), (2.0, Done(2))]
     );
 }
 
 #[test]
 fn failure_after_the_swap_concerns_nobody() {
     check!(
-        [Step::go("table")],
-        [(0.1, Ack(1)), (1.0, Swap(vec![Step::say("new")])), (1.5, Fails(1, "unreachable")), (2.0, Done(2))]
+        [StepSketch::go("table")],
+        [
+            (0.1, Ack(1)),
+            (1.0, Swap(vec![StepSketch::say("new")])),
+            (1.5, Fails(1, "unreachable")),
+            (2.0, Done(2))
+        ]
     );
 }
 
 #[test]
 fn a_start_that_is_refused_after_the_swap_frees_its_resources() {
-    check!([Step::detect("mug")], [(1.0, Swap(vec![Step::detect("cup")])), (1.5, Refused(1, "unsafe"))]);
+    check!(
+        [StepSketch::detect("mug")],
+        [(1.0, Swap(vec![StepSketch::detect("cup")])), (1.5, Refused(1, "unsafe"))]
+    );
 }
 
 #[test]
 fn a_cancel_waits_for_the_acknowledgement_also_across_a_swap() {
     check!(
-        [Step::detect("mug")],
-        [(1.0, Swap(vec![Step::detect("cup")])), (1.1, Ack(1)), (1.2, Interrupted(1)), (1.3, Ack(2))]
+        [StepSketch::detect("mug")],
+        [(1.0, Swap(vec![StepSketch::detect("cup")])), (1.1, Ack(1)), (1.2, Interrupted(1)), (1.3, Ack(2))]
     );
 }
 
 #[test]
 fn in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
     check!(
-        [Step::go("table")],
+        [StepSketch::go("table")],
         [
             (0.1, Ack(1)),
             (10.0, Tick),
-            (10.1, Swap(vec![Step::go("table")])),
+            (10.1, Swap(vec![StepSketch::go("table")])),
             (10.5, Interrupted(1)),
             (11.0, Done(2))
         ]
@@ -113,12 +124,12 @@ fn in_the_middle_of_a_cancel_the_cancel_is_waited_for() {
 #[test]
 fn a_safe_stop_that_is_pending_is_waited_for() {
     check!(
-        [Step::go("table")],
+        [StepSketch::go("table")],
         [
             (0.1, Ack(1)),
             (10.0, Tick),
             (15.0, Tick),
-            (15.1, Swap(vec![Step::go("shelf")])),
+            (15.1, Swap(vec![StepSketch::go("shelf")])),
             (16.0, Stopped(1))
         ]
     );
@@ -127,35 +138,35 @@ fn a_safe_stop_that_is_pending_is_waited_for() {
 #[test]
 fn an_unanswered_cancel_of_the_old_policy_becomes_a_safe_stop_and_a_fault() {
     check!(
-        [Step::detect("mug")],
-        [(0.1, Ack(1)), (1.0, Swap(vec![Step::detect("cup")])), (6.0, Tick), (11.0, Tick)]
+        [StepSketch::detect("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::detect("cup")])), (6.0, Tick), (11.0, Tick)]
     );
 }
 
 #[test]
 fn a_goal_of_the_old_policy_that_is_lost() {
     check!(
-        [Step::detect("mug")],
-        [(0.1, Ack(1)), (1.0, Swap(vec![Step::detect("cup")])), (1.5, Lost(1)), (2.0, Stopped(1))]
+        [StepSketch::detect("mug")],
+        [(0.1, Ack(1)), (1.0, Swap(vec![StepSketch::detect("cup")])), (1.5, Lost(1)), (2.0, Stopped(1))]
     );
 }
 
 #[test]
 fn a_held_goal_goes_on_where_nothing_holds_it() {
     check!(
-        [pauses(60.0, vec![Step::go("table")])],
-        [(0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Swap(vec![Step::go("table")]))]
+        [pauses(60.0, vec![StepSketch::go("table")])],
+        [(0.1, Ack(1)), (1.0, distance(0.3)), (2.0, Swap(vec![StepSketch::go("table")]))]
     );
 }
 
 #[test]
 fn a_monitor_of_the_new_policy_is_judged_at_once() {
     check!(
-        [pauses(60.0, vec![Step::go("table")])],
+        [pauses(60.0, vec![StepSketch::go("table")])],
         [
             (0.1, Ack(1)),
             (1.0, distance(0.3)),
-            (2.0, Swap(vec![pauses(30.0, vec![Step::go("table")])])),
+            (2.0, Swap(vec![pauses(30.0, vec![StepSketch::go("table")])])),
             (2.5, Interrupted(1)),
             (3.0, distance(0.8))
         ]
@@ -165,11 +176,11 @@ fn a_monitor_of_the_new_policy_is_judged_at_once() {
 #[test]
 fn what_is_watched_by_both_stays_watched() {
     check!(
-        [pauses(60.0, vec![Step::go("table")])],
+        [pauses(60.0, vec![StepSketch::go("table")])],
         [
             (0.1, Ack(1)),
             (1.0, distance(0.8)),
-            (2.0, Swap(vec![pauses(30.0, vec![Step::go("table")])])),
+            (2.0, Swap(vec![pauses(30.0, vec![StepSketch::go("table")])])),
             (2.5, distance(0.3))
         ]
     );
@@ -177,18 +188,19 @@ fn what_is_watched_by_both_stays_watched() {
 
 #[test]
 fn out_of_a_parallel_into_a_parallel() {
-    let both = |go: &str| Step::Parallel(vec![vec![Step::go(go)], vec![Step::detect("mug")]]);
+    let both =
+        |go: &str| StepSketch::Parallel(vec![vec![StepSketch::go(go)], vec![StepSketch::detect("mug")]]);
     check!([both("table")], [(0.1, Ack(1)), (0.1, Ack(2)), (1.0, Swap(vec![both("shelf")])), (2.0, Done(1))]);
 }
 
 #[test]
 fn the_newest_swap_wins() {
     check!(
-        [Step::detect("mug")],
+        [StepSketch::detect("mug")],
         [
             (0.1, Ack(1)),
-            (1.0, Swap(vec![Step::detect("cup")])),
-            (1.1, Swap(vec![Step::detect("bowl")])),
+            (1.0, Swap(vec![StepSketch::detect("cup")])),
+            (1.1, Swap(vec![StepSketch::detect("bowl")])),
             (1.5, Interrupted(1))
         ]
     );
@@ -196,27 +208,28 @@ fn the_newest_swap_wins() {
 
 #[test]
 fn a_policy_that_is_done_at_once_waits_for_the_goals_of_the_one_before() {
-    check!([Step::go("table")], [(0.1, Ack(1)), (1.0, Swap(vec![])), (1.5, Interrupted(1))]);
+    check!([StepSketch::go("table")], [(0.1, Ack(1)), (1.0, Swap(vec![])), (1.5, Interrupted(1))]);
 }
 
 #[test]
 fn a_person_who_stops_is_not_overruled() {
     check!(
-        [Step::go("table")],
-        [(0.1, Ack(1)), (1.0, Stop), (1.1, Swap(vec![Step::say("no")])), (1.5, Interrupted(1))]
+        [StepSketch::go("table")],
+        [(0.1, Ack(1)), (1.0, Stop), (1.1, Swap(vec![StepSketch::say("no")])), (1.5, Interrupted(1))]
     );
 }
 
 #[test]
 fn a_wait_and_a_queue_are_left() {
-    let wait = Step::Wait(Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")])), 5.0);
-    check!([wait], [(1.0, Swap(vec![Step::say("new")])), (1.5, holding("mug", true)), (2.0, Done(1))]);
+    let wait = StepSketch::Wait(Condition::Fact(v::fact(v::HOLDING, vec![v::entity("mug")])), 5.0);
+    check!([wait], [(1.0, Swap(vec![StepSketch::say("new")])), (1.5, holding("mug", true)), (2.0, Done(1))]);
 }
 
 /// Has started to go to the table.
 fn going() -> (Engine, Vec<Effect>) {
     let mut engine =
-        Engine::new(graph(&[Step::detect("mug"), Step::go("table")]), &StartState::default()).unwrap();
+        Engine::new(graph(&[StepSketch::detect("mug"), StepSketch::go("table")]), &StartState::default())
+            .unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
     let goal = out
@@ -230,9 +243,9 @@ fn going() -> (Engine, Vec<Effect>) {
 
 /// Refused, and nothing has changed: neither what went out nor anything within.
 #[track_caller]
-fn refused(graph: Graph) -> Refusal {
+fn refused(graph: Graph) -> SwapRefusal {
     let (mut engine, mut out) = going();
-    let prepared = match Prepared::new(graph, &engine.running()) {
+    let prepared = match PreparedSwap::new(graph, &engine.running()) {
         Ok(prepared) => prepared,
         Err(refusal) => return refusal,
     };
@@ -245,23 +258,23 @@ fn refused(graph: Graph) -> Refusal {
 
 #[test]
 fn an_invalid_graph_is_refused() {
-    let mut graph = graph(&[Step::go("table")]);
+    let mut graph = graph(&[StepSketch::go("table")]);
     graph.nodes[0].next = Some(NodeId(7));
-    assert!(matches!(refused(graph), Refusal::Invalid(_)));
+    assert!(matches!(refused(graph), SwapRefusal::Invalid(_)));
 }
 
 #[test]
 fn another_robot_is_refused() {
-    let mut graph = graph(&[Step::go("table")]);
+    let mut graph = graph(&[StepSketch::go("table")]);
     graph.robot = "another".into();
-    assert_eq!(refused(graph), Refusal::Robot { running: "mock".into(), wanted: "another".into() });
+    assert_eq!(refused(graph), SwapRefusal::Robot { running: "mock".into(), wanted: "another".into() });
 }
 
 #[test]
 fn a_start_that_does_not_hold_is_refused() {
-    let mut graph = graph(&[Step::go("table")]);
+    let mut graph = graph(&[StepSketch::go("table")]);
     graph.initial = vec![(v::fact(v::HOLDING, vec![v::entity("mug")]), true)];
-    let Refusal::Start { told, believed, .. } = refused(graph) else { panic!("another refusal") };
+    let SwapRefusal::Start { told, believed, .. } = refused(graph) else { panic!("another refusal") };
     assert_eq!((told, believed), (true, Truth::False));
 }
 
@@ -270,9 +283,9 @@ fn a_start_that_is_no_longer_known_is_refused() {
     // Where the robot is, is unknown after it was interrupted; so far only that it stands nowhere known is not said.
     let (mut engine, mut out) = going();
     let prepare = |engine: &Engine, initial| {
-        let mut graph = graph(&[Step::say("new")]);
+        let mut graph = graph(&[StepSketch::say("new")]);
         graph.initial = initial;
-        Prepared::new(graph, &engine.running()).unwrap()
+        PreparedSwap::new(graph, &engine.running()).unwrap()
     };
     let somewhere = vec![(v::fact(v::AT, vec![v::entity("robot"), v::entity("table")]), false)];
     let prepared = prepare(&engine, somewhere.clone());
@@ -282,12 +295,15 @@ fn a_start_that_is_no_longer_known_is_refused() {
     engine.handle(Time::from_secs(2.5), Event::Driver(ended), &mut out);
     let prepared = prepare(&engine, somewhere);
     let refusal = engine.swap(Time::from_secs(3.0), prepared, &mut out).unwrap_err();
-    assert!(matches!(refusal, Refusal::Start { believed: Truth::Unknown, .. }), "{refusal}");
+    assert!(matches!(refusal, SwapRefusal::Start { believed: Truth::Unknown, .. }), "{refusal}");
 }
 
 /// A graph that is given the object that the running policy found.
 fn given(name: &str) -> Graph {
-    let mut graph = graph(&[Step::detect("cup"), Step::Call(Call::new(v::PICK, vec![Call::NEAREST]))]);
+    let mut graph = graph(&[
+        StepSketch::detect("cup"),
+        StepSketch::Call(CallSketch::new(v::PICK, vec![CallSketch::NEAREST])),
+    ]);
     graph.bindings[0].given = true;
     graph.bindings[0].name = name.into();
     graph.initial = vec![(Fact { fluent: v::HOLDING, args: vec![FactArg::Any] }, false)];
@@ -296,13 +312,13 @@ fn given(name: &str) -> Graph {
 
 #[test]
 fn a_name_that_is_not_bound_is_refused() {
-    assert_eq!(refused(given("nobody")), Refusal::Binding { name: "nobody".into() });
+    assert_eq!(refused(given("nobody")), SwapRefusal::Binding { name: "nobody".into() });
 }
 
 #[test]
 fn a_name_is_carried() {
     let (mut engine, mut out) = going();
-    let prepared = Prepared::new(given("it'0"), &engine.running()).unwrap();
+    let prepared = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();
     engine.swap(Time::from_secs(2.0), prepared, &mut out).unwrap();
     assert_eq!(engine.snapshot().bindings, vec![("it'0".into(), Value::Entity("mug_1".into()))]);
     assert_eq!(engine.revision(), 1);
@@ -323,15 +339,15 @@ fn a_run_that_is_over_takes_no_swap() {
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
     assert!(matches!(out.last(), Some(Effect::Finished(end)) if **end == RunEnd::Done { why: None }));
-    let prepared = Prepared::new(graph(&[]), &engine.running()).unwrap();
-    assert_eq!(engine.swap(Time::ZERO, prepared, &mut out).unwrap_err(), Refusal::Over);
+    let prepared = PreparedSwap::new(graph(&[]), &engine.running()).unwrap();
+    assert_eq!(engine.swap(Time::ZERO, prepared, &mut out).unwrap_err(), SwapRefusal::Over);
 }
 
 #[test]
 fn a_swap_prepared_against_an_older_graph_still_fits() {
     let (mut engine, mut out) = going();
-    let first = Prepared::new(given("it'0"), &engine.running()).unwrap();
-    let second = Prepared::new(given("it'0"), &engine.running()).unwrap();
+    let first = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();
+    let second = PreparedSwap::new(given("it'0"), &engine.running()).unwrap();
     engine.swap(Time::from_secs(2.0), first, &mut out).unwrap();
     engine.swap(Time::from_secs(2.1), second, &mut out).unwrap();
     assert_eq!((engine.revision(), engine.snapshot().bindings.len()), (2, 1));

@@ -1,11 +1,11 @@
 //! Motions that were left to the run: somebody is asked before the call starts, and what they say decides.
 
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{React, Step, When, graph};
+use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Graph, Motion, NodeKind, PrimitiveId, Verdict};
 use motet_runtime::{
-    Answer, CheckId, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Prepared, Query, Settings,
-    StartState, Time, Verification,
+    Answer, CheckId, DriverEvent, Effect, Engine, EngineSettings, Event, Outcome, Pattern, PreparedSwap,
+    Query, StartState, Time, Verification,
 };
 
 /// The calls of some primitives have a motion that is left to the run.
@@ -33,8 +33,9 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(steps: &[Step], verify_within: Option<f64>) -> Self {
-        let settings = Settings { verify_within: verify_within.map(Time::from_secs), ..Settings::default() };
+    fn new(steps: &[StepSketch], verify_within: Option<f64>) -> Self {
+        let settings =
+            EngineSettings { verify_within: verify_within.map(Time::from_secs), ..EngineSettings::default() };
         let engine = Engine::new(with_motions(graph(steps), &[v::GO]), &StartState::default()).unwrap();
         let mut scene = Self { engine: engine.with_settings(settings), out: Vec::new() };
         scene.feed(0.0, Event::Begin);
@@ -77,14 +78,14 @@ fn unknown() -> Verification {
 
 #[test]
 fn where_nobody_is_to_be_asked_the_driver_will_see() {
-    let mut scene = Scene::new(&[Step::go("table")], None);
+    let mut scene = Scene::new(&[StepSketch::go("table")], None);
     assert_eq!(scene.look().0, ["go(to: table)"]);
 }
 
 #[test]
 fn a_motion_that_is_found_or_not_known_starts() {
     for verdict in [Verification::Feasible, unknown()] {
-        let mut scene = Scene::new(&[Step::go("table")], Some(1.0));
+        let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
         let (said, checks) = scene.look();
         assert_eq!(said, ["verify reach(table)"]);
         scene.verdict(0.5, checks[0], verdict);
@@ -94,8 +95,10 @@ fn a_motion_that_is_found_or_not_known_starts() {
 
 #[test]
 fn one_that_is_infeasible_fails_and_is_caught() {
-    let caught =
-        Step::Try(vec![Step::go("table")], vec![(Some(vec![v::UNREACHABLE]), vec![Step::say("no")])]);
+    let caught = StepSketch::Try(
+        vec![StepSketch::go("table")],
+        vec![(Some(vec![v::UNREACHABLE]), vec![StepSketch::say("no")])],
+    );
     let mut scene = Scene::new(&[caught], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.5, checks[0], infeasible());
@@ -104,7 +107,7 @@ fn one_that_is_infeasible_fails_and_is_caught() {
 
 #[test]
 fn a_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
-    let mut scene = Scene::new(&[Step::go("table"), Step::go("sink")], Some(1.0));
+    let mut scene = Scene::new(&[StepSketch::go("table"), StepSketch::go("sink")], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.5, CheckId::from_number(77), infeasible());
     scene.verdict(0.5, checks[0], Verification::Feasible);
@@ -114,7 +117,7 @@ fn a_second_verdict_and_one_that_nobody_waits_for_are_ignored() {
 
 #[test]
 fn without_a_verdict_in_time_the_step_starts_all_the_same() {
-    let mut scene = Scene::new(&[Step::go("table")], Some(1.0));
+    let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
     assert_eq!(scene.engine.wake_at(), Some(Time::from_secs(1.0)));
     scene.look();
     scene.feed(1.0, Event::Tick);
@@ -124,8 +127,8 @@ fn without_a_verdict_in_time_the_step_starts_all_the_same() {
 #[test]
 fn what_is_interrupted_meanwhile_asks_anew() {
     let holds = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("cup")]));
-    let watch = When::new(holds, React::Pause(60.0));
-    let mut scene = Scene::new(&[Step::Monitor(vec![watch], vec![Step::go("table")])], Some(1.0));
+    let watch = WatchSketch::new(holds, ReactionSketch::Pause(60.0));
+    let mut scene = Scene::new(&[StepSketch::Monitor(vec![watch], vec![StepSketch::go("table")])], Some(1.0));
     let (_, before) = scene.look();
     let holding = |truth| {
         let args = vec![Pattern::Is(motet_graph::Value::Entity("cup".into()))];
@@ -143,11 +146,11 @@ fn what_is_interrupted_meanwhile_asks_anew() {
 
 #[test]
 fn after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
-    let mut scene = Scene::new(&[Step::go("table")], Some(1.0));
+    let mut scene = Scene::new(&[StepSketch::go("table")], Some(1.0));
     let (_, before) = scene.look();
-    let mut next = with_motions(graph(&[Step::go("table")]), &[v::GO]);
+    let mut next = with_motions(graph(&[StepSketch::go("table")]), &[v::GO]);
     next.initial.clear();
-    let prepared = Prepared::new(next, &scene.engine.running()).unwrap();
+    let prepared = PreparedSwap::new(next, &scene.engine.running()).unwrap();
     scene.engine.swap(Time::from_secs(0.1), prepared, &mut scene.out).unwrap();
     let (said, after) = scene.look();
     assert_eq!(said, ["verify reach(table)"]);
@@ -159,8 +162,8 @@ fn after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
 
 #[test]
 fn a_retry_asks_again() {
-    let go = motet_graph::arbitrary::Call::new(v::GO, vec![v::entity("table")]).retry(1);
-    let mut scene = Scene::new(&[Step::Call(go)], Some(1.0));
+    let go = motet_graph::arbitrary::CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
+    let mut scene = Scene::new(&[StepSketch::Call(go)], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.1, checks[0], infeasible());
     let (said, checks) = scene.look();

@@ -1,15 +1,15 @@
 //! What a run remembers, and how it is bounded.
 
 use crate::ready::{Run, goal, run, success};
-use motet_graph::arbitrary::{Step, graph};
-use motet_runtime::memory::{Limits, Memory, Remembered};
+use motet_graph::arbitrary::{StepSketch, graph};
+use motet_runtime::memory::{Memory, MemoryEvent, MemoryLimits};
 use motet_runtime::{
-    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Prepared, StartState, Time,
+    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, PreparedSwap, StartState, Time,
 };
 use std::sync::Arc;
 
 /// A memory that was fed with a run.
-fn fed(run: &Run, limits: Limits) -> Memory {
+fn fed(run: &Run, limits: MemoryLimits) -> Memory {
     let mut memory = Memory::new(limits);
     memory.instruct(Time::ZERO, "bring me the mug");
     memory.policy(Time::ZERO, 0, Arc::new(run.engine.graph().clone()));
@@ -30,9 +30,9 @@ fn slips(number: usize, primitive: &str) -> Outcome {
 
 #[test]
 fn steps_with_their_results_and_the_latest_failure() {
-    let steps = [Step::go("table"), Step::detect("mug"), Step::say("never")];
+    let steps = [StepSketch::go("table"), StepSketch::detect("mug"), StepSketch::say("never")];
     let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
-    let memory = fed(&run, Limits::default());
+    let memory = fed(&run, MemoryLimits::default());
     assert_eq!(
         lines(&memory),
         [
@@ -54,17 +54,21 @@ fn steps_with_their_results_and_the_latest_failure() {
 
 #[test]
 fn what_has_no_question_is_a_step() {
-    let limits = Limits { questions: vec!["detect".into()], ..Limits::default() };
-    let run = run(graph(&[Step::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
+    let limits = MemoryLimits { questions: vec!["detect".into()], ..MemoryLimits::default() };
+    let run = run(graph(&[StepSketch::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
     // The test vocabulary has no `ask`; what is no parameter `question` is no question.
     assert_eq!(lines(&fed(&run, limits))[1], "detect(what: \"mug\"): done, gave mug_1");
 }
 
 #[test]
 fn what_runs_is_told_with_its_start() {
-    let run =
-        run(graph(&[Step::go("table"), Step::say("on")]), |_, name| success(name), |_, _| Answer::Unknown, 2);
-    let memory = fed(&run, Limits::default());
+    let run = run(
+        graph(&[StepSketch::go("table"), StepSketch::say("on")]),
+        |_, name| success(name),
+        |_, _| Answer::Unknown,
+        2,
+    );
+    let memory = fed(&run, MemoryLimits::default());
     let doing: Vec<_> = memory.running().map(|doing| (doing.call, doing.path, doing.since_secs)).collect();
     assert_eq!(doing, [("say(text: \"on\")".to_owned(), "/steps/1".to_owned(), 1.0)]);
     assert_eq!(goal(&run, 2).to_string(), "#2");
@@ -72,13 +76,13 @@ fn what_runs_is_told_with_its_start() {
 
 #[test]
 fn old_entries_are_dropped_and_counted() {
-    let steps: Vec<Step> = (0..20).map(|number| Step::say(&format!("number {number}"))).collect();
+    let steps: Vec<StepSketch> = (0..20).map(|number| StepSketch::say(&format!("number {number}"))).collect();
     let run = run(graph(&steps), slips, |_, _| Answer::Unknown, 100);
-    let all = fed(&run, Limits::default());
+    let all = fed(&run, MemoryLimits::default());
     for limits in [
-        Limits { entries: 2, ..Limits::default() },
-        Limits { bytes: 200, ..Limits::default() },
-        Limits { entries: 0, ..Limits::default() },
+        MemoryLimits { entries: 2, ..MemoryLimits::default() },
+        MemoryLimits { bytes: 200, ..MemoryLimits::default() },
+        MemoryLimits { entries: 0, ..MemoryLimits::default() },
     ] {
         let memory = fed(&run, limits.clone());
         let dropped = memory.dropped();
@@ -93,9 +97,9 @@ fn old_entries_are_dropped_and_counted() {
 
 #[test]
 fn long_texts_are_cut_between_letters() {
-    let mut memory = Memory::new(Limits { text_bytes: 10, ..Limits::default() });
+    let mut memory = Memory::new(MemoryLimits { text_bytes: 10, ..MemoryLimits::default() });
     memory.instruct(Time::ZERO, "größer als erlaubt");
-    let Some(Remembered::Instruction { text }) = memory.entries().next().map(|entry| entry.what.clone())
+    let Some(MemoryEvent::Instruction { text }) = memory.entries().next().map(|entry| entry.what.clone())
     else {
         panic!("no instruction")
     };
@@ -105,17 +109,17 @@ fn long_texts_are_cut_between_letters() {
 
 #[test]
 fn views_are_data_too() {
-    let run = run(graph(&[Step::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
-    let memory = fed(&run, Limits::default());
+    let run = run(graph(&[StepSketch::detect("mug")]), |_, name| success(name), |_, _| Answer::Unknown, 100);
+    let memory = fed(&run, MemoryLimits::default());
     let whole = memory.whole(&run.engine.snapshot());
     let text = serde_json::to_string(&whole).unwrap();
-    assert_eq!(serde_json::from_str::<motet_runtime::memory::Whole>(&text).unwrap(), whole);
+    assert_eq!(serde_json::from_str::<motet_runtime::memory::FullMemory>(&text).unwrap(), whole);
 }
 
 /// What is remembered where a policy takes over from `go(table)` while that runs, and then the goal of that ends.
-fn taken_over(next: &[Step], outcome: Outcome) -> Vec<String> {
-    let mut memory = Memory::new(Limits::default());
-    let mut engine = Engine::new(graph(&[Step::go("table")]), &StartState::default()).unwrap();
+fn taken_over(next: &[StepSketch], outcome: Outcome) -> Vec<String> {
+    let mut memory = Memory::new(MemoryLimits::default());
+    let mut engine = Engine::new(graph(&[StepSketch::go("table")]), &StartState::default()).unwrap();
     memory.policy(Time::ZERO, 0, Arc::new(engine.graph().clone()));
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
@@ -132,7 +136,7 @@ fn taken_over(next: &[Step], outcome: Outcome) -> Vec<String> {
     };
     let now = learn(&mut memory, &mut out);
     engine.handle(now, Event::Driver(DriverEvent::Acknowledged { goal }), &mut out);
-    let prepared = Prepared::new(graph(next), &engine.running()).unwrap();
+    let prepared = PreparedSwap::new(graph(next), &engine.running()).unwrap();
     memory.policy(now, 1, prepared.graph().clone());
     engine.swap(now, prepared, &mut out).unwrap();
     let now = learn(&mut memory, &mut out);
@@ -146,13 +150,13 @@ fn taken_over(next: &[Step], outcome: Outcome) -> Vec<String> {
 #[test]
 fn what_goes_on_for_another_policy_is_told_once_with_its_end() {
     let done = || Outcome::Success(None);
-    let kept = taken_over(&[Step::go("table"), Step::say("on")], done());
+    let kept = taken_over(&[StepSketch::go("table"), StepSketch::say("on")], done());
     assert_eq!(kept, ["new policy `sketch`", "go(to: table): done"]);
     // One that is cancelled and comes to its end all the same has done what it was for.
-    let late = taken_over(&[Step::detect("mug")], done());
+    let late = taken_over(&[StepSketch::detect("mug")], done());
     assert_eq!(late, ["new policy `sketch`", "go(to: table): done"]);
-    let cancelled = taken_over(&[Step::detect("mug")], Outcome::Interrupted);
+    let cancelled = taken_over(&[StepSketch::detect("mug")], Outcome::Interrupted);
     assert_eq!(cancelled, ["new policy `sketch`", "go(to: table): interrupted (a new policy)"]);
-    let failed = taken_over(&[Step::detect("mug")], Outcome::Failure("unreachable".into()));
+    let failed = taken_over(&[StepSketch::detect("mug")], Outcome::Failure("unreachable".into()));
     assert_eq!(failed, ["new policy `sketch`", "go(to: table): failed with unreachable (failed)"]);
 }

@@ -1,7 +1,7 @@
 //! A run of a sketched policy with a driver that does everything in a second, written into lines.
 
 use motet_graph::{Graph, Value};
-use motet_runtime::journal::{Chain, Head};
+use motet_runtime::journal::{JournalHead, LineChain};
 use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Query, StartState, Time};
 use std::collections::VecDeque;
 
@@ -19,8 +19,8 @@ pub(crate) fn run(
     mut answer: impl FnMut(usize, &Query) -> Answer,
     limit: usize,
 ) -> Run {
-    let mut chain = Chain::default();
-    let mut lines = vec![chain.head(Head::new(&graph))];
+    let mut chain = LineChain::default();
+    let mut lines = vec![chain.head(JournalHead::new(&graph))];
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
     let (mut steps, mut now) = (Vec::new(), Time::ZERO);
     let mut queue: VecDeque<(Time, Event)> = VecDeque::from([(now, Event::Begin)]);

@@ -2,8 +2,8 @@
 
 use motet_graph::{NodeId, Pose, Value};
 use motet_runtime::{
-    Answer, Cause, CheckId, Command, DriverEvent, Effect, Event, Fault, GoalId, Happening, Motion,
-    NodeEnding, Outcome, Pattern, Query, Record, RunEnd, Time, Truth, Verification, wire,
+    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, Fault, GoalId,
+    NodeEnding, Outcome, Pattern, Query, RunEnd, Time, TraceEvent, TraceEventKind, Truth, Verification, wire,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn motions(args in vec(value(), 0..3), check: u64, why: String) {
         let command = Command { primitive: "pick".into(), args: Vec::new(), uses: [].into(), deadline_secs: 20.1 };
-        let motion = Arc::new(Motion { query: "reach".into(), args, command: Arc::new(command) });
+        let motion = Arc::new(DeferredMotion { query: "reach".into(), args, command: Arc::new(command) });
         let check = CheckId::from_number(check);
         there_and_back!(wire::Effect, Effect, Effect::Verify { check, node: NodeId(3), motion });
         let why = smol_str::SmolStr::from(why);
@@ -130,23 +130,26 @@ proptest! {
 #[test]
 fn records_and_ends() {
     let (node, goal) = (NodeId(7), GoalId::from_number(u64::MAX));
-    let (ending, cause) = (NodeEnding::Failure(motet_graph::FailureId(3)), Cause::Lost);
+    let (ending, cause) = (NodeEnding::Failure(motet_graph::FailureId(3)), EndCause::Lost);
     for what in [
-        Happening::Entered { node },
-        Happening::Ended { node, ending, cause },
-        Happening::Started { node, goal, attempt: 2 },
-        Happening::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: Cause::Swap },
-        Happening::Guard { node, need: 1, truth: Truth::Unknown },
-        Happening::Verified { node, verdict: Box::new(Verification::Feasible) },
-        Happening::Tested { node, truth: Truth::True },
-        Happening::Fired { node, watch: 1, truth: Truth::False },
-        Happening::WentOn { node, watch: 0 },
-        Happening::Swapped { policy: "b".into() },
-        Happening::Kept { node, goal },
-        Happening::Updated { node, goal },
-        Happening::Bound { binding: motet_graph::BindingId(1), value: Box::new(Value::Number(f64::NAN)) },
+        TraceEventKind::Entered { node },
+        TraceEventKind::Ended { node, ending, cause },
+        TraceEventKind::Started { node, goal, attempt: 2 },
+        TraceEventKind::GoalEnded { node, goal, ending: NodeEnding::Interrupted, cause: EndCause::Swap },
+        TraceEventKind::Guard { node, need: 1, truth: Truth::Unknown },
+        TraceEventKind::Verified { node, verdict: Box::new(Verification::Feasible) },
+        TraceEventKind::Tested { node, truth: Truth::True },
+        TraceEventKind::Fired { node, watch: 1, truth: Truth::False },
+        TraceEventKind::WentOn { node, watch: 0 },
+        TraceEventKind::Swapped { policy: "b".into() },
+        TraceEventKind::Kept { node, goal },
+        TraceEventKind::Updated { node, goal },
+        TraceEventKind::Bound {
+            binding: motet_graph::BindingId(1),
+            value: Box::new(Value::Number(f64::NAN)),
+        },
     ] {
-        let record = Record { at: Time::NEVER, revision: 1, what };
+        let record = TraceEvent { at: Time::NEVER, revision: 1, what };
         there_and_back!(wire::Effect, Effect, Effect::Report(record));
     }
     let why = Some("because".to_owned());

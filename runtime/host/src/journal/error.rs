@@ -1,6 +1,6 @@
 //! Why a journal cannot be read or written.
 
-use motet_runtime::journal::Damage;
+use motet_runtime::journal::JournalDamage;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -24,7 +24,7 @@ pub enum JournalError {
         /// The folder.
         path: PathBuf,
         /// Where, and what is wrong.
-        damage: Damage,
+        damage: JournalDamage,
     },
     /// A folder that is to hold a new journal is not empty.
     #[error("`{}` is not empty: a journal needs a folder of its own", path.display())]

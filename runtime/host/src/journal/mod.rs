@@ -2,7 +2,7 @@
 //!
 //! A line is written whole, by one call, as soon as the engine has handled its event and before any of its effects goes out.
 //! It is synced to disk at once where an effect starts something ([`motet_runtime::journal::must_be_durable`]), and with
-//! others otherwise, see [`Grouping`]. A folder is written by one process at a time; a lock that the system takes back when
+//! others otherwise, see [`SyncGrouping`]. A folder is written by one process at a time; a lock that the system takes back when
 //! the process ends sees to it.
 
 mod error;
@@ -11,9 +11,9 @@ mod record;
 mod write;
 
 pub use error::JournalError;
-pub use read::{Tail, read};
-pub use record::Recorder;
-pub use write::{Grouping, Writer};
+pub use read::{JournalTail, read};
+pub use record::RunRecorder;
+pub use write::{JournalWriter, SyncGrouping};
 
 /// The name of a segment's file, by the number of its first line.
 fn segment_name(seq: u64) -> String {

@@ -1,13 +1,15 @@
 //! Reading a journal from disk, segment by segment.
 
 use super::{EXTENSION, JournalError};
-use motet_runtime::journal::{Chain, Ending, Entry, MAX_SEGMENTS, Place, Reader};
+use motet_runtime::journal::{
+    JournalEntry, JournalReader, LineChain, MAX_SEGMENTS, SegmentEnd, SegmentPosition,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The end of a journal, to append to.
 #[derive(Clone, Debug)]
-pub struct Tail {
+pub struct JournalTail {
     /// The last segment.
     pub segment: PathBuf,
     /// Its bytes that hold.
@@ -15,7 +17,7 @@ pub struct Tail {
     /// Bytes after them that are to be cut off: a line that was not written to its end.
     pub torn_bytes: u64,
     /// The end of the chain.
-    pub chain: Chain,
+    pub chain: LineChain,
 }
 
 /// Reads the journal in a folder and gives every entry with its number to `take`. Nothing is changed; a torn tail is left
@@ -24,13 +26,13 @@ pub struct Tail {
 /// # Errors
 ///
 /// It cannot be read, holds no entry, or is damaged. Entries before the damage were given.
-pub fn read(folder: &Path, take: &mut dyn FnMut(u64, Entry)) -> Result<Tail, JournalError> {
+pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<JournalTail, JournalError> {
     let segments = segments(folder)?;
-    let mut reader = Reader::default();
+    let mut reader = JournalReader::default();
     let mut tail = None;
     let mut entries = 0_u64;
     for (index, (first, path)) in segments.iter().enumerate() {
-        let place = if index + 1 == segments.len() { Place::Last } else { Place::Middle };
+        let place = if index + 1 == segments.len() { SegmentPosition::Last } else { SegmentPosition::Middle };
         if *first != entries {
             let what = format!("the segment that begins with line {entries} is missing");
             return Err(JournalError::Segments { path: folder.to_owned(), what });
@@ -43,14 +45,14 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, Entry)) -> Result<Tail, Jou
         });
         let ending = ending.map_err(|damage| JournalError::Damaged { path: folder.to_owned(), damage })?;
         let (good_bytes, torn_bytes) = match ending {
-            Ending::Whole => (bytes.len() as u64, 0),
-            Ending::Torn { good_bytes, torn_bytes } => (good_bytes, torn_bytes),
+            SegmentEnd::Whole => (bytes.len() as u64, 0),
+            SegmentEnd::Torn { good_bytes, torn_bytes } => (good_bytes, torn_bytes),
         };
         tail = Some((path.clone(), good_bytes, torn_bytes));
     }
     match tail.filter(|_| entries > 0) {
         Some((segment, good_bytes, torn_bytes)) => {
-            Ok(Tail { segment, good_bytes, torn_bytes, chain: reader.into_chain() })
+            Ok(JournalTail { segment, good_bytes, torn_bytes, chain: reader.into_chain() })
         }
         None => Err(JournalError::None { path: folder.to_owned() }),
     }

@@ -1,16 +1,18 @@
 //! Writes down a run while it goes on.
 
-use super::{JournalError, Writer};
+use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
-use motet_runtime::{Control, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, Time, Verifier};
+use motet_runtime::{
+    Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, SwapRefusal, Time, Verifier,
+};
 use std::sync::Arc;
 
-/// An onlooker that writes a journal and then lets another one look on. Where the journal cannot be written, the run is
-/// stopped before anything else starts; [`Recorder::finish`] tells why.
-pub struct Recorder<'a> {
-    writer: Writer,
-    inner: &'a mut dyn Onlooker,
+/// An observer that writes a journal and then lets another one look on. Where the journal cannot be written, the run is
+/// stopped before anything else starts; [`RunRecorder::finish`] tells why.
+pub struct RunRecorder<'a> {
+    writer: JournalWriter,
+    inner: &'a mut dyn Observer,
     cause: Option<Cause>,
     error: Option<JournalError>,
 }
@@ -23,9 +25,9 @@ enum Cause {
     RefusedSwap,
 }
 
-impl<'a> Recorder<'a> {
+impl<'a> RunRecorder<'a> {
     /// Writes to a journal and looks on with another one.
-    pub fn new(writer: Writer, inner: &'a mut dyn Onlooker) -> Self {
+    pub fn new(writer: JournalWriter, inner: &'a mut dyn Observer) -> Self {
         Self { writer, inner, cause: None, error: None }
     }
 
@@ -57,37 +59,37 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Onlooker for Recorder<'_> {
+impl Observer for RunRecorder<'_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.cause = Some(Cause::Event(event.clone()));
         self.inner.event(now, event);
     }
 
-    fn commit(&mut self, now: Time, effects: &[Effect]) -> Control {
+    fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
         if self.error.is_none() {
             self.error = self.write(now, effects).err();
         }
         let inner = self.inner.commit(now, effects);
-        if self.error.is_some() { Control::Stop } else { inner }
+        if self.error.is_some() { RunControl::Stop } else { inner }
     }
 
     fn effect(&mut self, now: Time, effect: &Effect) {
         self.inner.effect(now, effect);
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         if self.error.is_none() {
             self.error = self.writer.sync_group().err();
         }
         let inner = self.inner.reached(now);
-        if self.error.is_some() { Control::Stop } else { inner }
+        if self.error.is_some() { RunControl::Stop } else { inner }
     }
 
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<Prepared> {
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         self.inner.swap(now, engine)
     }
 
-    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         let took_over = result.is_ok();
         self.cause = Some(if took_over { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap });
         self.inner.swapped(now, graph, result);

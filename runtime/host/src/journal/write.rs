@@ -1,7 +1,7 @@
 //! Writing a journal to disk.
 
-use super::{JournalError, LOCK, Tail, read, segment_name};
-use motet_runtime::journal::{Chain, Entry, Head, SEGMENT_BYTES};
+use super::{JournalError, JournalTail, LOCK, read, segment_name};
+use motet_runtime::journal::{JournalEntry, JournalHead, LineChain, SEGMENT_BYTES};
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 /// When lines that need not be on disk at once are synced: as soon as one of these is reached.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Grouping {
+pub struct SyncGrouping {
     /// So many lines were written since.
     pub lines: u32,
     /// So many bytes were written since.
@@ -18,7 +18,7 @@ pub struct Grouping {
     pub age: Duration,
 }
 
-impl Default for Grouping {
+impl Default for SyncGrouping {
     /// 64 lines, 256 KiB, 200 ms.
     fn default() -> Self {
         Self { lines: 64, bytes: 256 * 1024, age: Duration::from_millis(200) }
@@ -27,13 +27,13 @@ impl Default for Grouping {
 
 /// Appends lines to the journal in a folder.
 #[derive(Debug)]
-pub struct Writer {
+pub struct JournalWriter {
     folder: PathBuf,
     file: File,
     path: PathBuf,
     bytes: u64,
-    chain: Chain,
-    grouping: Grouping,
+    chain: LineChain,
+    grouping: SyncGrouping,
     segment_bytes: u64,
     waiting: Option<Waiting>,
     _lock: Lock,
@@ -58,14 +58,14 @@ struct Waiting {
     since: Instant,
 }
 
-impl Writer {
+impl JournalWriter {
     /// Begins a journal in a folder, which is made where it does not exist, and must be empty. When this returns, the head
     /// is on disk.
     ///
     /// # Errors
     ///
     /// The folder cannot be used, or another process uses it.
-    pub fn create(folder: &Path, head: Head) -> Result<Self, JournalError> {
+    pub fn create(folder: &Path, head: JournalHead) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(JournalError::io("cannot make", folder))?;
         let lock = lock(folder)?;
         let others = fs::read_dir(folder).map_err(JournalError::io("cannot read", folder))?;
@@ -73,14 +73,14 @@ impl Writer {
             return Err(JournalError::NotEmpty { path: folder.to_owned() });
         }
         let (path, file) = new_segment(folder, 0)?;
-        let chain = Chain::default();
+        let chain = LineChain::default();
         let mut writer = Self {
             folder: folder.to_owned(),
             file,
             path,
             bytes: 0,
             chain,
-            grouping: Grouping::default(),
+            grouping: SyncGrouping::default(),
             segment_bytes: SEGMENT_BYTES,
             waiting: None,
             _lock: lock,
@@ -96,7 +96,10 @@ impl Writer {
     /// # Errors
     ///
     /// It cannot be read or written, is damaged, or another process writes it.
-    pub fn open(folder: &Path, take: &mut dyn FnMut(u64, Entry)) -> Result<(Self, Tail), JournalError> {
+    pub fn open(
+        folder: &Path,
+        take: &mut dyn FnMut(u64, JournalEntry),
+    ) -> Result<(Self, JournalTail), JournalError> {
         if !folder.is_dir() {
             return Err(JournalError::None { path: folder.to_owned() });
         }
@@ -115,7 +118,7 @@ impl Writer {
             path,
             bytes: tail.good_bytes,
             chain: tail.chain.clone(),
-            grouping: Grouping::default(),
+            grouping: SyncGrouping::default(),
             segment_bytes: SEGMENT_BYTES,
             waiting: None,
             _lock: lock,
@@ -125,7 +128,7 @@ impl Writer {
 
     /// With other limits of what waits for a sync.
     #[must_use]
-    pub fn with_grouping(mut self, grouping: Grouping) -> Self {
+    pub fn with_grouping(mut self, grouping: SyncGrouping) -> Self {
         self.grouping = grouping;
         self
     }
@@ -138,12 +141,12 @@ impl Writer {
     }
 
     /// Writes a line that `make` adds to the chain, with its line feed. It is on its way to the disk, and there after the
-    /// next [`Writer::sync`].
+    /// next [`JournalWriter::sync`].
     ///
     /// # Errors
     ///
     /// It cannot be written. The journal is then to be left alone: whether the line is there, only reading it anew can tell.
-    pub fn append(&mut self, make: impl FnOnce(&mut Chain) -> String) -> Result<(), JournalError> {
+    pub fn append(&mut self, make: impl FnOnce(&mut LineChain) -> String) -> Result<(), JournalError> {
         if self.bytes >= self.segment_bytes {
             self.sync()?;
             (self.path, self.file) = new_segment(&self.folder, self.chain.next_seq())?;
@@ -176,9 +179,9 @@ impl Writer {
     ///
     /// # Errors
     ///
-    /// As [`Writer::sync`].
+    /// As [`JournalWriter::sync`].
     pub fn sync_group(&mut self) -> Result<(), JournalError> {
-        let Grouping { lines, bytes, age } = self.grouping;
+        let SyncGrouping { lines, bytes, age } = self.grouping;
         let is_due = |waiting: Waiting| {
             waiting.lines >= lines || waiting.bytes >= bytes || waiting.since.elapsed() >= age
         };
@@ -186,7 +189,7 @@ impl Writer {
     }
 }
 
-impl Drop for Writer {
+impl Drop for JournalWriter {
     /// What waits is synced; nobody is left to hear where that fails.
     fn drop(&mut self) {
         let _ = self.sync();

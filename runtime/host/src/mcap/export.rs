@@ -1,10 +1,10 @@
 //! Writes the entries of a journal as messages.
 
-use super::foxglove::{FrameTransforms, Picture, SceneUpdate, flat_schema};
+use super::foxglove::{FrameTransforms, McapScene, SceneUpdate, flat_schema};
 use super::message::{EffectMessage, EventMessage, GraphMessage, StateMessage};
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
-use motet_runtime::journal::{CannotReplay, Entry, Replay};
+use motet_runtime::journal::{EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::wire;
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
@@ -21,23 +21,23 @@ pub enum ExportError {
     Mcap(#[from] McapError),
     /// The engine does not take the journal.
     #[error("{0}")]
-    Replay(#[from] CannotReplay),
+    Replay(#[from] ReplayError),
     /// A message cannot be written.
     #[error("a message cannot be written: {0}")]
     Json(#[from] serde_json::Error),
 }
 
 /// Writes an MCAP file. The engine is stepped along, for its states.
-pub struct Exporter<W: Write + Seek> {
+pub struct McapExporter<W: Write + Seek> {
     writer: Writer<W>,
     channels: Channels,
-    replay: Option<Replay>,
+    replay: Option<EngineReplay>,
     began_unix_ns: u64,
     from: u64,
     revision: u32,
     sequence: u32,
     state: Option<wire::Snapshot>,
-    picture: Option<Picture>,
+    picture: Option<McapScene>,
 }
 
 struct Channels {
@@ -49,7 +49,7 @@ struct Channels {
     scene: u16,
 }
 
-impl<W: Write + Seek> Exporter<W> {
+impl<W: Write + Seek> McapExporter<W> {
     /// An empty file. Chunks are not compressed.
     ///
     /// # Errors
@@ -84,24 +84,29 @@ impl<W: Write + Seek> Exporter<W> {
     /// # Errors
     ///
     /// It cannot be written, or the engine does not take it.
-    pub fn entry(&mut self, seq: u64, entry: &Entry, picture: Option<Picture>) -> Result<(), ExportError> {
+    pub fn entry(
+        &mut self,
+        seq: u64,
+        entry: &JournalEntry,
+        picture: Option<McapScene>,
+    ) -> Result<(), ExportError> {
         let Some((at, effects)) = entry.happened() else { return Ok(()) };
-        if let Entry::Head(head) = entry {
+        if let JournalEntry::Head(head) = entry {
             (self.began_unix_ns, self.from) = (head.began_unix_ns, head.from);
-            self.replay = Some(Replay::new(head)?);
+            self.replay = Some(EngineReplay::new(head)?);
         }
         let now = self.began_unix_ns.saturating_add(at.saturating_sub(self.from));
         match entry {
-            Entry::Head(head) => self.graph(now, seq, head.graph.clone())?,
-            Entry::Swap(swap) => {
+            JournalEntry::Head(head) => self.graph(now, seq, head.graph.clone())?,
+            JournalEntry::Swap(swap) => {
                 self.revision += 1;
                 self.graph(now, seq, swap.graph.clone())?;
             }
-            Entry::Step(step) | Entry::GaveUp(step) => {
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => {
                 let event = EventMessage { seq, at, event: step.event.clone() };
                 self.write(self.channels.event, now, &event)?;
             }
-            Entry::Resumed(_) => {}
+            JournalEntry::Resumed(_) => {}
         }
         for (index, effect) in (0..).zip(effects) {
             let message = EffectMessage { seq, index, at, effect: effect.clone() };
@@ -144,7 +149,7 @@ impl<W: Write + Seek> Exporter<W> {
         Ok(())
     }
 
-    fn picture(&mut self, now: u64, picture: Option<Picture>) -> Result<(), ExportError> {
+    fn picture(&mut self, now: u64, picture: Option<McapScene>) -> Result<(), ExportError> {
         let Some(picture) = picture else { return Ok(()) };
         let last = self.picture.as_ref();
         let (moved, changed) = (

@@ -6,16 +6,16 @@ use serde_json::{Value, json};
 
 /// A world at a moment, in the frame `map`.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Picture {
+pub struct McapScene {
     /// Where the base stands: x and y in m, the heading in rad.
     pub base: [f64; 3],
     /// What else there is.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<McapBody>,
 }
 
 /// A thing.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Body {
+pub struct McapBody {
     /// Its id.
     pub id: String,
     /// Its centre in m.
@@ -23,12 +23,12 @@ pub struct Body {
     /// Its turn about the vertical in rad.
     pub heading: f64,
     /// Its shape.
-    pub solid: Solid,
+    pub solid: McapSolid,
 }
 
 /// A shape.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Solid {
+pub enum McapSolid {
     /// Full extents in m.
     Box([f64; 3]),
     /// In m, upright.
@@ -156,7 +156,7 @@ impl Stamp {
     }
 }
 
-impl Picture {
+impl McapScene {
     /// The frame of the base in that of the map.
     pub(super) fn transforms(&self, now: u64) -> FrameTransforms {
         let [x, y, heading] = self.base;
@@ -178,23 +178,23 @@ impl Picture {
     }
 }
 
-impl Body {
+impl McapBody {
     fn entity(&self, now: u64) -> SceneEntity {
         let [x, y, z] = self.xyz;
         let pose = Pose { position: Vector3 { x, y, z }, orientation: about_z(self.heading) };
         let (mut cubes, mut spheres, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
         let height = match self.solid {
-            Solid::Box([x, y, z]) => {
+            McapSolid::Box([x, y, z]) => {
                 cubes.push(Cube { pose, size: Vector3 { x, y, z }, color: THING });
                 z
             }
-            Solid::Cylinder { radius, height } => {
+            McapSolid::Cylinder { radius, height } => {
                 let size = Vector3 { x: 2.0 * radius, y: 2.0 * radius, z: height };
                 let (bottom_scale, top_scale, color) = (1.0, 1.0, THING);
                 cylinders.push(Cylinder { pose, size, bottom_scale, top_scale, color });
                 height
             }
-            Solid::Sphere { radius } => {
+            McapSolid::Sphere { radius } => {
                 let size = Vector3 { x: 2.0 * radius, y: 2.0 * radius, z: 2.0 * radius };
                 spheres.push(Cube { pose, size, color: THING });
                 2.0 * radius

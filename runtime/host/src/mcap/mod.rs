@@ -5,5 +5,5 @@ mod export;
 mod foxglove;
 mod message;
 
-pub use export::{ExportError, Exporter};
-pub use foxglove::{Body, Picture, Solid};
+pub use export::{ExportError, McapExporter};
+pub use foxglove::{McapBody, McapScene, McapSolid};

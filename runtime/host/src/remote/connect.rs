@@ -1,6 +1,6 @@
 //! Where a driver is: a command to start, or a port of this machine.
 
-use super::link::{Breakage, Link};
+use super::link::{Link, LinkError};
 use std::fmt;
 use std::io::{BufReader, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// Where a driver is.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Address {
+pub enum DriverAddress {
     /// A command with its arguments; it speaks on its standard input and output.
     Command(Vec<String>),
     /// A TCP port on this machine.
@@ -20,7 +20,7 @@ pub enum Address {
 
 /// An address that cannot be used.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-pub enum AddressError {
+pub enum DriverAddressError {
     /// Nothing is given.
     #[error("it is empty: give a command, or tcp://127.0.0.1:PORT")]
     Empty,
@@ -35,26 +35,26 @@ pub enum AddressError {
     NotLoopback(SocketAddr),
 }
 
-impl FromStr for Address {
-    type Err = AddressError;
+impl FromStr for DriverAddress {
+    type Err = DriverAddressError;
 
     /// `tcp://127.0.0.1:PORT`, or a command as a shell would split it at blanks, with single and double quotes and no
     /// expansion.
-    fn from_str(text: &str) -> Result<Self, AddressError> {
+    fn from_str(text: &str) -> Result<Self, DriverAddressError> {
         if let Some(place) = text.trim().strip_prefix("tcp://") {
             let socket = place.to_socket_addrs().ok().and_then(|mut all| all.next());
-            let socket = socket.ok_or_else(|| AddressError::Socket(place.to_owned()))?;
+            let socket = socket.ok_or_else(|| DriverAddressError::Socket(place.to_owned()))?;
             if !socket.ip().is_loopback() {
-                return Err(AddressError::NotLoopback(socket));
+                return Err(DriverAddressError::NotLoopback(socket));
             }
             return Ok(Self::Tcp(socket));
         }
         let words = words(text)?;
-        if words.is_empty() { Err(AddressError::Empty) } else { Ok(Self::Command(words)) }
+        if words.is_empty() { Err(DriverAddressError::Empty) } else { Ok(Self::Command(words)) }
     }
 }
 
-impl fmt::Display for Address {
+impl fmt::Display for DriverAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Command(words) => f.write_str(&words.join(" ")),
@@ -63,7 +63,7 @@ impl fmt::Display for Address {
     }
 }
 
-fn words(text: &str) -> Result<Vec<String>, AddressError> {
+fn words(text: &str) -> Result<Vec<String>, DriverAddressError> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;
     let mut quote = None;
@@ -80,15 +80,15 @@ fn words(text: &str) -> Result<Vec<String>, AddressError> {
         }
     }
     words.extend(word);
-    if quote.is_some() { Err(AddressError::Quote) } else { Ok(words) }
+    if quote.is_some() { Err(DriverAddressError::Quote) } else { Ok(words) }
 }
 
-impl Address {
+impl DriverAddress {
     /// Starts or calls the driver.
-    pub(super) fn open(&self, within: Duration) -> Result<Link, Breakage> {
+    pub(super) fn open(&self, within: Duration) -> Result<Link, LinkError> {
         match self {
             Self::Command(words) => {
-                let (program, args) = words.split_first().ok_or(Breakage::Closed)?;
+                let (program, args) = words.split_first().ok_or(LinkError::Closed)?;
                 let mut command = Command::new(program);
                 // Ctrl-C at a terminal is meant for the host, which then asks the driver to stop.
                 #[cfg(unix)]
@@ -98,15 +98,15 @@ impl Address {
                     .stdin(Stdio::piped())
                     .stdout(Stdio::piped())
                     .spawn()
-                    .map_err(|error| Breakage::NotReached(error.to_string()))?;
+                    .map_err(|error| LinkError::NotReached(error.to_string()))?;
                 Link::of_child(child)
             }
             Self::Tcp(socket) => {
                 let stream = TcpStream::connect_timeout(socket, within)
-                    .map_err(|error| Breakage::NotReached(error.to_string()))?;
+                    .map_err(|error| LinkError::NotReached(error.to_string()))?;
                 // Commands are small, and each is waited for.
                 let _ = stream.set_nodelay(true);
-                let own = |error: std::io::Error| Breakage::NotReached(error.to_string());
+                let own = |error: std::io::Error| LinkError::NotReached(error.to_string());
                 let (reader, closer) = (stream.try_clone().map_err(own)?, stream.try_clone().map_err(own)?);
                 let writer: Box<dyn Write + Send> = Box::new(stream);
                 Ok(Link::new(BufReader::new(reader), writer, super::link::Peer::Socket(closer)))
@@ -117,24 +117,27 @@ impl Address {
 
 #[cfg(test)]
 mod tests {
-    use super::{Address, AddressError};
+    use super::{DriverAddress, DriverAddressError};
 
     #[test]
     fn commands_are_split_like_in_a_shell() {
         let words = |text: &str| match text.parse() {
-            Ok(Address::Command(words)) => words,
+            Ok(DriverAddress::Command(words)) => words,
             other => panic!("{other:?}"),
         };
         assert_eq!(words("python3 echo.py --seconds 1"), ["python3", "echo.py", "--seconds", "1"]);
         assert_eq!(words("'my driver' \"\" a'b c'd"), ["my driver", "", "ab cd"]);
-        assert_eq!("  ".parse::<Address>(), Err(AddressError::Empty));
-        assert_eq!("a 'b".parse::<Address>(), Err(AddressError::Quote));
+        assert_eq!("  ".parse::<DriverAddress>(), Err(DriverAddressError::Empty));
+        assert_eq!("a 'b".parse::<DriverAddress>(), Err(DriverAddressError::Quote));
     }
 
     #[test]
     fn only_this_machine_is_called() {
-        assert!(matches!("tcp://127.0.0.1:4000".parse(), Ok(Address::Tcp(_))));
-        assert!(matches!("tcp://192.0.2.1:4000".parse::<Address>(), Err(AddressError::NotLoopback(_))));
-        assert!(matches!("tcp://127.0.0.1".parse::<Address>(), Err(AddressError::Socket(_))));
+        assert!(matches!("tcp://127.0.0.1:4000".parse(), Ok(DriverAddress::Tcp(_))));
+        assert!(matches!(
+            "tcp://192.0.2.1:4000".parse::<DriverAddress>(),
+            Err(DriverAddressError::NotLoopback(_))
+        ));
+        assert!(matches!("tcp://127.0.0.1".parse::<DriverAddress>(), Err(DriverAddressError::Socket(_))));
     }
 }

@@ -4,10 +4,13 @@ mod carry_out;
 mod hear;
 
 use super::clock::Clock;
-use super::connect::Address;
-use super::link::{Breakage, Link};
-use super::protocol::{Asked, Call, Goal, Goals, Heard, Hello, Nothing, Told, VERSION, Welcome, hear, say};
-use super::settings::Patience;
+use super::connect::DriverAddress;
+use super::link::{Link, LinkError};
+use super::protocol::{
+    DriverCall, DriverMessage, EmptyParams, GoalParams, Hello, QueryParams, StatusParams, StatusResult,
+    VERSION, Welcome, hear, say,
+};
+use super::settings::DriverTimeouts;
 use motet_runtime::{Capabilities, DriverEvent, Query, Time};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -19,8 +22,8 @@ use std::time::Instant;
 /// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few times; these calls
 /// then wait for its greeting. What it used is safe once it has answered the safe stop.
 pub struct RemoteDriver {
-    address: Address,
-    patience: Patience,
+    address: DriverAddress,
+    patience: DriverTimeouts,
     hello: Hello,
     clock: Clock,
     link: Option<Link>,
@@ -40,7 +43,7 @@ pub struct RemoteDriver {
 
 /// A call that is not answered.
 struct Waiting {
-    call: Call,
+    call: DriverCall,
     due: Instant,
     sayings: u32,
 }
@@ -52,12 +55,12 @@ impl RemoteDriver {
     ///
     /// It cannot be reached, or does not speak this protocol.
     pub fn connect(
-        address: Address,
+        address: DriverAddress,
         hello: Hello,
-        patience: Patience,
+        patience: DriverTimeouts,
         from: Time,
         note: Box<dyn FnMut(&str)>,
-    ) -> Result<Self, Breakage> {
+    ) -> Result<Self, LinkError> {
         let hello = Hello { protocol: VERSION, ..hello };
         let capabilities = (&Capabilities::default()).into();
         let (driver, instance) = (String::new(), String::new());
@@ -95,41 +98,41 @@ impl RemoteDriver {
     /// # Errors
     ///
     /// It does not say.
-    pub fn status(&mut self, goals: Vec<u64>) -> Result<Told, Breakage> {
+    pub fn status(&mut self, goals: Vec<u64>) -> Result<StatusResult, LinkError> {
         let asked = self.next_id;
-        self.call(Call::Status(Goals { goals }));
+        self.call(DriverCall::Status(StatusParams { goals }));
         let due = Instant::now() + self.patience.answer;
         while let Some(left) = due.checked_duration_since(Instant::now()) {
-            let Some(line) = self.link.as_ref().ok_or(Breakage::Closed)?.hear(left)? else { break };
+            let Some(line) = self.link.as_ref().ok_or(LinkError::Closed)?.hear(left)? else { break };
             match hear(&line).map_err(|why| nonsense(&line, why))? {
-                Heard::Answer(id, Ok(told)) if id == asked => {
+                DriverMessage::Answer(id, Ok(told)) if id == asked => {
                     self.waiting.remove(&asked);
                     return serde_json::from_value(told).map_err(|why| nonsense(&line, why.to_string()));
                 }
-                Heard::Answer(id, Err(wrong)) if id == asked => {
-                    return Err(Breakage::Greeting(wrong.message));
+                DriverMessage::Answer(id, Err(wrong)) if id == asked => {
+                    return Err(LinkError::Greeting(wrong.message));
                 }
-                Heard::Answer(..) | Heard::Report(_) => self.heard(&line),
+                DriverMessage::Answer(..) | DriverMessage::Report(_) => self.heard(&line),
             }
         }
-        Err(Breakage::Silent(self.patience.answer))
+        Err(LinkError::Silent(self.patience.answer))
     }
 
     /// Opens a connection and greets.
-    fn greet(&mut self) -> Result<(), Breakage> {
+    fn greet(&mut self) -> Result<(), LinkError> {
         let link = self.address.open(self.patience.greeting)?;
         let id = self.id();
-        link.say(say(id, &Call::Hello(self.hello.clone())))?;
+        link.say(say(id, &DriverCall::Hello(self.hello.clone())))?;
         let Some(line) = link.hear(self.patience.greeting)? else {
             let secs = self.patience.greeting.as_secs_f64();
-            return Err(Breakage::Greeting(format!("nothing for {secs:.1} s")));
+            return Err(LinkError::Greeting(format!("nothing for {secs:.1} s")));
         };
         let answer = hear(&line).map_err(|why| nonsense(&line, why))?;
         let welcome = match answer {
-            Heard::Answer(answered, Ok(welcome)) if answered == id => welcome,
-            Heard::Answer(_, Err(wrong)) => return Err(Breakage::Greeting(wrong.message)),
-            Heard::Answer(_, Ok(_)) | Heard::Report(_) => {
-                return Err(Breakage::Greeting("it said something else first".to_owned()));
+            DriverMessage::Answer(answered, Ok(welcome)) if answered == id => welcome,
+            DriverMessage::Answer(_, Err(wrong)) => return Err(LinkError::Greeting(wrong.message)),
+            DriverMessage::Answer(_, Ok(_)) | DriverMessage::Report(_) => {
+                return Err(LinkError::Greeting("it said something else first".to_owned()));
             }
         };
         let welcome: Welcome =
@@ -137,7 +140,7 @@ impl RemoteDriver {
         if welcome.protocol != VERSION {
             let found = welcome.protocol;
             let why = format!("it speaks version {found} of the protocol, this program speaks {VERSION}");
-            return Err(Breakage::Greeting(why));
+            return Err(LinkError::Greeting(why));
         }
         self.welcome = welcome;
         self.heard_at = Instant::now();
@@ -160,10 +163,10 @@ impl RemoteDriver {
             return false;
         }
         for query in self.watches.clone() {
-            self.call(Call::Watch(Asked::from(&query)));
+            self.call(DriverCall::Watch(QueryParams::from(&query)));
         }
         for goal in self.stopping.clone() {
-            self.call(Call::SafeStop(Goal { goal }));
+            self.call(DriverCall::SafeStop(GoalParams { goal }));
         }
         self.link.is_some()
     }
@@ -173,11 +176,11 @@ impl RemoteDriver {
         self.next_id - 1
     }
 
-    fn call(&mut self, call: Call) {
+    fn call(&mut self, call: DriverCall) {
         self.call_again(call, 1);
     }
 
-    fn call_again(&mut self, call: Call, sayings: u32) {
+    fn call_again(&mut self, call: DriverCall, sayings: u32) {
         let Some(link) = &self.link else { return };
         let said = link.say(say(self.next_id, &call));
         self.said_at = Instant::now();
@@ -196,7 +199,7 @@ impl RemoteDriver {
     }
 
     /// The connection is of no use any more.
-    fn broke(&mut self, breakage: &Breakage) {
+    fn broke(&mut self, breakage: &LinkError) {
         if self.link.take().is_some() {
             (self.note)(&breakage.to_string());
             self.waiting.clear();
@@ -208,7 +211,7 @@ impl RemoteDriver {
 impl Drop for RemoteDriver {
     fn drop(&mut self) {
         if let Some(link) = &mut self.link {
-            let _ = link.say(say(self.next_id, &Call::Bye(Nothing {})));
+            let _ = link.say(say(self.next_id, &DriverCall::Bye(EmptyParams {})));
             link.end(self.patience.farewell);
         }
     }
@@ -218,10 +221,10 @@ const fn failed() -> SmolStr {
     SmolStr::new_static("failed")
 }
 
-fn nonsense(line: &str, why: String) -> Breakage {
+fn nonsense(line: &str, why: String) -> LinkError {
     let mut beginning: String = line.chars().take(80).collect();
     if beginning.len() < line.len() {
         beginning.push('…');
     }
-    Breakage::Nonsense(beginning, why)
+    LinkError::Nonsense(beginning, why)
 }

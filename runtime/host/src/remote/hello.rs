@@ -1,13 +1,13 @@
 //! The greeting for a graph.
 
-use super::protocol::{Hello, Primitive, VERSION};
+use super::protocol::{CalledPrimitive, Hello, VERSION};
 use motet_graph::{Graph, Type};
 
 impl Hello {
     /// The greeting before a graph is run.
     #[must_use]
     pub fn of(graph: &Graph) -> Self {
-        let primitive = |primitive: &motet_graph::Primitive| Primitive {
+        let primitive = |primitive: &motet_graph::Primitive| CalledPrimitive {
             name: primitive.name.to_string(),
             result: primitive.result.as_ref().map(|ty| text(graph, ty)),
         };

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// Why a driver is no longer spoken with.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Breakage {
+pub enum LinkError {
     /// It could not be started or called.
     NotReached(String),
     /// It ended, or closed the connection.
@@ -30,7 +30,7 @@ pub enum Breakage {
     Greeting(String),
 }
 
-impl fmt::Display for Breakage {
+impl fmt::Display for LinkError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotReached(why) => write!(f, "the driver cannot be reached: {why}"),
@@ -57,7 +57,7 @@ pub(super) enum Peer {
 /// A connection.
 #[derive(Debug)]
 pub(super) struct Link {
-    heard: Receiver<Result<String, Breakage>>,
+    heard: Receiver<Result<String, LinkError>>,
     said: SyncSender<String>,
     speaker: JoinHandle<()>,
     peer: Peer,
@@ -76,26 +76,26 @@ impl Link {
         Self { heard, said, speaker, peer }
     }
 
-    pub(super) fn of_child(mut child: Child) -> Result<Self, Breakage> {
+    pub(super) fn of_child(mut child: Child) -> Result<Self, LinkError> {
         match (child.stdout.take(), child.stdin.take()) {
             (Some(stdout), Some(stdin)) => {
                 Ok(Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child)))
             }
-            (_, _) => Err(Breakage::Closed),
+            (_, _) => Err(LinkError::Closed),
         }
     }
 
     /// Says a line; it is not waited for.
-    pub(super) fn say(&self, line: String) -> Result<(), Breakage> {
-        self.said.try_send(line).map_err(|_| Breakage::Deaf)
+    pub(super) fn say(&self, line: String) -> Result<(), LinkError> {
+        self.said.try_send(line).map_err(|_| LinkError::Deaf)
     }
 
     /// The next line, if one comes in time.
-    pub(super) fn hear(&self, within: Duration) -> Result<Option<String>, Breakage> {
+    pub(super) fn hear(&self, within: Duration) -> Result<Option<String>, LinkError> {
         match self.heard.recv_timeout(within) {
             Ok(line) => line.map(Some),
             Err(RecvTimeoutError::Timeout) => Ok(None),
-            Err(RecvTimeoutError::Disconnected) => Err(Breakage::Closed),
+            Err(RecvTimeoutError::Disconnected) => Err(LinkError::Closed),
         }
     }
 }
@@ -147,7 +147,7 @@ fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
 }
 
 /// Reads lines until there are no more, or one is wrong.
-fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, Breakage>>) {
+fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, LinkError>>) {
     loop {
         let line = line(&mut reader);
         let is_last = line.is_err();
@@ -157,20 +157,20 @@ fn listen(mut reader: impl BufRead, tell: &SyncSender<Result<String, Breakage>>)
     }
 }
 
-fn line(reader: &mut impl BufRead) -> Result<String, Breakage> {
+fn line(reader: &mut impl BufRead) -> Result<String, LinkError> {
     let mut bytes = Vec::new();
     let limit = MAX_LINE_BYTES as u64 + 1;
     let read = reader.by_ref().take(limit).read_until(b'\n', &mut bytes);
-    read.map_err(|error: io::Error| Breakage::Read(error.to_string()))?;
+    read.map_err(|error: io::Error| LinkError::Read(error.to_string()))?;
     match bytes.pop() {
-        None => Err(Breakage::Closed),
+        None => Err(LinkError::Closed),
         Some(b'\n') => String::from_utf8(bytes).map_err(|error| {
             let line = String::from_utf8_lossy(error.as_bytes()).chars().take(80).collect();
-            Breakage::Nonsense(line, "it is not UTF-8".to_owned())
+            LinkError::Nonsense(line, "it is not UTF-8".to_owned())
         }),
-        Some(_) if bytes.len() >= MAX_LINE_BYTES => Err(Breakage::Flood),
+        Some(_) if bytes.len() >= MAX_LINE_BYTES => Err(LinkError::Flood),
         // The end in the middle of a line.
-        Some(_) => Err(Breakage::Closed),
+        Some(_) => Err(LinkError::Closed),
     }
 }
 

@@ -14,7 +14,7 @@ pub mod protocol;
 mod resume;
 mod settings;
 
-pub use connect::{Address, AddressError};
+pub use connect::{DriverAddress, DriverAddressError};
 pub use driver::RemoteDriver;
-pub use link::Breakage;
-pub use settings::Patience;
+pub use link::LinkError;
+pub use settings::DriverTimeouts;

@@ -14,53 +14,53 @@ pub const REFUSED: i64 = 1;
 /// What the host calls. Each is a request with a number of its own and is answered, except `bye`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "method", content = "params", rename_all = "snake_case")]
-pub enum Call {
+pub enum DriverCall {
     /// The greeting, first on every connection. Answered by [`Welcome`].
     Hello(Hello),
     /// Start a goal. Answered by `{}`: it is accepted and runs; or by the error 1: it is refused. Of a goal that was started
     /// before the same answer is given again, and nothing else is done.
-    Start(Start),
+    Start(StartParams),
     /// Give a running goal new arguments. Answered by `{}`.
-    Update(Start),
+    Update(StartParams),
     /// End a goal early. Answered by `{}`: heard; the goal's end is said by `ended`. Of a goal that has ended it is ignored.
-    Cancel(Goal),
+    Cancel(GoalParams),
     /// Keep a goal still. Answered by `{}`, or by any error: it cannot be held.
-    Hold(Goal),
+    Hold(GoalParams),
     /// Let a held goal go on. Answered by `{}`.
-    Proceed(Goal),
+    Proceed(GoalParams),
     /// Bring everything that a goal uses to a safe stop, also of a goal that has ended or was never heard of. Answered by
     /// `{}`: heard; that everything stands still is said by `stopped`.
-    SafeStop(Goal),
-    /// Answer a question once. Answered by [`Answered`].
-    Observe(Asked),
-    /// Answer a question, and say `observed` whenever the answer changes. Answered by [`Answered`].
-    Watch(Asked),
+    SafeStop(GoalParams),
+    /// Answer a question once. Answered by [`QueryResult`].
+    Observe(QueryParams),
+    /// Answer a question, and say `observed` whenever the answer changes. Answered by [`QueryResult`].
+    Watch(QueryParams),
     /// No longer watch. Answered by `{}`.
-    Unwatch(Asked),
-    /// What became of some goals? Asked after a crash. Answered by [`Told`].
-    Status(Goals),
+    Unwatch(QueryParams),
+    /// What became of some goals? Asked after a crash. Answered by [`StatusResult`].
+    Status(StatusParams),
     /// A sign of life is asked for. Answered by `{}`.
-    Ping(Nothing),
+    Ping(EmptyParams),
     /// The host goes. Not answered. Whatever still moves comes to a safe stop.
-    Bye(Nothing),
+    Bye(EmptyParams),
 }
 
 /// What a driver says of its own accord.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "method", content = "params", rename_all = "snake_case")]
-pub enum Report {
+pub enum DriverReport {
     /// A goal has ended and uses none of its resources any longer. Said once.
-    Ended(Ended),
+    Ended(EndedParams),
     /// A goal that was told to hold cannot be held.
-    NotHeld(Goal),
+    NotHeld(GoalParams),
     /// Everything that a goal used stands still: the answer to `safe_stop`.
-    Stopped(Goal),
+    Stopped(GoalParams),
     /// The driver does not know what became of a goal.
-    Lost(Goal),
+    Lost(GoalParams),
     /// The answer to a watched question has changed, or something was noticed in passing.
-    Observed(Observed),
+    Observed(ObservedParams),
     /// How a goal is getting on, for people. It changes nothing.
-    Feedback(Feedback),
+    Feedback(FeedbackParams),
 }
 
 /// The greeting.
@@ -73,12 +73,12 @@ pub struct Hello {
     /// The policy.
     pub policy: String,
     /// The primitives that it calls.
-    pub primitives: Vec<Primitive>,
+    pub primitives: Vec<CalledPrimitive>,
 }
 
 /// A primitive that a policy calls.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Primitive {
+pub struct CalledPrimitive {
     /// Its name.
     pub name: String,
     /// The type of its result as the language writes it, such as `Object`, `Text` or `List<Object>`.
@@ -101,7 +101,7 @@ pub struct Welcome {
 
 /// A goal with what it does.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Start {
+pub struct StartParams {
     /// Its number, which the host chooses and never uses twice in a run.
     pub goal: u64,
     /// What it does.
@@ -110,26 +110,26 @@ pub struct Start {
 
 /// A goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Goal {
+pub struct GoalParams {
     /// Its number.
     pub goal: u64,
 }
 
 /// Several goals.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Goals {
+pub struct StatusParams {
     /// Their numbers.
     pub goals: Vec<u64>,
 }
 
 /// A question.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Asked {
+pub struct QueryParams {
     /// What.
     pub query: Query,
 }
 
-impl From<&motet_runtime::Query> for Asked {
+impl From<&motet_runtime::Query> for QueryParams {
     fn from(query: &motet_runtime::Query) -> Self {
         Self { query: query.into() }
     }
@@ -137,14 +137,14 @@ impl From<&motet_runtime::Query> for Asked {
 
 /// The answer to a question.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Answered {
+pub struct QueryResult {
     /// What.
     pub answer: Answer,
 }
 
 /// What became of goals.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Told {
+pub struct StatusResult {
     /// Of each that was asked for.
     pub goals: Vec<GoalState>,
 }
@@ -155,13 +155,13 @@ pub struct GoalState {
     /// Its number.
     pub goal: u64,
     /// How it is.
-    pub state: State,
+    pub state: GoalStatus,
 }
 
 /// How a goal is.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum State {
+pub enum GoalStatus {
     /// The driver has never heard of it.
     Unknown,
     /// It runs, held or not.
@@ -176,7 +176,7 @@ pub enum State {
 
 /// The end of a goal.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Ended {
+pub struct EndedParams {
     /// Its number.
     pub goal: u64,
     /// How.
@@ -185,7 +185,7 @@ pub struct Ended {
 
 /// Something that was observed.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Observed {
+pub struct ObservedParams {
     /// The question.
     pub query: Query,
     /// The answer.
@@ -194,7 +194,7 @@ pub struct Observed {
 
 /// How a goal is getting on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Feedback {
+pub struct FeedbackParams {
     /// Its number.
     pub goal: u64,
     /// In words.
@@ -203,7 +203,7 @@ pub struct Feedback {
 
 /// No parameters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, JsonSchema)]
-pub struct Nothing {}
+pub struct EmptyParams {}
 
 /// Data of the error of a refused start.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -214,16 +214,16 @@ pub struct RefusedData {
 
 /// A message from a driver.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Heard {
+pub enum DriverMessage {
     /// The answer to the call of a number.
-    Answer(u64, Result<Value, Wrong>),
+    Answer(u64, Result<Value, RpcError>),
     /// A report.
-    Report(Report),
+    Report(DriverReport),
 }
 
 /// The error that a call was answered with.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-pub struct Wrong {
+pub struct RpcError {
     /// 1 for a refused start; else as JSON-RPC has it.
     pub code: i64,
     /// In words.
@@ -235,10 +235,10 @@ pub struct Wrong {
 
 /// The line of a call, without a line feed.
 #[must_use]
-pub fn say(id: u64, call: &Call) -> String {
+pub fn say(id: u64, call: &DriverCall) -> String {
     let mut message = Map::new();
     message.insert("jsonrpc".to_owned(), json!("2.0"));
-    if !matches!(call, Call::Bye(_)) {
+    if !matches!(call, DriverCall::Bye(_)) {
         message.insert("id".to_owned(), json!(id));
     }
     // These types are written as maps, and writing them does not fail.
@@ -253,7 +253,7 @@ pub fn say(id: u64, call: &Call) -> String {
 /// # Errors
 ///
 /// Why it is no message of this protocol.
-pub fn hear(line: &str) -> Result<Heard, String> {
+pub fn hear(line: &str) -> Result<DriverMessage, String> {
     let message: Value = serde_json::from_str(line).map_err(|error| format!("it is not JSON: {error}"))?;
     if depth(&message) > MAX_DEPTH {
         return Err(format!("it is nested more than {MAX_DEPTH} deep"));
@@ -267,13 +267,13 @@ pub fn hear(line: &str) -> Result<Heard, String> {
             return Err("the host takes no requests".to_owned());
         }
         let report = serde_json::from_value(Value::Object(message));
-        return report.map(Heard::Report).map_err(|error| format!("it is no report: {error}"));
+        return report.map(DriverMessage::Report).map_err(|error| format!("it is no report: {error}"));
     }
     let id = message.get("id").and_then(Value::as_u64).ok_or("it has neither a method nor a number")?;
     match (message.remove("result"), message.remove("error")) {
-        (Some(result), None) => Ok(Heard::Answer(id, Ok(result))),
+        (Some(result), None) => Ok(DriverMessage::Answer(id, Ok(result))),
         (None, Some(error)) => serde_json::from_value(error)
-            .map(|wrong| Heard::Answer(id, Err(wrong)))
+            .map(|wrong| DriverMessage::Answer(id, Err(wrong)))
             .map_err(|error| format!("its error is none: {error}")),
         (Some(_), Some(_)) => Err("it has both a result and an error".to_owned()),
         (None, None) => Err("it has neither a result nor an error".to_owned()),
@@ -293,19 +293,19 @@ fn depth(value: &Value) -> usize {
 #[derive(JsonSchema)]
 #[schemars(title = "Motet driver protocol, version 1")]
 #[allow(dead_code, reason = "only its schema is used")]
-struct Everything {
+struct ProtocolSchema {
     /// What the host calls: with `jsonrpc` and, but for `bye`, `id` beside it.
-    call: Call,
+    call: DriverCall,
     /// What a driver says of its own accord: with `jsonrpc` beside it.
-    report: Report,
+    report: DriverReport,
     /// The result of `hello`.
     hello_result: Welcome,
     /// The result of `observe` and `watch`.
-    observe_result: Answered,
+    observe_result: QueryResult,
     /// The result of `status`.
-    status_result: Told,
+    status_result: StatusResult,
     /// The result of every other call.
-    other_result: Nothing,
+    other_result: EmptyParams,
     /// The data of error 1, with which `start` is refused.
     refused_data: RefusedData,
 }
@@ -313,5 +313,5 @@ struct Everything {
 /// The JSON Schema of the protocol.
 #[must_use]
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(Everything)
+    schemars::schema_for!(ProtocolSchema)
 }

@@ -1,9 +1,9 @@
 //! After a crash of the host: what a driver that went on, or was started anew, knows of the goals that are open.
 
 use super::driver::RemoteDriver;
-use super::link::Breakage;
-use super::protocol::State;
-use motet_runtime::journal::{Ledger, Open};
+use super::link::LinkError;
+use super::protocol::GoalStatus;
+use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{Driver, DriverEvent, Effect, Event, GoalId, Time, wire};
 use std::collections::BTreeMap;
 
@@ -19,9 +19,14 @@ impl RemoteDriver {
     /// # Errors
     ///
     /// It does not say.
-    pub fn catch_up(&mut self, ledger: &Ledger, instance: &str, now: Time) -> Result<Vec<Event>, Breakage> {
+    pub fn catch_up(
+        &mut self,
+        ledger: &OpenGoals,
+        instance: &str,
+        now: Time,
+    ) -> Result<Vec<Event>, LinkError> {
         let told = self.status(ledger.goals.keys().copied().collect())?;
-        let states: BTreeMap<u64, State> =
+        let states: BTreeMap<u64, GoalStatus> =
             told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
         let is_same = self.welcome().instance == instance;
         let mut events = Vec::new();
@@ -32,26 +37,28 @@ impl RemoteDriver {
                 .iter()
                 .any(|effect| matches!(effect, wire::Effect::Start(start) if start.goal == *number));
             match states.get(number) {
-                Some(State::Running) => {
+                Some(GoalStatus::Running) => {
                     events.push(DriverEvent::Acknowledged { goal });
                     self.say_again(now, open);
                 }
-                Some(State::Ended(outcome)) => {
+                Some(GoalStatus::Ended(outcome)) => {
                     let outcome = self.named(outcome.clone()).into();
                     events.push(DriverEvent::Ended { goal, outcome });
                 }
-                Some(State::Refused(failure)) => {
+                Some(GoalStatus::Refused(failure)) => {
                     events.push(DriverEvent::Refused { goal, failure: self.kind(failure) });
                 }
-                Some(State::Stopped) => events.push(DriverEvent::Stopped { goal }),
-                Some(State::Unknown) if is_same && just_started => {
+                Some(GoalStatus::Stopped) => events.push(DriverEvent::Stopped { goal }),
+                Some(GoalStatus::Unknown) if is_same && just_started => {
                     self.start(now, goal, &open.start.command.clone().into());
                 }
                 // Whoever is asked again for a safe stop brings it about, also for what was started by another.
-                Some(State::Unknown) | None if matches!(open.told, Some(wire::Effect::SafeStop { .. })) => {
+                Some(GoalStatus::Unknown) | None
+                    if matches!(open.told, Some(wire::Effect::SafeStop { .. })) =>
+                {
                     self.say_again(now, open);
                 }
-                Some(State::Unknown) | None => events.push(DriverEvent::Lost { goal }),
+                Some(GoalStatus::Unknown) | None => events.push(DriverEvent::Lost { goal }),
             }
         }
         for query in &ledger.watches {
@@ -63,7 +70,7 @@ impl RemoteDriver {
         Ok(events.into_iter().map(Event::Driver).collect())
     }
 
-    fn say_again(&mut self, now: Time, open: &Open) {
+    fn say_again(&mut self, now: Time, open: &OpenGoal) {
         if open.updated {
             let goal = GoalId::from_number(open.start.goal);
             self.update(now, goal, &open.start.command.clone().into());

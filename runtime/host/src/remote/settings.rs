@@ -17,7 +17,7 @@ pub(crate) const SAYINGS: u32 = 2;
 
 /// How long a driver may take.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Patience {
+pub struct DriverTimeouts {
     /// To answer the greeting after it was started or called.
     pub greeting: Duration,
     /// To answer a command. It is an answer to have heard it; what it does may take as long as it takes.
@@ -33,7 +33,7 @@ pub struct Patience {
     pub farewell: Duration,
 }
 
-impl Default for Patience {
+impl Default for DriverTimeouts {
     /// 10 s for the greeting, 2 s for an answer, a sign of life every second and at least every 5 s, 3 restarts, 5 s to end.
     fn default() -> Self {
         Self {
@@ -47,7 +47,7 @@ impl Default for Patience {
     }
 }
 
-impl Patience {
+impl DriverTimeouts {
     /// The longest that it takes until a driver that went silent is noticed, called again, greeted and told: how long a safe stop
     /// has to be waited for at least.
     #[must_use]

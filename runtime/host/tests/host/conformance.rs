@@ -2,8 +2,8 @@
 
 use motet_graph::Value;
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{Address, Patience, RemoteDriver};
-use motet_runtime::conformance::{Subject, check};
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_runtime::conformance::{ConformanceSubject, check};
 use motet_runtime::{Command, Driver, Query, Time};
 
 const ECHO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/drivers/echo.py");
@@ -16,14 +16,19 @@ fn the_example_in_python_keeps_the_laws() {
         return;
     }
     let mut fresh = || -> Box<dyn Driver> {
-        let address: Address = format!("python3 {ECHO} --seconds 1").parse().unwrap();
+        let address: DriverAddress = format!("python3 {ECHO} --seconds 1").parse().unwrap();
         let note = |text: &str| panic!("{text}");
-        let driver =
-            RemoteDriver::connect(address, Hello::default(), Patience::default(), Time::ZERO, Box::new(note));
+        let driver = RemoteDriver::connect(
+            address,
+            Hello::default(),
+            DriverTimeouts::default(),
+            Time::ZERO,
+            Box::new(note),
+        );
         Box::new(driver.unwrap())
     };
     let user = || Value::Entity("user".into());
-    let breaches = check(&mut Subject {
+    let breaches = check(&mut ConformanceSubject {
         fresh: &mut fresh,
         command: Command {
             primitive: "go".into(),

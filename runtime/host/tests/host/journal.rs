@@ -1,12 +1,12 @@
 //! Journals on disk: cut where torn, refused where damaged, written by one process at a time.
 
 use motet_graph::Graph;
-use motet_graph::arbitrary::{Step, graph};
-use motet_host::journal::{JournalError, Recorder, Writer, read};
-use motet_runtime::journal::{Entry, Head, Replay};
+use motet_graph::arbitrary::{StepSketch, graph};
+use motet_host::journal::{JournalError, JournalWriter, RunRecorder, read};
+use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead};
 use motet_runtime::{
-    Command, Control, Driver, DriverEvent, Effect, Engine, GoalId, Onlooker, Outcome, Prepared, Query,
-    Refusal, Retired, RunEnd, StartState, Time, run,
+    Command, Driver, DriverEvent, Effect, Engine, GoalId, Observer, Outcome, PreparedSwap, Query,
+    RetiredGraph, RunControl, RunEnd, StartState, SwapRefusal, Time, run,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,25 +43,26 @@ fn folder(name: &str) -> PathBuf {
 
 /// Records a run of so many calls; segments begin anew after so many bytes.
 fn record(folder: &Path, calls: usize, segment_bytes: u64) -> RunEnd {
-    let graph = graph(&vec![Step::say("hello"); calls]);
-    let writer = Writer::create(folder, Head::new(&graph)).unwrap().with_segment_bytes(segment_bytes);
+    let graph = graph(&vec![StepSketch::say("hello"); calls]);
+    let writer =
+        JournalWriter::create(folder, JournalHead::new(&graph)).unwrap().with_segment_bytes(segment_bytes);
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
     let mut nobody = ();
-    let mut recorder = Recorder::new(writer, &mut nobody);
+    let mut recorder = RunRecorder::new(writer, &mut nobody);
     let end = run(&mut engine, &mut OneSecond::default(), &mut recorder, Time::ZERO);
     recorder.finish().unwrap();
     end
 }
 
-fn entries(folder: &Path) -> Result<Vec<Entry>, JournalError> {
+fn entries(folder: &Path) -> Result<Vec<JournalEntry>, JournalError> {
     let mut entries = Vec::new();
     read(folder, &mut |_, entry| entries.push(entry))?;
     Ok(entries)
 }
 
-fn replays(entries: &[Entry]) {
-    let Some(Entry::Head(head)) = entries.first() else { panic!("no head") };
-    let mut replay = Replay::new(head).unwrap();
+fn replays(entries: &[JournalEntry]) {
+    let Some(JournalEntry::Head(head)) = entries.first() else { panic!("no head") };
+    let mut replay = EngineReplay::new(head).unwrap();
     entries.iter().for_each(|entry| assert_eq!(replay.take(entry).unwrap(), None));
 }
 
@@ -98,7 +99,7 @@ fn cut_at_every_byte_it_is_opened_and_written_on() {
     for length in (0..head).step_by(97).chain(head..=bytes.len()) {
         fs::write(&segment, &bytes[..length]).unwrap();
         let mut seen = Vec::new();
-        let opened = Writer::open(&cut, &mut |_, entry| seen.push(entry));
+        let opened = JournalWriter::open(&cut, &mut |_, entry| seen.push(entry));
         if length < head {
             assert!(matches!(opened, Err(JournalError::None { .. })), "{length}");
             continue;
@@ -123,7 +124,7 @@ fn damage_in_the_middle_is_not_cut_off() {
     let second = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
     bytes[second + 30] ^= 1;
     fs::write(&segment, &bytes).unwrap();
-    let error = Writer::open(&folder, &mut |_, _| {}).unwrap_err().to_string();
+    let error = JournalWriter::open(&folder, &mut |_, _| {}).unwrap_err().to_string();
     let expected = format!("damaged in 000000000000.journal, line 2 (byte {second}): its checksum is ");
     assert!(error.contains(&expected), "{error}");
     assert_eq!(fs::read(&segment).unwrap(), bytes, "nothing is changed");
@@ -132,12 +133,15 @@ fn damage_in_the_middle_is_not_cut_off() {
 #[test]
 fn one_process_at_a_time_and_nothing_is_overwritten() {
     let folder = folder("busy");
-    let graph = graph(&[Step::say("hello")]);
-    let writer = Writer::create(&folder, Head::new(&graph)).unwrap();
-    assert!(matches!(Writer::open(&folder, &mut |_, _| {}), Err(JournalError::Busy { .. })));
+    let graph = graph(&[StepSketch::say("hello")]);
+    let writer = JournalWriter::create(&folder, JournalHead::new(&graph)).unwrap();
+    assert!(matches!(JournalWriter::open(&folder, &mut |_, _| {}), Err(JournalError::Busy { .. })));
     drop(writer);
-    assert!(Writer::open(&folder, &mut |_, _| {}).is_ok());
-    assert!(matches!(Writer::create(&folder, Head::new(&graph)), Err(JournalError::NotEmpty { .. })));
+    assert!(JournalWriter::open(&folder, &mut |_, _| {}).is_ok());
+    assert!(matches!(
+        JournalWriter::create(&folder, JournalHead::new(&graph)),
+        Err(JournalError::NotEmpty { .. })
+    ));
     assert!(matches!(entries(Path::new("/nowhere/at/all")), Err(JournalError::Io { .. })));
 }
 
@@ -147,10 +151,10 @@ struct Full {
     starts: usize,
 }
 
-impl Onlooker for Full {
-    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> Control {
+impl Observer for Full {
+    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> RunControl {
         self.writes += 1;
-        if self.writes > 2 { Control::Stop } else { Control::GoOn }
+        if self.writes > 2 { RunControl::Stop } else { RunControl::Continue }
     }
     fn effect(&mut self, _now: Time, effect: &Effect) {
         self.starts += usize::from(matches!(effect, Effect::Start { .. }));
@@ -159,7 +163,7 @@ impl Onlooker for Full {
 
 #[test]
 fn where_nothing_can_be_written_nothing_starts() {
-    let mut engine = Engine::new(graph(&vec![Step::say("hello"); 9]), &StartState::default()).unwrap();
+    let mut engine = Engine::new(graph(&vec![StepSketch::say("hello"); 9]), &StartState::default()).unwrap();
     let mut full = Full { writes: 0, starts: 0 };
     let end = run(&mut engine, &mut OneSecond::default(), &mut full, Time::ZERO);
     assert_eq!(full.starts, 2, "the third start was never carried out");
@@ -172,12 +176,12 @@ struct Swapping {
     results: Vec<bool>,
 }
 
-impl Onlooker for Swapping {
-    fn swap(&mut self, _now: Time, engine: &Engine) -> Option<Prepared> {
+impl Observer for Swapping {
+    fn swap(&mut self, _now: Time, engine: &Engine) -> Option<PreparedSwap> {
         let graph = self.graphs.pop()?;
-        Some(Prepared::new(graph, &engine.running()).unwrap())
+        Some(PreparedSwap::new(graph, &engine.running()).unwrap())
     }
-    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         self.results.push(result.is_ok());
     }
 }
@@ -185,7 +189,7 @@ impl Onlooker for Swapping {
 #[test]
 fn a_policy_that_takes_over_is_written_down_and_replayed() {
     let folder = folder("swap");
-    let saying = |text: &str, calls: usize| graph(&vec![Step::say(text); calls]);
+    let saying = |text: &str, calls: usize| graph(&vec![StepSketch::say(text); calls]);
     let first = saying("first", 3);
     let mut refuted = saying("refuted", 1);
     for (_, value) in &mut refuted.initial {
@@ -193,15 +197,15 @@ fn a_policy_that_takes_over_is_written_down_and_replayed() {
     }
     let mut swapping =
         Swapping { graphs: vec![saying("third", 2), refuted, saying("second", 2)], results: Vec::new() };
-    let writer = Writer::create(&folder, Head::new(&first)).unwrap();
+    let writer = JournalWriter::create(&folder, JournalHead::new(&first)).unwrap();
     let mut engine = Engine::new(first, &StartState::default()).unwrap();
-    let mut recorder = Recorder::new(writer, &mut swapping);
+    let mut recorder = RunRecorder::new(writer, &mut swapping);
     let end = run(&mut engine, &mut OneSecond::default(), &mut recorder, Time::ZERO);
     recorder.finish().unwrap();
     assert_eq!(end, RunEnd::Done { why: None });
     assert_eq!(swapping.results, [true, false, true]);
     let all = entries(&folder).unwrap();
-    let swaps = all.iter().filter(|entry| matches!(entry, Entry::Swap(_))).count();
+    let swaps = all.iter().filter(|entry| matches!(entry, JournalEntry::Swap(_))).count();
     assert_eq!(swaps, 2, "a refused one leaves no line");
     replays(&all);
 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use motet_graph::{Graph, NodeId, NodeKind, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Control, Driver, Effect, Engine, Event, Onlooker, Prepared, Refusal, Retired, RunEnd, Time, Verifier,
+    Driver, Effect, Engine, Event, Observer, PreparedSwap, RetiredGraph, RunControl, RunEnd, SwapRefusal,
+    Time, Verifier,
 };
 use smol_str::SmolStr;
 
@@ -179,7 +180,7 @@ impl<'r, 'a> Live<'r, 'a> {
 impl Live<'_, '_> {
     /// What has been written meanwhile, ready to take over: the policy for a new request, or that of which the first step
     /// runs.
-    fn written(&mut self, engine: &Engine) -> Option<Prepared> {
+    fn written(&mut self, engine: &Engine) -> Option<PreparedSwap> {
         if let Some(request) = self.awaited.take() {
             let prepared = match self.planner.rest(Wait::Not) {
                 Rest::Coming => {
@@ -216,7 +217,7 @@ impl Live<'_, '_> {
         understood: Intent,
         request: Option<String>,
         engine: &Engine,
-    ) -> Option<Prepared> {
+    ) -> Option<PreparedSwap> {
         let mut known = self.talk.known.clone();
         known.learn_midway(engine, self.talk.base());
         let scene = known.scene(&self.talk.setting.scene);
@@ -227,7 +228,7 @@ impl Live<'_, '_> {
         if !changed.is_empty() {
             return None;
         }
-        let prepared = Prepared::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
+        let prepared = PreparedSwap::new(planned.compiled.graph.clone()?, &engine.running()).ok()?;
         self.next = Some((Answered { understood, planned: *planned }, request));
         Some(prepared)
     }
@@ -252,7 +253,7 @@ fn statement(said: &str, situation: &RequestContext<'_>) -> Option<Vec<ReportedL
     (understood.aims.is_empty() && !understood.located.is_empty()).then_some(understood.located)
 }
 
-impl Onlooker for Live<'_, '_> {
+impl Observer for Live<'_, '_> {
     fn event(&mut self, now: Time, event: &Event) {
         self.now = self.now.max(now);
         self.talk.memory.event(now, event);
@@ -273,13 +274,13 @@ impl Onlooker for Live<'_, '_> {
         Some(guard)
     }
 
-    fn reached(&mut self, now: Time) -> Control {
+    fn reached(&mut self, now: Time) -> RunControl {
         self.now = self.now.max(now);
         let control = self.watcher.reached(now);
-        if self.pending.is_some() { Control::Stop } else { control }
+        if self.pending.is_some() { RunControl::Stop } else { control }
     }
 
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<Prepared> {
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
         if self.pending.is_some() || engine.is_over() {
             return None;
         }
@@ -317,7 +318,7 @@ impl Onlooker for Live<'_, '_> {
             self.talk.plan_for((&request, image.as_ref()), &meant, self.planner, (&session, &scene, &known));
         let prepared = planned.ok().and_then(|answered| {
             let graph = answered.planned.compiled.graph.clone()?;
-            Some((Prepared::new(graph, &engine.running()).ok()?, answered))
+            Some((PreparedSwap::new(graph, &engine.running()).ok()?, answered))
         });
         match prepared {
             Some((prepared, answered)) => {
@@ -332,7 +333,7 @@ impl Onlooker for Live<'_, '_> {
         }
     }
 
-    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<Retired, Refusal>) {
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         let next = self.next.take();
         match (result, next) {
             (Ok(retired), Some((answered, request))) => {

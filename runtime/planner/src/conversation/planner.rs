@@ -2,7 +2,7 @@
 
 use motet_compiler::Session;
 use motet_robots::card::Robot;
-use motet_runtime::Image;
+use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 
 use crate::builtin::{self, Answered, Unplanned};
@@ -72,7 +72,7 @@ pub struct Ask<'a> {
     /// What was asked and done.
     pub memory: &'a Memory,
     /// What the robot sees at the moment, where it has eyes.
-    pub image: Option<&'a Image>,
+    pub image: Option<&'a CameraImage>,
 }
 
 /// The planner that needs no model.

@@ -7,8 +7,10 @@ use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::memory::{Limits, Memory};
-use motet_runtime::{Capabilities, Driver, Engine, Image, Perception, Settings, StartState, Time};
+use motet_runtime::memory::{Memory, MemoryLimits};
+use motet_runtime::{
+    CameraImage, Capabilities, Driver, Engine, EngineSettings, Perception, StartState, Time,
+};
 use motet_syntax::Sources;
 use motet_syntax::ast::File;
 use smol_str::SmolStr;
@@ -66,7 +68,7 @@ impl<'a> Conversation<'a> {
     /// A conversation in a setting.
     #[must_use]
     pub fn new(setting: &'a Setting) -> Self {
-        let (known, memory) = (Known::default(), Memory::new(Limits::default()));
+        let (known, memory) = (Known::default(), Memory::new(MemoryLimits::default()));
         Self { setting, known, memory, base: OnceCell::new(), eyes: None }
     }
 
@@ -105,7 +107,7 @@ impl<'a> Conversation<'a> {
     }
 
     /// A fresh image, where there are eyes.
-    pub(super) fn look(&mut self, now: Time) -> Option<Image> {
+    pub(super) fn look(&mut self, now: Time) -> Option<CameraImage> {
         self.eyes.as_mut()?.image(now)
     }
 
@@ -137,7 +139,7 @@ impl<'a> Conversation<'a> {
 
     pub(super) fn plan_for(
         &self,
-        (request, image): (&str, Option<&Image>),
+        (request, image): (&str, Option<&CameraImage>),
         meant: &[(String, SmolStr)],
         planner: &mut dyn Planner,
         (session, scene, known): (&Session, &Scene, &Known),
@@ -164,7 +166,8 @@ impl<'a> Conversation<'a> {
         verifies: bool,
     ) -> Result<(Engine, StartState), Problem> {
         let session = self.session(scene, &self.known, None);
-        let settings = Settings { verify_within: verifies.then_some(WITHIN), ..Settings::default() };
+        let settings =
+            EngineSettings { verify_within: verifies.then_some(WITHIN), ..EngineSettings::default() };
         let start = self.known.start(scene, &session);
         let engine = Engine::new(graph, &start);
         let ready = |engine: Engine| (engine.with_settings(settings).with_capabilities(can), start);

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_runtime::{Control, Driver, Effect, Engine, Event, Onlooker, Refusal, RunEnd, StartState, Time};
+use motet_runtime::{
+    Driver, Effect, Engine, Event, Observer, RunControl, RunEnd, StartState, SwapRefusal, Time,
+};
 
 use super::problem::Problem;
 use crate::builtin::Answered;
@@ -38,8 +40,8 @@ pub trait Watcher {
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
     /// Time has passed; whether the run goes on. To pace it against a clock, wait here.
-    fn reached(&mut self, _now: Time) -> Control {
-        Control::GoOn
+    fn reached(&mut self, _now: Time) -> RunControl {
+        RunControl::Continue
     }
     /// The longest span without a call of [`Watcher::reached`].
     fn at_least_every(&self) -> Time {
@@ -58,7 +60,7 @@ pub trait Watcher {
         false
     }
     /// A policy took over, or could not.
-    fn swapped(&mut self, _now: Time, _refusal: Option<&Refusal>) {}
+    fn swapped(&mut self, _now: Time, _refusal: Option<&SwapRefusal>) {}
     /// A run has ended.
     fn ended(&mut self, _now: Time, _end: &RunEnd) {}
     /// Something is to be asked, or was answered.
@@ -75,7 +77,7 @@ pub trait Scribe {
         self: Box<Self>,
         engine: &mut Engine,
         driver: &mut dyn Driver,
-        onlooker: &mut dyn Onlooker,
+        onlooker: &mut dyn Observer,
         from: Time,
     ) -> RunEnd;
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use motet_decode::export::Offer;
-use motet_runtime::Image;
+use motet_runtime::CameraImage;
 use thiserror::Error;
 
 /// Who says something.
@@ -26,7 +26,7 @@ pub struct Message {
     /// What is said.
     pub text: String,
     /// What is shown with it.
-    pub images: Vec<Arc<Image>>,
+    pub images: Vec<Arc<CameraImage>>,
 }
 
 impl Message {

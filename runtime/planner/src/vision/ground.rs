@@ -2,7 +2,7 @@
 //! camera's pose to a pose in the room.
 
 use motet_graph::Pose;
-use motet_runtime::{Camera, Depth, Image, View};
+use motet_runtime::{CameraImage, CameraModel, DepthImage, RgbdView};
 use thiserror::Error;
 
 /// The longest answer that is read, in bytes: a point takes twenty.
@@ -19,7 +19,7 @@ pub trait Pointer {
     /// # Errors
     ///
     /// Why there is none.
-    fn ask(&mut self, image: &Image, question: &str) -> Result<String, String>;
+    fn ask(&mut self, image: &CameraImage, question: &str) -> Result<String, String>;
 }
 
 /// Why there is no point.
@@ -79,7 +79,12 @@ impl NoPoint {
 /// # Errors
 ///
 /// What is wrong with the answer, the depth or the camera.
-pub fn ground(pointer: &mut dyn Pointer, view: &View, object: &str, used_for: &str) -> Result<Pose, NoPoint> {
+pub fn ground(
+    pointer: &mut dyn Pointer,
+    view: &RgbdView,
+    object: &str,
+    used_for: &str,
+) -> Result<Pose, NoPoint> {
     let question = format!(
         "The image has {} x {} pixels. Where on the {object} is {used_for}? Answer with one point in pixels from the top \
          left corner, as JSON and nothing else: {{\"point\": [u, v]}}",
@@ -129,7 +134,7 @@ pub fn point(reply: &str) -> Result<[f64; 2], NoPoint> {
 /// # Errors
 ///
 /// A point outside of the image, no depth about it, or a camera with numbers that no camera has.
-pub fn lift([u, v]: [f64; 2], depth: &Depth, camera: &Camera) -> Result<Pose, NoPoint> {
+pub fn lift([u, v]: [f64; 2], depth: &DepthImage, camera: &CameraModel) -> Result<Pose, NoPoint> {
     let (width, height) = (depth.width, depth.height);
     if depth.millimetres.len() != width.saturating_mul(height) {
         return Err(NoPoint::Camera("the depth image has not width x height values"));
@@ -160,7 +165,7 @@ pub fn lift([u, v]: [f64; 2], depth: &Depth, camera: &Camera) -> Result<Pose, No
 }
 
 /// The depth at a pixel in m, else the median about it.
-fn depth_at(depth: &Depth, u: i64, v: i64) -> Option<f64> {
+fn depth_at(depth: &DepthImage, u: i64, v: i64) -> Option<f64> {
     let at = |u: i64, v: i64| {
         let (column, row) = (usize::try_from(u).ok()?, usize::try_from(v).ok()?);
         if column >= depth.width {

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use motet_graph::{Pose, Value};
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Perception, Query, Time, View,
+    Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Perception, Query, RgbdView, Time,
 };
 use smol_str::SmolStr;
 
@@ -55,7 +55,7 @@ pub struct Pointing<'d> {
 /// A question on its way.
 struct Question {
     number: u64,
-    view: View,
+    view: RgbdView,
     object: String,
     used_for: String,
     is_wanted: Arc<AtomicBool>,

@@ -2,7 +2,7 @@
 
 use motet_graph::Pose;
 use motet_robots::turn::product;
-use motet_runtime::Camera;
+use motet_runtime::CameraModel;
 
 /// Columns and rows of a picture.
 pub(crate) const SIZE: [usize; 2] = [640, 480];
@@ -11,7 +11,7 @@ const FOCAL: f64 = 381.4;
 
 /// Where a camera is and where it looks. The axes are those of images: x to the right, y down, z ahead.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Lens {
+pub(crate) struct CameraLens {
     /// Its place in the frame `map`, in m.
     pub(crate) eye: [f64; 3],
     /// Its axes in the frame `map`.
@@ -19,7 +19,7 @@ pub(crate) struct Lens {
     quaternion: [f64; 4],
 }
 
-impl Lens {
+impl CameraLens {
     /// A camera that looks along a heading, and so much below the horizon; both in rad. It is level from left to right.
     pub(crate) fn new(eye: [f64; 3], heading: f64, below: f64) -> Self {
         let ((sy, cy), (sb, cb)) = (heading.sin_cos(), below.sin_cos());
@@ -74,9 +74,9 @@ impl Lens {
     }
 
     /// As those know it who lift points.
-    pub(crate) fn camera(&self) -> Camera {
+    pub(crate) fn camera(&self) -> CameraModel {
         let [cx, cy] = centre();
-        Camera {
+        CameraModel {
             pose: Pose { xyz: self.eye, quaternion: self.quaternion },
             intrinsics: [FOCAL, FOCAL, cx, cy],
         }
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn the_quaternion_is_that_of_the_axes() {
         for (heading, below) in [(0.0, 0.0), (0.7, 0.3), (-2.9, -0.4), (3.1, 1.5)] {
-            let lens = Lens::new([0.0; 3], heading, below);
+            let lens = CameraLens::new([0.0; 3], heading, below);
             for (axis, unit) in lens.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
                 let off = minus(turned(lens.quaternion, unit), *axis);
                 assert!(dot(off, off) < 1e-18, "{heading} {below}");
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn it_looks_at_the_point() {
-        let lens = Lens::towards([1.0, 2.0, 1.2], [0.0, 3.0, 0.7], 0.0);
+        let lens = CameraLens::towards([1.0, 2.0, 1.2], [0.0, 3.0, 0.7], 0.0);
         let ray = lens.ray(0, 0);
         let ahead = lens.axes[2];
         let gaze = minus([0.0, 3.0, 0.7], lens.eye);

@@ -12,6 +12,6 @@ mod render;
 mod scenery;
 mod solid;
 
-pub(crate) use lens::Lens;
+pub(crate) use lens::CameraLens;
 pub(crate) use png::encoded;
 pub(crate) use render::render;

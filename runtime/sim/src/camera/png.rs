@@ -1,9 +1,9 @@
 //! Pictures as files.
 
-use super::render::Shot;
+use super::render::RenderedView;
 
 /// A picture as a PNG; none where it is no picture.
-pub(crate) fn encoded(shot: &Shot) -> Option<Vec<u8>> {
+pub(crate) fn encoded(shot: &RenderedView) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     let (width, height) = (u32::try_from(shot.depth.width).ok()?, u32::try_from(shot.depth.height).ok()?);
     let mut encoder = png::Encoder::new(&mut bytes, width, height);

@@ -1,11 +1,11 @@
 //! A picture: of each pixel the colour and the depth of the nearest surface along its ray.
 
-use motet_runtime::Depth;
+use motet_runtime::DepthImage;
 
 use super::colour::Colour;
-use super::lens::{Lens, SIZE, dot};
+use super::lens::{CameraLens, SIZE, dot};
 use super::scenery::{Painted, scenery};
-use crate::world::World;
+use crate::world::SimWorld;
 use motet_robots::scene::Scene;
 
 /// How far the camera measures, in m: what is beyond is the background.
@@ -21,15 +21,15 @@ const TILES: [Colour; 2] = [[168, 166, 160], [180, 178, 172]];
 const SKY: Colour = [214, 222, 230];
 
 /// What a camera has taken.
-pub(crate) struct Shot {
+pub(crate) struct RenderedView {
     /// Red, green and blue of each pixel, row by row.
     pub(crate) colours: Vec<u8>,
     /// How far away each is.
-    pub(crate) depth: Depth,
+    pub(crate) depth: DepthImage,
 }
 
 /// A picture of the world. O(pixels + pixels that things cover).
-pub(crate) fn render(world: &World, scene: &Scene, lens: &Lens) -> Shot {
+pub(crate) fn render(world: &SimWorld, scene: &Scene, lens: &CameraLens) -> RenderedView {
     let [width, height] = SIZE;
     let mut pixels: Vec<(f64, Colour)> = Vec::with_capacity(width * height);
     for row in 0..height {
@@ -44,10 +44,10 @@ pub(crate) fn render(world: &World, scene: &Scene, lens: &Lens) -> Shot {
         colours.extend(colour);
         millimetres.push(if depth < FAR_M { (depth * 1_000.0).round() as u16 } else { 0 });
     }
-    Shot { colours, depth: Depth { width, height, millimetres } }
+    RenderedView { colours, depth: DepthImage { width, height, millimetres } }
 }
 
-fn paint(painted: &Painted, lens: &Lens, pixels: &mut [(f64, Colour)]) {
+fn paint(painted: &Painted, lens: &CameraLens, pixels: &mut [(f64, Colour)]) {
     let [width, _] = SIZE;
     let solid = &painted.solid;
     let Some([[left, right], [top, bottom]]) = lens.covered(solid.centre, solid.radius()) else { return };

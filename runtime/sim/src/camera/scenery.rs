@@ -8,7 +8,7 @@ use super::colour::{self, Colour, Palette};
 use super::solid::{Form, Solid};
 use crate::body::Outline;
 use crate::thing::{Role, Thing};
-use crate::world::World;
+use crate::world::SimWorld;
 
 /// How thick the walls of what is open are, in m.
 const WALL_M: f64 = 0.02;
@@ -20,7 +20,7 @@ pub(super) struct Painted {
 }
 
 /// Everything that is not shut away, in the order of the world.
-pub(super) fn scenery(world: &World, scene: &Scene) -> Vec<Painted> {
+pub(super) fn scenery(world: &SimWorld, scene: &Scene) -> Vec<Painted> {
     let mut all = Vec::new();
     for (id, thing) in &world.things {
         let entity = scene.entities.get(id);

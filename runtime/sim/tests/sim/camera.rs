@@ -1,9 +1,9 @@
 //! What the simulator's camera takes of a room: things where they are, in their colours, and the same bytes of the same world.
 
 use crate::sim;
-use motet_runtime::conformance::perception;
-use motet_runtime::{Perception, Time, View};
-use motet_sim::{Options, Sim};
+use motet_runtime::conformance::check_perception;
+use motet_runtime::{Perception, RgbdView, Time};
+use motet_sim::{Sim, SimOptions};
 use std::io::Cursor;
 
 /// Red, green and blue of each pixel.
@@ -15,13 +15,13 @@ fn pixels(bytes: &[u8]) -> Vec<[u8; 3]> {
     buffer[..frame.buffer_size()].chunks(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }
 
-fn seen(sim: &mut Sim, of: &str) -> View {
+fn seen(sim: &mut Sim, of: &str) -> RgbdView {
     sim.view(Time::ZERO, of).unwrap()
 }
 
 #[test]
 fn a_thing_is_in_the_middle_of_its_picture_in_its_colour_and_as_far_as_it_is() {
-    let mut sim = sim("hsr", "kitchen", Options { eye: Some([0.1, 0.0, 1.0]), ..Options::default() });
+    let mut sim = sim("hsr", "kitchen", SimOptions { eye: Some([0.1, 0.0, 1.0]), ..SimOptions::default() });
     for (of, strongest) in [("mug_1", 0), ("apple", 1)] {
         let view = seen(&mut sim, of);
         let middle = 240 * 640 + 320;
@@ -45,9 +45,9 @@ fn what_is_shut_in_is_not_seen_until_it_is_open() {
         {"id": "red_can", "kind": "Object", "pose": {"xyz": [1.5, 0, 0.7]}, "in": "fridge",
          "shape": {"cylinder": {"radius": 0.05, "height": 0.2}}}]}"#;
     let room = |open: &str| crate::scene(&shut.replace("OPEN", open));
-    let mut closed = Sim::new(&crate::robot("hsr"), &room("false"), Options::default());
+    let mut closed = Sim::new(&crate::robot("hsr"), &room("false"), SimOptions::default());
     assert_eq!(closed.view(Time::ZERO, "red_can"), None);
-    let mut open = Sim::new(&crate::robot("hsr"), &room("true"), Options::default());
+    let mut open = Sim::new(&crate::robot("hsr"), &room("true"), SimOptions::default());
     let view = seen(&mut open, "red_can");
     let [red, green, blue] = pixels(&view.image.bytes)[240 * 640 + 320];
     assert!(red > 2 * green && red > 2 * blue, "through the open door: {red} {green} {blue}");
@@ -63,7 +63,7 @@ fn the_camera_turns_to_where_there_is_something_to_see() {
         ))
     };
     for y in [-1.0, 0.0, 1.0] {
-        let mut eyes = Sim::new(&crate::robot("hsr"), &room(y), Options::default());
+        let mut eyes = Sim::new(&crate::robot("hsr"), &room(y), SimOptions::default());
         let reds = pixels(&eyes.image(Time::ZERO).unwrap().bytes);
         let count = reds.iter().filter(|[red, green, _]| *red > 100 && *green < 60).count();
         assert!(count > 500, "at {y} m to the left: {count} pixels are red");
@@ -73,8 +73,8 @@ fn the_camera_turns_to_where_there_is_something_to_see() {
 #[test]
 fn pictures_keep_the_laws_and_are_the_same_of_the_same_world() {
     for (robot, room) in [("hsr", "kitchen"), ("anymal_z1", "living_room"), ("panda", "lab")] {
-        let mut eyes = sim(robot, room, Options::default());
-        assert_eq!(perception(&mut eyes, &[Time::ZERO]), [""; 0], "{robot} in {room}");
-        assert_eq!(eyes.image(Time::ZERO), sim(robot, room, Options::default()).image(Time::ZERO));
+        let mut eyes = sim(robot, room, SimOptions::default());
+        assert_eq!(check_perception(&mut eyes, &[Time::ZERO]), [""; 0], "{robot} in {room}");
+        assert_eq!(eyes.image(Time::ZERO), sim(robot, room, SimOptions::default()).image(Time::ZERO));
     }
 }

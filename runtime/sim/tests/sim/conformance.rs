@@ -2,18 +2,18 @@
 //! its promises.
 
 use crate::{entity, sim};
-use motet_runtime::conformance::{Faulty, Law, Mischief, Subject, check};
+use motet_runtime::conformance::{ConformanceSubject, FaultRates, FaultyDriver, Law, check};
 use motet_runtime::{Command, Driver, Query, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use std::collections::BTreeSet;
 
 fn kitchen() -> Sim {
-    sim("hsr", "kitchen", Options::default())
+    sim("hsr", "kitchen", SimOptions::default())
 }
 
 /// The laws that a driver breaks.
 fn laws(fresh: &mut dyn FnMut() -> Box<dyn Driver>) -> (BTreeSet<Law>, Vec<String>) {
-    let breaches = check(&mut Subject {
+    let breaches = check(&mut ConformanceSubject {
         fresh,
         command: Command {
             primitive: "go".into(),
@@ -41,40 +41,40 @@ fn what_breaks_a_law_is_named() {
     for (name, mischief, expected) in [
         (
             "loses",
-            Mischief { loses: 1_000, ..Mischief::default() },
+            FaultRates { loses: 1_000, ..FaultRates::default() },
             &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched][..],
         ),
         (
             "doubles",
-            Mischief { doubles: 1_000, ..Mischief::default() },
+            FaultRates { doubles: 1_000, ..FaultRates::default() },
             &[Law::Answered, Law::EndsOnce, Law::Observed, Law::Watched],
         ),
         (
             "silent",
-            Mischief { silence: 1_000, ..Mischief::default() },
+            FaultRates { silence: 1_000, ..FaultRates::default() },
             &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched],
         ),
         (
             "deaf",
-            Mischief { deaf: 1_000, ..Mischief::default() },
+            FaultRates { deaf: 1_000, ..FaultRates::default() },
             &[Law::Answered, Law::EndsOnce, Law::SafeStop, Law::Observed, Law::Watched],
         ),
-        ("late", Mischief { delays: 1_000, late, ..Mischief::default() }, &[Law::Observed]),
-        ("backwards", Mischief { backwards: 1_000, ..Mischief::default() }, &[Law::Time]),
-        ("moves on", Mischief { moves_on: 1_000, ..Mischief::default() }, &[Law::Held]),
-        ("forgets", Mischief { forgets: 1_000, ..Mischief::default() }, &[Law::Cancelled]),
-        ("gives up", Mischief { gives_up: 1_000, ..Mischief::default() }, &[Law::Updated]),
+        ("late", FaultRates { delays: 1_000, late, ..FaultRates::default() }, &[Law::Observed]),
+        ("backwards", FaultRates { backwards: 1_000, ..FaultRates::default() }, &[Law::Time]),
+        ("moves on", FaultRates { moves_on: 1_000, ..FaultRates::default() }, &[Law::Held]),
+        ("forgets", FaultRates { forgets: 1_000, ..FaultRates::default() }, &[Law::Cancelled]),
+        ("gives up", FaultRates { gives_up: 1_000, ..FaultRates::default() }, &[Law::Updated]),
         // Some reports of a goal come after that of its end.
         (
             "out of order",
-            Mischief { delays: 500, late: Time::from_secs(60.0), ..Mischief::default() },
+            FaultRates { delays: 500, late: Time::from_secs(60.0), ..FaultRates::default() },
             &[Law::SilentAfterEnd],
         ),
         // To refuse is no breach.
-        ("refuses", Mischief { refuses: 1_000, ..Mischief::default() }, &[]),
-        ("nothing", Mischief::default(), &[]),
+        ("refuses", FaultRates { refuses: 1_000, ..FaultRates::default() }, &[]),
+        ("nothing", FaultRates::default(), &[]),
     ] {
-        let (laws, told) = laws(&mut || Box::new(Faulty::new(kitchen(), mischief, 7)));
+        let (laws, told) = laws(&mut || Box::new(FaultyDriver::new(kitchen(), mischief, 7)));
         let missing: Vec<_> = expected.iter().filter(|law| !laws.contains(law)).collect();
         assert!(missing.is_empty(), "{name}: {missing:?} is not among {told:#?}");
         assert!(!expected.is_empty() || told.is_empty(), "{name}: {told:#?}");
@@ -87,7 +87,11 @@ fn a_driver_that_is_never_the_same_is_named() {
     let (laws, _) = laws(&mut || {
         seed += 1;
         let late = Time::from_secs(5.0);
-        Box::new(Faulty::new(kitchen(), Mischief { delays: 1_000, late, ..Mischief::default() }, seed))
+        Box::new(FaultyDriver::new(
+            kitchen(),
+            FaultRates { delays: 1_000, late, ..FaultRates::default() },
+            seed,
+        ))
     });
     assert!(laws.contains(&Law::Repeatable), "{laws:?}");
 }

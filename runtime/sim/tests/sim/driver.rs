@@ -3,7 +3,7 @@
 use crate::{Bench, entity};
 use motet_graph::Value;
 use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Pattern, Query, Time};
-use motet_sim::Options;
+use motet_sim::SimOptions;
 
 fn distance() -> Query {
     Query::Measure { measure: "distance".into(), args: vec![entity("kitchen_table")] }
@@ -87,7 +87,7 @@ fn a_held_goal_waits() {
 #[test]
 fn the_seed_decides_all() {
     let run = |seed| {
-        let mut bench = Bench::with(Options { seed, ..Options::default() });
+        let mut bench = Bench::with(SimOptions { seed, ..SimOptions::default() });
         bench.sim.watch(bench.now, &distance());
         bench.does("go", &[("to", entity("mug_1"))]);
         bench.does("pick", &[("object", entity("mug_1"))]);

@@ -2,15 +2,15 @@
 
 use crate::sim;
 use motet_graph::{
-    Binding, BindingId, Bounds, CallNode, FailureId, Graph, Kind, KindId, Node, NodeId, NodeKind, Primitive,
-    PrimitiveId, ROOT, Region, Term, Type, Value,
+    Binding, BindingId, CallNode, DurationBounds, FailureId, Graph, Kind, KindId, Node, NodeId, NodeKind,
+    Primitive, PrimitiveId, ROOT, Region, Term, Type, Value,
 };
 use motet_runtime::{Engine, RunEnd, StartState, Time, run};
-use motet_sim::{Faults, Options};
+use motet_sim::{Faults, SimOptions};
 
 /// A policy of calls, one after the other: primitive, arguments, and whether it binds `found`, which `None` names.
 fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
-    let span = Bounds { least_secs: 0.0, greatest_secs: 300.0 };
+    let span = DurationBounds { least_secs: 0.0, greatest_secs: 300.0 };
     let object = Type::Entity(KindId(1));
     let ty = |value: &Option<Value>| match value {
         Some(Value::Text(_)) => Type::Text,
@@ -61,7 +61,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         regions: vec![Region { owner: None, entry: Some(NodeId(0)) }],
         initial: Vec::new(),
         observe_within_secs: 0.3,
-        duration: Bounds { least_secs: 0.0, greatest_secs: 5000.0 },
+        duration: DurationBounds { least_secs: 0.0, greatest_secs: 5000.0 },
     }
 }
 
@@ -82,7 +82,7 @@ fn fetch(faults: &str, retries: u32) -> (RunEnd, motet_sim::Sim) {
         retries,
     );
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
-    let options = Options { faults: Faults::from_json(faults).unwrap(), ..Options::default() };
+    let options = SimOptions { faults: Faults::from_json(faults).unwrap(), ..SimOptions::default() };
     let mut sim = sim("hsr", "kitchen", options);
     let end = run(&mut engine, &mut sim, &mut (), Time::ZERO);
     (end, sim)

@@ -4,7 +4,7 @@
 use crate::{Bench, entity, text};
 use motet_graph::Value;
 use motet_runtime::{Driver, DriverEvent, GoalId, Pattern, Query, Time};
-use motet_sim::Options;
+use motet_sim::SimOptions;
 use proptest::prelude::*;
 
 /// Commands that can and that cannot be done, and some that are none.
@@ -68,7 +68,7 @@ struct Played {
 
 /// Plays calls: which, of which goal or query, and how many hundredths of a second pass after it.
 fn play(calls: &[(u8, usize, u16)], seed: u64) -> Played {
-    let mut bench = Bench::with(Options { seed, ..Options::default() });
+    let mut bench = Bench::with(SimOptions { seed, ..SimOptions::default() });
     let commands = commands();
     let mut played = Played { events: Vec::new(), started: 0, observed: 0, stops: Vec::new() };
     let mut live: Vec<GoalId> = Vec::new();

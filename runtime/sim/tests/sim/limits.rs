@@ -3,11 +3,11 @@
 use crate::{Bench, entity, sim, text};
 use motet_graph::Value;
 use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Query};
-use motet_sim::Options;
+use motet_sim::SimOptions;
 
 /// The ANYmal in the lab, on its feet.
 fn walker() -> Bench {
-    let mut bench = Bench::of(sim("anymal_z1", "lab", Options::default()));
+    let mut bench = Bench::of(sim("anymal_z1", "lab", SimOptions::default()));
     bench.is("standing", &["robot"], false);
     bench.is("arm_home", &["robot"], true);
     bench.does("wake_up", &[]);
@@ -35,7 +35,7 @@ fn an_arm_has_postures() {
 
 #[test]
 fn a_hand_carries_only_so_much() {
-    let mut bench = Bench::of(sim("hsr", "lab", Options::default()));
+    let mut bench = Bench::of(sim("hsr", "lab", SimOptions::default()));
     bench.does("go", &[("to", entity("vise"))]);
     bench.is("reachable", &["vise"], false);
     bench.fails("pick", &[("object", entity("vise"))], "too_heavy");
@@ -54,7 +54,7 @@ fn what_is_locked_stays_shut() {
 #[test]
 fn a_person_is_served_from_more_than_half_a_metre() {
     for (robot, room, rim) in [("hsr", "kitchen", 0.23), ("anymal_z1", "lab", 0.55)] {
-        let mut bench = Bench::of(sim(robot, room, Options::default()));
+        let mut bench = Bench::of(sim(robot, room, SimOptions::default()));
         bench.does("go", &[("to", entity("user"))]);
         bench.is("at", &["robot", "user"], true);
         let [x, y, _] = bench.sim.position("user").unwrap();
@@ -66,7 +66,7 @@ fn a_person_is_served_from_more_than_half_a_metre() {
 #[test]
 fn only_what_the_card_lists_is_observed() {
     for (robot, room, known) in [("hsr", "kitchen", true), ("anymal_z1", "lab", false)] {
-        let mut bench = Bench::of(sim(robot, room, Options::default()));
+        let mut bench = Bench::of(sim(robot, room, SimOptions::default()));
         let force = Query::Measure { measure: "force".into(), args: Vec::new() };
         bench.sim.observe(bench.now, &force);
         let Some(DriverEvent::Observed { answer, .. }) = bench.next(1.0) else { panic!("no answer") };

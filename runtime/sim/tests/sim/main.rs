@@ -20,7 +20,7 @@ mod primitives;
 use motet_graph::Value;
 use motet_robots::{card, scene};
 use motet_runtime::{Command, Driver, DriverEvent, GoalId, Outcome, Time};
-use motet_sim::{Options, Sim};
+use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source};
 
 /// A simulator with the host's part of the driver protocol.
@@ -42,17 +42,17 @@ fn scene(text: &str) -> scene::Scene {
     scene.unwrap_or_else(|| panic!("{said:?}"))
 }
 
-fn sim(robot: &str, room: &str, options: Options) -> Sim {
+fn sim(robot: &str, room: &str, options: SimOptions) -> Sim {
     let (_, text) = scene::embedded().iter().find(|(name, _)| *name == room).unwrap();
     Sim::new(&self::robot(robot), &scene(text), options)
 }
 
 impl Bench {
     fn kitchen() -> Self {
-        Self::with(Options::default())
+        Self::with(SimOptions::default())
     }
 
-    fn with(options: Options) -> Self {
+    fn with(options: SimOptions) -> Self {
         Self::of(sim("hsr", "kitchen", options))
     }
 
@@ -62,7 +62,10 @@ impl Bench {
 
     /// Faults from their JSON text.
     fn faulty(text: &str) -> Self {
-        Self::with(Options { faults: motet_sim::Faults::from_json(text).unwrap(), ..Options::default() })
+        Self::with(SimOptions {
+            faults: motet_sim::Faults::from_json(text).unwrap(),
+            ..SimOptions::default()
+        })
     }
 
     /// Starts a primitive with a deadline of 20 s for what is not driven.

@@ -3,7 +3,7 @@
 use crate::{Bench, entity, text};
 use motet_graph::Value;
 use motet_runtime::{Outcome, Time};
-use motet_sim::{Options, Script};
+use motet_sim::{PersonScript, SimOptions};
 
 #[test]
 fn it_fetches_a_mug() {
@@ -111,8 +111,8 @@ fn it_looks_for_things_where_it_is_told() {
 
 #[test]
 fn people_answer_from_the_script() {
-    let script = Script { answers: vec![Some("tea".into()), Some("blue mug".into()), None] };
-    let mut bench = Bench::with(Options { script, ..Options::default() });
+    let script = PersonScript { answers: vec![Some("tea".into()), Some("blue mug".into()), None] };
+    let mut bench = Bench::with(SimOptions { script, ..SimOptions::default() });
     let among = Value::List(vec![entity("mug_1"), entity("mug_2")]);
     let choose = [("question", text("Which?")), ("among", among)];
     let ask = [("question", text("What?"))];
@@ -148,10 +148,10 @@ fn what_it_is_told_is_so() {
     let told = facts.iter().map(|(fluent, args, holds)| {
         (((*fluent).into(), args.iter().map(|arg| (*arg).into()).collect()), *holds)
     });
-    let options = Options {
-        told: told.collect(),
+    let options = SimOptions {
+        initial_facts: told.collect(),
         entities: vec![("box_1".into(), "Object".into())],
-        ..Options::default()
+        ..SimOptions::default()
     };
     let bench = Bench::with(options);
     for (fluent, args, holds) in facts {

@@ -16,7 +16,7 @@ use motet_planner::conversation::{
     Ask, Builtin, Conversation, Kind, Outcome, Person, Planner, Problem, Setting,
 };
 use motet_runtime::Time;
-use motet_sim::{Faults, Options, Sim};
+use motet_sim::{Faults, Sim, SimOptions};
 
 pub use cases::{Case, cases};
 pub use tables::{sums, table};
@@ -95,7 +95,7 @@ pub fn run(case: Case) -> Trial {
     let told = case.told(setup::scene(&case.scene));
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).unwrap_or_default();
-    let mut sim = Sim::new(&robot, &real, Options { faults, ..Options::default() });
+    let mut sim = Sim::new(&robot, &real, SimOptions { faults, ..SimOptions::default() });
     let setting =
         Setting { robot, scene: told, domains: Vec::new(), geometry: None, options: CheckOptions::default() };
     let mut talk = Conversation::new(&setting);

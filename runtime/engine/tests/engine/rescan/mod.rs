@@ -12,11 +12,11 @@ mod state;
 mod swap;
 mod watch;
 
-use motet_graph::arbitrary::{React, Step, When, steps, vocabulary as v};
+use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, steps, vocabulary as v};
 use motet_graph::{Condition, Graph, ROOT, Value};
 use motet_runtime::{
-    Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Happening, Outcome, Pattern, Prepared,
-    Primitives, Query, Refusal, RunEnd, StartState, Time,
+    Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap,
+    PrimitiveSet, Query, RunEnd, StartState, SwapRefusal, Time, TraceEventKind,
 };
 use plain::{elsewhere, known};
 use proptest::prelude::*;
@@ -73,10 +73,10 @@ impl Beside {
 
     /// False where the swap is refused.
     fn swap(&mut self, now: u64, graph: &Graph) -> bool {
-        let prepared = Prepared::new(graph.clone(), &self.engine.running()).unwrap();
+        let prepared = PreparedSwap::new(graph.clone(), &self.engine.running()).unwrap();
         match self.engine.swap(Time::from_nanos(now), prepared, &mut self.out) {
             Ok(_) => true,
-            Err(Refusal::Over) => false,
+            Err(SwapRefusal::Over) => false,
             Err(other) => panic!("{other}"),
         }
     }
@@ -97,7 +97,7 @@ impl Beside {
                     said.push(format!("update {} {node:?}", self.goals[&goal]))
                 }
                 Effect::Report(record) => {
-                    if let Happening::Kept { node, goal } = record.what {
+                    if let TraceEventKind::Kept { node, goal } = record.what {
                         said.push(format!("keep {} {node:?}", self.goals[&goal]));
                     }
                 }
@@ -213,7 +213,7 @@ fn agree(naive: &mut Naive, beside: &Beside, said: &[String], counts: &Counts) -
 }
 
 fn compare(graphs: &[Graph], acts: &[(u64, Act)], counts: &Counts) -> Result<(), TestCaseError> {
-    let only = |names: &[&str]| Primitives::Only(names.iter().map(|name| (*name).into()).collect());
+    let only = |names: &[&str]| PrimitiveSet::Only(names.iter().map(|name| (*name).into()).collect());
     let capabilities = Capabilities { hold: only(&["go", "pick", "say"]), update: only(&["go"]) };
     let engine = Engine::new(graphs[0].clone(), &StartState::default()).unwrap();
     let engine = engine.with_capabilities(capabilities);
@@ -262,14 +262,14 @@ fn what_runs_at_once_goes_as_in_a_naive_interpreter() {
     let counts = Counts::default();
     let result = TestRunner::new(config).run(&cases, |(steps, other, runs)| {
         // Beside itself, so that something runs at once in most of them.
-        let twice = Step::Repeat(2, vec![Step::Parallel(steps.clone())], None);
+        let twice = StepSketch::Repeat(2, vec![StepSketch::Parallel(steps.clone())], None);
         let cup = Condition::Fact(v::fact(v::HOLDING, vec![v::entity("cup")]));
-        let pause = When::new(cup, React::Pause(1.0));
+        let pause = WatchSketch::new(cup, ReactionSketch::Pause(1.0));
         // A second attempt keeps runs from ending early, and a pause around all of it makes goals hold.
-        let tried = Step::Try(vec![twice], vec![(None, vec![Step::Sequence(steps.concat())])]);
-        let first = [Step::Monitor(vec![pause], vec![tried])];
+        let tried = StepSketch::Try(vec![twice], vec![(None, vec![StepSketch::Sequence(steps.concat())])]);
+        let first = [StepSketch::Monitor(vec![pause], vec![tried])];
         let again = [first.to_vec(), other.clone()].concat();
-        let changed: Vec<Step> = first.iter().map(elsewhere).collect();
+        let changed: Vec<StepSketch> = first.iter().map(elsewhere).collect();
         let all = [first.to_vec(), first.to_vec(), changed, other, again];
         let mut graphs = all.map(|steps| known(&steps));
         // Proved from nothing.

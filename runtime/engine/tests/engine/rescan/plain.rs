@@ -1,43 +1,53 @@
 //! Policies without contracts, in which everything that conditions speak of is known, and no two times are the same.
 
 use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{Call, React, Step, When, graph};
+use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, FactArg, Graph, NodeKind, Reaction, Term, Value, Verdict};
 
 /// The same steps without contracts.
-fn plain(steps: &[Step]) -> Vec<Step> {
+fn plain(steps: &[StepSketch]) -> Vec<StepSketch> {
     steps
         .iter()
         .map(|step| match step {
-            Step::Call(call) if [v::GO, v::PICK, v::PLACE, v::SAY].contains(&call.primitive) => {
-                Step::Call(Call { verdict: Verdict::Proven, ..call.clone() })
+            StepSketch::Call(call) if [v::GO, v::PICK, v::PLACE, v::SAY].contains(&call.primitive) => {
+                StepSketch::Call(CallSketch { verdict: Verdict::Proven, ..call.clone() })
             }
-            Step::Call(call) => Step::Call(Call::new(v::SAY, vec![v::text("seen")]).retry(call.retries)),
-            Step::Sequence(steps) => Step::Sequence(plain(steps)),
-            Step::Inline(steps) => Step::Inline(plain(steps)),
-            Step::If(condition, then, other) => {
-                Step::If(condition.clone(), plain(then), other.as_ref().map(|steps| plain(steps)))
+            StepSketch::Call(call) => {
+                StepSketch::Call(CallSketch::new(v::SAY, vec![v::text("seen")]).retry(call.retries))
             }
-            Step::Wait(condition, within) => Step::Wait(condition.clone(), *within),
-            Step::Monitor(whens, body) => Step::Monitor(whens.iter().map(reacting).collect(), plain(body)),
-            Step::Try(body, handlers) => Step::Try(
+            StepSketch::Sequence(steps) => StepSketch::Sequence(plain(steps)),
+            StepSketch::Inline(steps) => StepSketch::Inline(plain(steps)),
+            StepSketch::If(condition, then, other) => {
+                StepSketch::If(condition.clone(), plain(then), other.as_ref().map(|steps| plain(steps)))
+            }
+            StepSketch::Wait(condition, within) => StepSketch::Wait(condition.clone(), *within),
+            StepSketch::Monitor(whens, body) => {
+                StepSketch::Monitor(whens.iter().map(reacting).collect(), plain(body))
+            }
+            StepSketch::Try(body, handlers) => StepSketch::Try(
                 plain(body),
                 handlers.iter().map(|(on, steps)| (on.clone(), plain(steps))).collect(),
             ),
-            Step::Repeat(times, steps, until) => Step::Repeat(*times, plain(steps), until.clone()),
-            Step::Each(_, most, steps) => Step::Repeat((*most).max(1), plain(steps), None),
-            Step::Parallel(branches) => Step::Parallel(branches.iter().map(|steps| plain(steps)).collect()),
-            Step::End(how) => Step::End(*how),
+            StepSketch::Repeat(times, steps, until) => {
+                StepSketch::Repeat(*times, plain(steps), until.clone())
+            }
+            StepSketch::Each(_, most, steps) => StepSketch::Repeat((*most).max(1), plain(steps), None),
+            StepSketch::Parallel(branches) => {
+                StepSketch::Parallel(branches.iter().map(|steps| plain(steps)).collect())
+            }
+            StepSketch::End(how) => StepSketch::End(*how),
         })
         .collect()
 }
 
-fn reacting(when: &When) -> When {
+fn reacting(when: &WatchSketch) -> WatchSketch {
     let react = match &when.react {
-        React::Resume(at_most, steps) => React::Resume(*at_most, plain(steps)),
-        react @ (React::Pause(_) | React::Restart(_) | React::End(_)) => react.clone(),
+        ReactionSketch::Resume(at_most, steps) => ReactionSketch::Resume(*at_most, plain(steps)),
+        react @ (ReactionSketch::Pause(_) | ReactionSketch::Restart(_) | ReactionSketch::End(_)) => {
+            react.clone()
+        }
     };
-    When::new(when.condition.clone(), react)
+    WatchSketch::new(when.condition.clone(), react)
 }
 
 /// Times of seconds, each another one: what is due at the same instant by chance would have no order in the document.
@@ -51,7 +61,7 @@ impl Times {
 }
 
 /// A graph whose conditions speak of what is held, of which everything is known.
-pub(super) fn known(steps: &[Step]) -> Graph {
+pub(super) fn known(steps: &[StepSketch]) -> Graph {
     fn condition(of: &mut Condition) {
         let held = |object: &str| Condition::Fact(v::fact(v::HOLDING, vec![v::entity(object)]));
         match of {
@@ -101,22 +111,24 @@ pub(super) fn known(steps: &[Step]) -> Graph {
 }
 
 /// The same step with another place wherever the robot goes.
-pub(super) fn elsewhere(step: &Step) -> Step {
-    let all = |steps: &[Step]| steps.iter().map(elsewhere).collect::<Vec<_>>();
+pub(super) fn elsewhere(step: &StepSketch) -> StepSketch {
+    let all = |steps: &[StepSketch]| steps.iter().map(elsewhere).collect::<Vec<_>>();
     match step {
-        Step::Call(call) if call.primitive == v::GO => {
-            Step::Call(Call { args: vec![v::entity("door")], ..call.clone() })
+        StepSketch::Call(call) if call.primitive == v::GO => {
+            StepSketch::Call(CallSketch { args: vec![v::entity("door")], ..call.clone() })
         }
-        Step::Sequence(steps) => Step::Sequence(all(steps)),
-        Step::Inline(steps) => Step::Inline(all(steps)),
-        Step::If(condition, then, other) => {
-            Step::If(condition.clone(), all(then), other.as_ref().map(|steps| all(steps)))
+        StepSketch::Sequence(steps) => StepSketch::Sequence(all(steps)),
+        StepSketch::Inline(steps) => StepSketch::Inline(all(steps)),
+        StepSketch::If(condition, then, other) => {
+            StepSketch::If(condition.clone(), all(then), other.as_ref().map(|steps| all(steps)))
         }
-        Step::Monitor(whens, body) => Step::Monitor(whens.clone(), all(body)),
-        Step::Try(body, handlers) => Step::Try(all(body), handlers.clone()),
-        Step::Repeat(times, steps, until) => Step::Repeat(*times, all(steps), until.clone()),
-        Step::Each(list, most, steps) => Step::Each(list.clone(), *most, all(steps)),
-        Step::Parallel(branches) => Step::Parallel(branches.iter().map(|steps| all(steps)).collect()),
-        Step::Call(_) | Step::Wait(..) | Step::End(_) => step.clone(),
+        StepSketch::Monitor(whens, body) => StepSketch::Monitor(whens.clone(), all(body)),
+        StepSketch::Try(body, handlers) => StepSketch::Try(all(body), handlers.clone()),
+        StepSketch::Repeat(times, steps, until) => StepSketch::Repeat(*times, all(steps), until.clone()),
+        StepSketch::Each(list, most, steps) => StepSketch::Each(list.clone(), *most, all(steps)),
+        StepSketch::Parallel(branches) => {
+            StepSketch::Parallel(branches.iter().map(|steps| all(steps)).collect())
+        }
+        StepSketch::Call(_) | StepSketch::Wait(..) | StepSketch::End(_) => step.clone(),
     }
 }

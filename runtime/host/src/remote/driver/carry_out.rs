@@ -1,6 +1,6 @@
 //! What the engine wants of the driver.
 
-use super::super::protocol::{Asked, Call, Goal, Start};
+use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams};
 use super::{RemoteDriver, failed};
 use motet_runtime::{Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Query, Time};
 use std::thread;
@@ -12,7 +12,7 @@ const SLICE: Duration = Duration::from_millis(50);
 impl Driver for RemoteDriver {
     fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
         if self.reach() {
-            self.call(Call::Start(Start { goal: goal.number(), command: command.into() }));
+            self.call(DriverCall::Start(StartParams { goal: goal.number(), command: command.into() }));
         } else {
             // It was never said, so it was never done.
             self.report(DriverEvent::Refused { goal, failure: failed() });
@@ -20,7 +20,7 @@ impl Driver for RemoteDriver {
     }
 
     fn cancel(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Cancel(Goal { goal: goal.number() }));
+        self.call(DriverCall::Cancel(GoalParams { goal: goal.number() }));
     }
 
     fn capabilities(&self) -> Capabilities {
@@ -28,15 +28,15 @@ impl Driver for RemoteDriver {
     }
 
     fn update(&mut self, _now: Time, goal: GoalId, command: &Command) {
-        self.call(Call::Update(Start { goal: goal.number(), command: command.into() }));
+        self.call(DriverCall::Update(StartParams { goal: goal.number(), command: command.into() }));
     }
 
     fn hold(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Hold(Goal { goal: goal.number() }));
+        self.call(DriverCall::Hold(GoalParams { goal: goal.number() }));
     }
 
     fn proceed(&mut self, _now: Time, goal: GoalId) {
-        self.call(Call::Proceed(Goal { goal: goal.number() }));
+        self.call(DriverCall::Proceed(GoalParams { goal: goal.number() }));
     }
 
     fn safe_stop(&mut self, _now: Time, goal: GoalId) {
@@ -44,15 +44,15 @@ impl Driver for RemoteDriver {
         self.stopping.insert(goal.number());
         // Who is called again is told all that is to stop.
         if self.reach() && was_reached {
-            self.call(Call::SafeStop(Goal { goal: goal.number() }));
+            self.call(DriverCall::SafeStop(GoalParams { goal: goal.number() }));
         }
     }
 
     fn observe(&mut self, _now: Time, query: &Query) {
         if self.link.is_some() {
-            self.call(Call::Observe(Asked::from(query)));
+            self.call(DriverCall::Observe(QueryParams::from(query)));
         } else {
-            self.observed(Asked::from(query), Answer::Unknown);
+            self.observed(QueryParams::from(query), Answer::Unknown);
         }
     }
 
@@ -62,15 +62,15 @@ impl Driver for RemoteDriver {
         }
         self.watches.push(query.clone());
         if self.link.is_some() {
-            self.call(Call::Watch(Asked::from(query)));
+            self.call(DriverCall::Watch(QueryParams::from(query)));
         } else {
-            self.observed(Asked::from(query), Answer::Unknown);
+            self.observed(QueryParams::from(query), Answer::Unknown);
         }
     }
 
     fn unwatch(&mut self, _now: Time, query: &Query) {
         self.watches.retain(|watched| watched != query);
-        self.call(Call::Unwatch(Asked::from(query)));
+        self.call(DriverCall::Unwatch(QueryParams::from(query)));
     }
 
     fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {

@@ -1,8 +1,9 @@
 //! What the driver says, and what it should have said by now.
 
-use super::super::link::Breakage;
+use super::super::link::LinkError;
 use super::super::protocol::{
-    Answered, Asked, Call, Goal, Heard, Nothing, REFUSED, RefusedData, Report, Wrong, hear,
+    DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, QueryParams, QueryResult, REFUSED,
+    RefusedData, RpcError, hear,
 };
 use super::super::settings::{MAX_FEEDBACK, MAX_KIND_BYTES, SAYINGS};
 use super::{RemoteDriver, Waiting, failed, nonsense};
@@ -33,7 +34,7 @@ impl RemoteDriver {
     pub(super) fn heard(&mut self, line: &str) {
         self.heard_at = Instant::now();
         match hear(line) {
-            Ok(Heard::Answer(id, answer)) => {
+            Ok(DriverMessage::Answer(id, answer)) => {
                 // An answer to what is no longer waited for says nothing new.
                 if let Some(waiting) = self.waiting.remove(&id) {
                     self.answered(waiting.call, answer, line);
@@ -41,29 +42,31 @@ impl RemoteDriver {
                     self.broke(&nonsense(line, "nothing with this number was asked".to_owned()));
                 }
             }
-            Ok(Heard::Report(report)) => self.told(report),
+            Ok(DriverMessage::Report(report)) => self.told(report),
             Err(why) => self.broke(&nonsense(line, why)),
         }
     }
 
-    fn told(&mut self, report: Report) {
+    fn told(&mut self, report: DriverReport) {
         let id = GoalId::from_number;
         match report {
-            Report::Ended(ended) => {
+            DriverReport::Ended(ended) => {
                 let outcome = self.named(ended.outcome).into();
                 self.report(DriverEvent::Ended { goal: id(ended.goal), outcome });
             }
-            Report::NotHeld(Goal { goal }) => self.report(DriverEvent::NotHeld { goal: id(goal) }),
-            Report::Stopped(Goal { goal }) => {
+            DriverReport::NotHeld(GoalParams { goal }) => {
+                self.report(DriverEvent::NotHeld { goal: id(goal) })
+            }
+            DriverReport::Stopped(GoalParams { goal }) => {
                 self.stopping.remove(&goal);
                 self.report(DriverEvent::Stopped { goal: id(goal) });
             }
-            Report::Lost(Goal { goal }) => self.report(DriverEvent::Lost { goal: id(goal) }),
-            Report::Observed(observed) => {
+            DriverReport::Lost(GoalParams { goal }) => self.report(DriverEvent::Lost { goal: id(goal) }),
+            DriverReport::Observed(observed) => {
                 let (query, answer) = (observed.query.into(), observed.answer.into());
                 self.report(DriverEvent::Observed { query, answer });
             }
-            Report::Feedback(feedback) => {
+            DriverReport::Feedback(feedback) => {
                 let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
                 (self.note)(&format!("goal {}: {text}", id(feedback.goal)));
                 self.report(DriverEvent::Feedback { goal: id(feedback.goal), text });
@@ -93,12 +96,12 @@ impl RemoteDriver {
         }
     }
 
-    fn answered(&mut self, call: Call, answer: Result<Value, Wrong>, line: &str) {
+    fn answered(&mut self, call: DriverCall, answer: Result<Value, RpcError>, line: &str) {
         match (call, answer) {
-            (Call::Start(start), Ok(_)) => {
+            (DriverCall::Start(start), Ok(_)) => {
                 self.report(DriverEvent::Acknowledged { goal: GoalId::from_number(start.goal) });
             }
-            (Call::Start(start), Err(wrong)) => {
+            (DriverCall::Start(start), Err(wrong)) => {
                 let data: Option<RefusedData> = serde_json::from_value(wrong.data.clone()).ok();
                 if wrong.code != REFUSED {
                     (self.note)(&format!("the driver does not start a goal: {}", wrong.message));
@@ -106,36 +109,38 @@ impl RemoteDriver {
                 let failure = data.map_or_else(failed, |data| self.kind(&data.failure));
                 self.report(DriverEvent::Refused { goal: GoalId::from_number(start.goal), failure });
             }
-            (Call::Observe(asked) | Call::Watch(asked), Ok(value)) => {
-                match serde_json::from_value::<Answered>(value) {
+            (DriverCall::Observe(asked) | DriverCall::Watch(asked), Ok(value)) => {
+                match serde_json::from_value::<QueryResult>(value) {
                     Ok(answered) => self.observed(asked, answered.answer.into()),
                     Err(why) => self.broke(&nonsense(line, why.to_string())),
                 }
             }
-            (Call::Observe(asked) | Call::Watch(asked), Err(_)) => self.observed(asked, Answer::Unknown),
-            (Call::Hold(Goal { goal }), Err(_)) => {
+            (DriverCall::Observe(asked) | DriverCall::Watch(asked), Err(_)) => {
+                self.observed(asked, Answer::Unknown)
+            }
+            (DriverCall::Hold(GoalParams { goal }), Err(_)) => {
                 self.report(DriverEvent::NotHeld { goal: GoalId::from_number(goal) });
             }
-            (Call::Update(start), Err(wrong)) => {
+            (DriverCall::Update(start), Err(wrong)) => {
                 (self.note)(&format!("the driver does not update a goal: {}", wrong.message));
                 self.report(DriverEvent::Lost { goal: GoalId::from_number(start.goal) });
             }
             (
-                Call::Cancel(_)
-                | Call::Proceed(_)
-                | Call::SafeStop(_)
-                | Call::Unwatch(_)
-                | Call::Ping(_)
-                | Call::Status(_)
-                | Call::Hello(_)
-                | Call::Bye(_),
+                DriverCall::Cancel(_)
+                | DriverCall::Proceed(_)
+                | DriverCall::SafeStop(_)
+                | DriverCall::Unwatch(_)
+                | DriverCall::Ping(_)
+                | DriverCall::Status(_)
+                | DriverCall::Hello(_)
+                | DriverCall::Bye(_),
                 Err(wrong),
             ) => (self.note)(&format!("the driver says: {}", wrong.message)),
             (_, Ok(_)) => {}
         }
     }
 
-    pub(super) fn observed(&mut self, asked: Asked, answer: Answer) {
+    pub(super) fn observed(&mut self, asked: QueryParams, answer: Answer) {
         self.report(DriverEvent::Observed { query: asked.query.into(), answer });
     }
 
@@ -160,27 +165,33 @@ impl RemoteDriver {
         // A driver that hears nothing stops by itself, so it is spoken to also where it says much.
         let quiet = silent.max(self.said_at.elapsed());
         if silent >= self.patience.silence {
-            self.broke(&Breakage::Silent(silent));
+            self.broke(&LinkError::Silent(silent));
         } else if quiet >= self.patience.heartbeat
-            && !self.waiting.values().any(|waiting| matches!(waiting.call, Call::Ping(_)))
+            && !self.waiting.values().any(|waiting| matches!(waiting.call, DriverCall::Ping(_)))
         {
-            self.call(Call::Ping(Nothing {}));
+            self.call(DriverCall::Ping(EmptyParams {}));
         }
     }
 
     /// An answer did not come in time. That says nothing of what was done.
-    fn overdue(&mut self, call: Call, sayings: u32) {
+    fn overdue(&mut self, call: DriverCall, sayings: u32) {
         match call {
-            Call::Start(start) if sayings < SAYINGS => self.call_again(Call::Start(start), sayings + 1),
-            Call::Start(start) | Call::Update(start) => {
+            DriverCall::Start(start) if sayings < SAYINGS => {
+                self.call_again(DriverCall::Start(start), sayings + 1)
+            }
+            DriverCall::Start(start) | DriverCall::Update(start) => {
                 let goal = GoalId::from_number(start.goal);
                 (self.note)(&format!("the driver does not say whether goal {goal} runs"));
                 self.report(DriverEvent::Lost { goal });
             }
-            Call::Observe(asked) | Call::Watch(asked) => self.observed(asked, Answer::Unknown),
+            DriverCall::Observe(asked) | DriverCall::Watch(asked) => self.observed(asked, Answer::Unknown),
             // The engine waits for what follows from these, and not for ever.
-            Call::Cancel(_) | Call::Hold(_) | Call::Proceed(_) | Call::SafeStop(_) | Call::Unwatch(_) => {}
-            Call::Status(_) | Call::Ping(_) | Call::Hello(_) | Call::Bye(_) => {}
+            DriverCall::Cancel(_)
+            | DriverCall::Hold(_)
+            | DriverCall::Proceed(_)
+            | DriverCall::SafeStop(_)
+            | DriverCall::Unwatch(_) => {}
+            DriverCall::Status(_) | DriverCall::Ping(_) | DriverCall::Hello(_) | DriverCall::Bye(_) => {}
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Answers to queries, from the world as it is. What the world does not know of it leaves unknown.
 
-use crate::body::Body;
+use crate::body::UprightBody;
 use crate::thing::{Rest, Role};
-use crate::world::{Arm, World};
+use crate::world::{ArmPose, SimWorld};
 use indexmap::IndexMap;
 use motet_graph::Value;
 use motet_runtime::{Answer, Pattern, Query};
@@ -15,15 +15,15 @@ const AT_PLACE_M: f64 = 0.5;
 /// Gravity, in m/s².
 const GRAVITY: f64 = 9.81;
 
-/// Facts that the world was told.
-pub(crate) type Told = IndexMap<(SmolStr, Vec<SmolStr>), bool>;
+/// Facts given at the start, by fluent and arguments, with their truth values.
+pub(crate) type InitialFacts = IndexMap<(SmolStr, Vec<SmolStr>), bool>;
 
-impl World {
+impl SimWorld {
     /// The answer to a query.
-    pub(crate) fn answer(&self, query: &Query, told: &Told) -> Answer {
+    pub(crate) fn answer(&self, query: &Query, initial_facts: &InitialFacts) -> Answer {
         match query {
             Query::Fact { fluent, args } => {
-                self.some(fluent, args, &mut Vec::new(), told).map_or(Answer::Unknown, Answer::Truth)
+                self.some(fluent, args, &mut Vec::new(), initial_facts).map_or(Answer::Unknown, Answer::Truth)
             }
             Query::Measure { measure, args } => {
                 let reading = self.measure(measure, args);
@@ -42,12 +42,12 @@ impl World {
         fluent: &str,
         rest: &'w [Pattern],
         chosen: &mut Vec<&'w str>,
-        told: &Told,
+        initial_facts: &InitialFacts,
     ) -> Option<bool> {
-        let Some((first, rest)) = rest.split_first() else { return self.fact(fluent, chosen, told) };
+        let Some((first, rest)) = rest.split_first() else { return self.fact(fluent, chosen, initial_facts) };
         let mut with = |name: &'w str| {
             chosen.push(name);
-            let truth = self.some(fluent, rest, chosen, told);
+            let truth = self.some(fluent, rest, chosen, initial_facts);
             chosen.pop();
             truth
         };
@@ -69,9 +69,10 @@ impl World {
     }
 
     /// Whether a fluent holds, where the world knows it.
-    pub(crate) fn fact(&self, fluent: &str, args: &[&str], told: &Told) -> Option<bool> {
+    pub(crate) fn fact(&self, fluent: &str, args: &[&str], initial_facts: &InitialFacts) -> Option<bool> {
         self.standard(fluent, args).or_else(|| {
-            let known = told.iter().find(|((name, of), _)| name == fluent && of.iter().eq(args.iter()));
+            let known =
+                initial_facts.iter().find(|((name, of), _)| name == fluent && of.iter().eq(args.iter()));
             known.map(|(_, holds)| *holds)
         })
     }
@@ -80,9 +81,9 @@ impl World {
         match (fluent, args) {
             ("free", [hand]) => self.hands.get(*hand).map(|grip| grip.holds.is_none()),
             ("standing", ["robot"]) => Some(self.standing),
-            ("arm_home", ["robot"]) => Some(self.arm == Arm::Home),
-            ("arm_ready", ["robot"]) => Some(self.arm == Arm::Ready),
-            ("arm_carry", ["robot"]) => Some(self.arm == Arm::Carry),
+            ("arm_home", ["robot"]) => Some(self.arm == ArmPose::Home),
+            ("arm_ready", ["robot"]) => Some(self.arm == ArmPose::Ready),
+            ("arm_carry", ["robot"]) => Some(self.arm == ArmPose::Carry),
             ("at", ["robot", to]) => self.thing(to).map(|_| self.stands_at(to)),
             (_, [id]) => self.state(fluent, id),
             ("at" | "on" | "in", [id, to]) => self.relation(fluent, id, to),
@@ -147,7 +148,7 @@ impl World {
     }
 
     /// Metres from the base's rim to a thing's outline.
-    fn distance(&self, body: &Body) -> f64 {
+    fn distance(&self, body: &UprightBody) -> f64 {
         (body.gap(self.base.x, self.base.y) - self.drive.radius_m).max(0.0)
     }
 

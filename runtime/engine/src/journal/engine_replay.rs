@@ -1,17 +1,17 @@
 //! Steps an engine through a journal again, and tells where what it does differs.
 
-use super::entry::{Entry, Head, Step, Swap};
+use super::entry::{JournalEntry, JournalHead, StepEntry, SwapEntry};
 use crate::effect::Effect;
 use crate::engine::Engine;
 use crate::event::Event;
-use crate::swap::Prepared;
+use crate::swap::PreparedSwap;
 use crate::time::Time;
 use crate::wire;
 use thiserror::Error;
 
 /// An engine on its way through a journal.
 #[derive(Clone, Debug)]
-pub struct Replay {
+pub struct EngineReplay {
     engine: Engine,
     now: Time,
     out: Vec<Effect>,
@@ -19,7 +19,7 @@ pub struct Replay {
 
 /// Why a replay cannot begin or go on.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
-pub enum CannotReplay {
+pub enum ReplayError {
     /// The graph in the journal was changed, or is of another version.
     #[error("the graph in the journal cannot be read: {0}")]
     Graph(String),
@@ -33,7 +33,7 @@ pub enum CannotReplay {
 
 /// Where a replay differs from the journal.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Difference {
+pub struct EffectMismatch {
     /// The place of the first effect that differs, from 0.
     pub index: usize,
     /// The effect in the journal, as JSON; none where the replay has more.
@@ -42,16 +42,16 @@ pub struct Difference {
     pub replay: Option<String>,
 }
 
-impl Replay {
+impl EngineReplay {
     /// An engine made from a head.
     ///
     /// # Errors
     ///
     /// The graph cannot be used.
-    pub fn new(head: &Head) -> Result<Self, CannotReplay> {
+    pub fn new(head: &JournalHead) -> Result<Self, ReplayError> {
         let graph = graph(&head.graph)?;
         let engine = Engine::new(graph, &head.start.clone().into()).map_err(|wrong| {
-            CannotReplay::Invalid(wrong.first().map_or_else(String::new, ToString::to_string))
+            ReplayError::Invalid(wrong.first().map_or_else(String::new, ToString::to_string))
         })?;
         let engine =
             engine.with_settings(head.settings.into()).with_capabilities(head.capabilities.clone().into());
@@ -63,15 +63,15 @@ impl Replay {
     /// # Errors
     ///
     /// It is a swap that the engine refuses.
-    pub fn take(&mut self, entry: &Entry) -> Result<Option<Difference>, CannotReplay> {
+    pub fn take(&mut self, entry: &JournalEntry) -> Result<Option<EffectMismatch>, ReplayError> {
         self.out.clear();
         match entry {
-            Entry::Head(_) | Entry::Resumed(_) => Ok(None),
-            Entry::Step(step) | Entry::GaveUp(step) => {
+            JournalEntry::Head(_) | JournalEntry::Resumed(_) => Ok(None),
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => {
                 self.step(step);
                 Ok(self.compare(&step.effects))
             }
-            Entry::Swap(swap) => {
+            JournalEntry::Swap(swap) => {
                 self.swap(swap)?;
                 Ok(self.compare(&swap.effects))
             }
@@ -102,7 +102,7 @@ impl Replay {
         self.engine
     }
 
-    fn step(&mut self, step: &Step) {
+    fn step(&mut self, step: &StepEntry) {
         self.now = Time::from_nanos(step.at);
         match &step.event {
             Some(event) => self.engine.handle(self.now, Event::from(event.clone()), &mut self.out),
@@ -110,24 +110,24 @@ impl Replay {
         }
     }
 
-    fn swap(&mut self, swap: &Swap) -> Result<(), CannotReplay> {
+    fn swap(&mut self, swap: &SwapEntry) -> Result<(), ReplayError> {
         self.now = Time::from_nanos(swap.at);
-        let prepared = Prepared::new(graph(&swap.graph)?, &self.engine.running());
+        let prepared = PreparedSwap::new(graph(&swap.graph)?, &self.engine.running());
         let result = prepared.and_then(|prepared| self.engine.swap(self.now, prepared, &mut self.out));
-        result.map(drop).map_err(|refusal| CannotReplay::Refused(refusal.to_string()))
+        result.map(drop).map_err(|refusal| ReplayError::Refused(refusal.to_string()))
     }
 
-    fn compare(&self, journal: &[wire::Effect]) -> Option<Difference> {
+    fn compare(&self, journal: &[wire::Effect]) -> Option<EffectMismatch> {
         let length = journal.len().max(self.out.len());
         (0..length).find_map(|index| {
             let was = journal.get(index).map(wire::json);
             let is = self.out.get(index).map(|effect| wire::json(&wire::Effect::from(effect)));
-            (was != is).then_some(Difference { index, journal: was, replay: is })
+            (was != is).then_some(EffectMismatch { index, journal: was, replay: is })
         })
     }
 }
 
-fn graph(document: &wire::Document) -> Result<motet_graph::Graph, CannotReplay> {
+fn graph(document: &wire::Document) -> Result<motet_graph::Graph, ReplayError> {
     motet_graph::encode::from_document(document.clone())
-        .map_err(|error| CannotReplay::Graph(error.to_string()))
+        .map_err(|error| ReplayError::Graph(error.to_string()))
 }

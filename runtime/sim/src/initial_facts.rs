@@ -1,17 +1,17 @@
 //! Facts that a host says hold at the start: the world is made such that they do, as far as it can be.
 
-use crate::observe::Told;
+use crate::observation::InitialFacts;
 use crate::thing::Rest;
-use crate::world::World;
+use crate::world::SimWorld;
 use smol_str::SmolStr;
 
-impl World {
+impl SimWorld {
     /// Makes the facts true that are not yet, in order. A fact of something that does not exist is left out, and so is
     /// one that can only come about, such as `visited`.
-    pub(crate) fn believe(&mut self, told: &Told) {
-        for ((fluent, args), holds) in told {
+    pub(crate) fn believe(&mut self, initial_facts: &InitialFacts) {
+        for ((fluent, args), holds) in initial_facts {
             let args: Vec<&str> = args.iter().map(SmolStr::as_str).collect();
-            if self.fact(fluent, &args, &Told::new()).is_none_or(|is| is == *holds) {
+            if self.fact(fluent, &args, &InitialFacts::new()).is_none_or(|is| is == *holds) {
                 continue;
             }
             self.make(fluent, &args, *holds);

@@ -9,7 +9,7 @@ use smol_str::SmolStr;
 
 /// What goes wrong, each in so many of 1,000 cases.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Mischief {
+pub struct FaultRates {
     /// A report is lost.
     pub loses: u32,
     /// A report comes twice.
@@ -38,18 +38,18 @@ pub struct Mischief {
 
 /// A driver around another one. The seed decides what goes wrong when; the same calls go wrong in the same way.
 #[derive(Clone, Debug)]
-pub struct Faulty<D> {
+pub struct FaultyDriver<D> {
     inner: D,
-    mischief: Mischief,
+    mischief: FaultRates,
     dice: u64,
     is_silent: bool,
     queue: Vec<(Time, DriverEvent)>,
     forgotten: Vec<GoalId>,
 }
 
-impl<D: Driver> Faulty<D> {
+impl<D: Driver> FaultyDriver<D> {
     /// Around a driver.
-    pub const fn new(inner: D, mischief: Mischief, seed: u64) -> Self {
+    pub const fn new(inner: D, mischief: FaultRates, seed: u64) -> Self {
         Self { inner, mischief, dice: seed, is_silent: false, queue: Vec::new(), forgotten: Vec::new() }
     }
 
@@ -96,7 +96,7 @@ impl<D: Driver> Faulty<D> {
     }
 }
 
-impl<D: Driver> Driver for Faulty<D> {
+impl<D: Driver> Driver for FaultyDriver<D> {
     fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
         if self.happens(self.mischief.refuses) {
             let failure = SmolStr::new_static("unreachable");

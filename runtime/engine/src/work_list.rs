@@ -1,13 +1,13 @@
 //! Transitions that are still to be made, in document order.
 
-use crate::state::Exit;
+use crate::state::NodeExit;
 use motet_graph::{NodeId, RegionId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A transition to make.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Micro {
+pub(crate) enum Transition {
     /// Enter a step.
     Enter(NodeId),
     /// Get a call's resources and start it.
@@ -15,9 +15,9 @@ pub(crate) enum Micro {
     /// Judge a step that awaits observations.
     Judge(NodeId),
     /// A step is over.
-    NodeEnded(NodeId, Exit),
+    NodeEnded(NodeId, NodeExit),
     /// A region is over.
-    RegionEnded(RegionId, Exit),
+    RegionEnded(RegionId, NodeExit),
 }
 
 /// A transition with its rank: first by place in the document, then in order of arrival.
@@ -25,7 +25,7 @@ pub(crate) enum Micro {
 struct Entry {
     place: u32,
     order: u64,
-    micro: Micro,
+    micro: Transition,
 }
 
 impl Entry {
@@ -53,17 +53,17 @@ impl Ord for Entry {
 
 /// The work list. With a single thread of control it holds one entry at most, so that one has a place of its own.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Work {
+pub(crate) struct WorkList {
     /// The first of all, if it is known.
     first: Option<Entry>,
     rest: BinaryHeap<Reverse<Entry>>,
     orders: u64,
 }
 
-impl Work {
+impl WorkList {
     /// Adds a transition at a place in the document.
     #[inline]
-    pub(crate) fn push(&mut self, place: u32, micro: Micro) {
+    pub(crate) fn push(&mut self, place: u32, micro: Transition) {
         self.orders += 1;
         let entry = Entry { place, order: self.orders, micro };
         match &mut self.first {
@@ -84,7 +84,7 @@ impl Work {
 
     /// Takes the first transition.
     #[inline]
-    pub(crate) fn pop(&mut self) -> Option<Micro> {
+    pub(crate) fn pop(&mut self) -> Option<Transition> {
         if let Some(first) = self.first.take() {
             return Some(first.micro);
         }

@@ -5,7 +5,7 @@ use crate::time::Time;
 
 /// Looks twice at each of some times, given in order, and tells what breaks a law; nothing where none is broken. What is
 /// detected is looked at more closely, too.
-pub fn perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String> {
+pub fn check_perception(eyes: &mut dyn Perception, times: &[Time]) -> Vec<String> {
     let mut broken = Vec::new();
     let finite =
         |pose: &motet_graph::Pose| pose.xyz.iter().chain(&pose.quaternion).all(|number| number.is_finite());

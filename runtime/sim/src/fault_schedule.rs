@@ -1,8 +1,8 @@
 //! Faults as they come to pass: calls that go wrong, and changes of the world at their time.
 
-use crate::faults::{CallEnd, CallFault, Change, Destination, Faults};
+use crate::faults::{CallFault, CallFaultKind, Destination, Faults, WorldEvent};
 use crate::thing::Rest;
-use crate::world::World;
+use crate::world::SimWorld;
 use indexmap::IndexMap;
 use motet_runtime::Time;
 use smol_str::SmolStr;
@@ -10,22 +10,22 @@ use std::collections::VecDeque;
 
 /// What is still to come.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Fate {
+pub(crate) struct FaultSchedule {
     calls: Vec<CallFault>,
     counts: IndexMap<SmolStr, u32>,
-    changes: VecDeque<(Time, Change)>,
+    changes: VecDeque<(Time, WorldEvent)>,
 }
 
 /// What happens to one call.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct CallFate {
+pub(crate) struct ScheduledFault {
     pub(crate) fails: Option<SmolStr>,
     pub(crate) refuses: Option<SmolStr>,
     pub(crate) slower: f64,
     pub(crate) hangs: bool,
 }
 
-impl Fate {
+impl FaultSchedule {
     pub(crate) fn new(faults: &Faults) -> Self {
         let mut changes: Vec<_> =
             faults.world.iter().map(|change| (Time::from_secs(change.at), change.what.clone())).collect();
@@ -34,18 +34,18 @@ impl Fate {
     }
 
     /// Counts a call, and tells what happens to it.
-    pub(crate) fn of_call(&mut self, primitive: &SmolStr) -> CallFate {
+    pub(crate) fn of_call(&mut self, primitive: &SmolStr) -> ScheduledFault {
         let count = self.counts.entry(primitive.clone()).or_insert(0);
         *count += 1;
-        let mut fate = CallFate { fails: None, refuses: None, slower: 1.0, hangs: false };
+        let mut fate = ScheduledFault { fails: None, refuses: None, slower: 1.0, hangs: false };
         let mine =
             |fault: &&CallFault| fault.primitive == *primitive && fault.nth.is_none_or(|nth| nth == *count);
         for fault in self.calls.iter().filter(mine) {
             match &fault.then {
-                CallEnd::Fails(kind) => fate.fails = Some(kind.clone()),
-                CallEnd::Refuses(kind) => fate.refuses = Some(kind.clone()),
-                CallEnd::Slower(factor) => fate.slower *= factor,
-                CallEnd::Hangs => fate.hangs = true,
+                CallFaultKind::Fails(kind) => fate.fails = Some(kind.clone()),
+                CallFaultKind::Refuses(kind) => fate.refuses = Some(kind.clone()),
+                CallFaultKind::Slower(factor) => fate.slower *= factor,
+                CallFaultKind::Hangs => fate.hangs = true,
             }
         }
         fate
@@ -57,23 +57,23 @@ impl Fate {
     }
 
     /// The next change that is due.
-    pub(crate) fn take(&mut self, now: Time) -> Option<Change> {
+    pub(crate) fn take(&mut self, now: Time) -> Option<WorldEvent> {
         self.changes.pop_front_if(|(at, _)| *at <= now).map(|(_, change)| change)
     }
 }
 
-impl World {
+impl SimWorld {
     /// A change happens. One of a thing that does not exist does not.
-    pub(crate) fn happen(&mut self, change: &Change) {
+    pub(crate) fn happen(&mut self, change: &WorldEvent) {
         match change {
-            Change::Moves { object, to } => self.move_away(object, to),
-            Change::Walks { person, from, to, speed } => self.start_walk(person, *from, *to, *speed),
-            Change::Slips(id) => self.slip(id),
-            Change::Opens(id) => self.set_open(id, true),
-            Change::Closes(id) => self.set_open(id, false),
-            Change::Locks(id) => self.set_locked(id, true),
-            Change::Unlocks(id) => self.set_locked(id, false),
-            Change::Battery(charge) => self.battery = *charge,
+            WorldEvent::Moves { object, to } => self.move_away(object, to),
+            WorldEvent::Walks { person, from, to, speed } => self.start_walk(person, *from, *to, *speed),
+            WorldEvent::Slips(id) => self.slip(id),
+            WorldEvent::Opens(id) => self.set_open(id, true),
+            WorldEvent::Closes(id) => self.set_open(id, false),
+            WorldEvent::Locks(id) => self.set_locked(id, true),
+            WorldEvent::Unlocks(id) => self.set_locked(id, false),
+            WorldEvent::Battery(charge) => self.battery = *charge,
         }
     }
 

@@ -11,13 +11,13 @@ const NOBODY: NodeId = NodeId(u32::MAX);
 
 /// The live goals. A goal's id names its slot, so finding its step costs one look.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Goals {
+pub(crate) struct GoalTable {
     slots: Vec<Option<(GoalId, NodeId)>>,
     free: Vec<u32>,
     starts: u64,
 }
 
-impl Goals {
+impl GoalTable {
     /// A new goal for a step.
     #[inline]
     pub(crate) fn open(&mut self, node: NodeId) -> GoalId {

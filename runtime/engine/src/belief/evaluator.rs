@@ -20,7 +20,7 @@ pub(crate) enum Freshness {
 const DERIVED: &str = "reachable";
 
 /// Judges conditions. Cheap to make.
-pub(crate) struct Judge<'a> {
+pub(crate) struct Evaluator<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) beliefs: &'a mut Beliefs,
     pub(crate) bindings: &'a [Option<Value>],
@@ -31,7 +31,7 @@ pub(crate) struct Judge<'a> {
     pub(crate) missing: Option<&'a mut Vec<CellId>>,
 }
 
-impl Judge<'_> {
+impl Evaluator<'_> {
     /// Whether a condition holds.
     pub(crate) fn condition(&mut self, condition: &Condition) -> Truth {
         match condition {

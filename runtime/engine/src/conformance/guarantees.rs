@@ -2,7 +2,7 @@
 
 use crate::effect::Effect;
 use crate::event::{DriverEvent, Event, GoalId};
-use crate::host::{Control, Onlooker};
+use crate::run_loop::{Observer, RunControl};
 use crate::time::Time;
 use motet_graph::Graph;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// conflicts with is live; a goal is cancelled at most once and not before it runs; time goes forwards; nothing follows the
 /// end.
 #[derive(Clone, Debug)]
-pub struct Promises {
+pub struct EngineGuarantees {
     /// Names of resources that conflict, both ways.
     conflicts: BTreeSet<(String, String)>,
     live: BTreeMap<GoalId, Live>,
@@ -28,7 +28,7 @@ struct Live {
     cancelled: bool,
 }
 
-impl Promises {
+impl EngineGuarantees {
     /// Of an engine that runs this graph.
     #[must_use]
     pub fn new(graph: &Graph) -> Self {
@@ -72,7 +72,7 @@ impl Promises {
     }
 }
 
-impl Onlooker for Promises {
+impl Observer for EngineGuarantees {
     fn event(&mut self, now: Time, event: &Event) {
         if now < self.last {
             self.broken.push(format!("time runs backwards, from {} to {now}", self.last));
@@ -95,7 +95,7 @@ impl Onlooker for Promises {
         }
     }
 
-    fn commit(&mut self, _now: Time, effects: &[Effect]) -> Control {
+    fn commit(&mut self, _now: Time, effects: &[Effect]) -> RunControl {
         for effect in effects {
             if self.is_over {
                 self.broken.push(format!("{effect:?} after the end"));
@@ -118,6 +118,6 @@ impl Onlooker for Promises {
                 Effect::Observe { .. } | Effect::Watch { .. } | Effect::Unwatch { .. } => {}
             }
         }
-        Control::GoOn
+        RunControl::Continue
     }
 }

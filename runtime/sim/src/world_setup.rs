@@ -1,10 +1,10 @@
 //! The world at the start, from a card and a scene. What they leave open is filled in: a thing without a place stands in a
 //! row beside the room, an object without mass or width is light and slim.
 
-use crate::body::{Body, Stance};
-use crate::options::Options;
+use crate::body::{BasePose, UprightBody};
+use crate::options::SimOptions;
 use crate::thing::{Door, Rest, Role, Thing};
-use crate::world::{Arm, Grip, World};
+use crate::world::{ArmPose, HandState, SimWorld};
 use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene, Shape};
@@ -19,19 +19,19 @@ const MASS_KG: f64 = 0.2;
 /// How wide an object is of which nothing is said.
 const WIDTH_M: f64 = 0.06;
 
-impl World {
-    pub(crate) fn new(robot: &Robot, scene: &Scene, options: &Options) -> Self {
+impl SimWorld {
+    pub(crate) fn new(robot: &Robot, scene: &Scene, options: &SimOptions) -> Self {
         let [x, y, heading] = scene.robot.base;
-        let grip = |hand| Grip { hand, holds: None, lifted: false };
+        let grip = |hand| HandState { hand, holds: None, lifted: false };
         let mut world = Self {
             now: Time::ZERO,
-            base: Stance { x, y, heading },
+            base: BasePose { x, y, heading },
             motion: None,
             drive: robot.base.clone(),
             hands: robot.hands.iter().map(|(name, hand)| (name.clone(), grip(hand.clone()))).collect(),
             cameras: robot.cameras.values().cloned().collect(),
             things: IndexMap::new(),
-            arm: Arm::Home,
+            arm: ArmPose::Home,
             standing: !robot.initially.iter().any(|fact| fact.trim() == "not standing(robot)"),
             battery: 1.0,
             unmoved: true,
@@ -39,7 +39,7 @@ impl World {
             visited: scene.robot.at.clone().into_iter().collect::<BTreeSet<_>>(),
         };
         if robot.initially.iter().any(|fact| fact.trim() == "arm_ready(robot)") {
-            world.arm = Arm::Ready;
+            world.arm = ArmPose::Ready;
         }
         let entities = entities(scene, options);
         let mut row = Row::beside(scene);
@@ -51,7 +51,7 @@ impl World {
         if let Some(Some(held)) = &scene.robot.holding {
             world.hold_at_start(held);
         }
-        world.believe(&options.told);
+        world.believe(&options.initial_facts);
         world.carry();
         for thing in world.things.values_mut() {
             thing.moved = false;
@@ -102,7 +102,7 @@ impl World {
 }
 
 /// What there is: the scene's entities, those that always exist, and those that the options add.
-fn entities(scene: &Scene, options: &Options) -> Vec<Entity> {
+fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
     let mut entities: Vec<Entity> = scene.entities.values().cloned().collect();
     let [x, y, heading] = scene.robot.base;
     let mut add = |id: &str, kind: &str, pose| {
@@ -141,7 +141,7 @@ fn bare(id: &str, kind: &str, pose: Option<Placement>) -> Entity {
     }
 }
 
-fn thing(entity: &Entity, options: &Options, row: &mut Row) -> Thing {
+fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {
     let role = role(entity, options);
     let rest = match (&entity.on, &entity.inside) {
         (_, Some(container)) => Rest::In(container.clone()),
@@ -152,7 +152,7 @@ fn thing(entity: &Entity, options: &Options, row: &mut Row) -> Thing {
     let shape = entity.shape.as_ref().or(usual.as_ref());
     let stands_on_pose = matches!(role, Role::Person | Role::Place);
     let is_lost = entity.pose.is_none();
-    let mut body = Body::new(entity.pose.unwrap_or_default(), shape, stands_on_pose);
+    let mut body = UprightBody::new(entity.pose.unwrap_or_default(), shape, stands_on_pose);
     if is_lost {
         let [x, y] = row.next_spot();
         body.put(x, y, 0.0);
@@ -180,7 +180,7 @@ fn thing(entity: &Entity, options: &Options, row: &mut Row) -> Thing {
 }
 
 /// The standard kind that an entity's kind descends from. Of a kind that nobody declared, the entity itself tells.
-fn role(entity: &Entity, options: &Options) -> Role {
+fn role(entity: &Entity, options: &SimOptions) -> Role {
     let mut kind = &entity.kind;
     for _ in 0..=options.kinds.len() {
         match kind.as_str() {

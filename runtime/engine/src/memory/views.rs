@@ -1,7 +1,7 @@
 //! What a memory shows. Each view is data for a program and, by `Display`, lines for a prompt.
 
-use super::entry::{Doing, Entry, Remembered};
-use super::store::{Dropped, Memory};
+use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
+use super::store::{DroppedCounts, Memory};
 use crate::snapshot::Snapshot;
 use crate::wire;
 use schemars::JsonSchema;
@@ -10,16 +10,16 @@ use std::fmt;
 
 /// The short history: the first request and the latest failure.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Short {
+pub struct ShortHistory {
     /// What was asked for first.
     pub request: Option<String>,
     /// What went wrong last.
-    pub failure: Option<Entry>,
+    pub failure: Option<MemoryEntry>,
 }
 
 /// The working memory: the state, and what was done so far.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Working {
+pub struct WorkingMemory {
     /// What was asked for last.
     pub request: Option<String>,
     /// What holds (`true`), does not hold (`false`) or is unknown though something else of its kind is known (`null`).
@@ -27,26 +27,26 @@ pub struct Working {
     /// Names that are bound, with their values as the language writes them.
     pub bindings: Vec<(String, String)>,
     /// Steps that are over, questions and new policies, oldest first.
-    pub done: Vec<Entry>,
+    pub done: Vec<MemoryEntry>,
     /// How many of them were dropped before the first.
     pub dropped: u64,
     /// What runs.
-    pub doing: Vec<Doing>,
+    pub doing: Vec<RunningStep>,
 }
 
 /// Everything that is remembered.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Whole {
+pub struct FullMemory {
     /// What was asked for first.
-    pub first_instruction: Option<Entry>,
+    pub first_instruction: Option<MemoryEntry>,
     /// What went wrong last.
-    pub latest_failure: Option<Entry>,
+    pub latest_failure: Option<MemoryEntry>,
     /// All entries that are kept, oldest first.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<MemoryEntry>,
     /// How many were dropped.
-    pub dropped: Dropped,
+    pub dropped: DroppedCounts,
     /// What runs.
-    pub doing: Vec<Doing>,
+    pub doing: Vec<RunningStep>,
     /// The engine's state.
     pub state: wire::Snapshot,
 }
@@ -54,17 +54,20 @@ pub struct Whole {
 impl Memory {
     /// The first request and the latest failure.
     #[must_use]
-    pub fn short(&self) -> Short {
-        Short { request: self.first.as_ref().and_then(instruction), failure: self.latest_failure.clone() }
+    pub fn short(&self) -> ShortHistory {
+        ShortHistory {
+            request: self.first.as_ref().and_then(instruction),
+            failure: self.latest_failure.clone(),
+        }
     }
 
     /// The state and the executed steps. The state is the engine's ([`crate::Engine::snapshot`]).
     #[must_use]
-    pub fn working(&self, state: &Snapshot) -> Working {
-        let is_done = |entry: &&Entry| !matches!(entry.what, Remembered::Instruction { .. });
+    pub fn working(&self, state: &Snapshot) -> WorkingMemory {
+        let is_done = |entry: &&MemoryEntry| !matches!(entry.what, MemoryEvent::Instruction { .. });
         let latest = self.entries.iter().rev().find_map(instruction);
-        let Dropped { instructions: _, steps, failures, questions, swaps, endings } = self.dropped;
-        Working {
+        let DroppedCounts { instructions: _, steps, failures, questions, swaps, endings } = self.dropped;
+        WorkingMemory {
             request: latest.or_else(|| self.first.as_ref().and_then(instruction)),
             state: state.state(),
             bindings: state
@@ -80,8 +83,8 @@ impl Memory {
 
     /// Everything, with the engine's state.
     #[must_use]
-    pub fn whole(&self, state: &Snapshot) -> Whole {
-        Whole {
+    pub fn whole(&self, state: &Snapshot) -> FullMemory {
+        FullMemory {
             first_instruction: self.first.clone(),
             latest_failure: self.latest_failure.clone(),
             entries: self.entries.iter().cloned().collect(),
@@ -92,15 +95,15 @@ impl Memory {
     }
 }
 
-fn instruction(entry: &Entry) -> Option<String> {
+fn instruction(entry: &MemoryEntry) -> Option<String> {
     match &entry.what {
-        Remembered::Instruction { text } => Some(text.clone()),
-        Remembered::Step { .. } | Remembered::Stuck { .. } | Remembered::Question { .. } => None,
-        Remembered::Swap { .. } | Remembered::Ended { .. } => None,
+        MemoryEvent::Instruction { text } => Some(text.clone()),
+        MemoryEvent::Step { .. } | MemoryEvent::Stuck { .. } | MemoryEvent::Question { .. } => None,
+        MemoryEvent::Swap { .. } | MemoryEvent::Ended { .. } => None,
     }
 }
 
-impl fmt::Display for Short {
+impl fmt::Display for ShortHistory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(request) = &self.request {
             writeln!(f, "request: {request}")?;
@@ -112,7 +115,7 @@ impl fmt::Display for Short {
     }
 }
 
-impl fmt::Display for Working {
+impl fmt::Display for WorkingMemory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(request) = &self.request {
             writeln!(f, "request: {request}")?;

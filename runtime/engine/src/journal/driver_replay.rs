@@ -1,7 +1,7 @@
 //! Leads a driver through a journal again: for one that is deterministic and has forgotten everything, as a simulator has
 //! whose process ended.
 
-use super::entry::{Entry, Step};
+use super::entry::{JournalEntry, StepEntry};
 use crate::driver::Driver;
 use crate::effect::Effect;
 use crate::event::DriverEvent;
@@ -11,13 +11,13 @@ use std::fmt;
 
 /// Gives a driver the commands of a journal at their times, and compares what it reports with what it reported then.
 #[derive(Clone, Debug, Default)]
-pub struct Retrace {
+pub struct DriverReplay {
     now: Time,
 }
 
 /// The driver reports something else than it did then.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Astray {
+pub struct ReplayMismatch {
     /// When.
     pub at: Time,
     /// What it reported then; none where nothing happened.
@@ -26,7 +26,7 @@ pub struct Astray {
     pub driver: Option<(Time, DriverEvent)>,
 }
 
-impl fmt::Display for Astray {
+impl fmt::Display for ReplayMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "at {} the driver ", self.at)?;
         match &self.driver {
@@ -40,28 +40,28 @@ impl fmt::Display for Astray {
     }
 }
 
-impl Retrace {
+impl DriverReplay {
     /// Takes an entry in.
     ///
     /// # Errors
     ///
     /// The driver does not do the same again.
-    pub fn take(&mut self, driver: &mut dyn Driver, entry: &Entry) -> Result<(), Box<Astray>> {
+    pub fn take(&mut self, driver: &mut dyn Driver, entry: &JournalEntry) -> Result<(), Box<ReplayMismatch>> {
         match entry {
-            Entry::Head(head) => {
+            JournalEntry::Head(head) => {
                 self.now = Time::from_nanos(head.from);
                 Ok(())
             }
-            Entry::Step(step) | Entry::GaveUp(step) => self.step(driver, step),
-            Entry::Swap(swap) => {
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => self.step(driver, step),
+            JournalEntry::Swap(swap) => {
                 self.carry_out(driver, swap.at, &swap.effects);
                 Ok(())
             }
-            Entry::Resumed(_) => Ok(()),
+            JournalEntry::Resumed(_) => Ok(()),
         }
     }
 
-    fn step(&mut self, driver: &mut dyn Driver, step: &Step) -> Result<(), Box<Astray>> {
+    fn step(&mut self, driver: &mut dyn Driver, step: &StepEntry) -> Result<(), Box<ReplayMismatch>> {
         let at = Time::from_nanos(step.at);
         match &step.event {
             Some(wire::Event::Driver(event)) => {
@@ -72,12 +72,12 @@ impl Retrace {
                     wire::json(&wire::DriverEvent::from(now)) == wire::json(event)
                 };
                 if !report.as_ref().is_some_and(same) {
-                    return Err(Box::new(Astray { at, journal: Some(journal), driver: report }));
+                    return Err(Box::new(ReplayMismatch { at, journal: Some(journal), driver: report }));
                 }
             }
             Some(wire::Event::Tick) if at > self.now => {
                 if let Some(report) = driver.advance(at) {
-                    return Err(Box::new(Astray { at, journal: None, driver: Some(report) }));
+                    return Err(Box::new(ReplayMismatch { at, journal: None, driver: Some(report) }));
                 }
             }
             // Verdicts are none of the driver's affair.

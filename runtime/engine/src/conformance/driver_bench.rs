@@ -1,6 +1,6 @@
 //! A driver under test: calls it, hears it, and checks what holds of every report.
 
-use super::law::{Breach, Law};
+use super::law::{Law, LawViolation};
 use crate::driver::Driver;
 use crate::effect::Command;
 use crate::event::{DriverEvent, GoalId};
@@ -10,24 +10,24 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The most reports in one scene; a driver that says more does not get anywhere.
 const MAX_REPORTS: usize = 10_000;
 
-pub(super) struct Bench {
+pub(super) struct DriverBench {
     pub(super) driver: Box<dyn Driver>,
     pub(super) now: Time,
     pub(super) log: Vec<(Time, DriverEvent)>,
-    pub(super) breaches: BTreeSet<Breach>,
-    goals: BTreeMap<GoalId, Said>,
+    pub(super) breaches: BTreeSet<LawViolation>,
+    goals: BTreeMap<GoalId, GoalLog>,
 }
 
 /// What was said of a goal.
 #[derive(Clone, Copy, Debug, Default)]
-struct Said {
+struct GoalLog {
     acknowledged: bool,
     ended: bool,
     /// Safe stops that are not answered.
     stops: u32,
 }
 
-impl Bench {
+impl DriverBench {
     pub(super) fn new(driver: Box<dyn Driver>) -> Self {
         let (log, breaches) = (Vec::new(), BTreeSet::new());
         Self { driver, now: Time::ZERO, log, breaches, goals: BTreeMap::new() }
@@ -41,8 +41,8 @@ impl Bench {
 
     /// A goal that was never started.
     pub(super) fn unheard_of(&mut self) -> GoalId {
-        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::goals::SLOT_BITS);
-        self.goals.insert(goal, Said::default());
+        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::goal_table::SLOT_BITS);
+        self.goals.insert(goal, GoalLog::default());
         goal
     }
 
@@ -89,7 +89,7 @@ impl Bench {
     }
 
     pub(super) fn breach(&mut self, law: Law, told: String) {
-        self.breaches.insert(Breach { law, told });
+        self.breaches.insert(LawViolation { law, told });
     }
 
     fn judge(&mut self, event: &DriverEvent) {

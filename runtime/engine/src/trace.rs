@@ -8,18 +8,18 @@ use motet_graph::{BindingId, FailureId, NodeId, Value};
 
 /// Something that happened in a run.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Record {
+pub struct TraceEvent {
     /// When.
     pub at: Time,
     /// The number of the graph that its ids belong to: 0, and one more with each swap.
     pub revision: u32,
     /// What.
-    pub what: Happening,
+    pub what: TraceEventKind,
 }
 
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Happening {
+pub enum TraceEventKind {
     /// A step was entered.
     Entered {
         /// Which.
@@ -32,7 +32,7 @@ pub enum Happening {
         /// How.
         ending: NodeEnding,
         /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// A call was started, for the first time, after a failure, or after an interruption.
     Started {
@@ -52,7 +52,7 @@ pub enum Happening {
         /// How.
         ending: NodeEnding,
         /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// A guard was checked.
     Guard {
@@ -134,7 +134,7 @@ pub enum NodeEnding {
 
 /// Why something ended.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Cause {
+pub enum EndCause {
     /// It ran to its end.
     Completed,
     /// The primitive failed, or something within failed and was not caught.

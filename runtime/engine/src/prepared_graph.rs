@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A graph and its indices. Never changes during a run.
 #[derive(Debug)]
-pub(crate) struct Plan {
+pub(crate) struct PreparedGraph {
     pub(crate) graph: Arc<Graph>,
     /// All watches: monitors in document order, so an outer one has the smaller number.
     pub(crate) watches: Vec<(NodeId, u32)>,
@@ -28,23 +28,23 @@ pub(crate) struct Plan {
     ranges: Vec<(u32, u32)>,
     owned: Vec<RegionId>,
     /// What every step needs at hand.
-    steps: Vec<Step>,
+    steps: Vec<PreparedNode>,
     /// Of each primitive.
-    means: Vec<Means>,
-    spare_step: Step,
+    means: Vec<PrimitiveResources>,
+    spare_step: PreparedNode,
     spare: Node,
     spare_region: Region,
 }
 
 /// What is looked up of a step each time it runs, apart from the graph so that it lies close together.
 #[derive(Clone, Debug)]
-pub(crate) struct Step {
+pub(crate) struct PreparedNode {
     pub(crate) region: RegionId,
     pub(crate) next: Option<NodeId>,
     /// Call: the deadline of an attempt.
     pub(crate) deadline: Time,
     /// Call: its resources.
-    pub(crate) mask: Mask,
+    pub(crate) mask: ResourceMask,
     /// Call: its command where its arguments are all literals.
     pub(crate) command: Option<Arc<Command>>,
     pub(crate) is_call: bool,
@@ -58,22 +58,22 @@ pub(crate) struct Step {
 
 /// What the calls of a primitive have in common.
 #[derive(Debug)]
-struct Means {
-    mask: Mask,
+struct PrimitiveResources {
+    mask: ResourceMask,
     /// The names of its resources.
     uses: Arc<[SmolStr]>,
 }
 
 /// Resources as bits.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Mask {
+pub(crate) struct ResourceMask {
     /// Those that a primitive holds.
     pub(crate) uses: u128,
     /// Those that nobody else may hold meanwhile.
     pub(crate) conflicts: u128,
 }
 
-impl Plan {
+impl PreparedGraph {
     pub(crate) fn new(graph: Arc<Graph>) -> Self {
         let mut failures = graph.failures.clone();
         let mut failure = |name: &str| {
@@ -94,12 +94,12 @@ impl Plan {
             owned: Vec::with_capacity(graph.regions.len()),
             steps: Vec::with_capacity(graph.nodes.len()),
             means: graph.primitives.iter().map(|primitive| means(&graph, primitive)).collect(),
-            spare_step: Step::of_kind(ROOT, None),
+            spare_step: PreparedNode::of_kind(ROOT, None),
             spare: Node {
                 path: SmolStr::default(),
                 region: ROOT,
                 next: None,
-                duration: motet_graph::Bounds::default(),
+                duration: motet_graph::DurationBounds::default(),
                 kind: NodeKind::End { how: Ending::Done, of: None, why: None },
             },
             spare_region: Region { owner: None, entry: None },
@@ -152,8 +152,9 @@ impl Plan {
         self.graph.regions.get(id.index()).unwrap_or(&self.spare_region)
     }
 
-    fn ready(&self, node: &Node, is_leaf: bool) -> Step {
-        let mut step = Step { is_composite: !is_leaf, ..Step::of_kind(node.region, node.next) };
+    fn ready(&self, node: &Node, is_leaf: bool) -> PreparedNode {
+        let mut step =
+            PreparedNode { is_composite: !is_leaf, ..PreparedNode::of_kind(node.region, node.next) };
         if let NodeKind::Call(call) = &node.kind {
             let deferred = |verdict| verdict == Verdict::Deferred;
             let checks = call.needs.iter().any(|need| deferred(need.verdict))
@@ -199,7 +200,7 @@ impl Plan {
 
     /// What a step needs at hand.
     #[inline]
-    pub(crate) fn step(&self, id: NodeId) -> &Step {
+    pub(crate) fn step(&self, id: NodeId) -> &PreparedNode {
         self.steps.get(id.index()).unwrap_or(&self.spare_step)
     }
 
@@ -235,9 +236,9 @@ impl Plan {
     }
 
     /// Whose key it is.
-    pub(crate) fn of_key(&self, key: u32) -> Key {
+    pub(crate) fn of_key(&self, key: u32) -> Dependent {
         let watches = self.watches.len() as u32;
-        if key < watches { Key::Watch(key) } else { Key::Node(NodeId(key - watches)) }
+        if key < watches { Dependent::Watch(key) } else { Dependent::Node(NodeId(key - watches)) }
     }
 
     /// How many keys there are.
@@ -248,7 +249,7 @@ impl Plan {
 
 /// Who can set a timer or depend on a belief.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Key {
+pub(crate) enum Dependent {
     /// A watch by its number.
     Watch(u32),
     /// A step.
@@ -257,14 +258,14 @@ pub(crate) enum Key {
     Orphan(GoalId),
 }
 
-impl Step {
+impl PreparedNode {
     /// A step that is no call.
     fn of_kind(region: RegionId, next: Option<NodeId>) -> Self {
         Self {
             region,
             next,
             deadline: Time::ZERO,
-            mask: Mask::default(),
+            mask: ResourceMask::default(),
             command: None,
             is_call: false,
             is_composite: false,
@@ -274,14 +275,17 @@ impl Step {
     }
 }
 
-fn means(graph: &Graph, primitive: &Primitive) -> Means {
+fn means(graph: &Graph, primitive: &Primitive) -> PrimitiveResources {
     let uses = primitive.uses.iter().filter_map(|id| graph.resources.get(id.index()));
-    Means { mask: mask(graph, primitive), uses: uses.map(|resource| resource.name.clone()).collect() }
+    PrimitiveResources {
+        mask: mask(graph, primitive),
+        uses: uses.map(|resource| resource.name.clone()).collect(),
+    }
 }
 
-fn mask(graph: &Graph, primitive: &Primitive) -> Mask {
+fn mask(graph: &Graph, primitive: &Primitive) -> ResourceMask {
     let bit = |index: usize| 1_u128.checked_shl(index as u32).unwrap_or(0);
-    let mut mask = Mask::default();
+    let mut mask = ResourceMask::default();
     for used in &primitive.uses {
         mask.uses |= bit(used.index());
         mask.conflicts |= bit(used.index());

@@ -1,7 +1,7 @@
 //! The scenes that a driver is run through.
 
-use super::bench::{Bench, ends, matters};
-use super::law::{Breach, Law};
+use super::driver_bench::{DriverBench, ends, matters};
+use super::law::{Law, LawViolation};
 use crate::driver::Driver;
 use crate::effect::Command;
 use crate::event::{DriverEvent, GoalId, Outcome};
@@ -10,7 +10,7 @@ use crate::time::Time;
 use std::collections::BTreeSet;
 
 /// A driver to be checked, and what to check it with.
-pub struct Subject<'a> {
+pub struct ConformanceSubject<'a> {
     /// Makes a driver at time 0 that has done nothing.
     pub fresh: &'a mut dyn FnMut() -> Box<dyn Driver>,
     /// Something that it accepts, and that takes less than `patience` from its acknowledgement.
@@ -29,8 +29,8 @@ pub struct Subject<'a> {
 ///
 /// What a driver does to a robot, such as whether a goal still uses a resource after its end, cannot be seen from here.
 #[must_use]
-pub fn check(subject: &mut Subject<'_>) -> Vec<Breach> {
-    type Scene = fn(&mut Bench, &Subject<'_>);
+pub fn check(subject: &mut ConformanceSubject<'_>) -> Vec<LawViolation> {
+    type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
     let scenes: [Scene; 10] = [
         to_the_end,
         cancelled,
@@ -45,15 +45,15 @@ pub fn check(subject: &mut Subject<'_>) -> Vec<Breach> {
     ];
     let mut breaches = BTreeSet::new();
     for scene in scenes {
-        let mut bench = Bench::new((subject.fresh)());
+        let mut bench = DriverBench::new((subject.fresh)());
         scene(&mut bench, subject);
         breaches.extend(bench.breaches);
         if subject.is_virtual {
-            let mut again = Bench::new((subject.fresh)());
+            let mut again = DriverBench::new((subject.fresh)());
             scene(&mut again, subject);
             if again.log != bench.log {
                 let told = first_difference(&bench.log, &again.log);
-                breaches.insert(Breach { law: Law::Repeatable, told });
+                breaches.insert(LawViolation { law: Law::Repeatable, told });
             }
         }
     }
@@ -61,7 +61,7 @@ pub fn check(subject: &mut Subject<'_>) -> Vec<Breach> {
 }
 
 /// Started, it is answered, ends once, and is never heard of again; a cancel then changes nothing.
-fn to_the_end(bench: &mut Bench, subject: &Subject<'_>) {
+fn to_the_end(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
     bench.runs(goal, subject.patience);
     end(bench, goal, subject.patience, Law::EndsOnce);
@@ -71,7 +71,7 @@ fn to_the_end(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Cancelled, it ends.
-fn cancelled(bench: &mut Bench, subject: &Subject<'_>) {
+fn cancelled(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
     if bench.runs(goal, subject.patience) {
         bench.driver.cancel(bench.now, goal);
@@ -81,7 +81,7 @@ fn cancelled(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Stopped safely, it is said to be; and again where it has ended.
-fn stopped(bench: &mut Bench, subject: &Subject<'_>) {
+fn stopped(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
     bench.runs(goal, subject.patience);
     for when in ["while it runs", "after its end"] {
@@ -90,7 +90,7 @@ fn stopped(bench: &mut Bench, subject: &Subject<'_>) {
     bench.until(subject.patience, |_| false);
 }
 
-fn stop(bench: &mut Bench, goal: GoalId, subject: &Subject<'_>, when: &str) {
+fn stop(bench: &mut DriverBench, goal: GoalId, subject: &ConformanceSubject<'_>, when: &str) {
     bench.safe_stop(goal);
     let is_answer = |event: &DriverEvent| *event == DriverEvent::Stopped { goal };
     if bench.until(subject.patience, is_answer).is_none() {
@@ -99,7 +99,7 @@ fn stop(bench: &mut Bench, goal: GoalId, subject: &Subject<'_>, when: &str) {
 }
 
 /// Held, it keeps still, and then goes on.
-fn held(bench: &mut Bench, subject: &Subject<'_>) {
+fn held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
     if !bench.runs(goal, subject.patience) {
         return;
@@ -114,13 +114,13 @@ fn held(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// A safe stop is answered also of a goal that was never started.
-fn stopped_unheard_of(bench: &mut Bench, subject: &Subject<'_>) {
+fn stopped_unheard_of(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.unheard_of();
     stop(bench, goal, subject, "of which it has never heard");
 }
 
 /// Cancelled while it is held, it ends.
-fn cancelled_while_held(bench: &mut Bench, subject: &Subject<'_>) {
+fn cancelled_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     if let Some(goal) = hold(bench, subject) {
         bench.driver.cancel(bench.now, goal);
         end(bench, goal, subject.patience, Law::Cancelled);
@@ -128,7 +128,7 @@ fn cancelled_while_held(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Stopped safely while it is held, it is said to be.
-fn stopped_while_held(bench: &mut Bench, subject: &Subject<'_>) {
+fn stopped_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     if let Some(goal) = hold(bench, subject) {
         stop(bench, goal, subject, "while it is held");
         bench.until(subject.patience, |_| false);
@@ -136,7 +136,7 @@ fn stopped_while_held(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Starts a goal and holds it for a moment. None where it does not run.
-fn hold(bench: &mut Bench, subject: &Subject<'_>) -> Option<GoalId> {
+fn hold(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> Option<GoalId> {
     let goal = bench.start(&subject.command);
     if !bench.runs(goal, subject.patience) {
         return None;
@@ -147,7 +147,7 @@ fn hold(bench: &mut Bench, subject: &Subject<'_>) -> Option<GoalId> {
 }
 
 /// Given its arguments again, it goes on under its number and ends once, by itself.
-fn updated(bench: &mut Bench, subject: &Subject<'_>) {
+fn updated(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     if !bench.driver.capabilities().update.contains(&subject.command.primitive) {
         return;
     }
@@ -167,7 +167,7 @@ fn updated(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Observed, it is answered once.
-fn observed(bench: &mut Bench, subject: &Subject<'_>) {
+fn observed(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     bench.driver.observe(bench.now, &subject.query);
     let answers = answers(bench, subject);
     if answers != 1 {
@@ -176,7 +176,7 @@ fn observed(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// Watched, it is answered at once; watched again, not again.
-fn watched(bench: &mut Bench, subject: &Subject<'_>) {
+fn watched(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     for (time, expected) in [("first", 1), ("second", 0)] {
         bench.driver.watch(bench.now, &subject.query);
         let answers = answers(bench, subject);
@@ -191,7 +191,7 @@ fn watched(bench: &mut Bench, subject: &Subject<'_>) {
 }
 
 /// How often the question is answered within a moment.
-fn answers(bench: &mut Bench, subject: &Subject<'_>) -> usize {
+fn answers(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> usize {
     let before = bench.log.len();
     bench.until(subject.moment, |_| false);
     let is_answer =
@@ -200,7 +200,7 @@ fn answers(bench: &mut Bench, subject: &Subject<'_>) -> usize {
 }
 
 /// A goal ends within a span.
-fn end(bench: &mut Bench, goal: GoalId, span: Time, law: Law) {
+fn end(bench: &mut DriverBench, goal: GoalId, span: Time, law: Law) {
     if !bench.has_ended(goal) && bench.until(span, |event| ends(event, goal)).is_none() {
         bench.breach(law, format!("goal {goal} has not ended after {span}"));
     }

@@ -1,14 +1,14 @@
 //! What a driver was asked for and has not answered yet, at the end of a journal: what to ask it about after a crash.
 
-use super::entry::Entry;
+use super::entry::JournalEntry;
 use crate::wire::{DriverEvent, Effect, Event, Query, Start};
 use std::collections::BTreeMap;
 
 /// What is open between the engine and its driver.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Ledger {
+pub struct OpenGoals {
     /// Goals that have not ended, by number.
-    pub goals: BTreeMap<u64, Open>,
+    pub goals: BTreeMap<u64, OpenGoal>,
     /// What is watched, in order.
     pub watches: Vec<Query>,
     /// Observations that were not answered, in order.
@@ -21,7 +21,7 @@ pub struct Ledger {
 
 /// A goal that has not ended.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Open {
+pub struct OpenGoal {
     /// What it does.
     pub start: Start,
     /// Whether it was given new arguments since.
@@ -30,19 +30,19 @@ pub struct Open {
     pub told: Option<Effect>,
 }
 
-impl Ledger {
+impl OpenGoals {
     /// Takes an entry in.
-    pub fn take(&mut self, entry: &Entry) {
+    pub fn take(&mut self, entry: &JournalEntry) {
         match entry {
-            Entry::Head(_) | Entry::Resumed(_) => {}
-            Entry::Step(step) | Entry::GaveUp(step) => {
+            JournalEntry::Head(_) | JournalEntry::Resumed(_) => {}
+            JournalEntry::Step(step) | JournalEntry::GaveUp(step) => {
                 if let Some(Event::Driver(event)) = &step.event {
                     self.event(event);
                 }
                 self.uncertain.clear();
                 step.effects.iter().for_each(|effect| self.effect(effect));
             }
-            Entry::Swap(swap) => {
+            JournalEntry::Swap(swap) => {
                 self.uncertain.clear();
                 swap.effects.iter().for_each(|effect| self.effect(effect));
             }
@@ -66,7 +66,7 @@ impl Ledger {
     fn effect(&mut self, effect: &Effect) {
         match effect {
             Effect::Start(start) => {
-                let open = Open { start: start.clone(), updated: false, told: None };
+                let open = OpenGoal { start: start.clone(), updated: false, told: None };
                 self.goals.insert(start.goal, open);
             }
             Effect::Update(start) => {
@@ -91,7 +91,7 @@ impl Ledger {
         }
     }
 
-    fn with(&mut self, goal: u64, change: impl FnOnce(&mut Open)) {
+    fn with(&mut self, goal: u64, change: impl FnOnce(&mut OpenGoal)) {
         if let Some(open) = self.goals.get_mut(&goal) {
             change(open);
         }

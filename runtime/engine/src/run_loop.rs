@@ -4,9 +4,9 @@ use crate::driver::Driver;
 use crate::effect::{Effect, Fault, RunEnd};
 use crate::engine::Engine;
 use crate::event::{DriverEvent, Event};
-use crate::swap::{Prepared, Refusal, Retired};
+use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
 use crate::time::Time;
-use crate::verifier::{CheckId, Motion, Verification, Verifier};
+use crate::verifier::{CheckId, DeferredMotion, Verification, Verifier};
 use motet_graph::Graph;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
@@ -16,79 +16,79 @@ use std::sync::Arc;
 const VERDICT_EVERY: Time = Time::from_nanos(20_000_000);
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
-pub trait Onlooker {
+pub trait Observer {
     /// An event is about to be handled.
     fn event(&mut self, _now: Time, _event: &Event) {}
 
     /// An event was handled, or else the engine gave up, and these effects are about to be carried out, all together. Who
-    /// keeps a journal writes here. Where this says [`Control::Stop`], nothing is started or changed any more: starts are
+    /// keeps a journal writes here. Where this says [`RunControl::Stop`], nothing is started or changed any more: starts are
     /// taken back as refused, what runs is stopped.
-    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> Control {
-        Control::GoOn
+    fn commit(&mut self, _now: Time, _effects: &[Effect]) -> RunControl {
+        RunControl::Continue
     }
 
     /// An effect is about to be carried out.
     fn effect(&mut self, _now: Time, _effect: &Effect) {}
 
     /// The run has reached a time. To pace it against a clock, wait here until it is that late.
-    fn reached(&mut self, _now: Time) -> Control {
-        Control::GoOn
+    fn reached(&mut self, _now: Time) -> RunControl {
+        RunControl::Continue
     }
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
-    /// [`Onlooker::at_least_every`] says. Of several the newest should be given: one that was never given was never there.
-    fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<Prepared> {
+    /// [`Observer::at_least_every`] says. Of several the newest should be given: one that was never given was never there.
+    fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
         None
     }
 
     /// What became of a swap, before its effects are carried out.
-    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<Retired, Refusal>) {}
+    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<RetiredGraph, SwapRefusal>) {}
 
     /// Who checks the motions that the compiler deferred, where somebody does. An engine that is to ask is told so by
-    /// [`crate::Settings::verify_within`].
+    /// [`crate::EngineSettings::verify_within`].
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
         None
     }
 
-    /// The longest span without a call of [`Onlooker::reached`], for a live display or to notice an interrupt.
+    /// The longest span without a call of [`Observer::reached`], for a live display or to notice an interrupt.
     fn at_least_every(&self) -> Time {
         Time::NEVER
     }
 }
 
 /// Looks on without a word.
-impl Onlooker for () {}
+impl Observer for () {}
 
 /// Whether a run shall go on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Control {
+pub enum RunControl {
     /// It goes on.
-    GoOn,
+    Continue,
     /// A person stops it.
     Stop,
 }
 
 /// Runs an engine to its end. Starts at `from`, the driver's present time.
-pub fn run(engine: &mut Engine, driver: &mut dyn Driver, onlooker: &mut dyn Onlooker, from: Time) -> RunEnd {
-    go_on(engine, driver, onlooker, from, vec![Event::Begin])
+pub fn run(engine: &mut Engine, driver: &mut dyn Driver, observer: &mut dyn Observer, from: Time) -> RunEnd {
+    resume(engine, driver, observer, from, vec![Event::Begin])
 }
 
 /// Goes on with an engine that has begun, to its end: first with these events at `from`, then with what the driver reports.
-pub fn go_on(
+pub fn resume(
     engine: &mut Engine,
     driver: &mut dyn Driver,
-    onlooker: &mut dyn Onlooker,
+    observer: &mut dyn Observer,
     from: Time,
     events: Vec<Event>,
 ) -> RunEnd {
     let asked = engine.unverified().map(|(check, motion)| (check, Arc::clone(motion))).collect();
     let (first, out) = (events.into(), Vec::new());
-    let mut host = Host { driver, onlooker, now: from, first, out, asked, stopped: false };
+    let mut host = RunLoop { driver, observer, now: from, first, out, asked, stopped: false };
     loop {
         host.verify();
         if let Some(event) = host.first.pop_front() {
-            host.onlooker.event(host.now, &event);
-            if let Some(verifier) = host.onlooker.verifier() {
+            host.observer.event(host.now, &event);
+            if let Some(verifier) = host.observer.verifier() {
                 verifier.event(&event);
             }
             engine.handle(host.now, event, &mut host.out);
@@ -103,31 +103,31 @@ pub fn go_on(
             engine.give_up(&mut host.out);
             return host.carry_out().unwrap_or(RunEnd::Fault(Fault::Stalled));
         }
-        if !host.stopped && host.onlooker.reached(host.now) == Control::Stop {
+        if !host.stopped && host.observer.reached(host.now) == RunControl::Stop {
             host.stop();
         }
     }
 }
 
-struct Host<'a> {
+struct RunLoop<'a> {
     driver: &'a mut dyn Driver,
-    onlooker: &'a mut dyn Onlooker,
+    observer: &'a mut dyn Observer,
     now: Time,
     /// Events that come before anything that the driver reports.
     first: VecDeque<Event>,
     out: Vec<Effect>,
     /// Motions that wait for a verdict.
-    asked: Vec<(CheckId, Arc<Motion>)>,
+    asked: Vec<(CheckId, Arc<DeferredMotion>)>,
     stopped: bool,
 }
 
-impl Host<'_> {
+impl RunLoop<'_> {
     /// The next event. None where nothing will ever happen.
     fn next(&mut self, engine: &Engine) -> Option<Event> {
         let wake = engine.wake_at().unwrap_or(Time::NEVER);
-        let is_awaited = self.onlooker.verifier().is_some_and(|verifier| verifier.is_busy());
+        let is_awaited = self.observer.verifier().is_some_and(|verifier| verifier.is_busy());
         let glance = if is_awaited { VERDICT_EVERY } else { Time::NEVER };
-        let until = wake.min(self.now.after(self.onlooker.at_least_every().min(glance)));
+        let until = wake.min(self.now.after(self.observer.at_least_every().min(glance)));
         match self.driver.advance(until) {
             Some((at, report)) => {
                 self.now = at.max(self.now);
@@ -144,7 +144,7 @@ impl Host<'_> {
     /// Has the motions verified that were asked for. Verdicts go before anything that the driver reports.
     fn verify(&mut self) {
         let asked = std::mem::take(&mut self.asked);
-        let Some(verifier) = self.onlooker.verifier() else {
+        let Some(verifier) = self.observer.verifier() else {
             for (check, _) in asked {
                 let verdict = Verification::Unknown { why: SmolStr::new_static("nobody is there to ask") };
                 self.first.push_back(Event::Verified { check, verdict });
@@ -161,10 +161,10 @@ impl Host<'_> {
 
     /// Lets another policy take over, if there is one. Gives the run's end where that follows at once.
     fn swap(&mut self, engine: &mut Engine) -> Option<RunEnd> {
-        let prepared = self.onlooker.swap(self.now, engine)?;
+        let prepared = self.observer.swap(self.now, engine)?;
         let graph = prepared.graph().clone();
         let result = engine.swap(self.now, prepared, &mut self.out);
-        self.onlooker.swapped(self.now, &graph, result);
+        self.observer.swapped(self.now, &graph, result);
         self.carry_out()
     }
 
@@ -177,24 +177,24 @@ impl Host<'_> {
     /// Carries out the effects of one event. Gives the run's end, if it is among them.
     fn carry_out(&mut self) -> Option<RunEnd> {
         let now = self.now;
-        let control = self.onlooker.commit(now, &self.out);
-        if control == Control::Stop {
+        let control = self.observer.commit(now, &self.out);
+        if control == RunControl::Stop {
             self.stop();
         }
         let mut end = None;
         for effect in self.out.drain(..) {
             match (&effect, control) {
-                (Effect::Start { goal, .. }, Control::Stop) => {
+                (Effect::Start { goal, .. }, RunControl::Stop) => {
                     let failure = SmolStr::new_static("failed");
                     let refused = DriverEvent::Refused { goal: *goal, failure };
                     self.first.push_back(Event::Driver(refused));
                     continue;
                 }
-                (Effect::Update { .. }, Control::Stop) => continue,
-                (_, Control::Stop | Control::GoOn) => {}
+                (Effect::Update { .. }, RunControl::Stop) => continue,
+                (_, RunControl::Stop | RunControl::Continue) => {}
             }
-            self.onlooker.effect(now, &effect);
-            if let Some(verifier) = self.onlooker.verifier() {
+            self.observer.effect(now, &effect);
+            if let Some(verifier) = self.observer.verifier() {
                 verifier.effect(&effect);
             }
             match effect {

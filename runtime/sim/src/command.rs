@@ -1,13 +1,13 @@
 //! A command as the simulator understands it: the standard primitives, and everything else.
 
-use crate::world::World;
+use crate::world::SimWorld;
 use motet_graph::Value;
 use motet_runtime::Command;
 use smol_str::SmolStr;
 
 /// What to do.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Deed {
+pub(crate) enum SimCommand {
     Go(SmolStr),
     Turn(f64),
     Home,
@@ -34,8 +34,9 @@ pub(crate) enum Deed {
     Unknown,
 }
 
-impl Deed {
-    /// A command's deed. A robot's own primitive that has the name of a standard one but other parameters is unknown.
+impl SimCommand {
+    /// Parses a driver command. A robot's own primitive with the name of a standard one but other parameters is
+    /// [`Self::Unknown`].
     pub(crate) fn of(command: &Command) -> Self {
         Self::parse(command).unwrap_or(Self::Unknown)
     }
@@ -96,14 +97,14 @@ impl Deed {
     }
 
     /// What the arm is like afterwards.
-    pub(crate) fn leave_arm(&self, world: &mut World) {
-        use crate::world::Arm;
+    pub(crate) fn leave_arm(&self, world: &mut SimWorld) {
+        use crate::world::ArmPose;
         let arm = match self {
-            Self::Home => Arm::Home,
-            Self::StartPose | Self::Search(_, _) => Arm::Ready,
-            Self::Lift => Arm::Carry,
-            Self::Pick(_) | Self::Grasp(_) | Self::Place(_, _) | Self::Handover(_, _) => Arm::Out,
-            Self::Open(_) | Self::Close(_) | Self::Push(_) => Arm::Out,
+            Self::Home => ArmPose::Home,
+            Self::StartPose | Self::Search(_, _) => ArmPose::Ready,
+            Self::Lift => ArmPose::Carry,
+            Self::Pick(_) | Self::Grasp(_) | Self::Place(_, _) | Self::Handover(_, _) => ArmPose::Out,
+            Self::Open(_) | Self::Close(_) | Self::Push(_) => ArmPose::Out,
             Self::Go(_) | Self::Turn(_) | Self::WakeUp | Self::Unknown => return,
             Self::Detect(_) | Self::DetectAll(_) | Self::Locate(_) | Self::Ground(_) | Self::Inspect(_) => {
                 return;
