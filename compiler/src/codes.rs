@@ -1,13 +1,13 @@
-//! The pages behind `motet explain`: one a code, with a failing example and the mended one, both run as tests.
+//! Pages of `motet explain`: one per code, with an example that raises it and a corrected one. Tests run
+//! both.
 
 use motet_syntax::Code;
 
-/// A code's page.
+/// Page of one diagnostic code.
 #[derive(Clone, Copy, Debug)]
 pub struct CodePage {
-    /// The code.
     pub code: &'static str,
-    /// Markdown: what it means, an example that raises it, and one that does not.
+    /// Markdown: the meaning, an example that raises the code, and one that does not.
     pub text: &'static str,
 }
 
@@ -17,7 +17,7 @@ macro_rules! pages {
     };
 }
 
-/// All pages, in the order of their codes.
+/// All pages, sorted by code.
 pub const PAGES: &[CodePage] = pages! {
     "M0101" "M0102" "M0103" "M0104" "M0105" "M0106" "M0107" "M0108" "M0109" "M0110" "M0111" "M0112"
     "M0113" "M0114" "M0115" "M0116" "M0117" "M0118" "M0119" "M0120" "M0121" "M0131" "M0132" "M0133"
@@ -33,13 +33,13 @@ pub const PAGES: &[CodePage] = pages! {
     "M0904" "M0905" "M0906" "M0907" "M0908" "M0909" "M0910" "M0911"
 };
 
-/// The page of a code; letter case does not matter.
+/// Page of a code; the case of letters does not matter. O(pages).
 #[must_use]
 pub fn page(code: &str) -> Option<&'static CodePage> {
     PAGES.iter().find(|page| page.code.eq_ignore_ascii_case(code))
 }
 
-/// Every code that the front end, the cards, the scenes and the compiler can raise.
+/// All codes that the front ends, the readers of cards and scenes, and the compiler can raise, sorted.
 #[must_use]
 pub fn all() -> Vec<Code> {
     let stages = [

@@ -1,8 +1,9 @@
-//! Settling: what a document leaves to its types is written out, so that either surface form can say the same.
+//! Makes a policy explicit: writes out what it leaves to the types, so that both syntaxes can express the
+//! same policy.
 //!
-//! A plain string of the JSON form becomes a name, a text or a quantity; a bare number where a quantity is asked for gets
-//! the SI unit; arguments are named for JSON, and put in place for text. Where a name is not declared, or a value does
-//! not fit, the document stays as it is.
+//! A plain string of the JSON syntax becomes a name, a text or a quantity; a bare number becomes a quantity
+//! in the SI unit; arguments get names in JSON and positions in text. Where a name is unknown or a value does
+//! not fit, the policy stays as it is.
 
 use motet_syntax::Form;
 use motet_syntax::ast::{Arg, Block, Call, End, Expr, ExprKind, Name, Policy, Reaction, StepKind};
@@ -13,7 +14,7 @@ use crate::declare::Library;
 use crate::declare::elaborator::parse_quantity;
 use crate::ir::{Base, Ty};
 
-/// Settles a policy for printing it in a form.
+/// Makes a policy explicit, for printing it in a syntax.
 pub fn make_explicit(policy: &mut Policy, library: &Library, form: Form) {
     let writer = Writer { library, form };
     if let Some(goal) = &mut policy.achieves {
@@ -101,7 +102,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The parameters of the primitive or the policy of this name, with those that have a default.
+    /// Parameters of the primitive or policy with a name.
     fn called(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
         if let Some(def) = names.primitives.get(name).and_then(|id| self.library.primitive(*id)) {
@@ -116,7 +117,7 @@ impl Writer<'_> {
         None
     }
 
-    /// The parameters of the fluent or the measure of this name.
+    /// Parameters of the fluent or measure with a name.
     fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
         let names = &self.library.names;
         let fluent =
@@ -126,7 +127,8 @@ impl Writer<'_> {
         })
     }
 
-    /// A call of what has these parameters; `open` is both a primitive and a fluent, so the caller says which.
+    /// Rewrites the arguments of a call. `open` is both a primitive and a fluent, so the caller gives the
+    /// parameters.
     fn call(&self, call: &mut Call, params: Option<Vec<(SmolStr, Ty)>>) {
         match params {
             Some(params) => self.arguments(&mut call.args, &params),
@@ -222,7 +224,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The type of what says its own type: a measure or a field.
+    /// Type of an expression that shows its own type: a measure, a field, a quantity.
     fn type_of(&self, expr: &Expr) -> Option<Ty> {
         match &expr.kind {
             ExprKind::Call(call) => {

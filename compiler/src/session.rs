@@ -125,7 +125,6 @@ pub struct InitialFact {
     pub fluent: SmolStr,
     /// Arguments, entities or cases; `None` stands for any entity.
     pub args: Vec<Option<Value>>,
-    /// Truth value.
     pub holds: bool,
 }
 

@@ -1,7 +1,16 @@
 //! The standard library: kinds, fluents, measures, failures, primitives and policies, as Motet text.
 //!
-//! The texts are the whole of it: no crate knows a primitive by name. They are compiled once, before the robot's own
-//! declarations and those of a domain, which replace declarations of the same name.
+//! The texts are the whole of it: no crate knows a primitive by name, and the few other names that Rust code knows
+//! are the language items of [`lang`]. The texts are compiled once, before the declarations of the robot and of domains,
+//! which replace declarations of the same name.
+//!
+//! ```
+//! let (name, text) = motet_stdlib::FILES[0];
+//! assert_eq!(name, "stdlib/world.motet");
+//! assert!(text.contains(motet_stdlib::lang::kinds::PERSON));
+//! ```
+
+pub mod lang;
 
 /// The files, in the order in which they are read: name and text.
 pub const FILES: &[(&str, &str)] = &[

@@ -1,4 +1,4 @@
-//! Arithmetic, checked for dimension, and what does not fit together.
+//! Arithmetic with dimensions, and the wording of type errors.
 
 use motet_syntax::Span;
 use motet_syntax::ast::{ArithOp, Expr, ExprKind};
@@ -60,7 +60,7 @@ impl Elaborator<'_> {
         self.report(WrongDimension { span, left, right, operator });
     }
 
-    /// A value of a type as it is written, where that helps.
+    /// An example value of a type, in back-quotes, where one helps.
     pub(super) fn example(&self, ty: Ty) -> Option<String> {
         match ty {
             Ty { base: Base::Quantity(Dimension::NONE), lists: 0 } => Some("`20 %`".to_owned()),
@@ -73,7 +73,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// What to write in place of a value of another type, where the value says so.
+    /// Proposed spelling for a value of the wrong type, where the value shows what was meant.
     pub(super) fn instead(&self, term: &Term, ty: Ty, expr: &Expr, wanted: Ty) -> Option<String> {
         let is_known = |name: &str| self.scope.find(name).is_some() || self.entities.find(name).is_some();
         match (&expr.kind, wanted) {
@@ -109,7 +109,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// A value in words, for a message about its type.
+    /// Describes a value for a message about its type.
     pub(super) fn describe(&self, term: &Term, ty: Ty) -> String {
         let name = self.library.type_name(ty);
         match term {
@@ -138,7 +138,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// The dimension of a number or quantity.
+/// Dimension of a number or quantity; `None` for other types.
 pub(crate) fn dimension(ty: Ty) -> Option<Dimension> {
     match ty {
         Ty { base: Base::Int | Base::Number, lists: 0 } => Some(Dimension::NONE),
@@ -147,7 +147,7 @@ pub(crate) fn dimension(ty: Ty) -> Option<Dimension> {
     }
 }
 
-/// A number that is written out. Whole numbers are exact up to 2^53, the most that a document can write.
+/// Number of a literal. Whole numbers are exact up to 2^53, the largest that a document can hold.
 fn literal(term: &Term) -> Option<f64> {
     match term {
         Term::Int(value) => Some(*value as f64),

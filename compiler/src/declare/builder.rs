@@ -1,7 +1,8 @@
-//! From layers of declarations to a [`Library`]: kinds, enumerations, fluents and measures first, then the contracts
-//! that speak of them.
+//! Builds a [`Library`] from layers of declarations: kinds, enumerations, fluents and measures first, then
+//! the contracts that use them.
 
 use motet_robots::card::Robot;
+use motet_stdlib::lang;
 use motet_syntax::ast::{File, Param, TypeExpr};
 use motet_syntax::{Diagnostic, Form, Source, Sources};
 use rustc_hash::FxHashMap;
@@ -10,18 +11,19 @@ use smol_str::SmolStr;
 use super::contract;
 use super::elaborator::Elaborator;
 use super::errors::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
+use super::lang_items::LangItems;
 use super::layers::Declarations;
-use super::library::{EnumDef, FluentDef, KindDef, LangItems, Library, MeasureDef};
+use super::library::{EnumDef, FluentDef, KindDef, Library, MeasureDef};
 use super::suggestion::near;
 use crate::ir::{Base, Entity, EnumId, Failure, Fluent, Kind, Measure, Ty};
 use crate::ir::{Entities, MAX_ENTITIES};
 
-/// The most parameters of a fluent.
+/// Maximal number of parameters of a fluent.
 pub const MAX_FLUENT_PARAMS: usize = 4;
-/// The most declarations of one sort.
+/// Maximal number of declarations of one sort.
 pub const MAX_DECLARATIONS: usize = 10_000;
 
-/// A library together with the files that it came from, from which larger ones are made.
+/// Layers of declarations with the files they come from; larger libraries are built on top of them.
 #[derive(Clone, Debug)]
 pub struct LibraryBuilder {
     declarations: Declarations,
@@ -30,7 +32,8 @@ pub struct LibraryBuilder {
 }
 
 impl Library {
-    /// The standard library, and the robot's declarations where a robot is given. Its files are added to `sources`.
+    /// Reads the standard library, and the robot's declarations if there is a robot. Adds their files to
+    /// `sources`.
     #[must_use]
     pub fn builder(robot: Option<&Robot>, sources: &mut Sources) -> LibraryBuilder {
         let mut builder = LibraryBuilder {
@@ -61,12 +64,12 @@ impl LibraryBuilder {
         parsed.file
     }
 
-    /// Adds a layer, such as a domain or a document's own declarations.
+    /// Adds a layer, such as a domain or the declarations of a document.
     pub fn layer(&mut self, files: &[File]) {
         self.declarations.add(files, &mut self.diagnostics);
     }
 
-    /// The library of all layers, and what is wrong with them.
+    /// Builds the library of all layers, and returns it with the diagnostics about them.
     #[must_use]
     pub fn build(self) -> (Library, Vec<Diagnostic>) {
         let Self { declarations, robot, mut diagnostics } = self;
@@ -94,7 +97,7 @@ impl LibraryBuilder {
     }
 }
 
-/// A elaborator for declarations: no bindings, no scene.
+/// Elaborator for declarations: no bindings and no scene.
 pub(super) fn elaborator<'a>(library: &'a Library, entities: &'a Entities) -> Elaborator<'a> {
     Elaborator::new(library, entities, true, Form::Text)
 }
@@ -115,10 +118,11 @@ fn limit(
     len >= MAX_DECLARATIONS
 }
 
-/// Kinds, parents before children; one without a parent, or with a wrong one, hangs below the root `Entity`.
+/// Adds the kinds, parents before children. A kind without a valid parent becomes a child of the root
+/// `Entity`.
 fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut Vec<Diagnostic>) {
-    let root = SmolStr::new_static("Entity");
-    library.names.kinds.insert(root.clone(), Kind(0));
+    let root = SmolStr::new_static(lang::kinds::ENTITY);
+    library.names.kinds.insert(root.clone(), Kind::ROOT);
     library.kinds.push(KindDef { name: root.clone(), parent: None, fields: Default::default() });
     let mut waiting: Vec<_> =
         declarations.kinds.values().filter(|decl| decl.item.name.text != root).collect();
@@ -127,7 +131,7 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         waiting.retain(|decl| {
             let decl = &decl.item;
             let parent = match &decl.parent {
-                None => Some(Kind(0)),
+                None => Some(Kind::ROOT),
                 Some(parent) => library.names.kinds.get(&parent.text).copied(),
             };
             let Some(parent) = parent else { return true };
@@ -148,8 +152,8 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         let decl = &decl.item;
         let Some(parent) = &decl.parent else { continue };
         if declarations.kinds.contains_key(&parent.text) {
-            let what = format!("the kind `{}` is below itself", decl.name.text);
-            let remedy = "a kind has a parent that is declared without it".to_owned();
+            let what = format!("the kind `{}` is its own ancestor", decl.name.text);
+            let remedy = "choose a parent that does not descend from it".to_owned();
             diagnostics.push(BadDeclaration { span: parent.span, what, remedy }.into());
         } else {
             let near = near(&parent.text, declarations.kinds.keys().map(SmolStr::as_str));
@@ -157,7 +161,7 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         }
         library.names.kinds.insert(decl.name.text.clone(), Kind(index(&library.kinds)));
         let (name, fields) = (decl.name.text.clone(), Default::default());
-        library.kinds.push(KindDef { name, parent: Some(Kind(0)), fields });
+        library.kinds.push(KindDef { name, parent: Some(Kind::ROOT), fields });
     }
 }
 
@@ -193,8 +197,8 @@ fn enums(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
 }
 
 fn failures(library: &mut Library, declarations: &Declarations) {
-    let always =
-        [SmolStr::new_static("timeout"), SmolStr::new_static("failed"), SmolStr::new_static("exhausted")];
+    let always = [lang::builtin_failures::TIMEOUT, lang::failures::FAILED, lang::failures::EXHAUSTED]
+        .map(SmolStr::new_static);
     let declared = declarations.failures.iter().map(|(name, decl)| (name.clone(), decl.item.name.span));
     for (name, span) in always.into_iter().map(|name| (name, Default::default())).chain(declared) {
         if library.names.failures.contains_key(&name) {
@@ -230,7 +234,7 @@ fn fluents(
             return;
         }
         library.names.fluents.insert(name.clone(), Fluent(index(&library.fluents)));
-        let derived = name == "reachable";
+        let derived = name == lang::fluents::REACHABLE;
         let observable = derived || robot.is_none_or(|robot| robot.observes.contains(name));
         library.fluents.push(FluentDef { name: name.clone(), params, derived, observable });
     }
@@ -255,15 +259,15 @@ fn measures(
     }
 }
 
-/// `robot`, `user`, `start`, then what the declarations name.
+/// Entities of the declarations, after `robot`, `user` and `start`.
 fn entities(
     library: &mut Library,
     declarations: &Declarations,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Entities {
     let mut entities = Entities::default();
-    for (name, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "ValueRole")] {
-        entities.add(name.into(), library.kind_named(kind));
+    for (name, kind) in library.standard_entities() {
+        entities.add(name.into(), kind);
     }
     for decl in &declarations.entities {
         let kind = match library.names.kinds.get(&decl.kind.text) {
@@ -272,7 +276,7 @@ fn entities(
                 let near = near(&decl.kind.text, library.kinds.iter().map(|def| def.name.as_str()));
                 diagnostics
                     .push(UnknownType { span: decl.kind.span, name: decl.kind.text.clone(), near }.into());
-                Kind(0)
+                Kind::ROOT
             }
         };
         for name in &decl.names {

@@ -1,4 +1,4 @@
-//! Conditions: fluents, comparisons, and what joins them.
+//! Elaboration of conditions: fluents, comparisons and connectives.
 
 use motet_syntax::ast::{Arg, Call, CompareOp, Expr, ExprKind, Name};
 use motet_syntax::unit::Dimension;
@@ -11,7 +11,7 @@ use super::suggestion::{list, near};
 use crate::ir::{Base, Condition, Fact, Term, Ty};
 
 impl Elaborator<'_> {
-    /// A condition.
+    /// Elaborates a condition; [`Condition::Unknown`] after an error.
     pub(crate) fn condition(&mut self, expr: &Expr) -> Condition {
         match &expr.kind {
             ExprKind::Bool(value) => Condition::Literal(*value),
@@ -96,7 +96,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// A fluent applied to arguments; none after an error.
+    /// Elaborates a fluent applied to arguments; `None` after an error.
     pub(crate) fn fact(&mut self, call: &Call) -> Option<Fact> {
         let library = self.library;
         let Some(id) = library.names.fluents.get(&call.name.text).copied() else {
@@ -142,7 +142,8 @@ impl Elaborator<'_> {
         Condition::Unknown
     }
 
-    /// Arguments of a fluent or a measure in the order of its parameters; none stands for `any`.
+    /// Elaborates the arguments of a fluent or measure, in the order of its parameters; `None` stands for
+    /// `any`.
     pub(crate) fn arguments(&mut self, call: &Call, params: &[(SmolStr, Ty)]) -> Vec<Option<Term>> {
         let callee = call.name.text.as_str();
         let mut args: Vec<Option<Option<Term>>> = vec![None; params.len()];
@@ -203,7 +204,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// Whether an expression needs the other side to say how it is read.
+/// Returns whether the other side of a comparison decides how an expression is read.
 fn needs_context(expr: &Expr) -> bool {
     matches!(expr.kind, ExprKind::Number(_) | ExprKind::Plain(_) | ExprKind::List(_) | ExprKind::Name(_))
 }
@@ -216,7 +217,7 @@ fn plain(ty: Ty) -> bool {
     matches!(ty.base, Base::Int | Base::Number)
 }
 
-/// A quotient of two lengths may be compared with a ratio.
+/// Returns whether a side is computed: a quotient of two lengths may be compared with a ratio.
 fn computed(a: &Term, b: &Term) -> bool {
     matches!(a, Term::Arith(..)) || matches!(b, Term::Arith(..))
 }

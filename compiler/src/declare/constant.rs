@@ -7,13 +7,13 @@ use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors;
 use crate::ir::{BindingId, Term, Ty};
 
-/// The largest count of a loop, a retry or a reaction.
+/// Maximal count of a loop, a retry or a reaction.
 pub const MAX_COUNT: u32 = 1_000_000;
-/// The longest deadline, in seconds: a week.
+/// Maximal deadline in seconds: a week.
 pub const MAX_SECONDS: f64 = 604_800.0;
 
 impl Elaborator<'_> {
-    /// A duration that is known beforehand, in seconds.
+    /// Elaborates a constant duration, in seconds.
     pub(crate) fn seconds(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
         let wanted = Expected { ty: Ty::DURATION, place: ValueRole::Named(place) };
         match self.term_of(expr, wanted) {
@@ -42,12 +42,12 @@ impl Elaborator<'_> {
         }
     }
 
-    /// Whether a binding is a parameter, of which the value is known only where the policy is called.
+    /// Returns whether a binding is a parameter, whose value is known only at a call.
     fn is_param(&self, id: BindingId) -> bool {
         self.bindings.get(id.index()).is_some_and(|binding| binding.is_param)
     }
 
-    /// A count that is known beforehand.
+    /// Elaborates a constant count of at least `least`.
     pub(crate) fn count(&mut self, expr: &Expr, place: &'static str, least: u32) -> Option<u32> {
         let wanted = Expected { ty: Ty::INT, place: ValueRole::Named(place) };
         let beyond = |actual: String| errors::OutOfRange {

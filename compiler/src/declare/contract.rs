@@ -1,4 +1,4 @@
-//! Contracts: the clauses of a primitive, resolved.
+//! Elaboration of contracts: the clauses of a primitive.
 
 use std::sync::Arc;
 
@@ -18,29 +18,17 @@ use super::layers::Declarations;
 use super::library::{EffectDef, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
 use super::suggestion::{list, near};
 use crate::ir::Entities;
-use crate::ir::{Base, Kind, Primitive, TIMEOUT, Term, Ty};
+use crate::ir::{Base, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};
 
-/// The motion queries and how many arguments each takes.
-pub(crate) const MOTIONS: &[(&str, usize)] = &[
-    ("go_to", 1),
-    ("reach", 1),
-    ("put", 2),
-    ("pull", 1),
-    ("push", 1),
-    ("offer", 2),
-    ("look", 1),
-    ("posture", 1),
-];
-
-/// Keys of the JSON form that no parameter may bear. `on` is not among them: it names the failures of a `catch`, which
-/// takes no arguments, and is the natural name for a support.
+/// Keys of the JSON syntax, which no parameter may have as a name. `on` is not among them: it names the
+/// failures of a `catch`, which takes no arguments, and is the natural name for a support.
 const RESERVED: &[&str] = &[
     "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
     "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "when", "for",
     "react", "is", "get", "field", "of",
 ];
 
-/// Seconds that a primitive takes at most where its contract does not say.
+/// Duration in seconds, least and greatest, of a primitive without a `takes` clause.
 const DEFAULT_TAKES: (f64, f64) = (0.0, 60.0);
 
 pub(super) fn primitives(
@@ -86,7 +74,7 @@ pub(super) fn primitives(
     library.primitives = defs;
 }
 
-/// `initially` of the declarations and of the card.
+/// Elaborates `initially` of the declarations and of the card.
 pub(super) fn initially(
     library: &mut Library,
     declarations: &Declarations,
@@ -124,12 +112,12 @@ fn strip_not(expr: &Expr) -> (bool, &Expr) {
     }
 }
 
-/// A fluent where nothing else makes sense.
+/// Elaborates a fluent where no other condition is allowed.
 fn literal(elaborator: &mut Elaborator<'_>, expr: &Expr) -> Option<crate::ir::Fact> {
     match &expr.kind {
         ExprKind::Call(call) => elaborator.fact(call),
         _ => {
-            let what = "a fact is a fluent, perhaps under one `not`".to_owned();
+            let what = "a fact is a fluent, with or without one `not`".to_owned();
             let remedy = "write it as `on(cup, table)` or `not on(cup, table)`".to_owned();
             elaborator.report(BadDeclaration { span: expr.span, what, remedy });
             None
@@ -209,24 +197,22 @@ fn clause_into(elaborator: &mut Elaborator<'_>, clause: &Clause, def: &mut Primi
         }
         Clause::Motion(call) => {
             let name = &call.name.text;
-            let Some((_, arity)) = MOTIONS.iter().find(|(known, _)| known == name) else {
-                let near = near(name, MOTIONS.iter().map(|(known, _)| *known));
+            let Some(kind) = MotionKind::from_name(name) else {
+                let near = near(name, MotionKind::ALL.iter().map(|known| known.name()));
                 elaborator.report(UnknownMotion { span: call.name.span, name: name.clone(), near });
                 return;
             };
-            if call.args.len() != *arity {
-                let what = format!(
-                    "the motion `{name}` takes {arity} argument{}",
-                    if *arity == 1 { "" } else { "s" }
-                );
+            let arity = kind.arity();
+            if call.args.len() != arity {
+                let plural = if arity == 1 { "" } else { "s" };
                 elaborator.report(BadDeclaration {
                     span: call.span,
-                    what,
-                    remedy: "name what it is about".to_owned(),
+                    what: format!("the motion `{name}` takes {arity} argument{plural}"),
+                    remedy: "give one entity or term for each argument".to_owned(),
                 });
             }
             let args = call.args.iter().map(|arg| elaborator.term(&arg.value, None).0).collect();
-            def.motion = Some((name.clone(), args));
+            def.motion = Some((kind, args));
         }
         Clause::Uses(names) => {
             for name in names {
@@ -308,14 +294,14 @@ fn effect(elaborator: &mut Elaborator<'_>, entry: &Quantified) -> Option<EffectD
     let (each, when, fact) = quantified(elaborator, entry, |elaborator, _| literal(elaborator, inner));
     let fact = fact?;
     if elaborator.library.fluent(fact.fluent).is_some_and(|def| def.derived) {
-        let what = "`reachable` is derived: no primitive makes it".to_owned();
-        elaborator.report(BadDeclaration { span: inner.span, what, remedy: "leave it out".to_owned() });
+        let what = "`reachable` is derived: no primitive can make it".to_owned();
+        elaborator.report(BadDeclaration { span: inner.span, what, remedy: "remove it".to_owned() });
         return None;
     }
     Some(EffectDef { fact, value, each, when })
 }
 
-/// An entry with its variable in scope.
+/// Elaborates an entry with its `for each` variable in scope.
 fn quantified<'a, T>(
     elaborator: &mut Elaborator<'a>,
     entry: &Quantified,
@@ -327,14 +313,14 @@ fn quantified<'a, T>(
         let kind = ty.kind().unwrap_or_else(|| {
             if ty.base != Base::Unknown {
                 let what =
-                    format!("`for each` goes over entities, not over {}", elaborator.library.type_name(ty));
+                    format!("`for each` ranges over entities, not over {}", elaborator.library.type_name(ty));
                 elaborator.report(BadDeclaration {
                     span: name.span,
                     what,
                     remedy: "name a kind of entity".to_owned(),
                 });
             }
-            Kind(0)
+            Kind::ROOT
         });
         elaborator.scope.push(name.text.clone(), Term::Each, Ty::plain(Base::Entity(kind)), name.span);
         kind
@@ -345,14 +331,14 @@ fn quantified<'a, T>(
     (each, when, value)
 }
 
-/// A type as written, resolved; what is wrong goes to the elaborator.
+/// Elaborates a type; the elaborator collects the errors.
 pub(crate) fn resolve_type(elaborator: &mut Elaborator<'_>, ty: &TypeExpr) -> Ty {
     let (ty, mistakes) = type_of(elaborator.library, ty);
     elaborator.diagnostics.extend(mistakes);
     ty
 }
 
-/// A type as written.
+/// Elaborates a type, and returns the error if there is one.
 pub(super) fn type_of(library: &Library, ty: &TypeExpr) -> (Ty, Option<Diagnostic>) {
     let mut lists = 0u8;
     let mut inner = ty;
@@ -391,7 +377,7 @@ fn unknown_type(library: &Library, span: Span, name: &SmolStr) -> Diagnostic {
 }
 
 impl Library {
-    /// A type as written; unknown where it is not declared.
+    /// Elaborates a type; unknown if it is not declared.
     pub(crate) fn written_type(&self, ty: &TypeExpr) -> Ty {
         type_of(self, ty).0
     }

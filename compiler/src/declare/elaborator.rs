@@ -1,5 +1,5 @@
-//! Terms: what a value means and which type it has. Names and types are found together, because what a plain string of
-//! the JSON form means depends on the type that is asked for.
+//! Elaboration of terms: value and type together, since the type that is expected decides how a plain string
+//! of the JSON syntax is read.
 
 use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
@@ -15,33 +15,32 @@ use crate::declare::Library;
 use crate::ir::Entities;
 use crate::ir::{Base, Binding, ROBOT, Term, Ty};
 
-/// Resolves expressions in one scope.
+/// Elaborates expressions in one scope.
 pub(crate) struct Elaborator<'a> {
     pub(crate) library: &'a Library,
     pub(crate) entities: &'a Entities,
-    /// Whether a scene is given: without one an unknown name may be an entity of it.
+    /// True if there is a scene; without one an unknown name may be an entity of it.
     pub(crate) has_scene: bool,
-    /// In text a quantity needs its unit.
+    /// Syntax of the document: in text a quantity needs its unit.
     pub(crate) form: Form,
     pub(crate) scope: Scope,
     pub(crate) bindings: Vec<Binding>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
-/// What a value is asked for: its type and, for messages, the place.
+/// Expectation at the place of a value: its type and, for messages, its role.
 #[derive(Clone, Copy)]
 pub(crate) struct Expected<'a> {
     pub(crate) ty: Ty,
-    /// The parameter and the callee: "`object` of `pick`".
     pub(crate) place: ValueRole<'a>,
 }
 
-/// Where a value stands.
+/// Role of a value in its step, for messages.
 #[derive(Clone, Copy)]
 pub(crate) enum ValueRole<'a> {
-    /// A parameter of something called.
+    /// Parameter and callee.
     Param(&'a str, &'a str),
-    /// Something with a name of its own: "a deadline".
+    /// A role with a name of its own: "a deadline".
     Named(&'static str),
 }
 
@@ -64,7 +63,7 @@ impl std::fmt::Display for ValueRole<'_> {
 }
 
 impl<'a> Elaborator<'a> {
-    /// A elaborator of what stands outside of any policy: nothing is bound.
+    /// Elaborator outside of any policy, without bindings.
     pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Form) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
         Self { library, entities, has_scene, form, scope, bindings, diagnostics }
@@ -74,7 +73,7 @@ impl<'a> Elaborator<'a> {
         self.diagnostics.push(mistake.into());
     }
 
-    /// A value that must have a given type.
+    /// Elaborates a value that must have the expected type.
     pub(crate) fn term_of(&mut self, expr: &Expr, wanted: Expected<'_>) -> Term {
         let (term, ty) = self.term(expr, Some(wanted));
         if self.library.fits(wanted.ty, ty) {
@@ -96,7 +95,7 @@ impl<'a> Elaborator<'a> {
         Term::Unknown
     }
 
-    /// A value of any type; `wanted` says how to read what is ambiguous by itself.
+    /// Elaborates a value of any type; the expectation resolves ambiguous notation.
     pub(crate) fn term(&mut self, expr: &Expr, wanted: Option<Expected<'_>>) -> (Term, Ty) {
         match &expr.kind {
             ExprKind::Bool(value) => (Term::Bool(*value), Ty::BOOL),
@@ -124,7 +123,7 @@ impl<'a> Elaborator<'a> {
         }
     }
 
-    /// A ratio that is written down: from nothing to all.
+    /// Checks a literal ratio, which must lie in 0..=1.
     pub(super) fn ratio(&mut self, value: f64, expr: &Expr, place: &str) -> Term {
         if (0.0..=1.0).contains(&value) {
             return Term::Number(value);
@@ -259,12 +258,12 @@ impl<'a> Elaborator<'a> {
     }
 }
 
-/// A ratio in percent, without the noise of binary fractions.
+/// Converts a ratio to percent, rounded to hide the noise of binary fractions.
 fn percent(ratio: f64) -> f64 {
     (ratio * 1e11).round() / 1e9
 }
 
-/// A quantity in a JSON string: "20 cm", "80%".
+/// Parses a quantity in a JSON string: "20 cm", "80%".
 pub(crate) fn parse_quantity(text: &str) -> Option<(f64, Unit)> {
     let text = text.trim();
     let split = text.find(|c: char| !matches!(c, '0'..='9' | '.' | '-' | '+' | 'e' | 'E'))?;

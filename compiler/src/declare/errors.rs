@@ -1,4 +1,4 @@
-//! Names that mean nothing (M02xx) and values of the wrong type (M03xx).
+//! Diagnostics of unknown names (M02xx) and values of the wrong type (M03xx).
 
 use motet_syntax::ast::Name;
 use motet_syntax::{About, Edit, Fix, Related, Span};
@@ -17,14 +17,14 @@ pub(crate) fn did_you_mean(near: Option<&SmolStr>) -> Option<String> {
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
-    /// A name that is no binding, parameter, entity, case or resource.
+    /// Unknown binding, parameter, entity, case or resource.
     UnknownName("M0202", Error) {
         name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool, about: Option<About>,
         call: Option<String>,
     }
     message(m) {
         if m.wanted.is_empty() {
-            format!("nothing here is called `{}`", m.name)
+            format!("unknown name `{}`", m.name)
         } else {
             format!("there is no {} `{}`", m.wanted, m.name)
         }
@@ -32,14 +32,14 @@ motet_syntax::mistakes! {
     help(m) {
         let is_itself = m.near.as_ref().and_then(|near| near.strip_prefix('$')) == Some(m.name.as_str());
         if is_itself {
-            return Some(format!("`{0}` is bound before: write `${0}`", m.name));
+            return Some(format!("`{0}` is a binding: write `${0}`", m.name));
         }
         if let Some(call) = &m.call {
             return Some(format!("write `{call}`"));
         }
         did_you_mean(m.near.as_ref()).or_else(|| {
             if !m.scene {
-                Some("no scene is given: entities come from `--scene`, or from `entity` in a domain".to_owned())
+                Some("there is no scene: entities come from `--scene`, or from `entity` in a domain".to_owned())
             } else {
                 (!m.known.is_empty()).then(|| format!("there is {}", m.known))
             }
@@ -48,15 +48,15 @@ motet_syntax::mistakes! {
     fix(m) { m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near)) }
     about(m) { m.about.clone() }
 
-    /// `$x` where nothing of that name is bound.
+    /// Use of a name that is not bound.
     UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr>, is_text: bool }
     message(m) { format!("nothing is bound to `{}` here", m.name) }
     help(m) {
         Some(match &m.near {
             Some(near) if *near == m.name => format!("`{}` is an entity: write it without `$`", m.name),
             Some(near) => format!("did you mean `${near}`?"),
-            None if m.is_text => format!("a text that begins with `$` is written with two: `$${}`", m.name),
-            None => "a binding is visible from its step to the end of the block it stands in".to_owned(),
+            None if m.is_text => format!("to start a text with `$`, write two: `$${}`", m.name),
+            None => "a binding is visible from its step to the end of the block".to_owned(),
         })
     }
     fix(m) {
@@ -65,7 +65,7 @@ motet_syntax::mistakes! {
         Some(Fix { title: format!("write `{sigil}{near}`"), edits: vec![Edit { span: m.span, text: near.to_string() }] })
     }
 
-    /// An argument for a parameter that does not exist.
+    /// Argument for an unknown parameter.
     UnknownParameter("M0204", Error) { name: SmolStr, callee: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("`{}` has no parameter `{}`", m.callee, m.name) }
     help(m) {
@@ -79,47 +79,47 @@ motet_syntax::mistakes! {
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// Two declarations of one file bear the same name.
+    /// Two declarations of one file with the same name.
     Duplicate("M0205", Error) { name: SmolStr, what: &'static str, first: Span }
     message(m) { format!("the {} `{}` is declared twice", m.what, m.name) }
     help(m) { Some(format!("give one of them another name than `{}`", m.name)) }
     related(m) { vec![Related::new("first declared here", m.first)] }
 
-    /// A condition names a fluent that does not exist.
+    /// Unknown fluent in a condition.
     UnknownFluent("M0208", Error) { name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String }
     message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
-    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("what is known here is {}", m.known))) }
+    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// A type that does not exist.
+    /// Unknown type.
     UnknownType("M0209", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("there is no type `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// A failure kind that does not exist.
+    /// Unknown failure.
     UnknownFailure("M0210", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("there is no failure `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the failures are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// A field that the entity's kind does not have.
+    /// Unknown field of an entity's kind.
     UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String, owners: String }
     message(m) { format!("{} has no field `{}`", m.of, m.name) }
     help(m) {
         did_you_mean(m.near.as_ref()).or_else(|| {
             let own = if m.known.is_empty() { format!("{} has none", m.of) } else { format!("its fields are {}", m.known) };
-            Some(if m.owners.is_empty() { own } else { format!("it is a field of {}; {own}", m.owners) })
+            Some(if m.owners.is_empty() { own } else { format!("{} has it; {own}", m.owners) })
         })
     }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// A parameter with a name that the JSON form needs for itself.
+    /// Parameter whose name is a key of the JSON syntax.
     ReservedName("M0213", Error) { name: SmolStr }
-    message(m) { format!("`{}` is a key of the JSON form and cannot name a parameter", m.name) }
+    message(m) { format!("`{}` is a key of the JSON syntax, so no parameter can have this name", m.name) }
     help(_m) { Some("choose another name".to_owned()) }
 
-    /// A motion that is not one of the closed set.
+    /// Unknown motion query.
     UnknownMotion("M0214", Error) { name: SmolStr, near: Option<SmolStr> }
     message(m) { format!("there is no motion `{}`", m.name) }
     help(m) {
@@ -128,12 +128,12 @@ motet_syntax::mistakes! {
         })
     }
 
-    /// `uses` or `lasts` names what is no resource of the robot.
+    /// Unknown resource in `uses` or `lasts`.
     UnknownResource("M0215", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("there is no resource `{}`", m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
 
-    /// A value of one type where another is asked for.
+    /// Value of the wrong type.
     WrongType("M0301", Error) {
         expected: String, actual: String, place: String, example: Option<String>, instead: Option<String>,
     }
@@ -146,15 +146,15 @@ motet_syntax::mistakes! {
         Some(format!("write {} here{such}", m.expected))
     }
 
-    /// A quantity without a unit, in text.
+    /// Quantity without a unit, in text.
     MissingUnit("M0302", Error) {
         written: String, value: String, unit: &'static str, ty: String, others: String,
     }
-    message(m) { format!("`{}` needs a unit: {} is asked for", m.written, article(&m.ty)) }
+    message(m) { format!("`{}` needs a unit: {} is expected", m.written, article(&m.ty)) }
     help(m) { Some(format!("write `{} {}`; the units are {}", m.value, m.unit, m.others)) }
     fix(m) { replace(m.span, &format!("{} {}", m.value, m.unit)) }
 
-    /// A parameter without default gets no argument.
+    /// Parameter without default or argument.
     MissingArgument("M0303", Error) { callee: SmolStr, param: SmolStr, ty: String }
     message(m) { format!("`{}` needs an argument for `{}`", m.callee, m.param) }
     help(m) { Some(format!("add `{}`: {}", m.param, m.ty)) }
@@ -163,42 +163,42 @@ motet_syntax::mistakes! {
     TooManyArguments("M0304", Error) { callee: SmolStr, most: usize, twice: Option<SmolStr> }
     message(m) {
         match &m.twice {
-            Some(param) => format!("`{}` is given twice to `{}`", param, m.callee),
+            Some(param) => format!("`{}` of `{}` has two arguments", param, m.callee),
             None => format!("`{}` takes at most {} argument{}", m.callee, m.most, if m.most == 1 { "" } else { "s" }),
         }
     }
-    help(_m) { Some("leave this one out".to_owned()) }
+    help(_m) { Some("remove this argument".to_owned()) }
 
-    /// Two sides that cannot be compared or computed with.
+    /// Operands of different dimensions.
     WrongDimension("M0306", Error) { left: String, right: String, operator: &'static str }
-    message(m) { format!("`{}` cannot join {} and {}", m.operator, m.left, m.right) }
-    help(_m) { Some("both sides need the same dimension".to_owned()) }
+    message(m) { format!("`{}` does not apply to {} and {}", m.operator, m.left, m.right) }
+    help(_m) { Some("use the same dimension on both sides".to_owned()) }
 
-    /// A case that the enumeration does not have.
+    /// Unknown case of an enumeration.
     UnknownCase("M0307", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }
     message(m) { format!("{} has no case `{}`", m.of, m.name) }
     help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("its cases are {}", m.known))) }
     fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
 
-    /// A value where a condition is asked for, or the other way round.
+    /// Value in place of a condition, or the reverse.
     NotACondition("M0308", Error) { found: &'static str, wanted: &'static str }
-    message(m) { format!("{} is asked for, and this is {}", m.wanted, m.found) }
+    message(m) { format!("expected {}, found {}", m.wanted, m.found) }
     help(m) { Some(if m.wanted == "a condition" {
         "a condition is a fluent such as `holding(mug)`, or a comparison such as `distance(user) < 0.5 m`".to_owned()
     } else {
         "a value is a literal, a name, a measure or a field".to_owned()
     }) }
 
-    /// A deadline or a count that is not known beforehand.
+    /// Deadline or count that is not constant.
     NotConstant("M0309", Error) { place: &'static str }
-    message(m) { format!("{} must be known beforehand", m.place) }
-    help(_m) { Some("write a number here: only so the longest duration of the policy is known".to_owned()) }
+    message(m) { format!("{} must be a constant", m.place) }
+    help(_m) { Some("write a number, so that the longest duration of the policy is known".to_owned()) }
 
-    /// A number outside what makes sense.
+    /// Number outside of its valid range.
     OutOfRange("M0310", Error) {
         place: String, least: String, greatest: String, actual: String, meant: Option<(String, String)>,
     }
-    message(m) { format!("{} is {}, and must be from {} to {}", m.place, m.actual, m.least, m.greatest) }
+    message(m) { format!("{} is {}, but must be from {} to {}", m.place, m.actual, m.least, m.greatest) }
     help(m) {
         Some(match &m.meant {
             None => format!("write a number from {} to {}", m.least, m.greatest),
@@ -207,29 +207,29 @@ motet_syntax::mistakes! {
     }
     fix(m) { m.meant.as_ref().and_then(|(write, _)| replace(m.span, write)) }
 
-    /// `any` where one value is asked for.
+    /// `any` in place of one value.
     MisplacedAny("M0311", Error) { }
-    message(_m) { "`any` cannot stand here".to_owned() }
-    help(_m) { Some("`any` stands for every entity in the arguments of a fluent only".to_owned()) }
+    message(_m) { "`any` is not allowed here".to_owned() }
+    help(_m) { Some("`any` is only allowed in the arguments of a fluent, where it stands for every entity".to_owned()) }
 
-    /// A fluent about something that is neither an entity nor a case.
+    /// Parameter of a fluent that is neither an entity nor a case.
     FluentParameter("M0312", Error) { name: SmolStr, ty: String }
-    message(m) { format!("a fluent is about entities and cases, and `{}` is {}", m.name, m.ty) }
-    help(_m) { Some("use a `measure` for numbers".to_owned()) }
+    message(m) { format!("a parameter of a fluent is an entity or a case, but `{}` is {}", m.name, m.ty) }
+    help(_m) { Some("declare a `measure` for numbers".to_owned()) }
 
-    /// A declaration that is wrong in itself.
+    /// Inconsistent declaration.
     BadDeclaration("M0313", Error) { what: String, remedy: String }
     message(m) { m.what.clone() }
     help(m) { Some(m.remedy.clone()) }
 
-    /// A fluent with too many parameters, a library with too many resources: a named limit.
+    /// Limit of the library that is exceeded, such as the parameters of a fluent.
     LimitExceeded("M0314", Error) { what: &'static str, limit: usize }
     message(m) { format!("more than {} {}", m.limit, m.what) }
-    help(m) { Some(format!("at most {} {} are taken", m.limit, m.what)) }
+    help(m) { Some(format!("at most {} {} are allowed", m.limit, m.what)) }
 }
 
 impl UnknownFluent {
-    /// What `wanted` says is none of the known names.
+    /// Diagnostic for a name that is none of the known ones; `wanted` says what they are.
     pub(crate) fn new<'n>(
         name: &Name,
         wanted: &'static str,

@@ -1,5 +1,5 @@
-//! Layers of declarations: the standard library below, the robot's above it, a domain's on top. A later layer replaces
-//! what an earlier one declares under the same name.
+//! Layers of declarations: the standard library, then the robot's, then domains. A layer replaces the
+//! declarations of lower layers that have the same name.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use smol_str::SmolStr;
 
 use super::errors::Duplicate;
 
-/// A declaration and the layer that it comes from.
+/// Declaration with the number of its layer.
 #[derive(Clone, Debug)]
 pub(super) struct Layered<T> {
     pub(super) item: T,
@@ -22,7 +22,7 @@ pub(super) struct Layered<T> {
 
 type Table<T> = IndexMap<SmolStr, Layered<Arc<T>>>;
 
-/// All declarations of all layers, what is replaced left out.
+/// Declarations of all layers, without those that were replaced.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Declarations {
     pub(super) kinds: Table<KindDecl>,
@@ -36,7 +36,7 @@ pub(super) struct Declarations {
     pub(super) initially: Vec<Arc<InitiallyDecl>>,
     pub(super) closed_world: bool,
     layers: usize,
-    /// The newest layer that is the robot's own or below it.
+    /// Number of the newest layer that belongs to the robot or lies below it.
     robot_top: usize,
 }
 
@@ -71,23 +71,23 @@ impl Declarations {
         }
     }
 
-    /// Says that the robot's own declarations are all there: what comes now lies above them.
+    /// Marks the layers so far as the robot's own.
     pub(super) fn close_robot(&mut self) {
         self.robot_top = self.top();
     }
 
-    /// The number of the newest layer that is the robot's own or below it.
+    /// Number of the newest layer that belongs to the robot or lies below it.
     pub(super) fn robot_top(&self) -> usize {
         self.robot_top
     }
 
-    /// The number of the newest layer.
+    /// Number of the newest layer.
     pub(super) fn top(&self) -> usize {
         self.layers.saturating_sub(1)
     }
 }
 
-/// Where a declaration stands.
+/// A declaration with a name.
 trait Placed {
     fn name_span(&self) -> Span;
 }

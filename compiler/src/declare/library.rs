@@ -1,22 +1,26 @@
-//! The declarations in force: the standard library, the robot's own, a domain's. Built once, then only read.
+//! The library: all declarations in force with typed ids. Built once, then only read.
 
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use motet_stdlib::lang;
 use motet_syntax::Span;
 use motet_syntax::ast::{self, PrimitiveForm};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
-use crate::ir::{Base, Condition, Entity, EnumId, Fact, Failure, Fluent, Kind, Measure, Primitive, Term, Ty};
+use super::lang_items::LangItems;
+use crate::ir::{
+    Base, Condition, Entity, EnumId, Fact, Failure, Fluent, Kind, Measure, MotionKind, Primitive, Term, Ty,
+};
 
-/// A set of resources, as bits; at most 64 of them.
+/// Set of at most 64 resources, as bits.
 pub(crate) type ResourceSet = u64;
 
-/// The declarations in force.
+/// All declarations in force, by id and by name.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    /// The robot's name; empty without one.
+    /// Name of the robot; empty without one.
     pub robot: SmolStr,
     pub(crate) kinds: Vec<KindDef>,
     pub(crate) enums: Vec<EnumDef>,
@@ -29,17 +33,17 @@ pub struct Library {
     pub(crate) entities: Vec<(SmolStr, Kind, Span)>,
     pub(crate) initially: Vec<(Fact, bool, Span)>,
     pub(crate) closed_world: bool,
-    /// Numbers of the robot's card.
+    /// Numbers of the robot's card, in SI units, with their types.
     pub(crate) numbers: IndexMap<SmolStr, (f64, Ty)>,
-    /// Seconds that one observation may take.
+    /// Time limit of one observation, in seconds.
     pub(crate) observe_within_secs: f64,
     pub(crate) names: Names,
     pub(crate) lang_items: LangItems,
-    /// Fluents that some perception makes and that do not last.
+    /// Fluents that a perception makes and that become stale.
     pub(crate) perceived: Vec<Fluent>,
 }
 
-/// Name to index, one table a name space.
+/// Ids by name, one table for each name space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     pub(crate) kinds: FxHashMap<SmolStr, Kind>,
@@ -50,40 +54,11 @@ pub(crate) struct Names {
     pub(crate) primitives: FxHashMap<SmolStr, Primitive>,
     pub(crate) policies: FxHashMap<SmolStr, usize>,
     pub(crate) entities: FxHashMap<SmolStr, Entity>,
-    /// A case to its enumeration and place there; of two enumerations with the same case the first.
+    /// Enumeration and index of each case; the first enumeration wins where two share a case.
     pub(crate) cases: FxHashMap<SmolStr, (EnumId, u16)>,
 }
 
-/// What the prover asks for by name at every step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct LangItems {
-    pub(crate) person: Option<Kind>,
-    pub(crate) open: Option<Fluent>,
-    pub(crate) holding: Option<Fluent>,
-    pub(crate) distance: Option<Measure>,
-    pub(crate) exhausted: Option<Failure>,
-    pub(crate) failed: Option<Failure>,
-    /// `unsafe`
-    pub(crate) harm: Option<Failure>,
-}
-
-impl LangItems {
-    /// Those among the names of a library that has its kinds, fluents, measures and failures.
-    pub(super) fn of(names: &Names) -> Self {
-        let Names { kinds, fluents, measures, failures, .. } = names;
-        Self {
-            person: kinds.get("Person").copied(),
-            open: fluents.get("open").copied(),
-            holding: fluents.get("holding").copied(),
-            distance: measures.get("distance").copied(),
-            exhausted: failures.get("exhausted").copied(),
-            failed: failures.get("failed").copied(),
-            harm: failures.get("unsafe").copied(),
-        }
-    }
-}
-
-/// An entity kind.
+/// Definition of an entity kind.
 #[derive(Clone, Debug)]
 pub(crate) struct KindDef {
     pub(crate) name: SmolStr,
@@ -91,24 +66,24 @@ pub(crate) struct KindDef {
     pub(crate) fields: IndexMap<SmolStr, Ty>,
 }
 
-/// An enumeration; `Hand`, `Camera` and `Resource` come from the card.
+/// Definition of an enumeration; `Hand`, `Camera` and `Resource` come from the card.
 #[derive(Clone, Debug)]
 pub(crate) struct EnumDef {
     pub(crate) name: SmolStr,
     pub(crate) cases: Vec<SmolStr>,
 }
 
-/// A fluent.
+/// Definition of a fluent.
 #[derive(Clone, Debug)]
 pub(crate) struct FluentDef {
     pub(crate) name: SmolStr,
     pub(crate) params: Vec<(SmolStr, Ty)>,
-    /// Whether the verdict of a motion decides it (`reachable`).
+    /// True if the verdict of a motion decides the fluent (`reachable`).
     pub(crate) derived: bool,
     pub(crate) observable: bool,
 }
 
-/// A measure.
+/// Definition of a measure.
 #[derive(Clone, Debug)]
 pub(crate) struct MeasureDef {
     pub(crate) name: SmolStr,
@@ -117,15 +92,15 @@ pub(crate) struct MeasureDef {
     pub(crate) observable: bool,
 }
 
-/// A resource of the robot.
+/// Definition of a resource of the robot.
 #[derive(Clone, Debug)]
 pub(crate) struct ResourceDef {
     pub(crate) name: SmolStr,
-    /// Itself and all that it contains.
+    /// The resource and all that it contains.
     pub(crate) closure: ResourceSet,
 }
 
-/// A primitive with its contract.
+/// Definition of a primitive with its contract.
 #[derive(Clone, Debug)]
 pub(crate) struct PrimitiveDef {
     pub(crate) name: SmolStr,
@@ -135,31 +110,31 @@ pub(crate) struct PrimitiveDef {
     pub(crate) needs: Vec<NeedDef>,
     pub(crate) makes: Vec<EffectDef>,
     pub(crate) unsettles: Vec<EffectDef>,
-    pub(crate) motion: Option<(SmolStr, Vec<Term>)>,
-    /// With all that they contain.
+    pub(crate) motion: Option<(MotionKind, Vec<Term>)>,
+    /// Resources in use, with all that they contain.
     pub(crate) uses: ResourceSet,
-    /// As written, for the graph.
+    /// Resources as the contract names them, for the graph.
     pub(crate) uses_named: Vec<u8>,
     pub(crate) takes: (f64, f64),
     pub(crate) fails: Vec<Failure>,
     pub(crate) lasts: Option<LastsDef>,
-    /// Whether the robot's card provides it; without a robot every primitive counts as provided.
+    /// True if the robot's card provides the primitive, or if there is no robot.
     pub(crate) provided: bool,
     /// The declaration as written.
     pub(crate) source: Arc<ast::PrimitiveDecl>,
 }
 
-/// A parameter of a primitive.
+/// Definition of a parameter of a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct ParamDef {
     pub(crate) name: SmolStr,
     pub(crate) ty: Ty,
     pub(crate) default: Option<Term>,
-    /// Least and greatest value, from the card, in SI units.
+    /// Least and greatest value from the card, in SI units.
     pub(crate) range: Option<(f64, f64)>,
 }
 
-/// A precondition.
+/// Need of a primitive: a condition that must hold when the call starts.
 #[derive(Clone, Debug)]
 pub(crate) struct NeedDef {
     pub(crate) condition: Condition,
@@ -168,7 +143,7 @@ pub(crate) struct NeedDef {
     pub(crate) span: Span,
 }
 
-/// An effect; of `unsettles`, `value` says nothing.
+/// Effect of a primitive; in `unsettles`, `value` has no meaning.
 #[derive(Clone, Debug)]
 pub(crate) struct EffectDef {
     pub(crate) fact: Fact,
@@ -177,24 +152,24 @@ pub(crate) struct EffectDef {
     pub(crate) when: Option<Condition>,
 }
 
-/// How long what was perceived stays true.
+/// Lifetime of a perceived fact, from the clause `lasts`.
 #[derive(Clone, Debug)]
 pub(crate) struct LastsDef {
-    /// Until a later step uses one of these.
+    /// Resources whose next use ends the lifetime.
     pub(crate) resources: ResourceSet,
-    /// Until one of these moves.
+    /// Entities whose next motion ends the lifetime.
     pub(crate) entities: Vec<Term>,
 }
 
 impl NeedDef {
-    /// The last parameter of the primitive that it speaks of.
+    /// Highest index of a parameter that the need mentions.
     pub(crate) fn last_param(&self) -> Option<u16> {
         self.condition.last_param().max(self.when.as_ref().and_then(Condition::last_param))
     }
 }
 
 impl Library {
-    /// Whether `kind` is `ancestor` or below it.
+    /// Returns whether `kind` is `ancestor` or a descendant of it. O(depth).
     #[must_use]
     pub(crate) fn is_kind(&self, kind: Kind, ancestor: Kind) -> bool {
         let mut at = Some(kind);
@@ -207,7 +182,7 @@ impl Library {
         false
     }
 
-    /// The field of a kind or of one above it.
+    /// Type of a field of a kind or of one of its ancestors.
     #[must_use]
     pub(crate) fn field(&self, kind: Kind, name: &str) -> Option<Ty> {
         let mut at = Some(kind);
@@ -221,7 +196,7 @@ impl Library {
         None
     }
 
-    /// The fields of a kind and of those above it, its own first.
+    /// Names of the fields of a kind and of its ancestors, its own first.
     pub(crate) fn fields_of(&self, kind: Kind) -> impl Iterator<Item = &SmolStr> {
         let kinds = std::iter::successors(self.kinds.get(kind.index()), |def| {
             def.parent.and_then(|parent| self.kinds.get(parent.index()))
@@ -229,8 +204,8 @@ impl Library {
         kinds.flat_map(|def| def.fields.keys())
     }
 
-    /// Whether a value of type `actual` may stand where `expected` is asked for. There is no conversion, but a whole
-    /// number is a number and a subkind is its parent.
+    /// Returns whether a value of type `actual` is allowed where `expected` is. There is no conversion, but
+    /// an integer is a number, and a subkind is its parent.
     #[must_use]
     pub(crate) fn fits(&self, expected: Ty, actual: Ty) -> bool {
         match (expected.base, actual.base) {
@@ -243,7 +218,7 @@ impl Library {
         }
     }
 
-    /// A type as the language writes it.
+    /// Spelling of a type in the language.
     #[must_use]
     pub(crate) fn type_name(&self, ty: Ty) -> String {
         let base = match ty.base {
@@ -253,25 +228,31 @@ impl Library {
             Base::Quantity(dimension) => dimension.type_name().unwrap_or("a quantity"),
             Base::Text => "Text",
             Base::Pose => "Pose",
-            Base::Entity(kind) => self.kinds.get(kind.index()).map_or("Entity", |def| def.name.as_str()),
+            Base::Entity(kind) => {
+                self.kinds.get(kind.index()).map_or(lang::kinds::ENTITY, |def| def.name.as_str())
+            }
             Base::Enum(id) => self.enums.get(id.index()).map_or("an enumeration", |def| def.name.as_str()),
             Base::Unknown => "unknown",
         };
         (0..ty.lists).fold(base.to_owned(), |inner, _| format!("List<{inner}>"))
     }
 
-    /// The kind with this name, or the root kind.
-    #[must_use]
-    pub(crate) fn kind_named(&self, name: &str) -> Kind {
-        self.names.kinds.get(name).copied().unwrap_or(Kind(0))
+    /// Entities of every environment, with their kinds, at the ids [`crate::ir::ROBOT`], [`crate::ir::USER`] and
+    /// [`crate::ir::START`].
+    pub(crate) fn standard_entities(&self) -> [(&'static str, Kind); 3] {
+        [
+            (lang::entities::ROBOT, Kind::ROOT),
+            (lang::entities::USER, self.lang_items.person.unwrap_or(Kind::ROOT)),
+            (lang::entities::START, self.lang_items.place.unwrap_or(Kind::ROOT)),
+        ]
     }
 
-    /// The declarations of the primitives that the robot provides, in the order in which they were read.
+    /// Declarations of the primitives that the robot provides, in the order of reading.
     pub fn signatures(&self) -> impl Iterator<Item = &ast::PrimitiveDecl> {
         self.primitives.iter().filter(|def| def.provided).map(|def| &*def.source)
     }
 
-    /// The name of the parameter at a position, from 0, of a primitive or policy.
+    /// Name of a parameter of a primitive or policy by its position, from 0.
     pub(crate) fn parameter(&self, callee: &str, position: usize) -> Option<SmolStr> {
         if let Some(primitive) = self.names.primitives.get(callee) {
             return self.primitive(*primitive)?.params.get(position).map(|param| param.name.clone());
@@ -280,7 +261,7 @@ impl Library {
         policy.params.get(position).map(|param| param.name.text.clone())
     }
 
-    /// The policies that can be called.
+    /// Policies that a step can call.
     pub fn policies(&self) -> impl Iterator<Item = &ast::Policy> {
         self.policies.iter().map(|policy| &**policy)
     }
@@ -298,7 +279,7 @@ impl Library {
     }
 
     pub(crate) fn failure_name(&self, id: Failure) -> &str {
-        self.failures.get(id.index()).map_or("failed", |(name, _)| name.as_str())
+        self.failures.get(id.index()).map_or(lang::failures::FAILED, |(name, _)| name.as_str())
     }
 
     pub(crate) fn case_name(&self, id: EnumId, case: u16) -> &str {

@@ -12,6 +12,7 @@ mod constant;
 mod contract;
 pub(crate) mod elaborator;
 pub(crate) mod errors;
+mod lang_items;
 mod layers;
 pub(crate) mod library;
 mod name;

@@ -1,4 +1,4 @@
-//! What a name means: a binding, an entity, a case; and what is said of one that means nothing.
+//! Resolution of names to bindings, entities and cases, and the diagnostics of unknown names.
 
 use motet_syntax::Span;
 use smol_str::{SmolStr, format_smolstr};
@@ -28,7 +28,7 @@ impl Elaborator<'_> {
         (Term::Unknown, Ty::UNKNOWN)
     }
 
-    /// A plain string of the JSON form.
+    /// Elaborates a plain string of the JSON syntax.
     pub(super) fn plain(&mut self, text: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
         let Some(ty) = wanted.map(|wanted| wanted.ty) else {
             if let Some((entity, kind)) = self.entities.find(text) {
@@ -159,7 +159,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// A known name as it would be written: a binding in a string of the JSON form with its `$`.
+    /// Spelling of a known name in the document: a binding in a JSON string has a `$`.
     fn spelled(&self, name: SmolStr, written: NameNotation) -> SmolStr {
         match written {
             NameNotation::Quoted if self.scope.find(&name).is_some() => format_smolstr!("${name}"),
@@ -167,7 +167,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// How the fluent or the measure with a name is called.
+    /// Call of the fluent or measure with a name: `distance(to)`.
     fn call_of(&self, name: &str) -> Option<String> {
         let names = &self.library.names;
         let fluent = names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| &def.params);
@@ -178,11 +178,11 @@ impl Elaborator<'_> {
     }
 }
 
-/// How a name stands in the document.
+/// Notation of a name in the document.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum NameNotation {
-    /// As it is.
+    /// Without quotes.
     Bare,
-    /// As a string of the JSON form.
+    /// In a string of the JSON syntax.
     Quoted,
 }

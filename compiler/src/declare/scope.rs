@@ -1,18 +1,18 @@
-//! What names mean where an expression stands, beside entities and cases.
+//! Scope of an expression: the names that are bound at its place.
 
 use motet_syntax::Span;
 use smol_str::SmolStr;
 
 use crate::ir::{Term, Ty};
 
-/// A stack of names. A barrier hides what lies below it: the body of an inlined policy sees nothing of its caller.
+/// Stack of names. A barrier hides the names below it: the body of an inlined policy does not see its caller.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
     entries: Vec<ScopeEntry>,
     barrier: usize,
 }
 
-/// A name in scope.
+/// Name in scope with its meaning.
 #[derive(Clone, Debug)]
 pub(crate) struct ScopeEntry {
     pub(crate) name: SmolStr,
@@ -21,7 +21,7 @@ pub(crate) struct ScopeEntry {
     pub(crate) span: Span,
 }
 
-/// A place in the stack to go back to.
+/// State of the stack, to restore later.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScopeMark {
     len: usize,

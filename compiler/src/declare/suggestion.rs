@@ -1,13 +1,13 @@
-//! Did-you-mean, and names in a sentence.
+//! Suggestions of similar names, and lists of names in a sentence.
 
 use smol_str::SmolStr;
 
-/// The known name that is nearest to a written one, if one is near.
+/// Nearest known name to a written one, if one is near.
 pub(crate) fn near<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<SmolStr> {
     motet_syntax::suggest::closest(name, known).map(SmolStr::new)
 }
 
-/// "`a`, `b` and `c`"
+/// Joins names into a phrase: "`a`, `b` and `c`".
 pub(crate) fn list(names: impl Iterator<Item = SmolStr>) -> String {
     let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
     match names.split_last() {
@@ -17,7 +17,7 @@ pub(crate) fn list(names: impl Iterator<Item = SmolStr>) -> String {
     }
 }
 
-/// A type's name with its article: "an `Object`".
+/// Name of a type with its article: "an `Object`".
 pub(crate) fn article(name: &str) -> String {
     let vowel =
         name.chars().next().is_some_and(|first| matches!(first.to_ascii_lowercase(), 'a' | 'e' | 'i' | 'o'));

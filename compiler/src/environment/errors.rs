@@ -1,4 +1,4 @@
-//! A scene or a state that does not fit the library (M022x, M032x).
+//! Diagnostics of a scene or a state that does not fit the library (M022x, M032x).
 
 use motet_syntax::{Related, Span};
 use smol_str::SmolStr;
@@ -6,22 +6,22 @@ use smol_str::SmolStr;
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
-    /// A scene's entity of a kind that is not declared.
+    /// Entity of a scene with an unknown kind.
     UnknownKind("M0221", Error) { kind: SmolStr, entity: SmolStr, near: Option<SmolStr> }
-    message(m) { format!("`{}` is of the kind `{}`, which is not declared", m.entity, m.kind) }
+    message(m) { format!("`{}` has the kind `{}`, which is not declared", m.entity, m.kind) }
     help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
 
-    /// A scene's entity with a name that is taken.
+    /// Entity of a scene with a name that is taken.
     TakenName("M0222", Error) { entity: SmolStr }
-    message(m) { format!("an entity `{}` exists already", m.entity) }
-    help(_m) { Some("give the entity of the scene another id".to_owned()) }
+    message(m) { format!("there is already an entity `{}`", m.entity) }
+    help(_m) { Some("give the entity in the scene another id".to_owned()) }
 
-    /// More entities than fit.
+    /// Scene with too many entities.
     TooManyEntities("M0223", Error) { limit: usize }
     message(m) { format!("the scene has more than {} entities", m.limit) }
-    help(_m) { Some("leave out what the policy does not touch".to_owned()) }
+    help(_m) { Some("remove entities that the policies do not use".to_owned()) }
 
-    /// A state whose entry is no fact.
+    /// Entry of a state that is no fact.
     NotAFact("M0224", Error) { text: String, why: String, remedy: Option<String> }
     message(m) { format!("`{}` is not a fact: {}", m.text, m.why) }
     help(m) {
@@ -29,9 +29,9 @@ motet_syntax::mistakes! {
         Some(m.remedy.clone().unwrap_or_else(usual))
     }
 
-    /// A state whose facts cannot all be so: what is held and what the hands are free for.
+    /// Contradiction between facts about the hands.
     Contradiction("M0225", Error) { what: String, remedy: String, other: Option<Span> }
     message(m) { m.what.clone() }
     help(m) { Some(m.remedy.clone()) }
-    related(m) { m.other.iter().map(|other| Related::new("and this here", *other)).collect() }
+    related(m) { m.other.iter().map(|other| Related::new("contradicts this", *other)).collect() }
 }

@@ -1,5 +1,5 @@
-//! Whether what a state says of the hands can be: they hold no more things than there are hands, and what is held is in one
-//! that is not free.
+//! Consistency of a state about the hands: the robot holds no more things than it has hands, and a hand with
+//! a thing is not free.
 
 use indexmap::IndexSet;
 use motet_syntax::{Diagnostic, Span};
@@ -9,23 +9,23 @@ use super::errors::Contradiction;
 use crate::declare::Library;
 use crate::ir::{Base, Entity, Fact, Fluent, Term};
 
-/// An entry of a state: the fact, whether it holds, none where that is not known, and its place.
+/// Entry of a state: the fact, its truth value (`None` for unknown), and its span.
 pub(super) type StateEntry = (Fact, Option<bool>, Span);
 
-/// What cannot be of what a state says, together with what the scene says beside it.
+/// Finds a contradiction between the facts of a state and those of the scene.
 pub(super) fn contradiction(
     library: &Library,
     environment: &Environment,
     said: &[StateEntry],
 ) -> Option<Diagnostic> {
-    let holding = fluent(library, "holding", |ty| matches!(ty, Base::Entity(_)))?;
-    let free = fluent(library, "free", |ty| matches!(ty, Base::Enum(_)))?;
-    let hand = library.names.enums.get("Hand").and_then(|hand| library.enums.get(hand.index()))?;
+    let holding = fluent(library, library.lang_items.holding, |ty| matches!(ty, Base::Entity(_)))?;
+    let free = fluent(library, library.lang_items.free, |ty| matches!(ty, Base::Enum(_)))?;
+    let hand = library.lang_items.hand.and_then(|hand| library.enums.get(hand.index()))?;
     let about = |of: Fluent| said.iter().filter(move |(fact, ..)| fact.fluent == of);
     let says_all = about(holding).find(|(fact, value, _)| *value == Some(true) && fact.args == [None]);
     if let Some((_, _, span)) = says_all {
-        let what = "`holding(any)` says that everything is held".to_owned();
-        let remedy = "name what is held, such as \"holding(mug_1)\": true; \"holding(any)\": false says that nothing is";
+        let what = "`holding(any)` means that the robot holds every thing".to_owned();
+        let remedy = "name the thing, such as \"holding(mug_1)\": true; \"holding(any)\": false means that the hands are empty";
         return Some(Contradiction { span: *span, what, remedy: remedy.to_owned(), other: None }.into());
     }
     // What the scene says counts where the state is silent. The last word that was given counts.
@@ -56,10 +56,9 @@ pub(super) fn contradiction(
         let other = held.iter().filter(|entity| **entity != last).find_map(|entity| place_of(*entity));
         let hands = hand.cases.len();
         let hands = if hands == 1 { "one hand".to_owned() } else { format!("{hands} hands") };
-        let what = format!("{} are held, and the robot has {hands}", names.join(" and "));
+        let what = format!("the robot holds {}, but has {hands}", names.join(" and "));
         let first = held.iter().find(|entity| **entity != last).map(|entity| environment.name(*entity))?;
-        let remedy =
-            format!("leave one out, or add \"holding({first})\": false where it is the scene that says so");
+        let remedy = format!("remove one, or add \"holding({first})\": false to override the scene");
         return Some(Contradiction { span, what, remedy, other }.into());
     }
     let is_spare = |(fact, value, _): &&StateEntry| fact.fluent == free && *value == Some(true);
@@ -70,19 +69,19 @@ pub(super) fn contradiction(
     if let Some(span) = spare.filter(|_| held.len() > hands_left) {
         let held = names.join(" and ");
         let what = if hand.cases.len() == 1 {
-            format!("the hand cannot be free: {held} is held")
+            format!("the hand cannot be free: it holds {held}")
         } else {
-            format!("too many hands are free: {held} must be in one of the others")
+            format!("too many hands are free: one of the others must hold {held}")
         };
-        let remedy = "leave `free` out, or say that nothing is held: \"holding(any)\": false".to_owned();
+        let remedy = "remove `free`, or state that the hands are empty: \"holding(any)\": false".to_owned();
         return Some(Contradiction { span, what, remedy, other: last.map(|(_, span)| span) }.into());
     }
     None
 }
 
-/// A fluent with one parameter of that type.
-fn fluent(library: &Library, name: &str, takes: impl Fn(Base) -> bool) -> Option<Fluent> {
-    let fluent = library.names.fluents.get(name).copied()?;
+/// Finds a fluent with one parameter of a suitable type.
+fn fluent(library: &Library, fluent: Option<Fluent>, takes: impl Fn(Base) -> bool) -> Option<Fluent> {
+    let fluent = fluent?;
     let def = library.fluent(fluent)?;
     matches!(def.params.as_slice(), [(_, ty)] if ty.lists == 0 && takes(ty.base)).then_some(fluent)
 }

@@ -1,6 +1,7 @@
-//! A state given from outside: facts known at the start, beside the scene.
+//! Initial state: facts at the start that are given beside the scene.
 
 use indexmap::IndexMap;
+use motet_stdlib::lang;
 use motet_syntax::{Diagnostic, Form, Span};
 
 use super::errors::NotAFact;
@@ -9,20 +10,20 @@ use crate::declare::Library;
 use crate::declare::elaborator::Elaborator;
 use crate::ir::Term;
 
-/// FactStore in their text form with their values, in order: `{"holding(mug_1)": true}`.
+/// Facts at the start with their truth values, in order, in text syntax: `{"holding(mug_1)": true}`.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct InitialState {
-    /// Each fact, whether it holds, none where that is not known, and where it stands.
+    /// Facts with their truth value (`None` for unknown) and span.
     pub facts: IndexMap<String, (Option<bool>, Span)>,
 }
 
 impl InitialState {
-    /// Records every fact of the state in a environment. What the scene says otherwise is overridden.
+    /// Records every fact of the state in an environment, where it overrides the scene.
     pub(super) fn apply(&self, library: &Library, environment: &mut Environment) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         let entities = environment.entities().clone();
         let mut said = Vec::new();
-        let says_free = self.facts.keys().any(|text| text.trim_start().starts_with("free"));
+        let says_free = self.facts.keys().any(|text| text.trim_start().starts_with(lang::fluents::FREE));
         for (text, (value, span)) in &self.facts {
             let parsed = match motet_syntax::text::condition(text) {
                 Ok(expr) => expr,
@@ -41,7 +42,7 @@ impl InitialState {
             let why = elaborator.diagnostics.into_iter().next();
             match (fact, why) {
                 (Some(fact), None) => {
-                    let is_holding = library.fluent(fact.fluent).is_some_and(|def| def.name == "holding");
+                    let is_holding = library.lang_items.holding == Some(fact.fluent);
                     if let (true, true, false, [Some(Term::Entity(held))]) =
                         (is_holding, *value == Some(true), says_free, fact.args.as_slice())
                     {
@@ -54,7 +55,7 @@ impl InitialState {
                     }
                 }
                 (_, why) => {
-                    let unasked = || ("a fluent is asked for".to_owned(), None);
+                    let unasked = || ("expected a fluent".to_owned(), None);
                     let (why, remedy) = why.map_or_else(unasked, |why| (why.message, why.help));
                     diagnostics.push(NotAFact { span: *span, text: text.clone(), why, remedy }.into());
                 }

@@ -1,5 +1,5 @@
-//! What the compiler is told of the environment: its entities, and the facts that hold at the start. Made once from a library,
-//! a scene and a state, then shared by all policies that are checked against it.
+//! The environment: entities, and the facts at the start. Built once from a library, a scene and a state,
+//! then shared by all policies that are checked against it.
 
 mod errors;
 mod hands;
@@ -11,6 +11,7 @@ pub use initial_state::InitialState;
 use std::sync::Arc;
 
 use motet_robots::scene::{Scene, normal};
+use motet_stdlib::lang;
 use motet_syntax::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
@@ -22,15 +23,15 @@ use crate::ir::{Entities, Entity, Fact, Kind, ROBOT, Term};
 
 pub(crate) use errors::CODES;
 
-/// Entities and the facts at the start.
+/// Entities and facts at the start.
 #[derive(Clone, Debug)]
 pub struct Environment {
     entities: Entities,
-    /// The scene's entity behind each of ours, from the first that a scene gave.
+    /// The first scene that was given; its entities have the same names.
     scene: Option<Arc<Scene>>,
-    /// What a description finds.
+    /// Entities by description.
     descriptions: FxHashMap<String, Vec<Entity>>,
-    /// The last two bytes of each, by which most texts are seen to be none.
+    /// Last two bytes of each description: a cheap test that rules out most texts.
     endings: FxHashSet<(u8, u8)>,
     pub(crate) facts: FactStore<'static>,
     /// The facts at the start as they were given, in order, for the graph.
@@ -38,7 +39,8 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// The environment of a library, a scene and a state, and what is wrong with them.
+    /// Builds the environment of a library, a scene and a state, and returns it with diagnostics about scene
+    /// and state.
     #[must_use]
     pub fn new(
         library: &Library,
@@ -47,8 +49,8 @@ impl Environment {
     ) -> (Self, Vec<Diagnostic>) {
         let mut diagnostics = Vec::new();
         let mut entities = Entities::default();
-        for (name, kind) in [("robot", "Entity"), ("user", "Person"), ("start", "Place")] {
-            entities.add(name.into(), library.kind_named(kind));
+        for (name, kind) in library.standard_entities() {
+            entities.add(name.into(), kind);
         }
         for (name, kind, _) in &library.entities {
             entities.add(name.clone(), *kind);
@@ -83,26 +85,26 @@ impl Environment {
         &self.entities
     }
 
-    /// The scene, where one was given.
+    /// The scene, if there is one.
     pub(crate) fn scene(&self) -> Option<&Scene> {
         self.scene.as_deref()
     }
 
-    /// Whether names, kinds and descriptions are those of another environment of the same library: what may then be said in a
-    /// policy is the same in both, though not what is true.
+    /// Returns whether another environment of the same library has the same names, kinds and descriptions.
+    /// Its policies may then use the same words, though other facts hold.
     pub(crate) fn has_same_vocabulary(&self, other: &Self) -> bool {
         self.has_scene() == other.has_scene()
             && self.entities == other.entities
             && self.descriptions == other.descriptions
     }
 
-    /// Whether a scene was given.
+    /// Returns whether there is a scene.
     #[must_use]
     pub fn has_scene(&self) -> bool {
         self.scene.is_some()
     }
 
-    /// Records a fact that holds at the start.
+    /// Records a fact at the start.
     pub(crate) fn assert_fact(&mut self, fact: Fact, value: bool) {
         self.facts.set(fact.fluent, key(&fact), TruthSet::of(value, Cause::START));
         // One about every entity says it of those, too, of which something was said. Of a single one the later word counts
@@ -113,13 +115,13 @@ impl Environment {
         self.given.push((fact, value));
     }
 
-    /// Records that a fact is not known at the start, whatever was said of it before; with `any` all that it covers.
+    /// Records that a fact is unknown at the start; a fact with `any` covers many.
     pub(crate) fn forget(&mut self, fact: &Fact) {
         self.facts.set(fact.fluent, key(fact), TruthSet::open(Cause::START));
         self.forget_given(fact);
     }
 
-    /// What was given of a fact before no longer counts.
+    /// Drops earlier entries that a fact covers.
     fn forget_given(&mut self, fact: &Fact) {
         self.given.retain(|(given, _)| {
             given.fluent != fact.fluent
@@ -127,7 +129,7 @@ impl Environment {
         });
     }
 
-    /// The entities of a kind that a description fits, in the order of the environment.
+    /// Entities of a kind that a description fits, in the order of the environment.
     pub(crate) fn described(&self, library: &Library, description: &str, kind: Kind) -> Vec<Entity> {
         let found = self.descriptions.get(&normal(description)).map(Vec::as_slice).unwrap_or_default();
         let fits =
@@ -135,8 +137,8 @@ impl Environment {
         found.iter().copied().filter(fits).collect()
     }
 
-    /// A description that finds an entity and no other of its kind: its name, or where that is what others are called too, the
-    /// shortest that does, the first of these by the alphabet. O(descriptions).
+    /// A description that finds an entity and no other of its kind: its name, or else the shortest
+    /// description that does, the first of them in alphabetical order. O(descriptions).
     pub(crate) fn description_of(
         &self,
         library: &Library,
@@ -152,7 +154,7 @@ impl Environment {
         others.min_by_key(|description| (description.len(), description.as_str())).map(SmolStr::from)
     }
 
-    /// Whether a description fits any entity.
+    /// Returns whether a description fits any entity.
     pub(crate) fn is_description(&self, description: &str) -> bool {
         let is_gap = |byte: u8| matches!(byte, b' ' | b'_' | b'-');
         let mut bytes = description.bytes().rev().skip_while(|byte| is_gap(*byte));
@@ -163,27 +165,27 @@ impl Environment {
         (may_be || !description.is_ascii()) && self.descriptions.contains_key(&normal(description))
     }
 
-    /// A number that an entity of the scene has: `mass`, `width`, or a field of its own, in SI units.
+    /// A number of an entity of the scene, in SI units: `mass`, `width`, or a field of its own.
     pub(crate) fn number(&self, entity: Entity, field: &str) -> Option<f64> {
         if entity == ROBOT {
             return None;
         }
         let found = self.scene.as_ref()?.entities.get(self.entities.name(entity)?)?;
         match field {
-            "mass" => found.mass_kg,
-            "width" => found.width(),
+            lang::fields::MASS => found.mass_kg,
+            lang::fields::WIDTH => found.width(),
             _ => None,
         }
         .or_else(|| found.fields.get(field).copied())
     }
 
-    /// The name of an entity.
+    /// Name of an entity.
     pub(crate) fn name(&self, entity: Entity) -> SmolStr {
         self.entities.name(entity).cloned().unwrap_or_else(|| SmolStr::new_static("?"))
     }
 }
 
-/// The key of a ground fact, or of all that one with `any` covers.
+/// Key of a ground fact, or the pattern of one with `any`.
 fn key(fact: &Fact) -> FactKey {
     FactKey::new(fact.args.iter().map(|term| match term {
         Some(Term::Entity(entity)) => arg(*entity),

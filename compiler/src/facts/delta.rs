@@ -1,4 +1,4 @@
-//! What one way through a fork changed.
+//! Changes of facts along one path through a fork.
 
 use std::hash::{Hash, Hasher};
 
@@ -6,13 +6,13 @@ use super::TruthSet;
 use super::{Atom, FactKey, FactStore};
 use crate::ir::Fluent;
 
-/// A fact or a pattern as one number, in the order in which a way is written: patterns first, the widest before the
-/// others, so that the facts they cover are written after them; then by fluent and key.
+/// A fact or pattern as one number, sorted in the order of writing: patterns first, the widest before the
+/// others, so that the facts that they cover are written later; then by fluent and key.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct Rank(u128);
 
 impl Rank {
-    /// How many parts of a key are not `any`, where it is that of a single fact.
+    /// Number of arguments of a key that are not `any`, for a single fact.
     const SINGLE: u32 = 4;
 
     pub(super) fn of((fluent, key): Atom) -> Self {
@@ -28,7 +28,7 @@ impl Rank {
         self.0 >> 80 < u128::from(Self::SINGLE)
     }
 
-    /// Each of the facts and patterns once, in order.
+    /// Sorts facts and patterns, and removes duplicates.
     pub(super) fn each_once(atoms: impl Iterator<Item = Self>) -> Vec<Self> {
         let mut ranks: Vec<_> = atoms.collect();
         ranks.sort_unstable();
@@ -37,7 +37,7 @@ impl Rank {
     }
 }
 
-/// What one way through a fork left written, in order.
+/// Facts that one path through a fork has written, with their last values, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Delta {
     pub(super) written: Vec<(Rank, TruthSet)>,
@@ -50,20 +50,20 @@ impl Delta {
         Self { written }
     }
 
-    /// This way or the other, from the same fork.
+    /// Joins two paths from the same fork.
     pub(crate) fn or(&self, other: &Self, base: &FactStore<'_>) -> Self {
         let ranks = Rank::each_once(self.ranks().chain(other.ranks())).into_iter();
         let joined = ranks.map(|rank| (rank, self.at(base, rank).join(other.at(base, rank))));
         Self { written: joined.collect() }
     }
 
-    /// Whether both ways leave the same sets of values, whatever caused them.
+    /// Returns whether both paths leave the same sets of values, whatever their causes.
     pub(crate) fn same_sets(&self, other: &Self, base: &FactStore<'_>) -> bool {
         let mut ranks = self.ranks().chain(other.ranks());
         ranks.all(|rank| self.at(base, rank).same_set(other.at(base, rank)))
     }
 
-    /// Tells ways apart that leave different sets of values, whatever caused them.
+    /// Hashes the sets of values that the path leaves, without their causes.
     pub(crate) fn fingerprint(&self, hasher: &mut impl Hasher) {
         for (rank, value) in &self.written {
             let known = (value.yes.is_some(), value.no.is_some(), value.open.is_some());
@@ -72,12 +72,12 @@ impl Delta {
         self.written.len().hash(hasher);
     }
 
-    /// What is written.
+    /// Facts and patterns that the path has written.
     pub(super) fn ranks(&self) -> impl Iterator<Item = Rank> {
         self.written.iter().map(|(rank, _)| *rank)
     }
 
-    /// What this way knows of a fact; `base` is where the fork began.
+    /// Value of a fact at the end of the path; `base` is the store at the fork.
     pub(crate) fn get(&self, base: &FactStore<'_>, atom: Atom) -> TruthSet {
         self.at(base, Rank::of(atom))
     }

@@ -1,4 +1,4 @@
-//! Single facts and patterns as numbers.
+//! Keys: single facts and patterns as numbers.
 
 use smol_str::SmolStr;
 
@@ -8,11 +8,11 @@ use crate::ir::{Entity, Fluent};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub(crate) struct FactKey(pub(crate) u64);
 
-/// `any` in a key.
+/// Argument of a key that stands for `any`.
 pub(crate) const ANY: u16 = u16::MAX;
 
 impl FactKey {
-    /// Every fact of a fluent.
+    /// Pattern of every fact of a fluent.
     pub(crate) const ALL: Self = Self(u64::MAX);
 
     pub(crate) fn new(args: impl Iterator<Item = u16>) -> Self {
@@ -23,13 +23,13 @@ impl FactKey {
         u16::try_from((self.0 >> (16 * index.min(3))) & 0xffff).unwrap_or(ANY)
     }
 
-    /// The key with one argument replaced.
+    /// Replaces one argument.
     pub(crate) fn with(self, index: usize, arg: u16) -> Self {
         let shift = 16 * index.min(3);
         Self((self.0 & !(0xffff << shift)) | (u64::from(arg) << shift))
     }
 
-    /// The bits of the arguments that are `any`.
+    /// Mask of the arguments that are `any`.
     #[inline]
     pub(super) fn any(self) -> u64 {
         const HIGH: u64 = 0x8000_8000_8000_8000;
@@ -39,7 +39,7 @@ impl FactKey {
         (zero >> 15) * 0xffff
     }
 
-    /// How many arguments are `any`.
+    /// Number of arguments that are `any`.
     pub(super) fn width(self) -> u32 {
         self.any().count_ones() / 16
     }
@@ -48,13 +48,13 @@ impl FactKey {
         self.any() != 0
     }
 
-    /// The first argument; none where it is `any`.
+    /// First argument; `None` if it is `any`.
     pub(super) fn head(self) -> Option<u16> {
         let head = self.arg(0);
         (head != ANY).then_some(head)
     }
 
-    /// The facts that two patterns share, where neither covers the other.
+    /// Facts that two patterns share, if neither covers the other.
     pub(super) fn crossing(self, other: Self) -> Option<Self> {
         let (one, two) = (self.any(), other.any());
         let agree = (self.0 ^ other.0) & !one & !two == 0;
@@ -63,16 +63,16 @@ impl FactKey {
         (agree && one & !two != 0 && two & !one != 0).then_some(Self(shared))
     }
 
-    /// Whether every fact of `other` is one of this pattern.
+    /// Returns whether every fact of `other` belongs to this pattern.
     pub(crate) fn covers(self, other: Self) -> bool {
         (self.0 ^ other.0) & !self.any() == 0
     }
 }
 
-/// A fact as the tables know it.
+/// A fluent with a key.
 pub(crate) type Atom = (Fluent, FactKey);
 
-/// A fact in words: "`on(cup, table)`".
+/// Spelling of a fact: "`on(cup, table)`".
 pub(crate) fn show(name: &str, key: FactKey, arity: usize, arg: impl Fn(usize, u16) -> SmolStr) -> String {
     let args: Vec<_> = (0..arity)
         .map(|index| {
@@ -83,7 +83,7 @@ pub(crate) fn show(name: &str, key: FactKey, arity: usize, arg: impl Fn(usize, u
     format!("`{name}({})`", args.join(", "))
 }
 
-/// An entity as an argument.
+/// Argument of a key that stands for an entity.
 pub(crate) fn arg(entity: Entity) -> u16 {
     entity.0
 }

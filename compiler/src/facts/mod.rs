@@ -1,10 +1,11 @@
-//! What is known of all facts at one point of a policy, with a trail to go back on.
+//! The fact store: known facts at one program point, with a trail of writes to roll back.
 //!
-//! A fluent's table holds single facts and patterns with `any` in some places. A pattern says what holds of every fact
-//! that it covers and that has no entry of its own; writing one drops the entries that it covers. So `not on(cup, any)`
-//! costs what is known of it, not the size of the environment.
+//! The table of a fluent holds single facts and patterns, in which some arguments are `any`. A pattern gives
+//! the value of every fact that it covers and that has no entry of its own; writing a pattern drops the
+//! entries that it covers. So `not on(cup, any)` costs as much as is known about it, and not the size of the
+//! environment.
 //!
-//! The facts at the start are shared by all policies: what a policy writes lies above them.
+//! All policies share the facts at the start; the writes of a policy lie above them.
 
 mod delta;
 mod key;
@@ -22,44 +23,44 @@ use self::table::{FluentTable, TableEntry};
 pub(crate) use self::truth_set::{Cause, TruthSet};
 use crate::ir::Fluent;
 
-/// One write, so that it can be taken back.
+/// One write, with what is needed to undo it.
 #[derive(Clone, Copy, Debug)]
 struct TrailEntry {
     fluent: Fluent,
     key: FactKey,
     undo: Undo,
-    /// What was known before, also where there was no entry.
+    /// Value before the write, also if there was no entry.
     before: TruthSet,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Undo {
-    /// Put the entry back that had this value, written at this time.
+    /// Restores the entry with this value and time.
     Put(TruthSet, u32),
-    /// Drop the entry.
+    /// Drops the entry.
     Drop,
-    /// A fact of the start, which is seen again when what hides it is dropped.
+    /// Nothing: a fact at the start becomes visible again when the entry that hides it is dropped.
     Hidden,
 }
 
-/// The facts.
+/// Known facts, as a layer of writes above the facts at the start.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FactStore<'w> {
-    /// The facts at the start, below; never written.
+    /// The facts at the start; never written.
     start: &'w [FluentTable],
     tables: Vec<FluentTable>,
     trail: Vec<TrailEntry>,
 }
 
 impl FactStore<'static> {
-    /// Tables for `fluents` fluents, of which nothing is known but `default`.
+    /// Empty tables for a number of fluents; every fact has the value `default`.
     pub(crate) fn new(fluents: usize, default: TruthSet) -> Self {
         Self { start: &[], tables: vec![FluentTable::new(default); fluents], trail: Vec::new() }
     }
 }
 
 impl<'w> FactStore<'w> {
-    /// FactStore above those of the start. O(fluents).
+    /// A store above the facts at the start. O(fluents).
     pub(crate) fn above(start: &'w FactStore<'static>) -> Self {
         // One more for a table that is added.
         let mut tables = Vec::with_capacity(start.tables.len() + 1);
@@ -67,12 +68,12 @@ impl<'w> FactStore<'w> {
         Self { start: &start.tables, tables, trail: Vec::with_capacity(256) }
     }
 
-    /// The same writes above another start, which has to say what theirs said.
+    /// Lays the writes above another start, which must have the same facts as their own.
     pub(crate) fn over<'b>(self, start: &'b FactStore<'static>) -> FactStore<'b> {
         FactStore { start: &start.tables, tables: self.tables, trail: self.trail }
     }
 
-    /// The writes alone, to be laid [`Self::over`] the start again.
+    /// Takes the writes alone, to be laid [`Self::over`] the start again.
     pub(crate) fn lift(self) -> FactStore<'static> {
         FactStore { start: &[], tables: self.tables, trail: self.trail }
     }
@@ -88,26 +89,27 @@ impl<'w> FactStore<'w> {
         self.tables.get(fluent.index())
     }
 
-    /// What is known of a fluent at the start, where anything is.
+    /// Table of the facts at the start; `None` if it is empty.
     fn below(&self, fluent: Fluent) -> Option<&'w FluentTable> {
         self.start.get(fluent.index()).filter(|table| !table.is_empty())
     }
 
-    /// What is known of a fact; of a pattern, what is known of those it covers that have no entry of their own.
+    /// Value of a fact; for a pattern, the value of the facts that it covers and that have no entry of their
+    /// own.
     pub(crate) fn get(&self, fluent: Fluent, key: FactKey) -> TruthSet {
         let Some(table) = self.table(fluent) else { return TruthSet::NOTHING_KNOWN };
         let below = || self.below(fluent)?.get(key);
         table.get(key).or_else(below).unwrap_or(table.default)
     }
 
-    /// The entry of a single fact, where it has one.
+    /// Entry of a single fact, if it has one.
     pub(crate) fn entry(&self, fluent: Fluent, key: FactKey) -> Option<TruthSet> {
         let table = self.table(fluent)?;
         let below = || self.below(fluent)?.entry(key).filter(|_| table.get(key).is_none());
         table.entry(key).or_else(below)
     }
 
-    /// Hands out the single facts with an entry that a pattern covers, in no order.
+    /// Visits the single facts with an entry that a pattern covers, in no order.
     pub(crate) fn entries(&self, fluent: Fluent, pattern: FactKey, mut take: impl FnMut(FactKey, TruthSet)) {
         let mut single = |cell: &TableEntry| {
             if !cell.key.is_pattern() {
@@ -120,14 +122,14 @@ impl<'w> FactStore<'w> {
         self.unhidden(fluent, pattern, single);
     }
 
-    /// Hands out the single facts with an entry above those of the start, in no order.
+    /// Visits the single facts that were written above the start, in no order.
     pub(crate) fn written(&self, fluent: Fluent, mut take: impl FnMut(FactKey, TruthSet)) {
         if let Some(table) = self.table(fluent) {
             table.singles(|cell| take(cell.key, cell.value));
         }
     }
 
-    /// Hands out the entries of the start that a pattern covers and nothing hides.
+    /// Visits the entries of the start that a pattern covers and no entry hides.
     fn unhidden(&self, fluent: Fluent, pattern: FactKey, mut take: impl FnMut(&TableEntry)) {
         let Some((above, below)) = self.table(fluent).zip(self.below(fluent)) else { return };
         // What hides the pattern hides all that it covers.
@@ -140,14 +142,14 @@ impl<'w> FactStore<'w> {
         }
     }
 
-    /// Hands out what a pattern shares with each other pattern that crosses it.
+    /// Visits the intersections of a pattern with the other patterns that cross it.
     fn crossings(&self, fluent: Fluent, pattern: FactKey, mut take: impl FnMut(FactKey)) {
         for table in self.table(fluent).into_iter().chain(self.below(fluent)) {
             table.crossings(pattern, &mut take);
         }
     }
 
-    /// Sets a fact, or a pattern and all that it covers.
+    /// Sets a fact, or a pattern with all that it covers.
     pub(crate) fn set(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
         if !key.is_pattern() {
             return self.set_single(fluent, key, value);
@@ -187,7 +189,7 @@ impl<'w> FactStore<'w> {
         self.trail.push(TrailEntry { fluent, key, undo, before });
     }
 
-    /// Changes what is known of a fact, or of each fact that a pattern covers, whatever it is.
+    /// Maps the value of a fact, or of each fact that a pattern covers.
     pub(crate) fn change(
         &mut self,
         fluent: Fluent,
@@ -216,7 +218,7 @@ impl<'w> FactStore<'w> {
         }
     }
 
-    /// Drops the entry of a single fact: what is known of it is again what its patterns say.
+    /// Drops the entry of a single fact, so that its patterns give its value again.
     pub(crate) fn forget(&mut self, fluent: Fluent, key: FactKey) {
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
         if let Some(old) = table.drop(key) {
@@ -229,12 +231,12 @@ impl<'w> FactStore<'w> {
         }
     }
 
-    /// A point to go back to.
+    /// Position in the trail, to roll back to.
     pub(crate) fn mark(&self) -> usize {
         self.trail.len()
     }
 
-    /// Takes back all writes since `mark`.
+    /// Undoes all writes since `mark`.
     pub(crate) fn back_to(&mut self, mark: usize) {
         while self.trail.len() > mark {
             let Some(entry) = self.trail.pop() else { return };
@@ -251,7 +253,7 @@ impl<'w> FactStore<'w> {
         }
     }
 
-    /// All writes since `mark`, in order: what was written, and what was known of it just before.
+    /// All writes since `mark`, in order, each with the value before it.
     pub(crate) fn writes(&self, mark: usize) -> impl Iterator<Item = (Fluent, FactKey, TruthSet)> + '_ {
         let trail = self.trail.get(mark..).unwrap_or_default();
         trail.iter().map(|entry| (entry.fluent, entry.key, entry.before))
@@ -261,12 +263,12 @@ impl<'w> FactStore<'w> {
         Rank::each_once(self.writes(mark).map(|(fluent, key, _)| Rank::of((fluent, key))))
     }
 
-    /// The facts and patterns written since `mark`, each once.
+    /// Facts and patterns written since `mark`, without duplicates.
     pub(crate) fn touched(&self, mark: usize) -> Vec<Atom> {
         self.ranks(mark).into_iter().map(Rank::atom).collect()
     }
 
-    /// The writes since `mark` and what they leave: one way through a fork.
+    /// Writes since `mark` with their last values: one path through a fork.
     pub(crate) fn delta(&self, mark: usize) -> Delta {
         let known = |rank: Rank| {
             let (fluent, key) = rank.atom();
@@ -275,7 +277,7 @@ impl<'w> FactStore<'w> {
         Delta { written: self.ranks(mark).into_iter().map(known).collect() }
     }
 
-    /// Goes one way on.
+    /// Writes the facts of a path.
     pub(crate) fn replay(&mut self, way: &Delta) {
         for (rank, value) in &way.written {
             let (fluent, key) = rank.atom();

@@ -1,20 +1,21 @@
-//! The ways that met at a join, kept for a while: a later test that some of them cannot pass tells them apart again.
+//! Trace partitions (Mauborgne and Rival 2005): paths that met at a join are kept apart for a while, so that
+//! a later test can rule some of them out.
 
 use super::TruthSet;
 use super::{Atom, Delta, FactStore, Rank};
 
-/// Ways that met.
+/// Paths that met at a join.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PathPartition {
-    /// The trail when they had met.
+    /// Position in the trail after the join.
     pub(crate) since: usize,
     atoms: Vec<Atom>,
-    /// What each way left of each atom, way by way.
+    /// Value of each atom at the end of each path, path by path.
     values: Vec<TruthSet>,
 }
 
 impl PathPartition {
-    /// Whether the ways differ in a fluent that `asked` picks.
+    /// Returns whether the paths differ in a fluent that `asked` selects.
     pub(crate) fn differs(&self, mut asked: impl FnMut(crate::ir::Fluent) -> bool) -> bool {
         let first = self.values.get(..self.atoms.len()).unwrap_or_default();
         self.atoms.iter().enumerate().any(|(index, (fluent, _))| {
@@ -24,7 +25,7 @@ impl PathPartition {
         })
     }
 
-    /// The ways, each as what it left.
+    /// Values of the atoms at the end of each path.
     pub(crate) fn ways(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, TruthSet)> + '_> + '_ {
         let ways = self.values.chunks(self.atoms.len().max(1));
         ways.map(|values| self.atoms.iter().copied().zip(values.iter().copied()))
@@ -32,8 +33,8 @@ impl PathPartition {
 }
 
 impl FactStore<'_> {
-    /// Joins the ways through a fork that began where the facts are now, and keeps them apart beside. No way leaves the
-    /// facts as they are.
+    /// Joins the paths through a fork that began at the present state, and returns them as partitions.
+    /// Without a path the facts stay as they are.
     pub(crate) fn join(&mut self, ways: &[Delta]) -> PathPartition {
         if let [only] = ways {
             self.replay(only);

@@ -1,4 +1,4 @@
-//! What is known of one fluent: single facts and patterns, by their first argument.
+//! Table of one fluent: single facts and patterns, by first argument.
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -6,32 +6,31 @@ use smallvec::SmallVec;
 use super::FactKey;
 use super::TruthSet;
 
-/// A fact or a pattern and what is known of it.
+/// Value of a fact or a pattern.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TableEntry {
     pub(super) key: FactKey,
     pub(super) value: TruthSet,
-    /// When it was written: of two patterns that cover a fact the later one wins.
+    /// Time of the write: of two patterns that cover a fact the later one wins.
     pub(super) time: u32,
 }
 
-/// FactStore and patterns, in no order.
+/// Entries in no order.
 type Row = SmallVec<[TableEntry; 4]>;
 
-/// More facts and patterns than this are kept apart by their first argument.
+/// Maximal number of entries in one row; more are separated by their first argument.
 const FEW: usize = 16;
 
-/// FactStore and patterns whose first argument is not `any`.
+/// Entries whose first argument is not `any`.
 #[derive(Clone, Debug)]
 enum Rows {
-    /// All in one row: of most fluents a policy says little.
+    /// All in one row: most policies write few facts of a fluent.
     One(Row),
-    /// By first argument.
     Many(FxHashMap<u16, Row>),
 }
 
 impl Rows {
-    /// All with a first argument, perhaps among others.
+    /// Entries with a first argument, perhaps among others.
     fn with(&self, head: u16) -> &[TableEntry] {
         match self {
             Self::One(row) => row,
@@ -77,17 +76,17 @@ impl Rows {
     }
 }
 
-/// One fluent.
+/// Known facts of one fluent.
 #[derive(Clone, Debug)]
 pub(super) struct FluentTable {
     rows: Rows,
-    /// How many patterns there are among the rows.
+    /// Number of patterns among the rows.
     patterns: usize,
     /// Patterns whose first argument is `any`.
     wide: Vec<TableEntry>,
-    /// The bits of the arguments that are `any` in some pattern that was ever there.
+    /// Mask of the arguments that were ever `any` in a pattern.
     places: u64,
-    /// What is known of the rest, where nothing lies below.
+    /// Value of facts without an entry, here and below.
     pub(super) default: TruthSet,
 }
 
@@ -96,35 +95,35 @@ impl FluentTable {
         Self { rows: Rows::One(Row::new()), patterns: 0, wide: Vec::new(), places: 0, default }
     }
 
-    /// Whether nothing was written that is still there.
+    /// Returns whether there is no entry.
     pub(super) fn is_empty(&self) -> bool {
         self.wide.is_empty() && matches!(&self.rows, Rows::One(row) if row.is_empty())
     }
 
-    /// Hands out all single facts with an entry.
+    /// Visits all single facts with an entry.
     pub(super) fn singles(&self, mut take: impl FnMut(&TableEntry)) {
         self.rows.for_each(|cells| {
             cells.iter().filter(|cell| !cell.key.is_pattern()).for_each(&mut take);
         });
     }
 
-    /// The entries that begin like a key, perhaps among others.
+    /// Entries with the same first argument as a key, perhaps among others.
     fn row(&self, key: FactKey) -> &[TableEntry] {
         key.head().map_or(&self.wide, |head| self.rows.with(head))
     }
 
-    /// What is known of a fact or a pattern: its own entry, or else that of the latest pattern that covers it.
+    /// Value of a fact or a pattern: its own entry, or else that of the latest pattern that covers it.
     pub(super) fn get(&self, key: FactKey) -> Option<TruthSet> {
         self.entry(key).or_else(|| self.covering(key))
     }
 
-    /// Whether there is a pattern.
+    /// Returns whether there is a pattern.
     #[inline]
     fn has_patterns(&self) -> bool {
         self.patterns > 0 || !self.wide.is_empty()
     }
 
-    /// What the latest pattern says that covers a fact, whatever its own entry.
+    /// Value of the latest pattern that covers a fact, whatever its own entry.
     #[inline]
     pub(super) fn covering(&self, key: FactKey) -> Option<TruthSet> {
         if self.has_patterns() { self.latest_covering(key) } else { None }
@@ -144,12 +143,12 @@ impl FluentTable {
         latest.map(|cell| cell.value)
     }
 
-    /// The entry of a fact or a pattern itself.
+    /// Entry of a fact or a pattern itself.
     pub(super) fn entry(&self, key: FactKey) -> Option<TruthSet> {
         self.row(key).iter().find(|cell| cell.key == key).map(|cell| cell.value)
     }
 
-    /// Hands out the entries that a pattern covers: single facts, patterns, and the pattern itself.
+    /// Visits the entries that a pattern covers: single facts, patterns, and the pattern itself.
     pub(super) fn covered(&self, pattern: FactKey, mut take: impl FnMut(&TableEntry)) {
         let mut visit = |cells: &[TableEntry]| {
             for cell in cells.iter().filter(|cell| pattern.covers(cell.key)) {
@@ -162,7 +161,7 @@ impl FluentTable {
         visit(self.row(pattern));
     }
 
-    /// Hands out what a pattern shares with each other pattern that crosses it.
+    /// Visits the intersections of a pattern with the other patterns that cross it.
     #[inline]
     pub(super) fn crossings(&self, pattern: FactKey, take: impl FnMut(FactKey)) {
         // Only what is `any` in a place where this one is not.
@@ -183,7 +182,7 @@ impl FluentTable {
         }
     }
 
-    /// Writes the entry of a fact or a pattern, and returns the one that it replaces.
+    /// Writes an entry, and returns the one that it replaces.
     pub(super) fn put(&mut self, cell: TableEntry) -> Option<TableEntry> {
         self.places |= cell.key.any();
         match cell.key.head() {
@@ -217,7 +216,7 @@ impl FluentTable {
         }
     }
 
-    /// Drops all entries that a pattern covers, and tells of each.
+    /// Drops all entries that a pattern covers, and visits each.
     pub(super) fn drop_covered(&mut self, pattern: FactKey, mut tell: impl FnMut(TableEntry)) {
         let patterns = &mut self.patterns;
         let mut keep = |cell: &mut TableEntry| {
@@ -243,7 +242,7 @@ impl FluentTable {
     }
 }
 
-/// Writes a cell over the one of the same key.
+/// Overwrites the entry with the same key.
 fn replace(cells: &mut [TableEntry], cell: TableEntry) -> Option<TableEntry> {
     let old = cells.iter_mut().find(|old| old.key == cell.key)?;
     Some(std::mem::replace(old, cell))

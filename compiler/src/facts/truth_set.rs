@@ -1,25 +1,25 @@
-//! What is known of one fact: a set of {true, false, unobserved}, each with the step that caused it.
+//! Abstract truth values: sets of {true, false, unobserved}, each with the step that caused it.
 
 use crate::ir::StepId;
 
-/// What brought a value about; [`Cause::NONE`] says that the value is not in the set.
+/// Cause of a value; [`Cause::NONE`] means that the value is not in the set.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(crate) struct Cause(u32);
 
 impl Cause {
-    /// Not in the set.
+    /// The value is not in the set.
     pub(crate) const NONE: Self = Self(0);
-    /// Nothing ever said otherwise: unobserved, or false in a closed environment.
+    /// No step: the fact is unobserved, or false in a closed world.
     pub(crate) const NOTHING: Self = Self(1);
     /// The scene, the state, the card or `initially`.
     pub(crate) const START: Self = Self(2);
 
-    /// A step of the policy.
+    /// Step of the policy as a cause.
     pub(crate) fn step(id: StepId) -> Self {
         Self(id.0.saturating_add(3))
     }
 
-    /// The step, where it is one.
+    /// The step, if a step is the cause.
     pub(crate) fn as_step(self) -> Option<StepId> {
         self.0.checked_sub(3).map(StepId)
     }
@@ -33,12 +33,11 @@ impl Cause {
     }
 }
 
-/// A set of truth values with their causes. Never empty in a reachable state.
+/// Set of truth values with their causes. Not empty in a reachable state.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct TruthSet {
     pub(crate) yes: Cause,
     pub(crate) no: Cause,
-    /// Unobserved.
     pub(crate) open: Cause,
 }
 
@@ -61,19 +60,19 @@ impl TruthSet {
         if truth { Self::yes(cause) } else { Self::no(cause) }
     }
 
-    /// Union, as where two paths meet. The causes of `self` win.
+    /// Union, as at a join of paths. The causes of `self` win.
     pub(crate) fn join(self, other: Self) -> Self {
         Self { yes: self.yes.or(other.yes), no: self.no.or(other.no), open: self.open.or(other.open) }
     }
 
-    /// Whether both sets hold the same truth values, whatever caused them.
+    /// Returns whether both sets hold the same truth values, whatever their causes.
     pub(crate) fn same_set(self, other: Self) -> bool {
         self.yes.is_some() == other.yes.is_some()
             && self.no.is_some() == other.no.is_some()
             && self.open.is_some() == other.open.is_some()
     }
 
-    /// This value after something that may have been meant by `new`: equal, or unobserved.
+    /// Value after a write of `new` that may have been about another fact: the same, or unobserved.
     pub(crate) fn maybe(self, new: Self, cause: Cause) -> Self {
         if self.same_set(new) { self } else { Self::open(cause) }
     }
@@ -90,7 +89,7 @@ impl TruthSet {
         Self { yes: self.no, no: self.yes, open: self.open }
     }
 
-    /// The values that a conjunction can have.
+    /// Possible values of a conjunction.
     pub(crate) fn and(self, other: Self) -> Self {
         let both = self.yes.is_some() && other.yes.is_some();
         let unfalse =
@@ -102,12 +101,12 @@ impl TruthSet {
         }
     }
 
-    /// The values that a disjunction can have.
+    /// Possible values of a disjunction.
     pub(crate) fn or(self, other: Self) -> Self {
         self.not().and(other.not()).not()
     }
 
-    /// What is left once the fact was seen to be `truth` at `cause`; none where it cannot be.
+    /// Value after an observation that the fact is `truth`; `None` if it cannot be.
     pub(crate) fn narrow(self, truth: bool, cause: Cause) -> Option<Self> {
         let known = if truth { self.yes } else { self.no };
         if known.is_some() {

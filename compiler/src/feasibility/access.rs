@@ -1,32 +1,33 @@
-//! Whether a robot can get at a thing from where it is: motion_query by who plans, before there is any policy.
+//! Access to a thing from the robot's pose at the start; planners ask for it before there is a policy.
 
 use std::sync::Arc;
 
 use motet_geometry::query::{Answer, Query, Unknown};
+use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Geometry;
 use super::geometry::SceneChange;
 
-/// Whether a robot can get at a thing.
+/// Answer to the question whether the robot can reach a thing.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Access {
-    /// A way and the motion at its end were found.
+    /// A path to the thing was found, and the motion at its end.
     Feasible,
-    /// There is none.
+    /// The search found no motion.
     Infeasible {
-        /// Why: `too heavy: …`.
+        /// Reason: `too heavy: …`.
         why: SmolStr,
-        /// Whether that is proven; else a search came to its end and found nothing.
+        /// True if infeasibility is proven; false if the search ended without a result.
         is_certified: bool,
     },
-    /// It is not known, for this reason.
+    /// The search gave no answer, for this reason.
     Unknown(SmolStr),
 }
 
 impl Geometry {
-    /// Whether the robot, from where it is at the start, can get to a thing and there grasp it, or open or close it by its
-    /// handle, where it is something of that kind. At most two searches, whose answers are kept.
+    /// Decides whether the robot, from its pose at the start, can drive to a thing and there grasp it, or
+    /// open or close it by its handle. At most two searches, whose answers are cached.
     #[must_use]
     pub fn access(&self, id: &str) -> Access {
         let start = match self.start() {
@@ -57,7 +58,7 @@ impl Geometry {
         let query = match self.is_open(&at.world, &id) {
             Some(true) => Query::Push(id),
             Some(false) => Query::Pull(id),
-            None if entity.kind == "Object" => Query::Reach(id, None),
+            None if entity.kind == lang::kinds::OBJECT => Query::Reach(id, None),
             None => return Access::Feasible,
         };
         said(&self.answer(&at, &query))

@@ -1,34 +1,33 @@
-//! Motions that cannot be done (M06xx): one code for each reason of the language.
+//! Diagnostics of infeasible motions (M06xx): one code for each reason.
 
 use motet_syntax::{About, Related, Span};
 use smol_str::SmolStr;
 
-/// What all of them say: which call, why not, in which world, and what would help.
+/// Parts of the diagnostic of an infeasible motion.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct RefusedMotion {
-    /// The primitive.
     pub(crate) callee: SmolStr,
-    /// The motion, `reach(mug_1)`.
+    /// The query: `reach(mug_1)`.
     pub(crate) motion: String,
-    /// The reason with its numbers.
+    /// Reason with its numbers.
     pub(crate) says: String,
-    /// Where the robot stands, what is open, and which step made it so; empty where it is as in the scene.
+    /// Steps that changed the world before the motion; empty if it is as in the scene.
     pub(crate) story: String,
-    /// What would help.
+    /// Proposed change of the scene or the policy.
     pub(crate) change: Option<String>,
-    /// Whether it is proven.
+    /// True if infeasibility is proven.
     pub(crate) is_certified: bool,
-    /// The steps of the story.
+    /// Spans of those steps.
     pub(crate) since: Vec<Related>,
 }
 
 fn message(told: &RefusedMotion) -> String {
     let RefusedMotion { callee, motion, says, story, .. } = told;
-    format!("`{callee}` cannot do `{motion}`: {says}{story}")
+    format!("`{callee}` cannot perform `{motion}`: {says}{story}")
 }
 
 fn help(told: &RefusedMotion) -> Option<String> {
-    let left = "that is not proven: a search found no motion, and the run will see";
+    let left = "not proven infeasible: the search found no motion, so it is checked again at run time";
     match (&told.change, told.is_certified) {
         (Some(change), true) => Some(change.clone()),
         (Some(change), false) => Some(format!("{change}; {left}")),
@@ -44,42 +43,42 @@ fn about(told: &RefusedMotion) -> Option<About> {
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
-    /// A thing is too far away, too high or too low.
+    /// Target that is too far away, too high or too low.
     OutOfReach("M0601", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
 
-    /// Every pose of the robot touches something.
+    /// Target for which every configuration of the robot collides.
     NoFreePose("M0602", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
 
-    /// No way leads to a pose that is free.
+    /// Target without a free path to it.
     BlockedPath("M0603", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
 
-    /// A thing weighs more than the hand carries.
+    /// Thing that weighs more than the payload.
     TooHeavy("M0604", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
 
-    /// A thing is wider than the hand opens.
+    /// Thing that is wider than the opening of the hand.
     TooWide("M0605", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
     related(m) { m.told.since.clone() }
     about(m) { about(&m.told) }
 
-    /// No camera sees a thing.
+    /// Target that no camera can see.
     NotInView("M0606", Error) { told: RefusedMotion }
     message(m) { message(&m.told) }
     help(m) { help(&m.told) }
@@ -87,7 +86,7 @@ motet_syntax::mistakes! {
     about(m) { about(&m.told) }
 }
 
-/// The diagnostic of a reason.
+/// Diagnostic of a reason.
 pub(crate) fn refused(
     reason: &motet_geometry::query::Reason,
     span: Span,

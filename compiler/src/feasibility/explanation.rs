@@ -1,4 +1,4 @@
-//! The story of a motion that cannot be done: which steps made the world in which it cannot.
+//! Explanation of an infeasible motion: the steps that led to the world in which it is infeasible.
 
 use motet_geometry::query::{Infeasible, Query, Reason};
 use motet_syntax::{Diagnostic, Related, Severity};
@@ -10,8 +10,8 @@ use super::worlds::PossibleWorld;
 use crate::ir::{StepId, StepKind, Term};
 
 impl Walk<'_> {
-    /// The diagnostic of a motion that is infeasible in a possible: an error where that is proven, a warning where a search
-    /// found none.
+    /// Diagnostic of a motion that is infeasible in a possible world: an error if that is proven, a warning
+    /// if a search found nothing.
     pub(super) fn refusal(
         &self,
         id: StepId,
@@ -64,7 +64,7 @@ impl Walk<'_> {
         Some(Related::new(message, self.program.steps.get(step.index())?.span))
     }
 
-    /// A step in a word: `go(sink)`.
+    /// Call of a step in short: `go(sink)`.
     fn call_name(&self, step: StepId) -> String {
         let Some(StepKind::Call(call)) = self.program.steps.get(step.index()).map(|step| &step.kind) else {
             return "a step".to_owned();

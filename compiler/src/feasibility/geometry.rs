@@ -1,4 +1,4 @@
-//! What geometry needs, made once for a robot and a scene, with the answers that were given so far.
+//! Geometry of a robot in a scene: motion queries with a cache of answers.
 
 use std::sync::{Arc, Mutex};
 
@@ -8,16 +8,19 @@ use motet_geometry::query::{
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
 use motet_robots::urdf::Urdf;
+use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::worlds::Fingerprinted;
+use crate::declare::Library;
 use crate::environment::InitialState;
+use crate::ir::Fluent;
 
-/// The most answers that are kept; beyond, all are forgotten. They are the same when motion_query again.
+/// Maximal number of cached answers; beyond it the cache is cleared. A repeated query has the same answer.
 const MOST_ANSWERS: usize = 20_000;
 
-/// A robot's body in a scene, of which motions are motion_query.
+/// A robot's body in a scene, for motion queries. Shared by all sessions with this robot, scene and state.
 #[derive(Debug)]
 pub struct Geometry {
     machine: Machine,
@@ -35,26 +38,26 @@ struct Memo {
     told: FxHashMap<(Box<[u8]>, Query), Infeasible>,
 }
 
-/// The world after a motion, where it is known.
+/// World after a motion; `None` if it is unknown.
 type Next = Option<Arc<Fingerprinted>>;
 
-/// What a step motion_effect behind beside where the base and the arm went.
+/// Change of the scene by a motion, beside the robot's own pose.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum SceneChange {
-    /// The robot is where the way led.
+    /// The robot stands at the end of the path.
     Gone,
-    /// The robot is where it was, with the thing in its hand.
+    /// The hand holds the thing, and the robot stands where it stood.
     Taken,
-    /// The robot is where it was, the thing where it was put.
+    /// The thing stands where it was put, and the robot stands where it stood.
     Put,
-    /// The robot is where it was, the thing with a person.
+    /// A person has the thing, and the robot stands where it stood.
     Given,
-    /// What was closed is open, or the other way round.
+    /// A container is open that was closed, or the reverse.
     Travelled,
 }
 
 impl Geometry {
-    /// A robot in a scene, in a state where one is given. O(parts² of the robot).
+    /// Builds the geometry of a robot in a scene and an initial state. O(parts² of the robot).
     #[must_use]
     pub fn new(
         robot: &Robot,
@@ -69,7 +72,7 @@ impl Geometry {
         Self { machine, scene, start, budget, memo: Mutex::default(), maps: Maps::default() }
     }
 
-    /// The same robot in another scene, in no further state.
+    /// The same robot in another scene, without an initial state.
     #[must_use]
     pub fn elsewhere(&self, scene: &Scene) -> Self {
         let mut scene = scene.clone();
@@ -84,8 +87,8 @@ impl Geometry {
         }
     }
 
-    /// Where the card's first camera is of a robot that is ready to look, in the posture `start` where it has one: in the frame
-    /// of the base on the floor, in m. None where the card does not say which link it is.
+    /// Position of the first camera of the card, in metres in the frame of the base, with the robot in the
+    /// posture `start` if it has one. `None` if the card does not name the camera's link.
     #[must_use]
     pub fn eye(&self) -> Option<[f64; 3]> {
         let machine = &self.machine;
@@ -96,7 +99,7 @@ impl Geometry {
         Some(poses.get(link)?.translation.vector.into())
     }
 
-    /// The world at the start, or why it is not known.
+    /// World at the start, or the reason why it is unknown.
     pub(super) fn start(&self) -> Result<Arc<Fingerprinted>, SmolStr> {
         self.start.clone()
     }
@@ -109,14 +112,29 @@ impl Geometry {
         &self.scene
     }
 
-    /// Whether a container with a door is open in a world; none of what has no door.
+    /// Returns whether a container is open in a world; `None` if it has no door.
     pub(super) fn is_open(&self, world: &World, id: &str) -> Option<bool> {
         let entity = self.scene.entities.get(id)?;
         entity.travel.as_ref()?;
         Some(world.is_open(entity))
     }
 
-    /// Answers a query in a world.
+    /// Truth of `holding` or `open` in a world; `None` for any other fluent.
+    pub(super) fn holds(
+        &self,
+        library: &Library,
+        world: &World,
+        fluent: Fluent,
+        entity: &str,
+    ) -> Option<bool> {
+        let items = &library.lang_items;
+        if items.holding == Some(fluent) {
+            return Some(world.holds(entity));
+        }
+        self.is_open(world, entity).filter(|_| items.open == Some(fluent))
+    }
+
+    /// Answers a query in a world, from the cache if it is there.
     pub(super) fn answer(&self, at: &Fingerprinted, query: &Query) -> Arc<Answer> {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
@@ -132,7 +150,7 @@ impl Geometry {
         answer
     }
 
-    /// Why a motion is infeasible in a world, as it is told: with what would help.
+    /// Explanation of infeasibility in a world, with a proposed change.
     pub(super) fn explained(&self, at: &Fingerprinted, query: &Query, why: &Infeasible) -> Infeasible {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().and_then(|memo| memo.told.get(&key).cloned()) {
@@ -145,7 +163,7 @@ impl Geometry {
         told
     }
 
-    /// Whether a thing can be grasped from where the robot is; none where neither was proven.
+    /// Returns whether the robot can grasp a thing from its pose; `None` if neither answer is proven.
     pub(super) fn reaches(&self, at: &Fingerprinted, object: &str) -> Option<bool> {
         match &*self.answer(at, &Query::Reach(object.into(), None)) {
             Answer::Feasible(_) => Some(true),
@@ -154,7 +172,7 @@ impl Geometry {
         }
     }
 
-    /// The world after a motion that was found; none where it is not known.
+    /// World after a motion that was found; `None` if it is unknown.
     pub(super) fn after(
         &self,
         at: &Fingerprinted,
@@ -188,13 +206,13 @@ impl Geometry {
         Room::new(&self.machine, &self.scene, world).sharing(&self.maps)
     }
 
-    /// A lock that was poisoned by a panic elsewhere only loses what was kept.
+    /// Cache of answers; `None` after a panic of another thread, which only loses the cache.
     fn memo(&self) -> Option<std::sync::MutexGuard<'_, Memo>> {
         self.memo.lock().ok()
     }
 }
 
-/// The world of a scene and a state. `start` becomes a place of the scene.
+/// World at the start of a scene and a state. Adds `start` to the places of the scene.
 fn begin(
     machine: &Machine,
     scene: &mut Scene,
@@ -204,13 +222,13 @@ fn begin(
         let Some((fluent, args)) = fact.split_once('(') else { continue };
         let arg = args.trim_end_matches(')').trim().trim_matches('`');
         match fluent.trim() {
-            "open" => {
+            lang::fluents::OPEN => {
                 if let Some(entity) = scene.entities.get_mut(arg) {
                     entity.open = *holds;
                 }
             }
-            "holding" if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
-            "at" | "on" | "in" | "holding" => {
+            lang::fluents::HOLDING if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
+            lang::fluents::AT | lang::fluents::ON | lang::fluents::IN | lang::fluents::HOLDING => {
                 return Err(format_smolstr!(
                     "the state says `{fact}`, and the scene does not say where that is"
                 ));
@@ -229,7 +247,8 @@ fn begin(
     }
     let [x, y, yaw] = scene.robot.base;
     let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
-    scene.entities.entry("start".into()).or_insert_with(|| Entity::place("start".into(), pose));
+    let start = lang::entities::START;
+    scene.entities.entry(start.into()).or_insert_with(|| Entity::place(start.into(), pose));
     Ok(Arc::new(fingerprinted(World::new(machine, scene))))
 }
 

@@ -1,9 +1,12 @@
-//! Stage 4: geometry. It answers each motion of a policy in the world after the steps before it.
+//! Stage 4, motion feasibility: an abstract interpretation on sets of possible worlds, in which the motions
+//! of a policy are queried.
 //!
-//! The policy is walked with the worlds that may be met, each with the robot, the things and the doors at definite places: a
-//! motion that is answered leads to the next world. Where more than a few worlds may be met, or where something is no longer at
-//! a known place, motions are deferred: nothing is called feasible without a witness, and nothing infeasible that was not
-//! searched to its end. What is not known to this stage is left to the run.
+//! Each world has the robot, the things and the doors at definite poses. A motion that was found leads to the
+//! next world. Where more than a few worlds are possible, or where a pose is unknown, motions are deferred:
+//! no motion is called feasible without a witness, and none infeasible unless that is proven or its search
+//! ended without a result. The engine checks deferred motions at run time.
+//!
+//! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/dynamic.rs`.
 
 mod access;
 pub(crate) mod errors;
@@ -29,19 +32,19 @@ use crate::environment::Environment;
 use crate::ir::Program;
 use crate::prove::Proof;
 
-/// What was found of a motion that is not refused.
+/// Verdict on a motion that is not refused.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum MotionVerdict {
-    /// It can be done in every world that may be met; in one of them like this.
+    /// Feasible in every possible world; the witness is from one of them.
     Feasible(Box<Witness>),
-    /// It is left to the run, for this reason where one is known.
+    /// Left to the run, for this reason if one is known.
     Deferred(Option<SmolStr>),
 }
 
-/// The verdict on every motion: none for a step without one, or where no geometry is computed.
+/// Verdicts by step: `None` for a step without motion, or without geometry.
 pub(crate) type MotionVerdicts = Vec<Option<MotionVerdict>>;
 
-/// Answers the motions of a program that has no errors.
+/// Checks the motions of a program that has no errors.
 pub(crate) fn check(
     program: &Program,
     proof: &Proof,

@@ -1,46 +1,47 @@
-//! What a call means to geometry: which motion it asks for, and what its contract changes.
+//! Translation of calls to motion queries, and of contracts to changes of the scene.
 
 use motet_geometry::query::{Query, Side};
+use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::SceneChange;
 use super::walk::Walk;
 use crate::declare::{EffectDef, Library, PrimitiveDef};
-use crate::ir::{Call, Entity, ROBOT, START, Term};
+use crate::ir::{Call, Entity, Fluent, MotionKind, ROBOT, START, Term};
 
 impl Walk<'_> {
-    /// The motion that a call asks for.
+    /// Motion query of a call.
     ///
     /// # Errors
     ///
-    /// Why it is not known which.
+    /// The reason why its arguments are unknown.
     pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<Query, SmolStr> {
         let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
         let mut names = Vec::with_capacity(args.len());
         for arg in args {
             names.push(self.named(arg, call)?);
         }
-        Ok(motion_query(name, names, self.side(call)))
+        Ok(motion_query(*name, names, self.side(call)))
     }
 
-    /// The side from which a thing is to be grasped, where an argument of the call says so.
+    /// Side of a grasp that an argument of the call asks for.
     fn side(&self, call: &Call) -> Option<Side> {
-        let approach = self.library.names.enums.get("Approach").copied()?;
+        let approach = self.library.lang_items.approach?;
         call.args.iter().find_map(|arg| match arg {
             Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
             _ => None,
         })
     }
 
-    /// An argument of a contract at a call by the name that the scene has for it.
+    /// Name, in the scene, of an argument of a contract at a call.
     ///
     /// # Errors
     ///
-    /// Why it is not known what it is.
+    /// The reason why it is unknown.
     pub(super) fn named(&self, term: &Term, call: &Call) -> Result<SmolStr, SmolStr> {
         let entity = |entity: Entity| match entity {
             ROBOT => Err(SmolStr::new_static("the robot is no target")),
-            START => Ok(SmolStr::new_static("start")),
+            START => Ok(SmolStr::new_static(lang::entities::START)),
             entity if self.symbols.get(entity).is_some() => {
                 let bound = self.symbols.binding_of(entity);
                 let name = bound.and_then(|index| self.program.bindings.get(index));
@@ -75,9 +76,10 @@ impl Walk<'_> {
         }
     }
 
-    /// Where a call motion_effect the robot beyond the target of its motion: `search` ends where it serves what it found.
+    /// Place where a call leaves the robot beyond the target of its motion: `search` ends where the robot can
+    /// serve what it found.
     pub(super) fn ends_at(&self, call: &Call, def: &PrimitiveDef) -> Option<Result<SmolStr, SmolStr>> {
-        let effect = makes(self.library, def, "at", true)?;
+        let effect = makes(self.library.lang_items.at, def, true)?;
         match effect.fact.args.as_slice() {
             [Some(robot), Some(place)] if *robot == Term::Entity(ROBOT) => Some(self.named(place, call)),
             _ => None,
@@ -85,78 +87,63 @@ impl Walk<'_> {
     }
 }
 
-/// A motion by its name and its arguments.
-pub(super) fn motion_query(name: &str, args: Vec<SmolStr>, side: Option<Side>) -> Query {
+/// Motion query of a name and arguments.
+pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<Side>) -> Query {
     let mut args = args.into_iter();
     let (first, second) = (args.next().unwrap_or_default(), args.next());
-    match (name, second) {
-        ("go_to", None) => Query::GoTo(first),
-        ("reach", None) => Query::Reach(first, side),
-        ("put", Some(on)) => Query::Put(first, on),
-        ("offer", Some(to)) => Query::Offer(first, to),
-        ("look", None) => Query::Look(first),
-        ("pull", None) => Query::Pull(first),
-        ("push", None) => Query::Push(first),
-        ("posture", None) => Query::Posture(first),
-        (name, _) => Query::Other(name.into()),
+    match (kind, second) {
+        (MotionKind::GoTo, None) => Query::GoTo(first),
+        (MotionKind::Reach, None) => Query::Reach(first, side),
+        (MotionKind::Put, Some(on)) => Query::Put(first, on),
+        (MotionKind::Offer, Some(to)) => Query::Offer(first, to),
+        (MotionKind::Look, None) => Query::Look(first),
+        (MotionKind::Pull, None) => Query::Pull(first),
+        (MotionKind::Push, None) => Query::Push(first),
+        (MotionKind::Posture, None) => Query::Posture(first),
+        (kind, _) => Query::Other(kind.name().into()),
     }
 }
 
-/// The side of a case of `Approach`; none where any will do.
+/// Side of a case of `Approach`; `None` if any side is allowed.
 pub(super) fn side_of(case: &str) -> Option<Side> {
     match case {
-        "top" => Some(Side::Top),
-        "side" => Some(Side::Side),
-        "front" => Some(Side::Front),
+        lang::approaches::TOP => Some(Side::Top),
+        lang::approaches::SIDE => Some(Side::Side),
+        lang::approaches::FRONT => Some(Side::Front),
         _ => None,
     }
 }
 
-/// Whether a motion motion_effect the robot or a thing elsewhere.
-pub(super) const fn moves(query: &Query) -> bool {
-    match query {
-        Query::GoTo(_) | Query::Reach(..) | Query::Posture(_) => true,
-        Query::Put(..) | Query::Offer(..) | Query::Pull(_) | Query::Push(_) | Query::Other(_) => true,
-        // The head may look elsewhere afterwards, which changes nothing that is kept.
-        Query::Look(_) => false,
-    }
-}
-
-/// What a motion that succeeded motion_effect behind.
+/// Change of the scene by a motion that succeeded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum MotionEffect {
-    /// Nothing that is kept.
+    /// The motion leaves the scene as it is.
     Nothing,
-    /// This.
     Changed(SceneChange),
-    /// Its contract does not tell.
+    /// The contract does not determine the change.
     Unknown,
 }
 
-/// What the contract of a primitive says of a motion that succeeded.
+/// Change of the scene by a motion that succeeded, from the contract of its primitive.
 pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &Query) -> MotionEffect {
-    let makes = |fluent: &str, value: bool| makes(library, def, fluent, value).is_some();
+    let items = &library.lang_items;
+    let makes = |fluent: Option<Fluent>, value: bool| makes(fluent, def, value).is_some();
     match query {
         Query::GoTo(_) | Query::Posture(_) => MotionEffect::Changed(SceneChange::Gone),
-        Query::Reach(..) if makes("holding", true) => MotionEffect::Changed(SceneChange::Taken),
+        Query::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
         Query::Reach(..) | Query::Look(_) => MotionEffect::Nothing,
-        Query::Put(..) if makes("holding", false) => MotionEffect::Changed(SceneChange::Put),
-        Query::Offer(..) if makes("holding", false) => MotionEffect::Changed(SceneChange::Given),
-        Query::Pull(_) if makes("open", true) => MotionEffect::Changed(SceneChange::Travelled),
-        Query::Push(_) if makes("open", false) => MotionEffect::Changed(SceneChange::Travelled),
+        Query::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
+        Query::Offer(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Given),
+        Query::Pull(_) if makes(items.open, true) => MotionEffect::Changed(SceneChange::Travelled),
+        Query::Push(_) if makes(items.open, false) => MotionEffect::Changed(SceneChange::Travelled),
         Query::Put(..) | Query::Offer(..) => MotionEffect::Unknown,
         Query::Pull(_) | Query::Push(_) | Query::Other(_) => MotionEffect::Unknown,
     }
 }
 
-/// Whether a contract makes a fact of a fluent about one thing, not about all of a kind.
-pub(super) fn makes<'d>(
-    library: &Library,
-    def: &'d PrimitiveDef,
-    fluent: &str,
-    value: bool,
-) -> Option<&'d EffectDef> {
-    let id = library.names.fluents.get(fluent).copied()?;
+/// Finds an effect of a contract on a fluent about one thing, without condition and not about all of a kind.
+pub(super) fn makes(fluent: Option<Fluent>, def: &PrimitiveDef, value: bool) -> Option<&EffectDef> {
+    let id = fluent?;
     def.makes.iter().find(|effect| {
         effect.fact.fluent == id
             && effect.value == value
@@ -166,12 +153,15 @@ pub(super) fn makes<'d>(
     })
 }
 
-/// Whether a primitive without a motion may move the robot or something all the same: what it sees is not what it saw, or
-/// something is elsewhere.
+/// Returns whether a primitive without a motion may still move the robot or a thing, by its effects.
 pub(super) fn moves_blindly(library: &Library, def: &PrimitiveDef) -> bool {
-    let fluent = |effect: &EffectDef| library.fluent(effect.fact.fluent).map(|def| def.name.as_str());
-    let places = ["at", "on", "in", "holding", "open", "lifted"];
-    let elsewhere = |effect: &EffectDef| fluent(effect).is_some_and(|name| places.contains(&name));
-    let unseen = def.unsettles.iter().any(|effect| fluent(effect) == Some("visible"));
+    let items = &library.lang_items;
+    let elsewhere = |effect: &EffectDef| items.poses().any(|fluent| fluent == effect.fact.fluent);
+    let unseen = def.unsettles.iter().any(|effect| Some(effect.fact.fluent) == items.visible);
     unseen || def.makes.iter().chain(&def.unsettles).any(elsewhere)
+}
+
+/// Returns whether a call of a primitive may move the robot or a thing.
+pub(super) fn may_move(library: &Library, def: &PrimitiveDef) -> bool {
+    def.motion.as_ref().map_or_else(|| moves_blindly(library, def), |(kind, _)| kind.moves())
 }

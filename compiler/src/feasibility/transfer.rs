@@ -1,4 +1,4 @@
-//! One call in the worlds that may be met: its motion answered in each, and the worlds after it.
+//! Transfer function of a call: the answers of its motion in all possible worlds, and the worlds after it.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::MotionVerdict;
 use super::geometry::SceneChange;
-use super::motion::{MotionEffect, motion_effect, moves, moves_blindly};
+use super::motion::{MotionEffect, motion_effect, moves_blindly};
 use super::walk::Walk;
 use super::witness::kept;
 use super::worlds::{PossibleWorld, Worlds};
@@ -15,10 +15,10 @@ use crate::declare::PrimitiveDef;
 use crate::ir::{Call, StepId};
 
 impl Walk<'_> {
-    /// The worlds after a call, where it succeeds.
+    /// Worlds after a call that succeeds.
     pub(super) fn call(&mut self, id: StepId, call: &Call, before: Worlds) -> Worlds {
         let Some(def) = self.library.primitive(call.primitive) else { return before };
-        if def.motion.is_none() {
+        let Some((kind, _)) = &def.motion else {
             if !moves_blindly(self.library, def) {
                 self.caught(&before);
                 return before;
@@ -26,7 +26,7 @@ impl Walk<'_> {
             let lost = Worlds::lost(format_smolstr!("where things are after `{}` is not known", def.name));
             self.caught(&lost);
             return lost;
-        }
+        };
         let before = self.possible(id, before);
         let query = match self.query(call, def) {
             Ok(query) => query,
@@ -35,7 +35,7 @@ impl Walk<'_> {
                 return self.blind(def, before, why);
             }
         };
-        let moves = moves(&query);
+        let moves = kind.moves();
         if moves {
             self.caught(&Worlds::lost(format_smolstr!("where `{}` stopped is not known", def.name)));
         } else {
@@ -92,15 +92,15 @@ impl Walk<'_> {
         after
     }
 
-    /// After a call of which the motion is not known.
+    /// Worlds after a call whose motion query is unknown.
     fn blind(&mut self, def: &PrimitiveDef, before: Worlds, why: SmolStr) -> Worlds {
-        let moves = def.motion.as_ref().is_some_and(|(name, _)| name != "look");
+        let moves = def.motion.as_ref().is_some_and(|(kind, _)| kind.moves());
         let after = if moves { Worlds::lost(why) } else { before };
         self.caught(&after);
         after
     }
 
-    /// The world after a motion that was found in a possible.
+    /// Worlds after a motion that was found in a possible world.
     fn following(
         &self,
         id: StepId,
@@ -146,7 +146,7 @@ impl Walk<'_> {
         only(next)
     }
 
-    /// A motion of the base that goes on to where the robot serves what it found.
+    /// Worlds after a motion of the base that continues to the place where the robot serves what it found.
     fn going_on(&self, id: StepId, place: &SmolStr, from: PossibleWorld) -> Worlds {
         let query = Query::GoTo(place.clone());
         let answer = self.geometry.answer(&from.at, &query);
@@ -172,7 +172,7 @@ fn in_words(why: &Unknown) -> SmolStr {
     }
 }
 
-/// A possible at the start.
+/// Possible world at the start.
 pub(super) fn at_start(at: Arc<super::worlds::Fingerprinted>) -> PossibleWorld {
     PossibleWorld { at, stands_since: None, held_since: None, changed: Vec::new(), is_certain: true }
 }

@@ -1,4 +1,4 @@
-//! The walk over a policy with the worlds that may be met.
+//! Interpretation of a policy on possible worlds.
 
 use std::collections::BTreeMap;
 
@@ -8,20 +8,20 @@ use motet_syntax::ast::EndKind;
 use smol_str::SmolStr;
 
 use super::geometry::Geometry;
-use super::motion::moves_blindly;
+use super::motion::may_move;
 use super::transfer::at_start;
 use super::worlds::{Fingerprinted, Worlds};
 use super::{MotionVerdict, MotionVerdicts};
 use crate::declare::Library;
 use crate::environment::Environment;
-use crate::ir::{Condition, Program, Reaction, StepId, StepKind, Term, When};
+use crate::ir::{Condition, Fluent, Program, Reaction, StepId, StepKind, Term, When};
 use crate::prove::Proof;
 use crate::prove::symbols::Symbols;
 
-/// How often a loop is walked before its worlds are given up.
+/// Maximal number of rounds of a loop; then its worlds are unknown.
 const ROUNDS: usize = 4;
 
-/// The state of the walk.
+/// State of the interpretation.
 pub(super) struct Walk<'a> {
     pub(super) program: &'a Program,
     pub(super) library: &'a Library,
@@ -29,11 +29,11 @@ pub(super) struct Walk<'a> {
     pub(super) symbols: Symbols,
     pub(super) geometry: &'a Geometry,
     proof: &'a Proof,
-    /// By step; of a loop the last round, which has all worlds.
+    /// Results by step; for a loop those of the last round, which has all worlds.
     found: BTreeMap<StepId, (Option<MotionVerdict>, Option<Diagnostic>)>,
-    /// For each `try` around, the worlds in which something in it may fail.
+    /// For each enclosing `try`, the worlds in which something in it may fail.
     failures: Vec<Worlds>,
-    /// For each sub-policy around, the worlds in which it is done.
+    /// For each enclosing sub-policy, the worlds in which it is done.
     exits: Vec<(StepId, Worlds)>,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Walk<'a> {
         Self { program, library, environment, symbols, geometry, proof, found, failures, exits }
     }
 
-    /// Walks the whole policy.
+    /// Interprets the whole policy.
     pub(super) fn policy(&mut self) {
         let start = match self.geometry.start() {
             Ok(at) => Worlds { known: vec![at_start(at)], lost: None },
@@ -59,7 +59,7 @@ impl<'a> Walk<'a> {
         self.block(&self.program.body, start);
     }
 
-    /// What was found, by step, and what there is to say.
+    /// Verdicts by step, and the diagnostics.
     pub(super) fn into_results(self) -> (MotionVerdicts, Vec<Diagnostic>) {
         let mut placed = vec![None; self.program.steps.len()];
         let mut diagnostics = Vec::new();
@@ -76,21 +76,20 @@ impl<'a> Walk<'a> {
         self.found.insert(id, (verdict, refused));
     }
 
-    /// Something may fail here, in these worlds or some of them.
+    /// Records that a step may fail in these worlds, or some of them.
     pub(super) fn caught(&mut self, worlds: &Worlds) {
         for failure in &mut self.failures {
             failure.join(worlds.clone().uncertain());
         }
     }
 
-    /// Of the worlds those that agree with what the prover knows.
+    /// Removes worlds that contradict the facts that the prover knows.
     pub(super) fn possible(&self, id: StepId, mut worlds: Worlds) -> Worlds {
         let Some(certain) = self.proof.certain.get(&id) else { return worlds };
         worlds.known.retain(|possible| {
             certain.iter().all(|fact| {
-                let Some(def) = self.library.fluent(fact.fluent) else { return true };
                 let name = self.environment.name(fact.entity);
-                self.holds(&possible.at.world, &def.name, &name).is_none_or(|value| value == fact.value)
+                self.holds(&possible.at.world, fact.fluent, &name).is_none_or(|value| value == fact.value)
             })
         });
         worlds
@@ -166,7 +165,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// A loop until no round brings a new world.
+    /// Interprets a loop until no round reaches a new world.
     fn looped(&mut self, body: &[StepId], entry: Worlds, again: bool, may_skip: bool) -> Worlds {
         let mut head = entry.clone();
         for round in 0.. {
@@ -180,9 +179,7 @@ impl<'a> Walk<'a> {
                 return all;
             }
             if round >= ROUNDS {
-                head = Worlds::lost(SmolStr::new_static(
-                    "every round of a loop motion_effect the world different",
-                ));
+                head = Worlds::lost(SmolStr::new_static("every round of a loop leaves the world different"));
             }
         }
         entry
@@ -223,15 +220,13 @@ impl<'a> Walk<'a> {
         if alone { after.unwrap_or(worlds) } else { Worlds::lost(why()) }
     }
 
-    /// Whether a block moves the robot or something.
+    /// Returns whether a block may move the robot or a thing.
     fn moves_in(&self, block: &[StepId]) -> bool {
         let program = self.program;
         block.iter().filter_map(|id| program.steps.get(id.index())).any(|step| match &step.kind {
-            StepKind::Call(call) => self.library.primitive(call.primitive).is_some_and(|def| {
-                def.motion
-                    .as_ref()
-                    .map_or_else(|| moves_blindly(self.library, def), |(name, _)| name != "look")
-            }),
+            StepKind::Call(call) => {
+                self.library.primitive(call.primitive).is_some_and(|def| may_move(self.library, def))
+            }
             StepKind::Sequence { body, .. }
             | StepKind::Inline { body, .. }
             | StepKind::Repeat { body, .. }
@@ -255,17 +250,16 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Whether a condition holds in a world, where its geometry says so.
+    /// Truth of a condition in a world; `None` if the geometry does not determine it.
     fn truth(&self, condition: &Condition, at: &Fingerprinted) -> Option<bool> {
         match condition {
             Condition::Literal(value) => Some(*value),
             Condition::Fact(fact) => {
-                let name = &self.library.fluent(fact.fluent)?.name;
                 let [Some(Term::Entity(entity))] = fact.args.as_slice() else { return None };
-                if name == "reachable" {
+                if self.library.lang_items.reachable == Some(fact.fluent) {
                     return self.geometry.reaches(at, &self.environment.name(*entity));
                 }
-                self.holds(&at.world, name, &self.environment.name(*entity))
+                self.holds(&at.world, fact.fluent, &self.environment.name(*entity))
             }
             Condition::Not(inner) => self.truth(inner, at).map(|value| !value),
             Condition::All(parts) => {
@@ -289,12 +283,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether something is held or open in a world; none of any other fluent.
-    fn holds(&self, world: &Room, fluent: &str, entity: &str) -> Option<bool> {
-        match fluent {
-            "holding" => Some(world.holds(entity)),
-            "open" => self.geometry.is_open(world, entity),
-            _ => None,
-        }
+    /// Truth of `holding` or `open` in a world; `None` for any other fluent.
+    fn holds(&self, world: &Room, fluent: Fluent, entity: &str) -> Option<bool> {
+        self.geometry.holds(self.library, world, fluent, entity)
     }
 }

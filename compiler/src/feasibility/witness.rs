@@ -1,9 +1,9 @@
-//! A motion that was found, as the graph keeps it.
+//! Translation of witnesses to the graph.
 
 use motet_geometry::query::{Machine, Witness, components};
 use motet_graph as graph;
 
-/// The witness of a motion. Of the joints only those that move.
+/// Witness of a motion for the graph. Holds only the joints that move.
 pub(super) fn kept(machine: &Machine, witness: &Witness) -> graph::Witness {
     let first = witness.path.first();
     let moves = |at: &usize| {

@@ -1,46 +1,45 @@
-//! The world of a run, step by step as its calls end: what this stage could not see beforehand is motion_query for in it.
+//! Tracker of the world of a run, updated as its calls end, for the motions that were deferred.
 //!
-//! The same queries and the same worlds as in the walk over a policy, but along the one way that the run takes. Where it is no
-//! longer known where the robot or a thing is, every motion is unknown.
+//! It asks the same queries as the interpretation of a policy, but along the one path of the run. Once the
+//! pose of the robot or a thing is unknown, every motion is unknown.
 
 use std::sync::Arc;
 
 use motet_geometry::query::{Answer, Infeasible, Query, Reason, Unknown};
 use motet_graph::Value;
+use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::{Geometry, SceneChange};
-use super::motion::{MotionEffect, makes, motion_effect, motion_query, moves, moves_blindly, side_of};
+use super::motion::{MotionEffect, makes, may_move, motion_effect, motion_query, moves_blindly, side_of};
 use super::worlds::Fingerprinted;
 use crate::declare::{Library, PrimitiveDef};
-use crate::ir::{Entity, ROBOT, START, Term};
+use crate::ir::{Entity, Failure, MotionKind, ROBOT, START, Term};
 
-/// The world that a run has come to.
+/// World of a run. `Send`; one tracker belongs to one run.
 #[derive(Debug)]
 pub struct WorldTracker {
     library: Arc<Library>,
     geometry: Arc<Geometry>,
-    /// The world, or why it is not known.
+    /// The world, or the reason why it is unknown.
     at: Result<Arc<Fingerprinted>, SmolStr>,
-    /// How many calls are under way that move the robot or something.
+    /// Number of active calls that move the robot or a thing.
     moving: u32,
 }
 
-/// What is to be expected of a motion.
+/// Forecast of a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Forecast {
-    /// It was found.
+    /// A motion was found.
     Feasible,
-    /// It is proven that there is none.
+    /// Infeasibility is proven.
     Infeasible {
-        /// A failure that the primitive lists, the one that says most.
+        /// The most specific failure that the primitive lists.
         failure: SmolStr,
-        /// Why, with its numbers, and what would help.
+        /// Reason with its numbers, and a proposed change.
         why: String,
     },
-    /// Neither.
     Unknown {
-        /// Why not.
         why: String,
     },
 }
@@ -59,7 +58,7 @@ impl WorldTracker {
         Self { library, geometry, at, moving: 0 }
     }
 
-    /// What is to be expected of a motion, `of` its arguments, that a call of a primitive asks for now.
+    /// Forecasts a motion with the arguments `of` for a call of a primitive in the present world.
     #[must_use]
     pub fn motion(&self, primitive: &str, args: &[(SmolStr, Value)], motion: &str, of: &[Value]) -> Forecast {
         let unknown = |why: &str| Forecast::Unknown { why: why.to_owned() };
@@ -74,7 +73,8 @@ impl WorldTracker {
         let Some(names) = of.iter().map(name).collect::<Option<Vec<_>>>() else {
             return unknown("an argument has no place in the scene");
         };
-        match &*self.geometry.answer(at, &motion_query(motion, names, side(args))) {
+        let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
+        match &*self.geometry.answer(at, &motion_query(kind, names, side(args))) {
             Answer::Feasible(_) => Forecast::Feasible,
             Answer::Infeasible(why) if why.certified => self.infeasible(def, why),
             Answer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
@@ -83,7 +83,7 @@ impl WorldTracker {
         }
     }
 
-    /// A call began.
+    /// Records the start of a call.
     pub fn began(&mut self, primitive: &str) {
         if self.is_moving(primitive) {
             self.moving += 1;
@@ -93,7 +93,7 @@ impl WorldTracker {
         }
     }
 
-    /// A call that began has succeeded.
+    /// Records the success of a call.
     pub fn succeeded(&mut self, primitive: &str, args: &[(SmolStr, Value)], result: Option<&Value>) {
         self.over(primitive);
         let Some(def) = primitive_of(&self.library, primitive) else { return };
@@ -101,12 +101,12 @@ impl WorldTracker {
         self.at = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result });
     }
 
-    /// A call that began was refused: nothing has moved.
+    /// Records that a call was refused before it moved anything.
     pub fn refused(&mut self, primitive: &str) {
         self.over(primitive);
     }
 
-    /// A call that began has failed or was interrupted.
+    /// Records that a call failed or was interrupted.
     pub fn stopped(&mut self, primitive: &str) {
         self.over(primitive);
         if self.is_moving(primitive) {
@@ -114,14 +114,12 @@ impl WorldTracker {
         }
     }
 
-    /// Something is held or open, or is not. Where that is not so in this world, it is another one.
+    /// Records an observation of `holding` or `open`. If it contradicts the tracked world, the world is
+    /// unknown.
     pub fn observed(&mut self, fluent: &str, entity: &str, holds: bool) {
         let Ok(at) = &self.at else { return };
-        let here = match fluent {
-            "holding" => Some(at.world.holds(entity)),
-            "open" => self.geometry.is_open(&at.world, entity),
-            _ => None,
-        };
+        let id = self.library.names.fluents.get(fluent).copied();
+        let here = id.and_then(|id| self.geometry.holds(&self.library, &at.world, id, entity));
         // While something moves it may be so already.
         if self.moving == 0 && here.is_some_and(|here| here != holds) {
             self.lose(&format!("`{fluent}({entity})` is not as it was left"));
@@ -141,10 +139,7 @@ impl WorldTracker {
     }
 
     fn is_moving(&self, primitive: &str) -> bool {
-        primitive_of(&self.library, primitive).is_some_and(|def| match &def.motion {
-            Some((name, _)) => moves(&motion_query(name, Vec::new(), None)),
-            None => moves_blindly(&self.library, def),
-        })
+        primitive_of(&self.library, primitive).is_some_and(|def| may_move(&self.library, def))
     }
 
     fn infeasible(&self, def: &PrimitiveDef, why: &Infeasible) -> Forecast {
@@ -152,16 +147,17 @@ impl WorldTracker {
             Some(change) => format!("{}; {change}", why.reason),
             None => why.reason.to_string(),
         };
-        let fails =
-            |name: &&&str| def.fails.iter().any(|failure| self.library.failure_name(*failure) == **name);
-        match kinds(&why.reason).iter().find(fails) {
-            Some(kind) => Forecast::Infeasible { failure: (*kind).into(), why: says },
+        let listed = failures(&self.library, &why.reason).into_iter().flatten();
+        match listed.into_iter().find(|failure| def.fails.contains(failure)) {
+            Some(failure) => {
+                Forecast::Infeasible { failure: self.library.failure_name(failure).into(), why: says }
+            }
             None => Forecast::Unknown { why: says },
         }
     }
 }
 
-/// The world after a call that has succeeded.
+/// World after a call that succeeded.
 fn after(
     library: &Library,
     geometry: &Geometry,
@@ -178,7 +174,7 @@ fn after(
     };
     let lost = || format_smolstr!("how `{}` ended is not known", def.name);
     let names = terms.iter().map(|term| named(library, term, call)).collect::<Option<Vec<_>>>();
-    let query = motion_query(motion, names.ok_or_else(lost)?, side(call.args));
+    let query = motion_query(*motion, names.ok_or_else(lost)?, side(call.args));
     let change = match motion_effect(library, def, &query) {
         MotionEffect::Nothing => return Ok(Arc::clone(at)),
         MotionEffect::Unknown => return Err(lost()),
@@ -187,7 +183,7 @@ fn after(
     let next = step(geometry, at, &query, change).ok_or_else(lost)?;
     // A motion of the base may go on to where the robot serves what it found.
     let Query::GoTo(target) = &query else { return Ok(next) };
-    let Some(effect) = makes(library, def, "at", true) else { return Ok(next) };
+    let Some(effect) = makes(library.lang_items.at, def, true) else { return Ok(next) };
     let [Some(robot), Some(place)] = effect.fact.args.as_slice() else { return Ok(next) };
     if *robot != Term::Entity(ROBOT) {
         return Ok(next);
@@ -211,13 +207,14 @@ fn step(
     }
 }
 
-/// The failures that say what a reason says, the closest first.
-const fn kinds(reason: &Reason) -> &'static [&'static str] {
+/// Failures that match a reason, the most specific first.
+fn failures(library: &Library, reason: &Reason) -> [Option<Failure>; 3] {
+    let items = &library.lang_items;
     match reason {
-        Reason::OutOfReach { .. } | Reason::TooWide { .. } => &["unreachable"],
-        Reason::TooHeavy { .. } => &["too_heavy", "unreachable"],
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => &["unreachable", "blocked"],
-        Reason::NotInView { .. } => &["unreachable", "blocked", "not_found"],
+        Reason::OutOfReach { .. } | Reason::TooWide { .. } => [items.unreachable, None, None],
+        Reason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
+        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => [items.unreachable, items.blocked, None],
+        Reason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
     }
 }
 
@@ -225,7 +222,7 @@ fn primitive_of<'l>(library: &'l Library, name: &str) -> Option<&'l PrimitiveDef
     library.primitive(library.names.primitives.get(name).copied()?)
 }
 
-/// A term of a contract at a call, by the name that the scene has for it.
+/// Name, in the scene, of a term of a contract at a call.
 fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolStr> {
     match term {
         Term::Entity(id) => fixed(library, *id),
@@ -238,11 +235,11 @@ fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolS
     }
 }
 
-/// An entity that a contract names.
+/// Name of an entity in a contract.
 fn fixed(library: &Library, entity: Entity) -> Option<SmolStr> {
     match entity {
         ROBOT => None,
-        START => Some(SmolStr::new_static("start")),
+        START => Some(SmolStr::new_static(lang::entities::START)),
         other => library.names.entities.iter().find(|(_, id)| **id == other).map(|(name, _)| name.clone()),
     }
 }
@@ -255,7 +252,7 @@ fn name(value: &Value) -> Option<SmolStr> {
     }
 }
 
-/// The side from which a thing is to be grasped, where an argument says so.
+/// Side of a grasp that an argument asks for.
 fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::query::Side> {
     args.iter().find_map(|(_, value)| if let Value::Case(case) = value { side_of(case) } else { None })
 }

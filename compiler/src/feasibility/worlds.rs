@@ -1,4 +1,4 @@
-//! The worlds that may be met at a step.
+//! Sets of possible worlds at a program point.
 
 use std::sync::Arc;
 
@@ -7,42 +7,43 @@ use smol_str::SmolStr;
 
 use crate::ir::StepId;
 
-/// The most worlds that are followed at once.
+/// Maximal number of possible worlds at a program point.
 pub(super) const MOST_WORLDS: usize = 8;
 
-/// A world with its fingerprint: two are the same where their fingerprints are.
+/// World with its fingerprint; equal fingerprints mean equal worlds.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Fingerprinted {
     pub(super) world: World,
     pub(super) key: Box<[u8]>,
 }
 
-/// A world, and which steps made it so.
+/// A possible world, with the steps that led to it.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleWorld {
     pub(super) at: Arc<Fingerprinted>,
-    /// The step that brought the robot where it stands.
+    /// Step that brought the robot to its pose.
     pub(super) stands_since: Option<StepId>,
-    /// The step that took what is in the hand.
+    /// Step that took the thing in the hand.
     pub(super) held_since: Option<StepId>,
-    /// What was opened, closed or put somewhere, and by which step.
+    /// Things that were opened, closed or put somewhere, with the step.
     pub(super) changed: Vec<(SmolStr, StepId)>,
-    /// Whether control comes here for certain on some way; after a failure it may have stopped earlier.
+    /// True if the program point is certainly reached in this world on some path; after a failure it may not
+    /// be.
     pub(super) is_certain: bool,
 }
 
 impl PossibleWorld {
-    /// The step that changed an entity last.
+    /// Step that changed an entity last.
     pub(super) fn changer(&self, entity: &str) -> Option<StepId> {
         self.changed.iter().rev().find(|(name, _)| name == entity).map(|(_, step)| *step)
     }
 }
 
-/// All that may be the case at a step; nothing where no way leads there.
+/// Possible worlds at a program point; empty if no path leads there.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Worlds {
     pub(super) known: Vec<PossibleWorld>,
-    /// Why there are worlds beside the known ones, if so.
+    /// Reason why other worlds than the known ones are possible, if they are.
     pub(super) lost: Option<SmolStr>,
 }
 
@@ -55,7 +56,7 @@ impl Worlds {
         self.known.is_empty() && self.lost.is_none()
     }
 
-    /// Adds the worlds of another; whether any was new.
+    /// Adds the worlds of another set; returns whether any was new.
     pub(super) fn join(&mut self, other: Self) -> bool {
         let mut is_new = self.lost.is_none() && other.lost.is_some();
         self.lost = self.lost.take().or(other.lost);
@@ -76,7 +77,7 @@ impl Worlds {
         is_new
     }
 
-    /// The same worlds, of which it is not certain that they are met.
+    /// The same worlds, which may not be reached.
     pub(super) fn uncertain(mut self) -> Self {
         self.known.iter_mut().for_each(|possible| possible.is_certain = false);
         self

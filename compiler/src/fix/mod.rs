@@ -1,7 +1,7 @@
-//! Edits that mend findings, and the loop that makes them: each is tried in memory, and kept only where the document then
-//! checks better.
+//! Automatic fixes: each is tried in memory, and kept only if the document then checks better.
 //!
-//! Beside the stages, not one of them: it reads what they found and checks again. Pure, like they are.
+//! Above the stages: it reads their findings, edits the document and checks it again. Guarded by
+//! `tests/tests/fix.rs`.
 
 mod edit;
 
@@ -12,41 +12,41 @@ use crate::session::Session;
 
 pub use edit::apply;
 
-/// The most documents that are checked to mend one.
+/// Maximal number of documents that are checked to fix one.
 const MAX_TRIES: usize = 500;
-/// How many edits may be needed together before the document checks better: a mended name can uncover what lies behind.
+/// Maximal number of fixes that are combined before the document checks better: a corrected name can uncover
+/// an error behind it.
 const MAX_DEPTH: usize = 3;
 
-/// What came of mending a document.
+/// A document after its fixes.
 #[derive(Clone, Debug)]
 pub struct FixedDocument {
-    /// The document.
     pub text: String,
-    /// What was done to it, in order.
+    /// Applied fixes, in order.
     pub applied: Vec<AppliedFix>,
     /// The same document, read.
     pub parsed: Parsed,
-    /// What is left to say of it, without geometry.
+    /// Remaining diagnostics, without geometry.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// One fix that was made.
+/// A fix that was applied.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AppliedFix {
-    /// Of which finding.
+    /// Code of its diagnostic.
     pub code: Code,
-    /// What it did: "write `pick`".
+    /// Description of the change: "write `pick`".
     pub title: String,
 }
 
-/// Mends a document by at most so many fixes. Each leaves it with fewer errors and no new kind of error, or with as many
-/// errors, fewer warnings and no new code; at most 500 documents are checked on the way.
+/// Applies at most `most` fixes to a document. Each leaves it with fewer errors and no new kind of error, or
+/// with as many errors, fewer warnings and no new code. At most 500 documents are checked on the way.
 #[must_use]
 pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
     fix_parsed(session, source, motet_syntax::read(source, file), file, most)
 }
 
-/// As [`fix`], for a document that was read already.
+/// As [`fix`], for a document that was already read.
 #[must_use]
 pub fn fix_parsed(
     session: &Session,
@@ -68,7 +68,7 @@ pub fn fix_parsed(
     FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
 
-/// A document and what is found in it.
+/// A version of the document with its findings.
 struct Candidate {
     text: String,
     parsed: Parsed,
@@ -89,8 +89,8 @@ impl Candidate {
         self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
     }
 
-    /// Whether it checks better than another: fewer errors and no new code of an error, or as many errors, fewer
-    /// warnings, and no new code. A step that repairs an error may be one that a lint has a word on.
+    /// Returns whether this version checks better than another: fewer errors and no new code of an error, or
+    /// as many errors, fewer warnings, and no new code. A step that repairs an error may raise a lint.
     fn is_better_than(&self, other: &Self) -> bool {
         let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
         let fewer_errors = counts(self).0 < counts(other).0;
@@ -102,7 +102,8 @@ impl Candidate {
     }
 }
 
-/// The first document that is better than `base` by mending `at`, with what was done. Errors are tried before warnings.
+/// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to it.
+/// Tries errors before warnings.
 fn better(
     session: &Session,
     source: &Source,

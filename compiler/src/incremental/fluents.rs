@@ -1,5 +1,4 @@
-//! Which fluents a step speaks of: what it needs, asks or changes. What speaks of none that another step speaks of can
-//! neither refute that step nor be refuted by it.
+//! Fluents that a step needs, tests or changes. Two steps without a common fluent cannot refute each other.
 
 use motet_syntax::ast::PrimitiveForm;
 
@@ -8,16 +7,17 @@ use crate::declare::{Library, NeedDef, PrimitiveDef};
 use crate::ir::{Base, Condition, Fluent, StepKind};
 use crate::session::Session;
 
-/// Stands for how fresh a pose is.
+/// Bit for the freshness of poses.
 const FRESH: u64 = 1 << 63;
 
-/// The bit of a fluent; several may share one.
+/// Bit of a fluent; several may share one.
 fn bit(fluent: Fluent) -> u64 {
     1 << (fluent.index() % 63)
 }
 
 impl super::IncrementalChecker {
-    /// The fluents that a call of this name speaks of, as bits; several may share one. Of what is not known all.
+    /// Fluents that a call with this name mentions, as bits; several may share one. All bits for an unknown
+    /// name.
     #[must_use]
     pub fn fluents(session: &Session, name: &str, template: Option<&PolicyTemplate>) -> u64 {
         let library = session.parts().0;
@@ -28,7 +28,7 @@ impl super::IncrementalChecker {
         }
     }
 
-    /// The bit of the fluent with this name.
+    /// Bit of the fluent with a name.
     #[must_use]
     pub fn fluent(session: &Session, name: &str) -> u64 {
         session.parts().0.names.fluents.get(name).map_or(u64::MAX, |fluent| bit(*fluent))
@@ -46,12 +46,12 @@ fn when(when: Option<&Condition>) -> u64 {
     when.map_or(0, of_condition)
 }
 
-/// What a need asks for.
+/// Fluents that a need mentions.
 pub(super) fn of_need(need: &NeedDef) -> u64 {
     of_condition(&need.condition) | when(need.when.as_ref())
 }
 
-/// What a primitive changes, and what that depends on.
+/// Fluents that a primitive changes, and those that the change depends on.
 pub(super) fn of_effects(def: &PrimitiveDef, library: &Library) -> u64 {
     let effects = def.makes.iter().chain(&def.unsettles);
     let effects = effects.map(|effect| bit(effect.fact.fluent) | when(effect.when.as_ref()));
@@ -73,7 +73,7 @@ fn of_primitive(def: &PrimitiveDef, library: &Library) -> u64 {
     all
 }
 
-/// What a step itself speaks of, without those in it.
+/// Fluents that a step itself mentions, without the steps in it.
 pub(super) fn of_step(kind: &StepKind, library: &Library) -> u64 {
     match kind {
         StepKind::Call(call) => {

@@ -1,9 +1,11 @@
-//! A policy that is being written, step by step, with what every stage knows of it so far: for hosts that have to say what
+//! Incremental checks: a policy is checked while it is written, step by step, for hosts that must know what
 //! may come next.
 //!
-//! It is the checker itself that answers. A step is resolved, checked and proved by the stages' own code from the state
-//! in which the steps before it left the proof, so an answer costs what one step costs and not what the policy does. What
-//! only the end of a policy can tell is asked of a step that is closed for the time being: see [`IncrementalChecker::permits_step`].
+//! The stages themselves answer: a step is resolved, checked and proved from the state after the steps before
+//! it, so an answer costs one step and not the whole policy. Questions about the end of a policy are asked of
+//! a step that is closed for the time being: see [`IncrementalChecker::permits_step`].
+//!
+//! Guarded by the tests of `runtime/decode`, above all the properties of its acceptor.
 
 mod fluents;
 mod template;
@@ -20,84 +22,85 @@ pub use self::template::PolicyTemplate;
 use crate::declare::scope::{self, Scope};
 use crate::ir::{BindingId, Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
 use crate::prove::Prover;
-use crate::prove::suspended::{AbstractState, Checkpoint, ProofTarget, StepOutcome, SuspendedProof};
+use crate::prove::state::AbstractState;
+use crate::prove::suspended::{Checkpoint, ProofTarget, StepOutcome, SuspendedProof};
 use crate::session::Session;
 
-/// The place that a step with this span takes is where the next step will state.
+/// Span of the step that marks the program point at which the next step will be written.
 pub const PROGRAM_POINT: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 1, end: u32::MAX };
 
-/// A sequence with this span states_at_point for any one of its steps: see [`IncrementalChecker::permits_any`].
+/// Span of a sequence that stands for any one of its steps: see [`IncrementalChecker::permits_any`].
 pub const CHOICE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 2, end: u32::MAX };
 
-/// An argument of a call that is being written.
+/// Argument of a call that is being written.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Argument(Term);
 
 impl Argument {
-    /// The entity with this number among those of the environment.
+    /// Entity by its index in the environment.
     #[must_use]
     pub fn entity(index: u16) -> Self {
         Self(Term::Entity(Entity(index)))
     }
 
-    /// A case of an enumeration, by their numbers.
+    /// Case of an enumeration, by their indices.
     #[must_use]
     pub fn case(of: u16, case: u16) -> Self {
         Self(Term::Case(EnumId(of), case))
     }
 
-    /// A number, in SI units where it has a unit.
+    /// Number, in SI units if it has a dimension.
     #[must_use]
     pub fn number(value: f64) -> Self {
         Self(Term::Number(value))
     }
 
-    /// A text.
+    /// A text literal.
     #[must_use]
     pub fn text(text: impl Into<SmolStr>) -> Self {
         Self(Term::Text(text.into()))
     }
 
-    /// A list.
+    /// A list of arguments.
     #[must_use]
     pub fn list(items: impl IntoIterator<Item = Self>) -> Self {
         Self(Term::List(items.into_iter().map(|item| item.0).collect()))
     }
 
-    /// A value of which nothing is known.
+    /// An unknown value.
     #[must_use]
     pub fn unknown() -> Self {
         Self(Term::Unknown)
     }
 }
 
-/// What a test at the end of a loop's body tells.
+/// Result of a test at the end of a loop's body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum LoopTest {
-    /// It holds whenever it is asked, so the body does not run again.
+    /// The test always holds, so the body does not run again.
     Holds,
-    /// Only a proof tells.
+    /// Only a proof of the loop decides.
     Open,
-    /// It is about what the steps have left as it was, so what is wrong without it is wrong with it.
+    /// The test is about facts that the loop leaves unchanged, so an error without it is an error with it.
     Idle,
 }
 
-/// A policy that is being written.
+/// Checker of a policy that is being written. Clones are independent; a clone costs the size of the policy.
 #[derive(Clone, Debug)]
 pub struct IncrementalChecker {
     form: Form,
     program: Program,
     scope: Scope,
     proof: SuspendedProof,
-    /// Where each step of the body begins.
+    /// Checkpoints before the steps of the body.
     starts: Vec<Start>,
-    /// Where the step begins that is not part of the body, and the states in which control reaches the point in it.
-    inside: Option<(Start, Vec<AbstractState>)>,
-    /// The point in it.
+    /// Checkpoint before the open step, and the states in which control reaches the program point in it.
+    inside: Option<(Start, Vec<AbstractState<'static>>)>,
+    /// The step at the program point.
     point: Option<StepId>,
 }
 
-/// Where a draft begins a step.
+/// Checkpoint before a step.
 #[derive(Clone, Debug)]
 struct Start {
     steps: usize,
@@ -107,8 +110,8 @@ struct Start {
 }
 
 impl IncrementalChecker {
-    /// The draft of a policy of which name, robot and goal are given; steps that it has are left out. The findings are
-    /// about goal and robot; the draft can be used all the same.
+    /// Starts a policy with a name, a robot and a goal; its steps are ignored. The diagnostics are about goal
+    /// and robot; the checker is usable in any case.
     #[must_use]
     pub fn new(session: &Session, policy: &Policy, form: Form) -> (Self, Vec<Diagnostic>) {
         let (library, environment) = session.parts();
@@ -131,13 +134,13 @@ impl IncrementalChecker {
         )
     }
 
-    /// The number of a primitive among those of the session's library.
+    /// Index of a primitive in the session's library.
     #[must_use]
     pub fn primitive(session: &Session, name: &str) -> Option<usize> {
         session.parts().0.names.primitives.get(name).map(|id| id.index())
     }
 
-    /// The resources, one a bit, that a primitive or a policy of this name uses while it runs.
+    /// Resources, one a bit, that a primitive or policy uses while it runs.
     #[must_use]
     pub fn resources(session: &Session, name: &str, template: Option<&PolicyTemplate>) -> u64 {
         let library = session.parts().0;
@@ -148,19 +151,19 @@ impl IncrementalChecker {
         }
     }
 
-    /// How many steps its body has.
+    /// Number of steps of the body.
     #[must_use]
     pub fn len(&self) -> usize {
         self.starts.len()
     }
 
-    /// Whether it has no step yet.
+    /// Returns whether the body has no step.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.starts.is_empty()
     }
 
-    /// Appends a step to the body; false, and nothing is appended, where that is an error.
+    /// Appends a step to the body. Returns false, and appends nothing, if the step has an error.
     pub fn push(&mut self, session: &Session, step: &Step) -> bool {
         let start = self.start();
         let (id, outcome) = self.prove(session, step, Looks::Away);
@@ -173,7 +176,7 @@ impl IncrementalChecker {
         true
     }
 
-    /// Takes steps back until there are `len`.
+    /// Removes steps until `len` remain.
     pub fn truncate(&mut self, len: usize) {
         self.leave();
         if let Some(start) = self.starts.get(len).cloned() {
@@ -183,13 +186,14 @@ impl IncrementalChecker {
         }
     }
 
-    /// Whether a step may follow the body as it is. Nothing is appended.
+    /// Returns whether a step may follow the body. Appends nothing.
     pub fn permits_step(&mut self, session: &Session, step: &Step) -> bool {
         self.permits(session, step, Looks::Away)
     }
 
-    /// Whether a step may follow the body as it is, whichever step it is that the sequence in it whose span is [`CHOICE`] states_at_point
-    /// for: one proof for all of them. False does not say that one is an error, true says that none is. Nothing is appended.
+    /// Returns whether a step may follow the body, whichever step the sequence with the span [`CHOICE`] in it
+    /// stands for: one proof for all of them. True means that none is an error; false does not mean that one
+    /// is. Appends nothing.
     pub fn permits_any(&mut self, session: &Session, step: &Step) -> bool {
         self.permits(session, step, Looks::AtChoice)
     }
@@ -201,14 +205,15 @@ impl IncrementalChecker {
         id.is_some() && !outcome.refuted
     }
 
-    /// Whether the policy may end behind its last step: its goal is not refuted there.
+    /// Returns whether the policy may end after its last step: its goal is not refuted there.
     pub fn permits_end(&mut self, session: &Session) -> bool {
         self.leave();
         self.permits_done(session)
     }
 
-    /// Goes where the next step will state: behind the body, or where `step`, which follows it and is closed for the time
-    /// being, has a step whose span is [`PROGRAM_POINT`]. What is asked next is asked of that place. False where `step` is an error.
+    /// Moves to the program point of the next step: after the body, or at the step with the span
+    /// [`PROGRAM_POINT`] inside `step`, which follows the body and is closed for the time being. Later
+    /// questions are about this point. Returns false if `step` has an error.
     pub fn go(&mut self, session: &Session, step: Option<&Step>) -> bool {
         self.leave();
         let Some(step) = step else { return true };
@@ -224,7 +229,7 @@ impl IncrementalChecker {
         id.is_some() && !outcome.refuted
     }
 
-    /// Whether control gets to the place at all; where it does not, nothing that states_at_point there is refuted.
+    /// Returns whether control reaches the program point; if not, no step there is refuted.
     #[must_use]
     pub fn is_live(&self) -> bool {
         match &self.inside {
@@ -233,8 +238,8 @@ impl IncrementalChecker {
         }
     }
 
-    /// Whether a call of the primitive with this number among those of the library may state at the place. An argument
-    /// that is not known yet is none: the needs that speak of one, and those behind them, are left open.
+    /// Returns whether a call of the primitive with this index is permitted at the program point. An unknown
+    /// argument is `None`: the needs that mention one, and those after them, stay open.
     pub fn permits_call(&mut self, session: &Session, primitive: usize, args: &[Option<Argument>]) -> bool {
         let (library, _) = session.parts();
         let Some(def) = library.primitives.get(primitive) else { return false };
@@ -250,8 +255,8 @@ impl IncrementalChecker {
         self.everywhere(session, |prover| !prover.refutes(def, &terms, count))
     }
 
-    /// What a test with a fluent tells at the place, where what began the step that is being written may come round again.
-    /// An argument that is none is `any`.
+    /// Evaluates a test of a fluent at the program point, at the end of the body of a loop. An argument that
+    /// is `None` stands for `any`.
     pub fn test(
         &mut self,
         session: &Session,
@@ -271,7 +276,7 @@ impl IncrementalChecker {
         let touches = states_at_point.iter().any(|state| start.proof.touches(state, &condition));
         let given = (&*program, library, environment);
         let mut holds =
-            |state: &mut AbstractState| proof.at(state, given, |prover| prover.proves(&condition));
+            |state: &mut AbstractState<'static>| proof.at(state, given, |prover| prover.proves(&condition));
         if states_at_point.iter_mut().all(&mut holds) {
             LoopTest::Holds
         } else if touches {
@@ -281,11 +286,11 @@ impl IncrementalChecker {
         }
     }
 
-    /// Whether the loop around the place may end its body there: nothing in it is refuted where it comes round. `until` is the
-    /// test of a `repeat`: a fluent, its arguments, of which one that is none is `any`, and whether it states_at_point under `not`. What
-    /// runs at once with the loop is not asked.
+    /// Returns whether the loop around the program point may end its body there: no need in it is refuted in
+    /// a later round. `until` is the test of a `repeat`: a fluent, its arguments (`None` stands for `any`),
+    /// and whether it is negated. Parallel branches are not checked.
     ///
-    /// Where it may, a number that is the same for tests that leave the same facts, in the states in which the place is reached.
+    /// If so, the number is equal for tests that leave the same facts in the states at the program point.
     pub fn permits_round(
         &mut self,
         session: &Session,
@@ -306,13 +311,13 @@ impl IncrementalChecker {
         permits.then(|| seen.finish())
     }
 
-    /// Whether the policy may be done at the place: its goal is not refuted there.
+    /// Returns whether the policy may be done at the program point: its goal is not refuted there.
     pub fn permits_done(&mut self, session: &Session) -> bool {
         let Some(goal) = self.program.achieves.as_ref().map(|(goal, _)| goal.clone()) else { return true };
         self.everywhere(session, |prover| !prover.denies(&goal))
     }
 
-    /// The latest binding with this name, as an argument.
+    /// The latest binding with a name, as an argument.
     #[must_use]
     pub fn binding(&self, name: &str) -> Option<Argument> {
         let index = self.program.bindings.iter().rposition(|binding| binding.name == name)?;
@@ -338,7 +343,7 @@ impl IncrementalChecker {
         Start { steps, bindings, scope: self.scope.mark(), proof: self.proof.mark(steps) }
     }
 
-    /// Drops what is known of a step that is not part of the body.
+    /// Drops the open step.
     fn leave(&mut self) {
         if let Some((start, _)) = self.inside.take() {
             self.back_to(&start);
@@ -383,20 +388,17 @@ impl IncrementalChecker {
     }
 }
 
-/// A fluent as a condition; an argument that is none is `any`.
+/// Condition of a fluent; an argument that is `None` stands for `any`.
 fn condition(fluent: Fluent, args: &[Option<Argument>], negated: bool) -> Condition {
     let args = args.iter().map(|arg| arg.as_ref().map(|value| value.0.clone()));
     let plain = Condition::Fact(Fact { fluent, args: args.collect() });
     if negated { Condition::Not(Box::new(plain)) } else { plain }
 }
 
-/// What a proof looks for in a step.
+/// Mark that a proof looks for in a step.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Looks {
-    /// Nothing.
     Away,
-    /// The point in it.
     Inside,
-    /// The choice in it.
     AtChoice,
 }

@@ -1,4 +1,4 @@
-//! A policy that steps call, resolved once and written out for each call that is tried.
+//! Templates: policies that are resolved once, and instantiated for each call that is tried.
 
 use motet_syntax::ast::PrimitiveForm;
 use motet_syntax::{Diagnostic, Mistake, Severity};
@@ -13,21 +13,22 @@ use crate::prove::evaluation::CallFrame;
 use crate::resolve::errors::Recursion;
 use crate::session::Session;
 
-/// A policy with its parameters open.
+/// A policy with open parameters.
 #[derive(Clone, Debug)]
 pub struct PolicyTemplate {
     program: Program,
-    /// The bits of the fluents that it speaks of, see [`super::IncrementalChecker::fluents`].
+    /// Bits of the fluents that it mentions, see [`super::IncrementalChecker::fluents`].
     pub(super) fluents: u64,
     pub(super) uses: u64,
-    /// The policies in it, itself first.
+    /// Names of the policies in it, its own first.
     calls: Vec<SmolStr>,
-    /// What its first steps need that no step before them changes: it holds where the policy is called, or is refuted.
+    /// Needs of the first steps that no step before them changes: they hold at the call, or are refuted.
     heads: Vec<NeedDef>,
 }
 
 impl PolicyTemplate {
-    /// The policy with this name; none where there is none, or where it can only be resolved with its arguments.
+    /// Resolves the policy with a name. `None` if there is none, or if it can only be resolved with its
+    /// arguments.
     #[must_use]
     pub fn new(session: &Session, name: &str) -> Option<Self> {
         let (library, environment) = session.parts();
@@ -51,14 +52,14 @@ impl PolicyTemplate {
         Some(Self { program, fluents, uses, calls, heads })
     }
 
-    /// Whether a condition in it compares anything: texts, say.
+    /// Returns whether a condition in the policy compares values.
     #[must_use]
     pub fn compares(&self) -> bool {
         let mut conditions = self.program.steps.iter().flat_map(|step| step.kind.conditions());
         conditions.any(|condition| condition.any(&|part| matches!(part, Condition::Compare(..))))
     }
 
-    /// Appends the policy to a program with these arguments; its first step.
+    /// Appends the policy with arguments to a program, and returns its first step.
     pub(super) fn write(&self, args: &[Term], library: &Library, program: &mut Program) -> StepId {
         let first = u32::try_from(program.steps.len()).unwrap_or(u32::MAX);
         let bound = u32::try_from(program.bindings.len()).unwrap_or(u32::MAX);
@@ -91,7 +92,7 @@ impl PolicyTemplate {
     }
 }
 
-/// The needs of the first calls of a policy of which nothing was changed before; their parameters are those of the policy.
+/// Needs of the first calls that no call before them changes; their parameters are those of the policy.
 fn heads(program: &Program, library: &Library) -> Vec<NeedDef> {
     let mut heads = Vec::new();
     let mut changed = 0;
@@ -118,7 +119,7 @@ fn heads(program: &Program, library: &Library) -> Vec<NeedDef> {
     heads
 }
 
-/// Puts arguments in the place of parameters, and numbers steps and bindings anew.
+/// Replaces parameters by arguments, and renumbers steps and bindings.
 struct Writer<'a> {
     args: &'a [Term],
     first: u32,
@@ -257,8 +258,8 @@ impl Writer<'_> {
 }
 
 impl super::IncrementalChecker {
-    /// Whether a call of a policy may state at the place, as far as the state there tells. While an argument is not known
-    /// yet only what its first steps need is asked for.
+    /// Returns whether a call of a policy is permitted at the program point, as far as the state there
+    /// decides. While an argument is unknown, only the needs of its first steps are checked.
     pub fn permits_policy(
         &mut self,
         session: &Session,
@@ -280,8 +281,9 @@ impl super::IncrementalChecker {
         permits && (given < args.len() || self.permits_open_policy(session, (name, template), args))
     }
 
-    /// The same by a proof of all its steps, in which an argument that is not known yet may be anything: what is refuted then is
-    /// refuted whatever it is. It costs more than a proof with all arguments.
+    /// Returns whether a call of a policy is permitted, by a proof of all its steps with unknown arguments
+    /// left open: what is refuted then is refuted for every argument. Costs more than a proof with all
+    /// arguments.
     pub fn permits_open_policy(
         &mut self,
         session: &Session,

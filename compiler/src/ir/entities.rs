@@ -1,11 +1,11 @@
-//! The entities that a name can mean.
+//! Table of entities.
 
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use super::{Entity, Kind};
 
-/// The most entities of one environment. Indices above are symbols of the prover.
+/// Maximal number of entities of an environment. Higher indices are symbols of the prover.
 pub const MAX_ENTITIES: usize = 40_000;
 
 /// Entities in order, and by name.
@@ -16,7 +16,7 @@ pub(crate) struct Entities {
 }
 
 impl Entities {
-    /// Adds an entity; none where the name is taken or the table is full.
+    /// Adds an entity; `None` if the name is taken or the table is full.
     pub(crate) fn add(&mut self, name: SmolStr, kind: Kind) -> Option<Entity> {
         if self.list.len() >= MAX_ENTITIES || self.names.contains_key(&name) {
             return None;

@@ -1,4 +1,4 @@
-//! What this very robot can do and observe.
+//! Capabilities of the robot: its primitives, ranges and observations.
 
 use motet_syntax::ast::Policy;
 use motet_syntax::unit::{Dimension, Unit};
@@ -69,7 +69,7 @@ fn call(call: &Call, span: Span, library: &Library, diagnostics: &mut Vec<Diagno
     }
 }
 
-/// A number in the unit in which it is written, else in the SI unit of its type.
+/// Formats a number in the unit in which it is written, or else in the SI unit of its type.
 fn quantity(value: f64, ty: Ty, unit: Option<Unit>) -> String {
     let si = match ty.base {
         Base::Quantity(dimension) => Unit::si(dimension),
@@ -78,7 +78,7 @@ fn quantity(value: f64, ty: Ty, unit: Option<Unit>) -> String {
     unit.or(si).map_or_else(|| value.to_string(), |unit| unit.show(value))
 }
 
-/// A bare number of more than a full turn as it was meant, in degrees, where that is within the range.
+/// Formats a bare number beyond a full turn as degrees, if the robot's range admits it.
 fn degrees(value: f64, (least, greatest): (f64, f64), ty: Ty, unit: Option<Unit>) -> Option<String> {
     let is_bare = unit.is_none() && ty.base == Base::Quantity(Dimension::ANGLE);
     let meant = Unit::Degree.to_si(value);
@@ -86,7 +86,7 @@ fn degrees(value: f64, (least, greatest): (f64, f64), ty: Ty, unit: Option<Unit>
         .then(|| Unit::Degree.show(meant))
 }
 
-/// A fluent that only effects can tell is no trouble in an `if`; one that nothing can tell is.
+/// Reports fluents and measures that the robot cannot observe.
 fn observable(condition: &Condition, span: Span, library: &Library, diagnostics: &mut Vec<Diagnostic>) {
     let mut say = |what: &smol_str::SmolStr| {
         diagnostics.push(NotObservable { span, what: what.clone(), robot: library.robot.clone() }.into());
@@ -119,7 +119,7 @@ fn observable(condition: &Condition, span: Span, library: &Library, diagnostics:
     }
 }
 
-/// Checks that a policy is written for the robot of the library, or else for one that is built in.
+/// Checks that a policy is written for the robot of the library, or without one for a built-in robot.
 pub(crate) fn check_robot_name(policy: &Policy, library: &Library) -> Option<Diagnostic> {
     let robot = policy.robot.as_ref()?;
     let (span, name) = (robot.span, robot.text.clone());

@@ -1,4 +1,4 @@
-//! Bindings that nothing uses, and descriptions that fit several entities of the scene, or none.
+//! Unused bindings, and descriptions that fit no entity or several entities of the scene.
 
 use motet_syntax::Diagnostic;
 

@@ -1,4 +1,4 @@
-//! How long steps take at least and at most. Every loop, wait, pause and retry is bounded, so every policy is.
+//! Least and greatest duration of steps. Every loop, wait, pause and retry is bounded, so every policy is.
 
 use motet_syntax::Diagnostic;
 
@@ -8,7 +8,7 @@ use crate::ir::{Block, Program, Reaction, StepKind};
 
 type Bounds = (f64, f64);
 
-/// Fills in the bounds of every step, and checks the whole against a limit in seconds.
+/// Fills in the bounds of every step, and checks the whole policy against a limit in seconds.
 pub(super) fn fill_in(
     program: &mut Program,
     library: &Library,
@@ -31,7 +31,7 @@ pub(super) fn fill_in(
     }
 }
 
-/// The bounds of a block: its steps one after the other.
+/// Bounds of a block, whose steps run one after the other.
 pub(crate) fn of_block(block: &Block, program: &Program) -> Bounds {
     let mut sum = (0.0, 0.0);
     let mut ended = false;
@@ -96,7 +96,7 @@ fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
     finite(bounds)
 }
 
-/// Loops in loops can exceed any number: what does is the largest.
+/// Replaces infinite bounds by the largest number: nested loops can exceed any.
 fn finite((least, greatest): Bounds) -> Bounds {
     (least.min(f64::MAX), greatest.min(f64::MAX))
 }

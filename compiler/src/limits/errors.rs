@@ -1,4 +1,4 @@
-//! The robot's limits (M04xx), resources (M07xx), bounds (M08xx), and style (M09xx).
+//! Diagnostics of the robot's limits (M04xx), resources (M07xx), durations (M08xx), and style (M09xx).
 
 use motet_syntax::{About, Edit, Fix, Related, Span};
 use smol_str::SmolStr;
@@ -10,18 +10,18 @@ fn called(callee: &SmolStr) -> Option<About> {
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
-    /// The policy is written for another robot.
+    /// Policy for another robot.
     OtherRobot("M0401", Error) { written: SmolStr, given: SmolStr }
-    message(m) { format!("the policy is for `{}`, and is checked for `{}`", m.written, m.given) }
+    message(m) { format!("the policy is written for `{}`, but checked for `{}`", m.written, m.given) }
     help(m) { Some(format!("write the policy for `{}`, or pass `--robot {}`", m.given, m.written)) }
 
-    /// A document in which it is not clear which policy is meant.
+    /// Document without exactly one policy to run.
     NoPolicy("M0405", Error) { wanted: Option<SmolStr>, known: Vec<SmolStr> }
     message(m) {
         match (&m.wanted, m.known.as_slice()) {
             (Some(name), _) => format!("there is no policy `{name}` without parameters"),
             (None, []) => "there is no policy without parameters to run".to_owned(),
-            (None, several) => format!("there are {} policies, and it is not said which to run", several.len()),
+            (None, several) => format!("there are {} policies to choose from", several.len()),
         }
     }
     help(m) {
@@ -29,16 +29,16 @@ motet_syntax::mistakes! {
         Some(if known.is_empty() {
             "write `policy NAME { … }`".to_owned()
         } else {
-            format!("leave one of them, or name one with `--policy`: {}", known.join(", "))
+            format!("name one with `--policy`, or keep only one: {}", known.join(", "))
         })
     }
 
-    /// A primitive that the robot does not provide.
+    /// Primitive that the robot does not provide.
     NotProvided("M0402", Error) { primitive: SmolStr, robot: SmolStr }
-    message(m) { format!("`{}` cannot do `{}`", m.robot, m.primitive) }
-    help(m) { Some(format!("`motet robots show {}` lists what it can do", m.robot)) }
+    message(m) { format!("`{}` does not provide `{}`", m.robot, m.primitive) }
+    help(m) { Some(format!("`motet robots show {}` lists its primitives", m.robot)) }
 
-    /// The policy is written for a robot that nobody knows.
+    /// Policy for an unknown robot.
     UnknownRobot("M0447", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
     message(m) { format!("there is no robot `{}`", m.name) }
     help(m) {
@@ -52,66 +52,66 @@ motet_syntax::mistakes! {
         Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span: m.span, text }] })
     }
 
-    /// A monitor, a wait or a loop on something that the robot cannot observe.
+    /// Condition on a fluent or measure that the robot cannot observe.
     NotObservable("M0403", Error) { what: SmolStr, robot: SmolStr }
     message(m) { format!("`{}` cannot observe `{}`", m.robot, m.what) }
-    help(m) { Some(format!("watch something that `{}` lists under `observes`", m.robot)) }
+    help(m) { Some(format!("use a fluent or measure that `{}` lists under `observes`", m.robot)) }
 
-    /// An argument beyond what the robot can do.
+    /// Argument outside of the range of the robot.
     BeyondRange("M0404", Error) {
         param: SmolStr, callee: SmolStr, robot: SmolStr, least: String, greatest: String, actual: String,
         degrees: Option<String>,
     }
     message(m) {
-        format!("`{}` of `{}` is {}; `{}` takes {} to {}", m.param, m.callee, m.actual, m.robot, m.least, m.greatest)
+        format!("`{}` of `{}` is {}, but `{}` allows {} to {}", m.param, m.callee, m.actual, m.robot, m.least, m.greatest)
     }
     help(m) {
         Some(match &m.degrees {
-            Some(degrees) => format!("a number alone is in radians: did you mean `\"{degrees}\"`?"),
+            Some(degrees) => format!("a number without a unit is in radians: did you mean `\"{degrees}\"`?"),
             None => format!("write a value from {} to {}", m.least, m.greatest),
         })
     }
 
-    /// Two things that run at once use one resource.
+    /// Parallel branches that use one resource.
     ResourceConflict("M0701", Error) { resource: SmolStr, one: SmolStr, other: SmolStr, first: Span }
-    message(m) { format!("`{}` and `{}` run at once and both use `{}`", m.one, m.other, m.resource) }
-    help(_m) { Some("do these steps one after the other".to_owned()) }
+    message(m) { format!("`{}` and `{}` run in parallel, but both use `{}`", m.one, m.other, m.resource) }
+    help(_m) { Some("run these steps one after the other".to_owned()) }
     related(m) { vec![Related::new("also used here", m.first)] }
 
-    /// The policy can take longer than is allowed.
+    /// Policy that can take longer than allowed.
     TooLong("M0801", Error) { longest: String, limit: String }
-    message(m) { format!("the policy can take {}, and at most {} is allowed", m.longest, m.limit) }
-    help(_m) { Some("set shorter deadlines with `within`, or fewer rounds".to_owned()) }
+    message(m) { format!("the policy can take {}, but at most {} is allowed", m.longest, m.limit) }
+    help(_m) { Some("set shorter deadlines with `within`, or allow fewer rounds".to_owned()) }
 
-    /// A block with nothing in it.
+    /// Block without steps.
     EmptyBlock("M0802", Warning) { what: &'static str }
     message(m) { format!("this {} has no steps", m.what) }
-    help(_m) { Some("add a step, or leave it out".to_owned()) }
+    help(_m) { Some("add a step, or remove it".to_owned()) }
 
-    /// A binding that nothing uses.
+    /// Unused binding.
     Unused("M0901", Warning) { name: SmolStr, of_each: bool }
     message(m) { format!("`{}` is never used", m.name) }
     help(m) {
         Some(if m.of_each {
-            format!("use `{0}` in the steps, or call it `_{0}`", m.name)
+            format!("use `{0}` in the steps, or rename it to `_{0}`", m.name)
         } else {
-            format!("use `{}`, or call the step without binding it", m.name)
+            format!("use `{}`, or remove the binding", m.name)
         })
     }
 
-    /// A description that fits several entities of the scene.
+    /// Description that fits several entities of the scene.
     Ambiguous("M0903", Warning) { callee: SmolStr, text: SmolStr, found: String }
     message(m) { format!("\"{}\" fits {}: the step can fail with `ambiguous`", m.text, m.found) }
-    help(_m) { Some("describe it so that it fits one, or catch `ambiguous`".to_owned()) }
+    help(_m) { Some("use a description that fits only one, or catch `ambiguous`".to_owned()) }
     about(m) { called(&m.callee) }
 
-    /// A description that fits nothing in the scene.
+    /// Description that fits no entity of the scene.
     Missing("M0904", Warning) { callee: SmolStr, text: SmolStr, near: Option<SmolStr> }
     message(m) { format!("\"{}\" fits nothing in the scene: the step can fail with `not_found`", m.text) }
     help(m) {
         Some(match &m.near {
             Some(near) => format!("did you mean \"{near}\"?"),
-            None => "describe something that is there, or catch `not_found`".to_owned(),
+            None => "describe an entity of the scene, or catch `not_found`".to_owned(),
         })
     }
     about(m) { called(&m.callee) }

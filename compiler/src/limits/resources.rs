@@ -1,4 +1,4 @@
-//! No two things that run at once use the same resource.
+//! Resource conflicts: parallel branches must not use the same resource.
 
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
@@ -7,7 +7,7 @@ use super::errors::ResourceConflict;
 use crate::declare::{Library, ResourceSet};
 use crate::ir::{Block, Program, StepKind};
 
-/// The first user of each resource in a block.
+/// First user of each set of resources in a block.
 type Uses = Vec<(ResourceSet, SmolStr, Span)>;
 
 /// Checks the steps from `first` on.
@@ -35,7 +35,8 @@ pub(super) fn check(program: &Program, first: usize, library: &Library, diagnost
     }
 }
 
-/// What the steps of a block use, each set of resources once. Nesting is bounded, so the recursion is.
+/// Collects the resources of the steps of a block, each set once. The nesting of policies bounds the
+/// recursion.
 fn collect(block: &Block, program: &Program, library: &Library, uses: &mut Uses) {
     for step in block.iter().filter_map(|id| program.step(*id)) {
         match &step.kind {

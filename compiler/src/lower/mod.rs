@@ -1,4 +1,7 @@
-//! Stage 5: from a proved program to an execution graph. What is proven is noted, what is deferred becomes a guard.
+//! Stage 5, lowering: from a proved program to an execution graph. Proven needs are noted, deferred needs
+//! become guards.
+//!
+//! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
 mod path;
 mod table;
@@ -12,7 +15,7 @@ use self::table::Tables;
 use crate::declare::{EffectDef, Library, NeedDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
-use crate::ir::{Block, Call, Program, Reaction, StepId, StepKind};
+use crate::ir::{Block, Call, MotionKind, Program, Reaction, StepId, StepKind};
 use crate::limits::bounds_of;
 use crate::prove::{NeedVerdict, Proof};
 
@@ -71,12 +74,12 @@ struct Lowering<'a> {
     tables: Tables<'a>,
     nodes: Vec<graph::Node>,
     regions: Vec<graph::Region>,
-    /// The node of each step; a step that is never reached has none.
+    /// Node of each step; `None` for a step that is never reached.
     ids: Vec<Option<NodeId>>,
 }
 
 impl Lowering<'_> {
-    /// A block as a region: its reached steps, chained.
+    /// Lowers a block to a region: its reachable steps in a chain.
     fn region(&mut self, block: &Block, owner: Option<NodeId>) -> RegionId {
         let id = RegionId(u32::try_from(self.regions.len()).unwrap_or(u32::MAX));
         self.regions.push(graph::Region { owner, entry: None });
@@ -257,21 +260,22 @@ impl Lowering<'_> {
                     None => (graph::Verdict::Deferred, None, None),
                 };
                 let args = args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect();
-                graph::Motion { query: query.clone(), args, verdict, witness, why }
+                graph::Motion { query: query.name().into(), args, verdict, witness, why }
             }),
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
         }
     }
 
-    /// Whether a need is the verdict of the primitive's own motion, such as `reachable(object)` of `reach(object)`.
+    /// Returns whether a need is the verdict of the primitive's own motion, such as `reachable(object)` with
+    /// `reach(object)`.
     fn is_of_motion(&self, need: &NeedDef, def: &crate::declare::PrimitiveDef) -> bool {
         let (crate::ir::Condition::Fact(fact), Some((motion, args))) = (&need.condition, &def.motion) else {
             return false;
         };
         let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
         is_derived
-            && motion == "reach"
+            && *motion == MotionKind::Reach
             && need.when.is_none()
             && need.each.is_none()
             && fact.args.len() == args.len()

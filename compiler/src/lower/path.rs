@@ -1,4 +1,4 @@
-//! The JSON Pointer of a step, from its place in the program.
+//! Paths of steps as JSON Pointers.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,8 @@ use smol_str::SmolStr;
 
 use crate::ir::{BlockSlot, Program, StepId};
 
-/// `/steps/2/try/0`; in an inlined policy the call's path, `:`, and the path in that policy.
+/// Path of a step: `/steps/2/try/0`; in an inlined policy the path of the call, `:`, and the path in that
+/// policy.
 pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
     let mut places = Vec::new();
     let mut at = Some(step);

@@ -4,53 +4,53 @@ use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
 use crate::declare::{EffectDef, PrimitiveDef};
 use crate::facts::{ANY, FactKey, arg};
-use crate::ir::{Base, BindingId, Condition, Entity, Fluent, Primitive, ROBOT, StepKind, Term, Ty};
+use crate::ir::{Base, BindingId, Condition, Entity, Fluent, Kind, Primitive, ROBOT, StepKind, Term, Ty};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 
-/// The most choices of an argument, and the most repairs of one diagnostic.
+/// Maximal number of choices for an argument, and of repairs for a diagnostic.
 pub(crate) const MAX_CANDIDATES: usize = 4;
 
-/// A call that is not there yet.
+/// A call that a plan or a repair proposes.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct CandidateCall {
     pub(crate) primitive: Primitive,
     pub(crate) args: Vec<Term>,
-    /// What a perception is to find.
+    /// Entity that a perception is to find.
     pub(crate) result: Option<Entity>,
-    /// The binding that it replaces: the value that it gave is stale.
+    /// Binding whose stale value the call replaces.
     pub(crate) again: Option<BindingId>,
 }
 
-/// A call that brings about a fact.
+/// A call that achieves a subgoal.
 #[derive(Clone, Debug)]
 pub(crate) struct Achiever<'l> {
     pub(crate) call: CandidateCall,
     pub(crate) subgoal: Subgoal,
-    /// What the effect stands under, and for which entity.
+    /// Condition of the effect, with its entity, if it does not hold yet.
     pub(crate) when: Option<(&'l Condition, Option<Entity>)>,
 }
 
-/// A fact that is asked for: the fluent, its arguments, its truth.
+/// A fact to achieve: fluent, key and truth value.
 pub(crate) type Subgoal = (Fluent, FactKey, bool);
 
-/// The arguments for which an effect is about a fact; those that it leaves open are none.
+/// Arguments for which an effect matches a fact; `None` for those that stay open.
 pub(super) struct Unification {
     args: Vec<Option<Term>>,
-    /// What a perception has to find.
+    /// Entity that a perception has to find.
     result: Option<Entity>,
 }
 
-/// Whether an effect comes about.
+/// Applicability of an effect in the present state.
 enum Applies<'e> {
     Yes,
-    /// Under a condition that does not hold yet, for an entity.
+    /// Only under a condition that does not hold yet, for an entity.
     Under(&'e Condition, Option<Entity>),
     No,
 }
 
 impl<'a> Prover<'a> {
-    /// Calls that make a fact, in the order of the library; those of which an effect still stands under a condition last.
+    /// Calls that achieve a subgoal, in the order of the library; those with an open condition last.
     pub(crate) fn achievers(&self, subgoal: Subgoal) -> Vec<Achiever<'a>> {
         let library = self.library;
         let mut found: Vec<Achiever<'a>> = Vec::new();
@@ -89,8 +89,8 @@ impl<'a> Prover<'a> {
         found
     }
 
-    /// Calls of a perception that finds one thing: what a description finds by the name of the thing, or by another that
-    /// only it has, any other as it was found before.
+    /// Calls of a perception that finds an entity: by a description that fits it alone, or as in the step
+    /// that found it before.
     fn perceive(
         &self,
         primitive: Primitive,
@@ -116,14 +116,13 @@ impl<'a> Prover<'a> {
         all.map(|args| CandidateCall { primitive, args, result: Some(found), again: None }).collect()
     }
 
-    /// An argument of which nothing says what it is, of a call that finds a thing, is where the thing is known to be: who
-    /// looks for it looks there first.
+    /// Fills the free arguments of a perception with the place where the entity is known to be.
     fn look_where_it_is(&self, def: &PrimitiveDef, args: &mut [Option<Term>], found: Entity) {
-        let Some(at) = self.library.names.fluents.get("at").copied() else { return };
+        let Some(at) = self.library.lang_items.at else { return };
         let takes_two = self.library.fluent(at).is_some_and(|def| def.params.len() == 2);
         let mut places = Vec::new();
         if takes_two {
-            self.facts.entries(at, FactKey::new([arg(found), ANY].into_iter()), |key, value| {
+            self.state.facts.entries(at, FactKey::new([arg(found), ANY].into_iter()), |key, value| {
                 if value.is_true() {
                     places.push(Entity(key.arg(1)));
                 }
@@ -139,7 +138,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// The step that bound a symbol, once more.
+    /// Repeats the step that bound a symbol.
     fn as_before(&self, primitive: Primitive, found: Entity, binding: usize) -> Option<CandidateCall> {
         let again = BindingId(u32::try_from(binding).ok()?);
         let calls = self.program.steps.iter().filter_map(|step| match &step.kind {
@@ -150,7 +149,7 @@ impl<'a> Prover<'a> {
         Some(CandidateCall { primitive, args: call.args.to_vec(), result: Some(found), again: Some(again) })
     }
 
-    /// What makes an effect be about a fact.
+    /// Unifies an effect with a fact.
     pub(super) fn unify(&self, def: &PrimitiveDef, effect: &EffectDef, key: FactKey) -> Option<Unification> {
         let mut result = None;
         let mut args: Vec<Option<Term>> = vec![None; def.params.len()];
@@ -206,7 +205,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Whether the effect is about the fact at this call, in the state as it is.
+    /// Decides whether an effect of a call applies to a fact in the present state.
     fn applies<'e>(&self, effect: &'e EffectDef, call: &CandidateCall, key: FactKey) -> Applies<'e> {
         let place = effect.fact.args.iter().position(|arg| *arg == Some(Term::Each));
         let each = place.map(|index| Entity(key.arg(index)));
@@ -223,7 +222,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// What the open arguments may be: what the primitive's own needs say of them in the state as it is.
+    /// All ways to fill the open arguments: from the needs of the primitive in the present state.
     pub(super) fn fill(&self, def: &PrimitiveDef, args: Vec<Option<Term>>) -> Vec<Vec<Term>> {
         let mut all = vec![args];
         for (index, param) in def.params.iter().enumerate() {
@@ -251,7 +250,8 @@ impl<'a> Prover<'a> {
         all.into_iter().filter_map(|args| args.into_iter().collect()).collect()
     }
 
-    /// Entities that may stand for a parameter: those for which a need of the primitive is known to hold; else any few.
+    /// Candidates for a parameter: entities for which a need of the primitive holds, or else a few of its
+    /// kind.
     pub(super) fn choices(&self, def: &PrimitiveDef, index: usize, args: &[Option<Term>]) -> Vec<Term> {
         let Some(param) = def.params.get(index) else { return Vec::new() };
         let Some(kind) = param.ty.kind() else { return Vec::new() };
@@ -281,7 +281,7 @@ impl<'a> Prover<'a> {
                 Some(key.with(at, value))
             });
             let Some(pattern) = pattern else { continue };
-            self.facts.entries(fact.fluent, pattern, |key, value| {
+            self.state.facts.entries(fact.fluent, pattern, |key, value| {
                 if value.is_true() {
                     found.push(Entity(key.arg(place)));
                 }
@@ -291,7 +291,7 @@ impl<'a> Prover<'a> {
         found.dedup();
         found.retain(|entity| self.is_of_kind(*entity, kind));
         if found.is_empty() {
-            let surface = self.library.kind_named("Surface");
+            let surface = self.library.lang_items.surface.unwrap_or(Kind::ROOT);
             if self.library.is_kind(surface, kind) {
                 found = self.of_kind(surface, MAX_CANDIDATES);
             }
@@ -302,8 +302,9 @@ impl<'a> Prover<'a> {
         }
         // Furniture is a better place to put something than a thing or a person.
         let rank = |entity: &Entity| {
-            let is = |name| self.is_of_kind(*entity, self.library.kind_named(name));
-            if is("Surface") { 0 } else { 1 + usize::from(!is("Container")) }
+            let items = &self.library.lang_items;
+            let is = |kind: Option<Kind>| self.is_of_kind(*entity, kind.unwrap_or(Kind::ROOT));
+            if is(items.surface) { 0 } else { 1 + usize::from(!is(items.container)) }
         };
         found.sort_by_key(rank);
         found.truncate(MAX_CANDIDATES);

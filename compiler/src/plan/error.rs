@@ -1,46 +1,39 @@
-//! Why there is no plan.
+//! Reasons why there is no plan.
 
 use motet_syntax::Diagnostic;
 use smol_str::SmolStr;
 use thiserror::Error;
 
-/// Why there is no plan.
+/// Error of the planner.
 #[derive(Error, Clone, PartialEq, Debug)]
 pub enum NoPlan {
-    /// A goal that is no condition.
-    #[error("`{text}` is no condition: {why}")]
+    /// The goal is no condition.
+    #[error("`{text}` is not a condition: {why}")]
     NoCondition {
-        /// As written.
         text: String,
-        /// What is wrong with it.
+        /// Error of the parser.
         why: String,
     },
-    /// A goal that speaks of what does not exist, or in the wrong types.
+    /// The goal uses unknown names or wrong types.
     #[error("{}", diagnostics.first().map_or("the goal is wrong", |said| said.message.as_str()))]
-    Wrong {
-        /// What is wrong.
-        diagnostics: Vec<Diagnostic>,
-    },
-    /// No call can bring about what is missing.
-    #[error("nothing that the robot can do brings about {goal}{}", because(blocker.as_ref()))]
+    Wrong { diagnostics: Vec<Diagnostic> },
+    /// No call achieves a missing fact.
+    #[error("no action of the robot achieves {goal}{}", because(blocker.as_ref()))]
     Unreachable {
         /// The goal, in back-quotes.
         goal: String,
         /// The need that cannot be met, in back-quotes.
         blocker: Option<String>,
     },
-    /// More states than the budget allows, or more calls than a plan may have.
+    /// The budget of states or the length limit of plans is exhausted.
     #[error("no plan for {goal} was found within the budget")]
     Budget {
         /// The goal, in back-quotes.
         goal: String,
     },
-    /// A call with an argument that cannot be written in a policy.
+    /// A call has an argument that a policy cannot express.
     #[error("a call of `{primitive}` cannot be written as a step")]
-    Unwritable {
-        /// The primitive.
-        primitive: SmolStr,
-    },
+    Unwritable { primitive: SmolStr },
 }
 
 fn because(blocker: Option<&String>) -> String {

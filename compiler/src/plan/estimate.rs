@@ -1,6 +1,6 @@
-//! What is still missing, and what can be done about it now: additive costs over the calls that make what a goal lacks
-//! (Bonet and Geffner 2001), worked out backwards from the goal, with the facts as they are. The calls at the ends of these
-//! chains, whose needs are met, are those that are worth trying (Hoffmann and Nebel 2001, helpful actions).
+//! Heuristic of the planner: additive costs (Bonet and Geffner 2001) over the calls that achieve what a goal
+//! lacks, computed backwards from the goal in the present state. The applicable calls at the ends of these
+//! chains are the helpful actions (Hoffmann and Nebel 2001) that the search tries.
 
 use rustc_hash::FxHashMap;
 
@@ -12,30 +12,29 @@ use crate::plan::achievers::{Achiever, CandidateCall};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 
-/// A call.
+/// Cost of a call.
 const STEP: u32 = 100;
-/// For each kind between that of an argument and the one that a parameter asks for: what is declared for a person suits a
-/// person better than what is declared for anything.
+/// Cost for each kind between that of an argument and that of its parameter: a primitive for persons suits a
+/// person better than one for any entity.
 const GENERAL: u32 = 10;
-/// A thing that is found by a description, where what it is is known.
+/// Cost of finding an entity that is already known.
 const RESULT: u32 = 150;
-/// An argument that neither a need nor an effect speaks of: nothing says which is right.
+/// Cost of an argument that neither a need nor an effect mentions, so that the choice is a guess.
 const GUESS: u32 = 300;
-/// A person whom nothing that is wanted speaks of: who subgoals a free hand gives nobody what it holds.
+/// Cost of a person whom no subgoal mentions: a free hand alone is no reason to give somebody what it holds.
 const BOTHER: u32 = 250;
-/// A need that is left to a guard.
+/// Cost of a need that is left to a guard.
 const GUARD: u32 = 300;
-/// The same, where a perception could tell.
+/// Cost of a guard if a perception could decide.
 const UNSEEN: u32 = 1_000;
-/// The most calls that are looked at for one state.
+/// Maximal number of calls that are estimated for one state.
 const EFFORT: u32 = 1_000;
-/// How deep needs of needs are followed.
+/// Maximal depth of needs of needs.
 const DEPTH: usize = 14;
 
-/// A fact that is asked for.
 type Subgoal = (Fluent, FactKey, bool);
 
-/// What something costs: calls to make, and needs left to guards.
+/// Cost of a goal: calls to make, and needs left to guards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Cost {
     calls: u32,
@@ -55,24 +54,24 @@ impl Cost {
     }
 }
 
-/// A call whose needs are met.
+/// An applicable call.
 #[derive(Clone, Debug)]
 pub(super) struct Ready {
     pub(super) call: CandidateCall,
-    /// What it costs, with what it leaves to guards.
+    /// Cost of the call, with its guards.
     pub(super) cost: u32,
 }
 
-/// The estimate of one state.
+/// Estimate of one state.
 pub(super) struct Estimate<'p, 'a> {
     prover: &'p Prover<'a>,
     known: FxHashMap<Subgoal, Cost>,
-    /// FactStore that are being looked at: what needs itself cannot be made.
+    /// Subgoals on the present chain: a fact that needs itself cannot be achieved.
     asked: Vec<Subgoal>,
     effort: u32,
-    /// The calls that can be made now, in the order in which they were found.
+    /// Applicable calls, in the order of discovery.
     pub(super) ready: Vec<Ready>,
-    /// What cannot be met, and how far from the goal it was found: the nearest says most.
+    /// A need that cannot be met, with its distance from the goal: the nearest is the best explanation.
     pub(super) dead: Option<String>,
     dead_at: usize,
 }
@@ -90,7 +89,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    /// What it would cost to reach a goal; none where nothing reaches it.
+    /// Cost of reaching a goal; `None` if no call reaches it.
     pub(super) fn goal(&mut self, goal: &Condition) -> Option<u32> {
         self.condition(goal, true, CallFrame::default()).map(Cost::sum)
     }
@@ -144,7 +143,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
         // That none holds: each that may hold has to go.
         let mut held = Vec::new();
-        prover.facts.entries(fact.fluent, key, |key, value| {
+        prover.state.facts.entries(fact.fluent, key, |key, value| {
             if value.yes.is_some() {
                 held.push((key, value));
             }
@@ -233,7 +232,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    /// A quantified need: for each entity for which it is asked.
+    /// Cost of a quantified need: the sum over the entities for which it is asked.
     fn each(&mut self, need: &NeedDef, kind: Kind, frame: CallFrame<'_>) -> Option<Cost> {
         let (candidates, others) = self.prover.asked(need.when.as_ref(), kind, frame);
         let mut all = if others { self.whatever_else(&need.condition, frame) } else { Cost::default() };
@@ -244,7 +243,8 @@ impl<'p, 'a> Estimate<'p, 'a> {
         Some(all)
     }
 
-    /// A quantified need where it is not known for which entities it is asked: what settles it for all of them, or a guard.
+    /// Cost of a quantified need whose entities are unknown: of what settles it for all of them, or of a
+    /// guard.
     fn whatever_else(&mut self, condition: &Condition, frame: CallFrame<'_>) -> Cost {
         let guard = Cost { calls: 0, guards: GUARD };
         let parts = match condition {
@@ -256,7 +256,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         costs.chain([guard]).min_by_key(|cost| cost.sum()).unwrap_or(guard)
     }
 
-    /// How much more general the parameters of a call are than its arguments.
+    /// Cost of parameters that are more general than their arguments.
     fn general(&self, def: &PrimitiveDef, call: &CandidateCall) -> u32 {
         let library = self.prover.library;
         let args = call.args.iter().zip(&def.params).filter_map(|(arg, param)| match arg {
@@ -271,10 +271,10 @@ impl<'p, 'a> Estimate<'p, 'a> {
         args.sum::<u32>().saturating_mul(GENERAL)
     }
 
-    /// What it costs to trouble people.
+    /// Cost of involving people.
     fn bothers(&self, call: &CandidateCall, (_, key, _): Subgoal) -> u32 {
         let (library, entities) = (self.prover.library, self.prover.environment.entities());
-        let Some(person) = library.names.kinds.get("Person").copied() else { return 0 };
+        let Some(person) = library.lang_items.person else { return 0 };
         let troubled = call.args.iter().filter(|arg| match arg {
             Term::Entity(entity) => {
                 let is_person = entities.kind(*entity).is_some_and(|kind| library.is_kind(kind, person));
@@ -293,7 +293,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
     }
 }
 
-/// What the arguments cost of which nothing says which is right.
+/// Cost of arguments that are guesses.
 fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
     let args = call.args.iter().zip(&def.params).enumerate();
     let guessed = args.filter(|(index, (arg, param))| {
@@ -309,7 +309,7 @@ fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
     u32::try_from(guessed.count()).unwrap_or(u32::MAX).saturating_mul(GUESS)
 }
 
-/// Whether a condition speaks of a term.
+/// Returns whether a condition mentions a term.
 fn speaks(condition: &Condition, term: &Term) -> bool {
     match condition {
         Condition::Fact(fact) => fact.args.iter().flatten().any(|arg| arg == term),

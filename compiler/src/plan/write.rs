@@ -1,4 +1,4 @@
-//! Calls of a plan as steps of a policy.
+//! Spelling of planned calls as steps of a policy.
 
 use motet_syntax::Span;
 use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
@@ -8,7 +8,7 @@ use crate::declare::Library;
 use crate::environment::Environment;
 use crate::ir::Term;
 
-/// A call as the text form writes it. Defaults are left unsaid. None where an argument has no word in the language.
+/// Writes a call in text syntax, without defaults. `None` if an argument has no spelling in the language.
 pub(super) fn call(proposed: &CandidateCall, library: &Library, environment: &Environment) -> Option<Do> {
     let def = library.primitive(proposed.primitive)?;
     let span = Span::default();
@@ -27,7 +27,7 @@ pub(super) fn call(proposed: &CandidateCall, library: &Library, environment: &En
     Some(Do { call, bind: None, within: None, retry: None })
 }
 
-/// A value as a policy writes it; none for one that has no word in the language, or whose word its place decides.
+/// Spelling of a value; `None` if it has none in the language, or one that depends on its place.
 pub(crate) fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<ExprKind> {
     Some(match term {
         // A symbol has no name but that of a binding.

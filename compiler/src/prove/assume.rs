@@ -1,4 +1,4 @@
-//! Narrowing: what is known once a condition was seen to hold, or not to.
+//! Narrowing: the facts after a condition was observed to hold, or not to.
 
 use smallvec::SmallVec;
 
@@ -8,28 +8,29 @@ use crate::facts::PathPartition;
 use crate::facts::{Cause, TruthSet};
 use crate::ir::{Condition, Fluent};
 
-/// How many meetings of ways are remembered.
+/// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
-/// How many ways that met are kept apart.
+/// Maximal number of paths of a join that are kept apart.
 const MAX_WAYS: usize = 8;
-/// After how many writes a meeting is forgotten.
+/// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 
 impl Prover<'_> {
-    /// Remembers ways that have just met.
+    /// Remembers the paths of a join.
     pub(crate) fn remember(&mut self, partition: PathPartition) {
         if (2..=MAX_WAYS).contains(&partition.ways().count()) {
-            if self.partitions.len() >= MAX_PARTITIONS {
-                self.partitions.remove(0);
+            if self.state.partitions.len() >= MAX_PARTITIONS {
+                self.state.partitions.remove(0);
             }
-            self.partitions.push(partition);
+            self.state.partitions.push(partition);
         }
     }
 
-    /// Narrows the facts to those in which `condition` is `truth`; false where there are none, so that the way is dead.
+    /// Narrows the facts to those in which `condition` is `truth`; returns false if there are none, so that
+    /// the path is dead.
     ///
-    /// Of the ways that met before, those on which it cannot be so are left out again: what was learnt or done on one way
-    /// only is known once a test tells that it was this way.
+    /// Paths of earlier joins on which the condition cannot hold are ruled out: facts of one path alone are
+    /// known again once a test shows that it was taken.
     pub(crate) fn assume(
         &mut self,
         condition: &Condition,
@@ -37,11 +38,11 @@ impl Prover<'_> {
         cause: Cause,
         frame: CallFrame<'_>,
     ) -> bool {
-        for index in (0..self.partitions.len()).rev() {
-            let Some(slot) = self.partitions.get_mut(index) else { break };
+        for index in (0..self.state.partitions.len()).rev() {
+            let Some(slot) = self.state.partitions.get_mut(index) else { break };
             let partition = std::mem::take(slot);
             let passes = self.retrace(&partition, condition, truth, cause, frame);
-            if let Some(slot) = self.partitions.get_mut(index) {
+            if let Some(slot) = self.state.partitions.get_mut(index) {
                 *slot = partition;
             }
             if !passes {
@@ -51,7 +52,8 @@ impl Prover<'_> {
         self.narrow(condition, truth, cause, frame)
     }
 
-    /// Leaves out the ways of a meeting on which `condition` cannot be `truth`; false where that is all of them.
+    /// Rules out the paths of a join on which `condition` cannot be `truth`; returns false if that is all of
+    /// them.
     fn retrace(
         &mut self,
         partition: &PathPartition,
@@ -60,26 +62,26 @@ impl Prover<'_> {
         cause: Cause,
         frame: CallFrame<'_>,
     ) -> bool {
-        let here = self.facts.mark();
+        let here = self.state.facts.mark();
         if here > partition.since + MAX_AGE || !partition.differs(|fluent| mentions(condition, fluent)) {
             return true;
         }
         // What was written since holds on every way.
-        let later = self.facts.delta(partition.since);
+        let later = self.state.facts.delta(partition.since);
         let (mut open, mut all) = (Vec::new(), 0_usize);
         for way in partition.ways() {
             all += 1;
             for ((fluent, key), value) in way {
-                self.facts.set(fluent, key, value);
+                self.state.facts.set(fluent, key, value);
             }
-            self.facts.replay(&later);
+            self.state.facts.replay(&later);
             if self.narrow(condition, truth, cause, frame) {
-                open.push(self.facts.delta(here));
+                open.push(self.state.facts.delta(here));
             }
-            self.facts.back_to(here);
+            self.state.facts.back_to(here);
         }
         if open.len() < all {
-            self.facts.join(&open);
+            self.state.facts.join(&open);
         }
         !open.is_empty()
     }
@@ -100,14 +102,14 @@ impl Prover<'_> {
                 if key.is_pattern() {
                     // Some entity has it, but which is not known; none has it, and that is known of all.
                     if !truth && !known.is_false() {
-                        self.facts.set(fact.fluent, key, TruthSet::no(cause));
+                        self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
                     }
                     return true;
                 }
                 match known.narrow(truth, cause) {
                     Some(narrowed) => {
                         if narrowed != known {
-                            self.facts.set(fact.fluent, key, narrowed);
+                            self.state.facts.set(fact.fluent, key, narrowed);
                         }
                         true
                     }
@@ -145,13 +147,13 @@ impl Prover<'_> {
     }
 }
 
-/// Whether a condition with these values can be `truth`.
+/// Returns whether a condition with these values can be `truth`.
 fn possible(value: TruthSet, truth: bool) -> bool {
     let known = if truth { value.yes } else { value.no };
     known.is_some() || value.open.is_some()
 }
 
-/// Whether a condition speaks of a fluent.
+/// Returns whether a condition mentions a fluent.
 pub(crate) fn mentions(condition: &Condition, fluent: Fluent) -> bool {
     let mut open: SmallVec<[&Condition; 8]> = SmallVec::new();
     open.push(condition);

@@ -1,4 +1,4 @@
-//! One call of a primitive: its needs, then what it does, and what is known where it fails.
+//! Transfer function of a call: its needs, its effects, and the facts after a failure.
 
 use motet_syntax::{Diagnostic, Mistake, Span};
 use smallvec::SmallVec;
@@ -19,7 +19,7 @@ impl Prover<'_> {
         let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
         let frame = CallFrame { args: &call.args, result, each: None };
         let cause = Cause::step(id);
-        self.here = Some(id);
+        self.control.here = Some(id);
         self.erode();
 
         self.check_fresh(id, call, def);
@@ -52,8 +52,8 @@ impl Prover<'_> {
         }
     }
 
-    /// Keeps what is certain of open containers and of the hand for geometry, which walks the policy with worlds and leaves out
-    /// those that cannot be.
+    /// Records the certain facts about open containers and the hand before a motion, which rule out possible
+    /// worlds.
     fn note_certain(&mut self, id: StepId, def: &PrimitiveDef) {
         if def.motion.is_none() || !self.environment.has_scene() {
             return;
@@ -61,7 +61,7 @@ impl Prover<'_> {
         let mut certain = Vec::new();
         let known = &self.library.lang_items;
         for fluent in [known.open, known.holding].into_iter().flatten() {
-            self.facts.written(fluent, |key, value| {
+            self.state.facts.written(fluent, |key, value| {
                 if value.is_true() || value.is_false() {
                     let (entity, value) = (Entity(key.arg(0)), value.is_true());
                     certain.push(CertainFact { fluent, entity, value });
@@ -75,7 +75,7 @@ impl Prover<'_> {
         }
     }
 
-    /// What is known where the step fails, and whether its needs still hold when it is tried again.
+    /// Propagates the facts after a failure of the step, and rechecks its needs for a retry.
     fn fail(
         &mut self,
         id: StepId,
@@ -86,10 +86,10 @@ impl Prover<'_> {
         verdicts: &mut [NeedVerdict],
     ) {
         let retried = call.retries > 0;
-        if self.enclosing.is_empty() && !retried {
+        if self.control.enclosing.is_empty() && !retried {
             return;
         }
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         self.unsettle(makes, Cause::step(id));
         self.erode();
         self.see_states();
@@ -107,7 +107,7 @@ impl Prover<'_> {
         self.back_to(mark);
     }
 
-    /// A pose that was perceived before something moved is stale, and using it an error.
+    /// Reports the use of a pose that was perceived before something moved.
     fn check_fresh(&mut self, id: StepId, call: &Call, def: &PrimitiveDef) {
         for (arg, span) in call.args.iter().zip(&call.spans) {
             let Term::Binding(binding) = arg else { continue };
@@ -135,16 +135,16 @@ impl Prover<'_> {
     }
 
     fn freshness(&self, binding: BindingId) -> TruthSet {
-        self.facts.get(self.fresh, binding_key(binding.0))
+        self.state.facts.get(self.fresh, binding_key(binding.0))
     }
 
-    /// Whether a binding is a pose that is no longer right.
+    /// Returns whether a binding is a stale pose.
     pub(crate) fn is_stale(&self, id: BindingId) -> bool {
         let binding = self.program.bindings.get(id.index());
         binding.is_some_and(|binding| binding.ty == Ty::plain(Base::Pose)) && self.freshness(id).no.is_some()
     }
 
-    /// The verdicts on the first `count` needs.
+    /// Verdicts on the first `count` needs.
     pub(crate) fn needs(
         &mut self,
         id: StepId,
@@ -171,7 +171,10 @@ impl Prover<'_> {
                 NeedVerdict::Proven
             };
             verdicts.push(verdict);
-            if verdict == NeedVerdict::Deferred && !self.volatile.is_empty() && self.mode == Mode::Explain {
+            if verdict == NeedVerdict::Deferred
+                && !self.state.volatile.is_empty()
+                && self.mode == Mode::Explain
+            {
                 self.check_reactions(def, need, value, frame, span);
             }
             if verdict != NeedVerdict::Proven {
@@ -202,7 +205,7 @@ impl Prover<'_> {
         self.diagnostics.push(mistake);
     }
 
-    /// The values that a need can have, and the entity for which it can be false.
+    /// Possible values of a need, and the entity for which it can be false.
     pub(crate) fn need(&self, need: &NeedDef, frame: CallFrame<'_>) -> (TruthSet, Option<Entity>) {
         let Some(kind) = need.each else {
             let asked = self.evaluate(&need.condition, frame);
@@ -231,7 +234,7 @@ impl Prover<'_> {
         (all, culprit)
     }
 
-    /// Takes a need as given: the guard has seen it hold, or it was reported and is not to be reported again.
+    /// Assumes a need: its guard has observed it, or its refutation was reported once.
     pub(crate) fn grant(&mut self, id: StepId, need: &NeedDef, frame: CallFrame<'_>) {
         let cause = Cause::step(id);
         if need.each.is_none() && need.when.is_none() {
@@ -239,24 +242,24 @@ impl Prover<'_> {
         }
     }
 
-    /// A new result: its pose is fresh, its facts last as the contract says.
+    /// Binds a new result: a fresh pose, and facts with the lifetime of the contract.
     fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: CallFrame<'_>) {
         let Some(lasts) = &def.lasts else { return };
         let entities =
             lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
-        self.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
+        self.state.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
         if let Some(binding) = call.binds.filter(|_| def.result == Some(Ty::plain(Base::Pose))) {
-            self.facts.set(self.fresh, binding_key(binding.0), TruthSet::yes(Cause::step(id)));
+            self.state.facts.set(self.fresh, binding_key(binding.0), TruthSet::yes(Cause::step(id)));
         }
     }
 
-    /// Forgets what was known of a symbol: its name is bound anew.
+    /// Forgets the facts of a symbol whose name is bound anew.
     pub(crate) fn forget(&mut self, symbol: Option<Entity>) {
         let Some(symbol) = symbol else { return };
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for (index, def) in self.library.fluents.iter().enumerate() {
             let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
-            self.facts.written(fluent, |key, _| {
+            self.state.facts.written(fluent, |key, _| {
                 let mut params = def.params.iter().enumerate();
                 if params.any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0) {
                     stale.push((fluent, key));
@@ -265,12 +268,12 @@ impl Prover<'_> {
         }
         stale.sort_unstable();
         for (fluent, key) in stale {
-            self.facts.forget(fluent, key);
+            self.state.facts.forget(fluent, key);
         }
     }
 }
 
-/// The key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
+/// Key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
 fn binding_key(binding: u32) -> FactKey {
     // Kept below the pattern value in every part.
     let (low, high) = (binding & 0x7fff, (binding >> 15) & 0x7fff);

@@ -1,5 +1,5 @@
-//! States that leave the straight way: what a handler, a monitor's reaction or the end of an inlined policy starts from.
-//! Each is the join of the states at all points from which control can come.
+//! Collectors of states that leave the straight path: where a handler, a reaction or the code after an
+//! inlined policy starts. Each holds the join of the states from which control can come.
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -8,28 +8,28 @@ use crate::facts::TruthSet;
 use crate::facts::{Atom, Delta, FactKey, FactStore};
 use crate::ir::{Failure, Fluent, StepId};
 
-/// The join of the states seen so far, as changes since a mark.
+/// Join of states, as changes since a mark.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
     pub(crate) mark: usize,
     pending: FxHashMap<Atom, TruthSet>,
-    /// The patterns among them.
+    /// Patterns among the changes.
     patterns: Vec<Atom>,
-    /// Whether any state was seen.
+    /// True if a state was collected.
     pub(crate) hit: bool,
-    /// The lengths of the trail at which a state was taken in and that it was not cut back below since, in order: only what was written
-    /// after the last of them can be new.
+    /// Lengths of the trail at which a state was collected, in order, as long as the trail was not rolled
+    /// back below them: only later writes can be new.
     seen: SmallVec<[usize; 8]>,
 }
 
-/// What encloses the step that is being proved, and catches what leaves it.
+/// A construct around the step that is being proved, which catches control that leaves the step.
 #[derive(Clone, Debug)]
 pub(crate) enum Enclosing {
-    /// A `try`: a collector for each handler, with the failures that reach it.
+    /// A `try`: for each handler its failures, a collector, and the failures that reach it.
     Try { catches: Vec<(Option<Vec<Failure>>, Collector, Vec<Failure>)> },
-    /// An inlined policy: where it is done.
+    /// An inlined policy, with the states in which it is done.
     Inline { step: StepId, exits: Collector },
-    /// A monitor: all states of its body.
+    /// A monitor, with all states of its body.
     Monitor { states: Collector },
 }
 
@@ -39,7 +39,7 @@ impl Collector {
         Self { mark, pending, patterns, hit: false, seen }
     }
 
-    /// Takes in the state as it is.
+    /// Collects the present state.
     pub(crate) fn see(&mut self, facts: &FactStore<'_>) {
         let last = self.seen.last().copied();
         if last == Some(facts.mark()) {
@@ -72,7 +72,7 @@ impl Collector {
         self.seen.push(facts.mark());
     }
 
-    /// A fact that is new here had, until now, the values of the patterns that cover it.
+    /// Value of a fact that is new here: until now, that of the patterns that cover it.
     fn earlier(&self, fluent: Fluent, key: FactKey, value: TruthSet) -> TruthSet {
         let covering =
             self.patterns.iter().filter(|(other, pattern)| *other == fluent && pattern.covers(key));
@@ -80,14 +80,14 @@ impl Collector {
         values.fold(value, |value, earlier| value.join(*earlier))
     }
 
-    /// The trail was cut back to `mark`.
+    /// Follows a rollback of the trail to `mark`.
     pub(crate) fn cut_to(&mut self, mark: usize) {
         while self.seen.last().is_some_and(|seen| *seen > mark) {
             self.seen.pop();
         }
     }
 
-    /// The joined state, as a way from the mark.
+    /// The joined state, as a path from the mark.
     pub(crate) fn delta(&self) -> Delta {
         Delta::new(self.pending.iter().map(|(atom, value)| (*atom, *value)))
     }

@@ -1,4 +1,4 @@
-//! Conditions, facts and terms as the language writes them, for messages.
+//! Spelling of conditions, facts and terms, for messages.
 
 use super::Prover;
 use super::evaluation::CallFrame;
@@ -6,7 +6,7 @@ use crate::facts::show;
 use crate::ir::{Condition, Fact, Term};
 
 impl Prover<'_> {
-    /// A condition as the language writes it, in back-quotes.
+    /// Spelling of a condition, in back-quotes.
     pub(crate) fn show(&self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> String {
         let text = self.text(condition, frame);
         let inner = text.trim_matches('`');
@@ -87,7 +87,7 @@ impl Prover<'_> {
     }
 }
 
-/// A number short enough to read.
+/// Rounds a number for messages.
 pub(super) fn round(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }

@@ -1,4 +1,4 @@
-//! What a step does to the facts: effects, what it unsettles, and what it makes stale.
+//! Effects on the facts: makes, unsettles, and stale perceptions.
 
 use motet_syntax::ast::{CompareOp, PrimitiveForm};
 
@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 use crate::declare::{EffectDef, PrimitiveDef, ResourceSet};
 use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
 
-/// A change that a step will make, worked out in the state before it.
+/// A change of a fact by a step, computed in the state before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FactChange {
     pub(crate) fluent: Fluent,
@@ -22,29 +22,26 @@ pub(crate) struct FactChange {
 }
 
 impl FactChange {
-    /// Whether it happens on every path.
+    /// Returns whether the change happens on every path.
     pub(crate) fn is_sure(&self) -> bool {
         self.sure == Certainty::Always
     }
 }
 
-/// Whether the condition of an effect holds.
+/// Certainty of the condition of an effect.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Certainty {
-    /// On every path.
     Always,
-    /// On some paths.
     Sometimes,
-    /// Only observation can tell.
     Unknown,
-    /// An argument was reported as wrong: it may be about anything, and nothing is known of that.
+    /// An argument has an error: the change may be about any entity.
     Misread,
 }
 
-/// Entities that a contract speaks of: few, as a rule.
+/// Entities that a contract mentions: usually few.
 type Entities = SmallVec<[Entity; 8]>;
 
-/// Until when a perception stays true.
+/// Lifetime of a perceived fact.
 #[derive(Clone, Debug)]
 pub(crate) struct PerceptionLifetime {
     pub(crate) resources: ResourceSet,
@@ -52,7 +49,7 @@ pub(crate) struct PerceptionLifetime {
 }
 
 impl Prover<'_> {
-    /// The changes of a list of effects, worked out in the state as it is.
+    /// Computes the changes of effects in the present state.
     pub(crate) fn changes(&self, effects: &[EffectDef], frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
         changes.clear();
         for effect in effects {
@@ -83,11 +80,11 @@ impl Prover<'_> {
         }
     }
 
-    /// After a step of which nothing is known, nothing is known of anything.
+    /// Forgets all facts, after a step with an error.
     pub(crate) fn forget_all(&mut self, cause: Cause) {
         for index in 0..self.library.fluents.len() {
             let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
-            self.facts.set(fluent, FactKey::ALL, TruthSet::open(cause));
+            self.state.facts.set(fluent, FactKey::ALL, TruthSet::open(cause));
         }
     }
 
@@ -127,7 +124,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Whether every entity that the fluent of an effect can be about, where the effect says `each`, is of a kind.
+    /// Returns whether the `each` arguments of an effect's fluent are all of a kind.
     fn covers(&self, effect: &EffectDef, kind: Kind) -> bool {
         let Some(def) = self.library.fluent(effect.fact.fluent) else { return true };
         let mut places = effect.fact.args.iter().zip(&def.params);
@@ -136,7 +133,7 @@ impl Prover<'_> {
         })
     }
 
-    /// The entities of a kind for which `when` may hold: by name, and whether it may hold for others too.
+    /// Entities of a kind for which `when` may hold, and whether it may hold for others too.
     fn candidates(
         &self,
         when: Option<&Condition>,
@@ -165,8 +162,8 @@ impl Prover<'_> {
                     return (Entities::new(), Some(Certainty::Unknown));
                 };
                 for pattern in aliases {
-                    rest = rest.join(self.facts.get(fact.fluent, pattern));
-                    self.facts.entries(fact.fluent, pattern, |key, value| {
+                    rest = rest.join(self.state.facts.get(fact.fluent, pattern));
+                    self.state.facts.entries(fact.fluent, pattern, |key, value| {
                         let entity = Entity(key.arg(place));
                         if !value.is_false() && self.is_of_kind(entity, kind) {
                             known.push(entity);
@@ -181,10 +178,11 @@ impl Prover<'_> {
         }
     }
 
-    /// A pattern, and the same of all that the symbols in it may be; none where those are too many to look at.
+    /// A pattern with all its instances under the entities that its symbols may be; `None` if these are too
+    /// many.
     fn aliases(&self, fluent: Fluent, pattern: FactKey) -> Option<SmallVec<[FactKey; 4]>> {
         let mut found: SmallVec<[FactKey; 4]> = SmallVec::from_slice(&[pattern]);
-        if self.symbols.is_empty() || self.facts.entry(fluent, pattern).is_some() {
+        if self.symbols.is_empty() || self.state.facts.entry(fluent, pattern).is_some() {
             return Some(found);
         }
         let params = self.library.fluent(fluent).map(|def| def.params.as_slice()).unwrap_or_default();
@@ -207,7 +205,7 @@ impl Prover<'_> {
         Some(found)
     }
 
-    /// For which entities a quantified need is asked, and whether there may be others.
+    /// Entities for which a quantified need is asked, and whether there may be others.
     pub(crate) fn asked(
         &self,
         when: Option<&Condition>,
@@ -223,7 +221,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Makes changes: negative first, so that what is made wins.
+    /// Writes changes, negative ones first, so that a fact that is both made and unmade holds.
     pub(crate) fn make(&mut self, changes: &[FactChange], cause: Cause) {
         for change in changes {
             let new = TruthSet::of(change.truth, cause);
@@ -236,7 +234,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Leaves the facts of changes unobserved.
+    /// Makes the facts of changes unobserved.
     pub(crate) fn unsettle(&mut self, changes: &[FactChange], cause: Cause) {
         let open = TruthSet::open(cause);
         for change in changes {
@@ -249,17 +247,17 @@ impl Prover<'_> {
         }
     }
 
-    /// Writes a fact, and lets those that may be the same feel it.
+    /// Writes a fact, and weakens the facts that may be the same.
     fn write(&mut self, change: &FactChange, cause: Cause, new: impl Fn(TruthSet) -> TruthSet) {
         let FactChange { fluent, key, sure, .. } = *change;
         if sure == Certainty::Always {
-            self.facts.set(fluent, key, new(TruthSet::default()));
+            self.state.facts.set(fluent, key, new(TruthSet::default()));
         } else if self.symbols.is_empty() || key.is_pattern() {
-            self.facts.change(fluent, key, |_, old| new(old));
+            self.state.facts.change(fluent, key, |_, old| new(old));
         } else {
             // What is known of a binding is what is known of all that it may be.
             let known = self.read(fluent, key);
-            self.facts.set(fluent, key, new(known));
+            self.state.facts.set(fluent, key, new(known));
         }
         if self.symbols.is_empty() {
             return;
@@ -269,13 +267,13 @@ impl Prover<'_> {
         if let Some(aliased) = self.aliased.get_mut(fluent.index()) {
             *aliased |= symbolic;
             if *aliased {
-                let value = self.facts.get(fluent, key);
+                let value = self.state.facts.get(fluent, key);
                 self.echo(fluent, key, value, cause);
             }
         }
     }
 
-    /// Whether an argument of a fact is an entity of which it is not known which it is.
+    /// Returns whether an argument of a fact is a symbol.
     fn has_symbol(&self, fluent: Fluent, key: FactKey) -> bool {
         self.library.fluent(fluent).is_some_and(|def| {
             let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
@@ -283,7 +281,7 @@ impl Prover<'_> {
         })
     }
 
-    /// An effect on one entity is a possible effect on all that it may be.
+    /// Weakens the facts that may be the same as a written one.
     fn echo(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
         let library = self.library;
         let Some(def) = library.fluent(fluent) else { return };
@@ -294,10 +292,10 @@ impl Prover<'_> {
             }
         };
         if self.has_symbol(fluent, key) {
-            self.facts.entries(fluent, FactKey::ALL, &mut feels);
+            self.state.facts.entries(fluent, FactKey::ALL, &mut feels);
         } else {
             // What is no symbol may be one, and the facts at the start speak of none.
-            self.facts.written(fluent, &mut feels);
+            self.state.facts.written(fluent, &mut feels);
         }
         // Entities behind a symbol that have no entry yet.
         for (index, (_, ty)) in def.params.iter().enumerate() {
@@ -306,15 +304,15 @@ impl Prover<'_> {
             let candidates = symbol.may_be.clone().unwrap_or_else(|| self.of_kind(symbol.kind, usize::MAX));
             for candidate in candidates {
                 let other = key.with(index, candidate.0);
-                if !other.is_pattern() && self.facts.entry(fluent, other).is_none() {
-                    targets.push((other, self.facts.get(fluent, other)));
+                if !other.is_pattern() && self.state.facts.entry(fluent, other).is_none() {
+                    targets.push((other, self.state.facts.get(fluent, other)));
                 }
             }
         }
         for (other, known) in targets {
             let felt = known.maybe(value, cause);
             if felt != known {
-                self.facts.set(fluent, other, felt);
+                self.state.facts.set(fluent, other, felt);
             }
         }
     }
@@ -330,17 +328,17 @@ impl Prover<'_> {
         })
     }
 
-    /// What a perception found is stale once a step uses its resource or moves its object.
+    /// Makes perceived facts stale once a step uses their resource or moves their entity.
     pub(crate) fn make_stale(&mut self, step: StepId, def: &PrimitiveDef, frame: CallFrame<'_>) {
-        if self.lasting.is_empty() {
+        if self.state.lasting.is_empty() {
             return;
         }
         let mut moved = None;
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
-            self.facts.written(fluent, |key, value| {
+            self.state.facts.written(fluent, |key, value| {
                 let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };
-                let Some(lasting) = self.lasting.get(&source) else { return };
+                let Some(lasting) = self.state.lasting.get(&source) else { return };
                 let used = lasting.resources & def.uses != 0;
                 let mut has_moved =
                     |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
@@ -355,11 +353,11 @@ impl Prover<'_> {
         for (fluent, key, value) in stale {
             let rest = TruthSet { yes: Cause::NONE, ..value };
             let gone = if fluent == self.fresh { TruthSet::no(cause) } else { TruthSet::open(cause) };
-            self.facts.set(fluent, key, rest.join(gone));
+            self.state.facts.set(fluent, key, rest.join(gone));
         }
     }
 
-    /// Entities whose place a step changes: those that an action's effects name first.
+    /// Entities that a step moves: the first arguments of an action's effects.
     fn moved(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Entities {
         if def.form == PrimitiveForm::Perception {
             return Entities::new();

@@ -1,4 +1,4 @@
-//! What a condition can be, from what is known of the facts.
+//! Evaluation of conditions and terms on the fact store.
 
 use motet_syntax::ast::{ArithOp, CompareOp};
 use smallvec::SmallVec;
@@ -8,7 +8,7 @@ use crate::facts::{ANY, FactKey};
 use crate::facts::{Cause, TruthSet};
 use crate::ir::{Condition, Entity, Fact, Fluent, Kind, Term};
 
-/// What the words of a contract mean at one call.
+/// Meaning of a contract's parameters, result and quantified variable at one call.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CallFrame<'c> {
     pub(crate) args: &'c [Term],
@@ -16,11 +16,11 @@ pub(crate) struct CallFrame<'c> {
     pub(crate) each: Option<Entity>,
 }
 
-/// The most entities behind a symbol that are looked at one by one.
+/// Maximal number of entities behind a symbol that are examined one by one.
 pub(super) const MAX_ALIASES: usize = 64;
 
 impl Prover<'_> {
-    /// The argument of a fact as a number; none where it is not known what it is.
+    /// Argument of a key; `None` if the term's entity is unknown.
     pub(crate) fn argument(&self, term: &Term, frame: CallFrame<'_>) -> Option<u16> {
         match term {
             Term::Entity(entity) => Some(entity.0),
@@ -45,7 +45,7 @@ impl Prover<'_> {
         }
     }
 
-    /// The key of a fact; none where an argument is not known. `each` unbound becomes `any`.
+    /// Key of a fact; `None` if an argument is unknown. An unbound `each` becomes `any`.
     pub(crate) fn key(&self, fact: &Fact, frame: CallFrame<'_>) -> Option<FactKey> {
         let mut key = FactKey(0);
         for (index, term) in fact.args.iter().enumerate() {
@@ -59,12 +59,12 @@ impl Prover<'_> {
         Some(key)
     }
 
-    /// What is known of a single fact, symbols seen through.
+    /// Value of a single fact, resolved through symbols.
     pub(crate) fn read(&self, fluent: Fluent, key: FactKey) -> TruthSet {
-        if self.symbols.is_empty() || self.facts.entry(fluent, key).is_some() {
-            return self.facts.get(fluent, key);
+        if self.symbols.is_empty() || self.state.facts.entry(fluent, key).is_some() {
+            return self.state.facts.get(fluent, key);
         }
-        let Some(def) = self.library.fluent(fluent) else { return self.facts.get(fluent, key) };
+        let Some(def) = self.library.fluent(fluent) else { return self.state.facts.get(fluent, key) };
         for (index, (_, ty)) in def.params.iter().enumerate() {
             let entity = Entity(key.arg(index));
             if ty.kind().is_none() {
@@ -83,32 +83,32 @@ impl Prover<'_> {
             if candidates.len() > MAX_ALIASES {
                 return TruthSet::open(Cause::NOTHING);
             }
-            let generic = symbol.may_be.is_none().then(|| self.facts.get(fluent, key));
+            let generic = symbol.may_be.is_none().then(|| self.state.facts.get(fluent, key));
             let known = candidates.iter().map(|candidate| self.read(fluent, key.with(index, candidate.0)));
             let mut values = known.chain(generic);
-            let Some(first) = values.next() else { return self.facts.get(fluent, key) };
+            let Some(first) = values.next() else { return self.state.facts.get(fluent, key) };
             return if values.all(|value| value.same_set(first)) {
                 first
             } else {
                 TruthSet::open(Cause::NOTHING)
             };
         }
-        self.facts.get(fluent, key)
+        self.state.facts.get(fluent, key)
     }
 
-    /// Whether an entity, of the environment or behind a binding, is of a kind.
+    /// Returns whether an entity or symbol is of a kind.
     pub(crate) fn is_of_kind(&self, entity: Entity, kind: Kind) -> bool {
         self.symbols.kind(self.environment, entity).is_some_and(|found| self.library.is_kind(found, kind))
     }
 
-    /// Entities of the environment of a kind, at most so many.
+    /// Entities of a kind in the environment, at most `most`.
     pub(crate) fn of_kind(&self, kind: Kind, most: usize) -> Vec<Entity> {
         let entities = self.environment.entities().iter();
         let fitting = entities.filter(|(.., other)| self.library.is_kind(*other, kind));
         fitting.map(|(id, ..)| id).take(most).collect()
     }
 
-    /// The values that a condition can have.
+    /// Possible values of a condition.
     pub(crate) fn evaluate(&self, condition: &Condition, frame: CallFrame<'_>) -> TruthSet {
         match condition {
             Condition::Literal(value) => TruthSet::of(*value, Cause::NOTHING),
@@ -117,11 +117,11 @@ impl Prover<'_> {
             Condition::Fact(fact) => self.evaluate_fact(fact, frame),
             Condition::Compare(op, left, right) => self.compare(*op, left, right, frame),
             Condition::MonitoredMeasure(id) => {
-                let watched = self.watched.iter().any(|watched| watched.measures.contains(id));
+                let watched = self.state.watched.iter().any(|watched| watched.measures.contains(id));
                 TruthSet::of(watched, Cause::NOTHING)
             }
             Condition::MonitoredFluent(id) => {
-                let watched = self.watched.iter().any(|watched| watched.fluents.contains(id));
+                let watched = self.state.watched.iter().any(|watched| watched.fluents.contains(id));
                 TruthSet::of(watched, Cause::NOTHING)
             }
             Condition::Not(inner) => self.evaluate(inner, frame).not(),
@@ -147,7 +147,7 @@ impl Prover<'_> {
         // Some entity: all the rest, then those that are known one by one, in an order of their own: the cause is the
         // last one's.
         let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
-        self.facts.entries(fact.fluent, key, |key, _| known.push(key));
+        self.state.facts.entries(fact.fluent, key, |key, _| known.push(key));
         known.sort_unstable();
         let rest = self.read(fact.fluent, key);
         known.into_iter().fold(rest, |some, key| self.read(fact.fluent, key).or(some))
@@ -194,7 +194,7 @@ impl Prover<'_> {
         }
     }
 
-    /// A number that is known beforehand.
+    /// Number of a term, if it is constant.
     pub(crate) fn number(&self, term: &Term, frame: CallFrame<'_>) -> Option<f64> {
         match term {
             Term::Int(value) => Some(*value as f64),

@@ -1,4 +1,4 @@
-//! The story of a refutation: which fact, made false by which step, and what would make it true.
+//! Explanations of refutations: the fact, the step that made it false, and calls that would make it true.
 
 use motet_syntax::ast::CompareOp;
 use motet_syntax::{Diagnostic, Mistake, Span};
@@ -11,43 +11,43 @@ use super::{Mode, PolicyEnd, Problem, Prover};
 use crate::facts::Cause;
 use crate::ir::{Base, BlockSlot, Condition, Entity, Fluent, StepId, StepKind, Term};
 
-/// Why a condition can be false.
+/// Explanation of a condition that can be false.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Explanation {
-    /// What was asked for: "`free(hand)`", "`not open(drawer_1)`".
+    /// The condition: "`free(hand)`", "`not open(drawer_1)`".
     pub(crate) wanted: String,
-    /// What made it otherwise.
+    /// Cause of the opposite.
     pub(crate) cause: Cause,
-    /// The fluent and the value that it should have.
+    /// Fluent with the value that it should have.
     pub(crate) fact: Option<(Fluent, bool)>,
-    /// The name of the fluent, measure or field that it turns on, and the value that it should have.
+    /// Name of the fluent, measure or field in question, with the value that it should have.
     pub(crate) subject: Option<(SmolStr, bool)>,
-    /// What is told instead of a cause: "`kettle` has 2.1 kg".
+    /// Text in place of a cause: "`kettle` has 2.1 kg".
     numbers: Option<String>,
-    /// "`place(mug, table)` made".
+    /// Phrase for the cause: "`place(mug, table)` made".
     maker: Option<String>,
-    /// On which way: " where `open(drawer)` holds".
+    /// Path from the cause: " where `open(drawer)` holds".
     way: String,
-    /// What to do, where no step could mend it.
+    /// Advice, if no earlier step could help.
     advice: Option<&'static str>,
 }
 
 impl Explanation {
-    /// The rest of the sentence "… needs X, ".
+    /// End of the sentence "… needs X, ".
     pub(crate) fn story(&self) -> String {
         if let Some(numbers) = &self.numbers {
             return numbers.clone();
         }
         match (&self.maker, self.cause) {
             (Some(maker), _) => format!("which {maker} false{}", self.way),
-            (None, Cause::NONE | Cause::NOTHING) => "which nothing ever made true".to_owned(),
+            (None, Cause::NONE | Cause::NOTHING) => "which no step makes true".to_owned(),
             (None, _) => "which does not hold at the start".to_owned(),
         }
     }
 }
 
 impl Prover<'_> {
-    /// Why `condition` can fail to be `truth`.
+    /// Explains why `condition` can fail to be `truth`.
     pub(crate) fn explain(&self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> Explanation {
         let fails = |part: &&Condition| {
             let value = self.evaluate(part, frame);
@@ -78,8 +78,8 @@ impl Prover<'_> {
                 if truth && self.is_misgiven(condition, frame) =>
             {
                 let wanted = format!("something other than `{}`", self.term_text(left, frame));
-                let numbers = Some("and that is what it is given".to_owned());
-                let advice = Some("name something else, or leave this step out");
+                let numbers = Some("but it is given exactly that".to_owned());
+                let advice = Some("name another entity, or remove this step");
                 return Explanation {
                     wanted,
                     cause: Cause::START,
@@ -103,7 +103,7 @@ impl Prover<'_> {
             }
             Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => {
                 let wanted = self.show(condition, truth, frame);
-                let numbers = Some("and no `monitor` around it does".to_owned());
+                let numbers = Some("but no `monitor` around it does".to_owned());
                 let subject = Some((SmolStr::new_static("monitored"), truth));
                 return Explanation { wanted, subject, numbers, ..Explanation::default() };
             }
@@ -113,14 +113,14 @@ impl Prover<'_> {
         Explanation { wanted, ..Explanation::default() }
     }
 
-    /// Whether a condition asks for another thing than the one that it is given: no step before could mend that.
+    /// Returns whether a condition excludes the very argument that it is given: no earlier step could help.
     pub(crate) fn is_misgiven(&self, condition: &Condition, frame: CallFrame<'_>) -> bool {
         let Condition::Compare(CompareOp::Unequal, left, right) = condition else { return false };
         let entity = |term| self.argument(term, frame);
         entity(left).is_some_and(|one| entity(right) == Some(one))
     }
 
-    /// The field or measure behind a number.
+    /// Name of the field or measure behind a number.
     fn measured(&self, term: &Term) -> Option<SmolStr> {
         match term {
             Term::Field(_, name) => Some(name.clone()),
@@ -130,7 +130,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Who is to explanation: an action made it so, a test found it so.
+    /// Phrase for a cause: an action made the fact false, or a test found it so.
     fn maker(&self, cause: Cause) -> String {
         let step = cause.as_step().and_then(|id| self.program.step(id));
         match step.map(|step| &step.kind) {
@@ -144,14 +144,14 @@ impl Prover<'_> {
         }
     }
 
-    /// The way from a cause to the step that is being proved, where it is not the only one.
+    /// Describes the path from a cause to the present step, if there are others.
     fn way(&self, cause: Cause) -> String {
         let Some(maker) = cause.as_step() else { return String::new() };
-        if self.here.is_some_and(|here| maker >= here) {
+        if self.control.here.is_some_and(|here| maker >= here) {
             return " in an earlier round".to_owned();
         }
         let around = |id: StepId| self.program.around(id).map(|(id, _)| id);
-        let shared: Vec<StepId> = self.here.into_iter().flat_map(around).collect();
+        let shared: Vec<StepId> = self.control.here.into_iter().flat_map(around).collect();
         let mut slot = self.program.step(maker).map(|step| step.position.slot);
         for (outer, fork) in self.program.around(maker) {
             // A step beside the one being proved, in another block of the same fork, is on another way too.
@@ -174,7 +174,7 @@ impl Prover<'_> {
         String::new()
     }
 
-    /// Which primitives make the fact that is missing.
+    /// Advice: primitives that achieve the missing fact.
     pub(crate) fn remedy(&self, explanation: &Explanation) -> Option<String> {
         if let Some(advice) = explanation.advice {
             return Some(advice.to_owned());
@@ -188,12 +188,12 @@ impl Prover<'_> {
         let names: Vec<_> = achievers.map(|def| format!("`{}`", def.name)).take(4).collect();
         match names.split_last() {
             None => None,
-            Some((only, [])) => Some(format!("{only} makes it so: call it before")),
-            Some((last, rest)) => Some(format!("{} or {last} makes it so: call it before", rest.join(", "))),
+            Some((only, [])) => Some(format!("call {only} first")),
+            Some((last, rest)) => Some(format!("call {} or {last} first", rest.join(", "))),
         }
     }
 
-    /// Where the policy is done, its goal must not be refuted.
+    /// Checks that the goal is not refuted where the policy is done.
     pub(crate) fn check_goal(&mut self, end: Option<PolicyEnd>) {
         let program = self.program;
         let Some((goal, span)) = &program.achieves else { return };
@@ -204,7 +204,7 @@ impl Prover<'_> {
         if self.mode == Mode::Decide {
             return self.count(GoalRefuted::CODE);
         }
-        self.here = None;
+        self.control.here = None;
         let explanation = self.explain(goal, true, frame);
         let mistake = GoalRefuted {
             span: *span,
@@ -215,7 +215,7 @@ impl Prover<'_> {
             subject: explanation.subject,
         };
         let mistake: Diagnostic = mistake.into();
-        if let Some(end) = end.filter(|_| self.live) {
+        if let Some(end) = end.filter(|_| self.control.live) {
             self.notify(Problem::RefutedGoal { goal, end }, &mistake);
         }
         if !self.diagnostics.contains(&mistake) {
@@ -223,12 +223,12 @@ impl Prover<'_> {
         }
     }
 
-    /// The place of the step behind a cause.
+    /// Span of the step behind a cause.
     pub(crate) fn cause_span(&self, cause: Cause) -> Option<Span> {
         Some(self.program.step(cause.as_step()?)?.span)
     }
 
-    /// The step behind a cause, in a word.
+    /// Short name of the step behind a cause.
     pub(crate) fn cause_name(&self, cause: Cause) -> SmolStr {
         let step = cause.as_step().and_then(|id| self.program.step(id));
         match step.map(|step| &step.kind) {
@@ -257,7 +257,7 @@ impl Prover<'_> {
         }
     }
 
-    /// An argument of a fact by its name.
+    /// Name of an argument of a fact.
     pub(crate) fn argument_name(&self, fluent: Fluent, index: usize, arg: u16) -> SmolStr {
         let ty = self.library.fluent(fluent).and_then(|def| def.params.get(index)).map(|(_, ty)| *ty);
         if let Some(Base::Enum(id)) = ty.map(|ty| ty.base) {
@@ -274,13 +274,14 @@ impl Prover<'_> {
     fn numbers(&self, left: &Term, right: &Term, frame: CallFrame<'_>) -> String {
         let side = |term: &Term| self.number(term, frame).map(|value| format!("{}", round(value)));
         match (side(left), side(right)) {
-            (Some(a), Some(b)) => format!("and {} is {a}, not within {b}", self.term_text(left, frame)),
+            (Some(a), Some(b)) => format!("but {} is {a}, not within {b}", self.term_text(left, frame)),
             _ => "which does not hold".to_owned(),
         }
     }
 }
 
-/// Whether a condition asks for a fluent to have a truth: what needs a fact is no way to make it.
+/// Returns whether a condition requires a fluent to have a truth value: a call that needs a fact cannot
+/// achieve it.
 fn asks_for(condition: &Condition, fluent: Fluent, truth: bool) -> bool {
     match condition {
         Condition::Fact(fact) => truth && fact.fluent == fluent,

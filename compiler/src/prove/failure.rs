@@ -1,4 +1,4 @@
-//! Failures on their way out, to the handler that takes them.
+//! Failure flow: from a failing step to the handler that catches it.
 
 use super::Prover;
 use super::collector::Enclosing;
@@ -6,9 +6,10 @@ use crate::declare::PrimitiveDef;
 use crate::ir::Failure;
 
 impl Prover<'_> {
-    /// The state as it is fails with `kind`: the innermost handler below `depth` that takes it sees the state.
+    /// Throws a failure in the present state: the innermost handler below `depth` that catches it collects
+    /// the state.
     pub(crate) fn throw(&mut self, kind: Failure, depth: usize) {
-        let Self { enclosing, facts, .. } = self;
+        let (enclosing, facts) = (&mut self.control.enclosing, &self.state.facts);
         for enclosing in enclosing.iter_mut().take(depth).rev() {
             let Enclosing::Try { catches } = enclosing else { continue };
             let taker =
@@ -24,21 +25,21 @@ impl Prover<'_> {
         }
     }
 
-    /// The state as it is fails with any of the kinds that a primitive can end in.
+    /// Throws every failure of a primitive in the present state.
     pub(crate) fn throw_all(&mut self, def: &PrimitiveDef) {
-        if self.enclosing.is_empty() {
+        if self.control.enclosing.is_empty() {
             return;
         }
-        let depth = self.enclosing.len();
+        let depth = self.control.enclosing.len();
         // A handler sees one state once, however many kinds reach it.
         for kind in &def.fails {
             self.throw(*kind, depth);
         }
     }
 
-    /// Enclosing monitors may fire in the state as it is.
+    /// Lets enclosing monitors collect the present state, in which they may fire.
     pub(crate) fn see_states(&mut self) {
-        let Self { enclosing, facts, .. } = self;
+        let (enclosing, facts) = (&mut self.control.enclosing, &self.state.facts);
         for enclosing in enclosing {
             if let Enclosing::Monitor { states } = enclosing {
                 states.see(facts);

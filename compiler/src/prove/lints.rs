@@ -1,4 +1,5 @@
-//! Lints of intent: what is allowed and yet hardly meant. All are warnings; what they rest on is what the prover knows.
+//! Lints of intent: warnings about policies that are legal but probably not meant. They rest on the facts of
+//! the prover. Guarded by `tests/spec/intent.md`.
 
 use motet_syntax::ast::PrimitiveForm;
 use motet_syntax::{Diagnostic, Span};
@@ -13,15 +14,17 @@ use super::{Mode, NeedVerdict, PolicyEnd, Problem, Prover};
 use crate::declare::{NeedDef, PrimitiveDef};
 use crate::facts::{Cause, TruthSet};
 use crate::facts::{FactKey, show};
-use crate::ir::{Base, BlockSlot, Call, Catch, Condition, Entity, Fact, Failure, Fluent, Step, StepId, Term};
+use crate::ir::{
+    Base, BlockSlot, Call, Catch, Condition, Entity, Fact, Failure, Fluent, MotionKind, Step, StepId, Term,
+};
 
 impl Prover<'_> {
-    /// Whether a step stands in the document itself, and not in a policy that it calls from elsewhere.
+    /// Returns whether a step belongs to the document itself, and not to a policy of another file.
     fn is_own(&self, span: Span) -> bool {
         span.file == self.program.span.file
     }
 
-    /// Where the policy is done: what it still holds, and what it opened and did not close.
+    /// Warns about things in the hand and open containers where the policy is done.
     pub(crate) fn check_end(&mut self, end: Option<PolicyEnd>, span: Span) {
         if self.mode == Mode::Decide {
             return;
@@ -34,7 +37,7 @@ impl Prover<'_> {
                 return None;
             }
             let mut found: Option<(FactKey, Cause)> = None;
-            self.facts.entries(fluent, FactKey::ALL, |key, value| {
+            self.state.facts.entries(fluent, FactKey::ALL, |key, value| {
                 let counts = value.yes.is_some() && (!of_a_step || value.yes.as_step().is_some());
                 if counts && found.is_none_or(|(least, _)| key < least) {
                     found = Some((key, value.yes));
@@ -59,35 +62,35 @@ impl Prover<'_> {
     }
 
     fn notify_ending(&mut self, fact: (Fluent, FactKey, bool), end: Option<PolicyEnd>, mistake: &Diagnostic) {
-        if let Some(end) = end.filter(|_| self.live) {
+        if let Some(end) = end.filter(|_| self.control.live) {
             self.notify(Problem::UnintendedFact { fact, end }, mistake);
         }
     }
 
-    /// Says something, once.
+    /// Reports a warning once.
     fn warn(&mut self, mistake: Diagnostic) {
         if !self.diagnostics.contains(&mistake) {
             self.diagnostics.push(mistake);
         }
     }
 
-    /// A base that moves to a person, with nothing that watches how near it comes.
+    /// Warns about a base that moves to a person while no monitor watches the distance.
     pub(crate) fn check_watched(&mut self, def: &PrimitiveDef, frame: CallFrame<'_>, span: Span) {
         let Some((query, args)) = def.motion.as_ref().filter(|_| self.is_own(span)) else { return };
         let measure = self.library.lang_items.distance.and_then(|id| self.library.measure(id));
-        if query != "go_to" || !measure.is_some_and(|def| def.observable) {
+        if *query != MotionKind::GoTo || !measure.is_some_and(|def| def.observable) {
             return;
         }
         let target = args.first().and_then(|arg| self.argument(arg, frame)).map(Entity);
         let Some(target) = target.filter(|target| self.is_person(*target)) else { return };
-        if !self.watched.iter().any(|watched| watched.near.contains(&target)) {
+        if !self.state.watched.iter().any(|watched| watched.near.contains(&target)) {
             let person = self.entity_name(target);
             self.diagnostics.push(Unwatched { span, callee: def.name.clone(), person }.into());
         }
     }
 
-    /// An action all of whose effects hold already. One with a number or a text among its arguments may do more than its
-    /// contract says.
+    /// Warns about an action whose effects all hold already. An action with a number or a text among its
+    /// arguments may do more than its contract says.
     pub(crate) fn check_redundant(
         &mut self,
         def: &PrimitiveDef,
@@ -107,7 +110,7 @@ impl Prover<'_> {
         if !makes.iter().all(|change| self.holds_already(change, makes)) {
             return;
         }
-        let cause = self.facts.get(first.fluent, first.key).yes;
+        let cause = self.state.facts.get(first.fluent, first.key).yes;
         let Some(known) = self.library.fluent(first.fluent) else { return };
         let name = |index, arg| self.argument_name(first.fluent, index, arg);
         let fact = show(&known.name, first.key, known.params.len(), name);
@@ -117,11 +120,12 @@ impl Prover<'_> {
         self.diagnostics.push(mistake);
     }
 
-    /// Whether the environment may have moved on without the robot: people walk, and a monitor's reaction runs because of it.
+    /// Returns whether the world may have changed without the robot: people walk, and reactions have a cause
+    /// outside.
     fn may_have_changed(&self, frame: CallFrame<'_>) -> bool {
         let in_reaction = |step: &Step| matches!(step.position.slot, BlockSlot::Reaction(_));
-        let here = self.here.and_then(|id| self.program.step(id));
-        let mut around = self.here.into_iter().flat_map(|id| self.program.around(id));
+        let here = self.control.here.and_then(|id| self.program.step(id));
+        let mut around = self.control.here.into_iter().flat_map(|id| self.program.around(id));
         let mut args = frame.args.iter();
         here.is_some_and(in_reaction)
             || around.any(|(_, step)| in_reaction(step))
@@ -141,16 +145,16 @@ impl Prover<'_> {
         };
         let is = |value: TruthSet| if change.truth { value.is_true() } else { value.is_false() };
         let mut holds = change.is_sure()
-            && (is(self.facts.get(change.fluent, change.key)) || (!change.truth && made(change.key)));
+            && (is(self.state.facts.get(change.fluent, change.key)) || (!change.truth && made(change.key)));
         if holds && change.key.is_pattern() {
-            self.facts.entries(change.fluent, change.key, |key, value| {
+            self.state.facts.entries(change.fluent, change.key, |key, value| {
                 holds &= is(value) || (!change.truth && made(key));
             });
         }
         holds
     }
 
-    /// A retry that cannot go better: what the step needs is gone for good once it was tried.
+    /// Warns about a retry that cannot succeed, because the first attempt destroys a need for good.
     pub(crate) fn check_retry(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: CallFrame<'_>) {
         let span = self.program.step(id).map_or(self.program.span, |step| step.span);
         let stale = call.args.iter().find_map(|arg| match arg {
@@ -158,18 +162,23 @@ impl Prover<'_> {
             _ => None,
         });
         if let Some(binding) = stale {
-            let why = format!("`{}` is stale by then: it was perceived before the first try", binding.name);
+            let why = format!(
+                "`{}` is stale by then, since it was perceived before the first attempt",
+                binding.name
+            );
             return self.diagnostics.push(HopelessRetry { span, callee: def.name.clone(), why }.into());
         }
         let lost = def.needs.iter().find(|need| self.is_lost(need, frame));
         if let Some(need) = lost {
             let needs = self.show(&need.condition, true, frame);
-            let why = format!("it needs {needs}, which is lost by then and which nothing here can observe");
+            let why =
+                format!("it needs {needs}, which the first attempt undoes and the robot cannot observe");
             self.diagnostics.push(HopelessRetry { span, callee: def.name.clone(), why }.into());
         }
     }
 
-    /// Whether a need cannot be seen to hold: it is false, or rests on what the robot does not observe.
+    /// Returns whether a need cannot be observed to hold: it is false, or depends on a fact that the robot
+    /// cannot observe.
     fn is_lost(&self, need: &NeedDef, frame: CallFrame<'_>) -> bool {
         if need.each.is_some() || need.when.is_some() {
             return false;
@@ -185,16 +194,16 @@ impl Prover<'_> {
         }
     }
 
-    /// A `catch any` that takes `unsafe` and goes on.
+    /// Warns about a `catch any` that catches `unsafe` and continues.
     pub(crate) fn check_catch(&mut self, catch: &Catch, kinds: &[Failure]) {
         let hidden = self.library.lang_items.harm;
         let hides = catch.on.is_none() && hidden.is_some_and(|kind| kinds.contains(&kind));
-        if hides && self.live && self.is_own(catch.span) {
+        if hides && self.control.live && self.is_own(catch.span) {
             self.diagnostics.push(HidesUnsafe { span: catch.span }.into());
         }
     }
 
-    /// A need that is unobserved because of what a monitor's reaction does meanwhile.
+    /// Warns about a need that a monitor's reaction may destroy.
     pub(crate) fn check_reactions(
         &mut self,
         def: &PrimitiveDef,
@@ -204,7 +213,7 @@ impl Prover<'_> {
         span: Span,
     ) {
         let spoken = |fluent: Fluent| mentions(&need.condition, fluent);
-        let mut rows = self.volatile.iter();
+        let mut rows = self.state.volatile.iter();
         let Some(row) = rows.find(|row| spoken(row.fluent) && row.value.open == value.open) else { return };
         let needs = self.show(&need.condition, true, frame);
         let (when, maker) = (row.when, self.cause_name(row.value.open));

@@ -1,4 +1,4 @@
-//! Loops, to their fixed points.
+//! Fixed points of loops.
 
 use std::hash::{Hash, Hasher};
 
@@ -8,21 +8,21 @@ use crate::facts::Cause;
 use crate::facts::Delta;
 use crate::ir::{Condition, Entity, StepId, StepKind};
 
-/// How a loop goes round.
+/// Kind of a loop.
 #[derive(Clone, Copy)]
 pub(crate) enum Loop<'p> {
-    /// So many times at most, or until a test holds.
+    /// Up to `times` rounds, or until a test holds.
     Repeat { times: u32, until: Option<&'p Condition> },
-    /// Once for each item of a list, which has this symbol.
+    /// One round for each item of a list, which has this symbol.
     Each { symbol: Option<Entity> },
 }
 
-/// Where the body of a loop leads.
+/// Paths from the end of a loop's body.
 #[derive(Default)]
 struct Back {
-    /// Out of the loop.
+    /// Paths out of the loop.
     ways: Vec<Delta>,
-    /// To its head.
+    /// Path back to its head.
     back: Option<Delta>,
 }
 
@@ -34,77 +34,79 @@ impl Back {
 }
 
 impl Prover<'_> {
-    /// A loop to its fixed point: the state at its head is the join of the entry and of every back edge.
+    /// Proves a loop to its fixed point: the state at its head is the join of the entry and of every back
+    /// edge.
     pub(crate) fn looped(&mut self, id: StepId, body: &[StepId], how: Loop<'_>) {
         if !self.enter_fixpoint(id) {
             return;
         }
-        let mark = self.facts.mark();
-        let outer = self.head.replace(mark);
+        let mark = self.state.facts.mark();
+        let outer = self.state.head.replace(mark);
         let ways = self.rounds(id, body, how, Delta::default()).ways;
-        self.head = outer;
-        self.fixpoints -= 1;
+        self.state.head = outer;
+        self.control.fixpoints -= 1;
         self.meet(mark, &ways);
     }
 
-    /// Goes round, first with `head` at the head of the loop and then with what comes back as well, until that is no more: where
-    /// the last round leads. What only rounds before the last found is forgotten.
+    /// Iterates from the state `head` at the head of the loop until no round adds to it, and returns the
+    /// exits of the last round. Diagnostics of earlier rounds are dropped.
     fn rounds(&mut self, id: StepId, body: &[StepId], how: Loop<'_>, mut head: Delta) -> Back {
-        let (mark, said) = (self.facts.mark(), self.said());
+        let (mark, said) = (self.state.facts.mark(), self.said());
         loop {
             self.unsay(said);
-            self.facts.replay(&head);
+            self.state.facts.replay(&head);
             if let Loop::Each { symbol } = how {
                 self.forget(symbol);
             }
             self.block(body);
-            let mut back = if self.live { self.exits(id, how, mark) } else { Back::default() };
+            let mut back = if self.control.live { self.exits(id, how, mark) } else { Back::default() };
             self.back_to(mark);
-            let next = back.back.as_ref().map(|way| head.or(way, &self.facts));
-            if next.as_ref().is_none_or(|next| next.same_sets(&head, &self.facts)) {
+            let next = back.back.as_ref().map(|way| head.or(way, &self.state.facts));
+            if next.as_ref().is_none_or(|next| next.same_sets(&head, &self.state.facts)) {
                 if matches!(how, Loop::Each { .. }) {
                     // The list may be empty.
                     back.ways.insert(0, Delta::default());
                 }
                 return back;
             }
-            self.live = true;
+            self.control.live = true;
             head = next.unwrap_or_default();
         }
     }
 
-    /// Where the end of a loop's body leads that was entered at `mark`.
+    /// Paths from the end of a loop's body that was entered at `mark`.
     fn exits(&mut self, id: StepId, how: Loop<'_>, mark: usize) -> Back {
-        let here = self.facts.mark();
+        let here = self.state.facts.mark();
         let (times, until) = match how {
             Loop::Each { .. } => {
-                let way = self.facts.delta(mark);
+                let way = self.state.facts.delta(mark);
                 return Back { ways: vec![way.clone()], back: Some(way) };
             }
             Loop::Repeat { times, until: None } => {
-                let way = self.facts.delta(mark);
+                let way = self.state.facts.delta(mark);
                 return Back { back: (times > 1).then(|| way.clone()), ways: vec![way] };
             }
             Loop::Repeat { times, until: Some(until) } => (times, until),
         };
         let (cause, mut back) = (Cause::step(id), Back::default());
         if self.assume(until, true, cause, CallFrame::default()) {
-            back.ways.push(self.facts.delta(mark));
+            back.ways.push(self.state.facts.delta(mark));
         }
         self.back_to(here);
         if self.assume(until, false, cause, CallFrame::default()) {
             if let Some(kind) = self.library.lang_items.exhausted {
-                self.throw(kind, self.enclosing.len());
+                self.throw(kind, self.control.enclosing.len());
             }
-            back.back = (times > 1).then(|| self.facts.delta(mark));
+            back.back = (times > 1).then(|| self.state.facts.delta(mark));
         }
         back
     }
 
-    /// Whether nothing in the body of a loop is refuted where it comes round from here, which is the place of `point` at its end
-    /// in the first round. `mark` is where that began; `until` is the test of a `repeat`. The facts are not taken back.
+    /// Returns whether no need in the body of a loop is refuted when it is repeated from here: the step
+    /// `point` at the end of the first round, which began at `mark`. `until` is the test of a `repeat`. Does
+    /// not roll the facts back.
     ///
-    /// Where nothing is, `seen` takes in what tells this test apart from others that leave other facts.
+    /// If so, `seen` hashes the facts that the test leaves.
     pub(crate) fn comes_round(
         &mut self,
         point: StepId,
@@ -129,11 +131,11 @@ impl Prover<'_> {
         back.fingerprint(seen);
         let Some(way) = back.back else { return true };
         let entry = Delta::default();
-        let head = entry.or(&way, &self.facts);
-        if !head.same_sets(&entry, &self.facts) {
-            self.fixpoints += 1;
+        let head = entry.or(&way, &self.state.facts);
+        if !head.same_sets(&entry, &self.state.facts) {
+            self.control.fixpoints += 1;
             self.rounds(id, body, how, head).fingerprint(seen);
-            self.fixpoints -= 1;
+            self.control.fixpoints -= 1;
         }
         !self.is_refuted()
     }

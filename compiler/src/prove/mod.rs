@@ -1,7 +1,11 @@
-//! Stage 3: the prover. It runs a policy abstractly over sets of {true, false, unobserved}, joins where ways meet, runs
-//! loops to a fixed point, and says of each need whether it is proven, refuted or left to observation.
+//! Stage 3, the prover: an abstract interpretation on sets of {true, false, unobserved}, with joins where
+//! paths meet and fixed points of loops. Each need is proven, refuted or deferred to an observation at run
+//! time.
 //!
-//! It costs what the policy changes, not what the environment holds: facts are written on a trail and taken back at forks.
+//! Its cost depends on the facts that a policy changes, and not on the size of the environment: facts are
+//! written on a trail and rolled back at forks.
+//!
+//! Guarded by `tests/spec/prover.md`, the oracle in `tests/tests/oracle.rs` and `tests/tests/promises.rs`.
 
 mod assume;
 mod call;
@@ -16,6 +20,7 @@ mod lints;
 mod loops;
 mod monitor;
 mod parallel;
+pub(crate) mod state;
 pub(crate) mod suspended;
 pub(crate) mod symbols;
 mod walk;
@@ -26,46 +31,45 @@ use smallvec::SmallVec;
 
 pub(crate) use self::assume::mentions;
 
-use self::collector::Enclosing;
-use self::effects::{FactChange, PerceptionLifetime};
+use self::effects::FactChange;
 use self::evaluation::CallFrame;
-use self::suspended::{AbstractState, ProofTarget};
+use self::state::{AbstractState, Control};
+use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::{Cause, TruthSet};
-use crate::facts::{FactKey, FactStore, PathPartition};
+use crate::facts::{FactKey, TruthSet};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
-/// How deep loops and parallel branches may nest: each level is proved at least twice.
+/// Maximal nesting of loops and parallel branches: each level is proved at least twice.
 pub const MAX_FIXPOINTS: usize = 8;
 
-/// What the prover found of one need of a step.
+/// Verdict on one need of a step.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum NeedVerdict {
     /// Holds on every path.
     Proven,
-    /// Only observation can tell.
+    /// Left to an observation.
     Deferred,
     /// Fails on some path.
     Refuted,
 }
 
-/// What the prover found of each need of a step.
+/// Verdicts on the needs of a step.
 pub(crate) type NeedVerdicts = SmallVec<[NeedVerdict; 16]>;
 
-/// What the prover found.
+/// Result of a proof.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Proof {
-    /// By step: a verdict for each need of its primitive; empty for other steps and for steps that are never reached.
+    /// By step, a verdict for each need of its primitive; empty for other steps and for unreachable steps.
     pub(crate) needs: Vec<NeedVerdicts>,
-    /// By step: whether it can be reached.
+    /// By step, whether it is reachable.
     pub(crate) reached: Vec<bool>,
-    /// What is certain just before a step with a motion, for geometry.
+    /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
 }
 
-/// A fact that is certain at some step: one of the few that change where things are.
+/// A fact about poses that is certain at some step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct CertainFact {
     pub(crate) fluent: Fluent,
@@ -73,53 +77,38 @@ pub(crate) struct CertainFact {
     pub(crate) value: bool,
 }
 
-/// The state of a proof.
+/// State of a proof.
 pub(crate) struct Prover<'a> {
     pub(crate) library: &'a Library,
     pub(crate) environment: &'a Environment,
     pub(crate) program: &'a Program,
     pub(crate) symbols: Symbols,
-    pub(crate) facts: FactStore<'a>,
-    /// The table of bindings whose value is still right, by binding.
-    pub(crate) fresh: Fluent,
-    pub(crate) lasting: FxHashMap<StepId, PerceptionLifetime>,
-    pub(crate) watched: Vec<Watched>,
-    /// FactStore that something beside the step being proved may change at any moment, and to what.
-    pub(crate) volatile: Vec<Volatile>,
-    pub(crate) enclosing: Vec<Enclosing>,
-    /// The call that is being proved.
-    pub(crate) here: Option<StepId>,
-    /// The ways that met on the way here, the latest last.
-    pub(crate) partitions: Vec<PathPartition>,
-    /// Whether control gets here at all.
-    pub(crate) live: bool,
-    pub(crate) fixpoints: usize,
-    /// How many runs around this one only look at what a reaction may do.
-    pub(crate) rehearsals: usize,
-    /// Where the round began of the innermost loop around, as a mark of the facts.
-    pub(crate) head: Option<usize>,
-    /// By fluent: whether a symbol has an entry.
-    pub(crate) aliased: Vec<bool>,
-    /// Room for the changes of a step, kept so that no step asks for new.
-    pub(crate) buffers: (Vec<FactChange>, Vec<FactChange>),
-    pub(crate) diagnostics: Vec<Diagnostic>,
-    pub(crate) proof: Proof,
-    /// Hears of every problem; none where nobody asks for repairs.
+    /// Table of bindings that are not stale.
+    fresh: Fluent,
+    /// By fluent, whether a symbol has an entry.
+    aliased: Vec<bool>,
+    pub(crate) state: AbstractState<'a>,
+    pub(crate) control: Control,
+    mode: Mode,
+    /// Step of interest of an incremental check.
+    target: ProofTarget,
+    /// Listener to all problems; `None` if no repairs are wanted.
     observer: Option<&'a mut dyn Observer>,
-    pub(crate) mode: Mode,
-    /// What a draft looks for.
-    pub(crate) target: ProofTarget,
-    /// The states in which control gets to the point in it.
-    pub(crate) states_at_point: Vec<AbstractState>,
+    diagnostics: Vec<Diagnostic>,
+    proof: Proof,
+    /// States in which control reaches the program point of the target.
+    states_at_point: Vec<AbstractState<'static>>,
+    /// Buffers for the changes of a step, reused between steps.
+    buffers: (Vec<FactChange>, Vec<FactChange>),
 }
 
-/// What a proof is for.
+/// Purpose of a proof.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) enum Mode {
-    /// To tell people what is wrong, why, and what would mend it.
+    /// Explain every problem.
     #[default]
     Explain,
-    /// To know whether anything is refuted, and nothing else.
+    /// Only decide whether any need is refuted.
     Decide,
 }
 
@@ -128,18 +117,18 @@ pub(crate) enum Mode {
 pub(crate) struct Volatile {
     pub(crate) fluent: Fluent,
     pub(crate) key: FactKey,
-    /// What it may be then.
+    /// Value that the reaction leaves.
     pub(crate) value: TruthSet,
-    /// The monitor's condition.
+    /// Span of the monitor's condition.
     pub(crate) when: Span,
 }
 
-/// What an enclosing monitor watches.
+/// Fluents and measures that an enclosing monitor watches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watched {
     pub(crate) measures: Vec<Measure>,
     pub(crate) fluents: Vec<Fluent>,
-    /// What the distance to is watched.
+    /// Entities whose distance is watched.
     pub(crate) near: Vec<Entity>,
 }
 
@@ -185,7 +174,7 @@ pub(crate) fn prove(
     let mut prover = Prover::new(program, library, environment);
     prover.observer = Some(observer);
     prover.block(&program.body);
-    if prover.live {
+    if prover.control.live {
         let last = program.body.last().copied();
         let end = last.map(PolicyEnd::After);
         prover.check_goal(end);
@@ -199,42 +188,44 @@ pub(crate) fn prove(
 impl<'a> Prover<'a> {
     /// The state before the first step.
     pub(crate) fn new(program: &'a Program, library: &'a Library, environment: &'a Environment) -> Self {
-        let mut facts = FactStore::above(&environment.facts);
-        let fresh = facts.add_table(TruthSet::yes(Cause::NOTHING));
+        let (state, fresh) = AbstractState::at_start(environment);
+        let symbols = Symbols::new(program, library, environment);
         let steps = program.steps.len();
+        let proof = Proof {
+            needs: vec![NeedVerdicts::new(); steps],
+            reached: vec![false; steps],
+            certain: FxHashMap::default(),
+        };
+        let names = (symbols, fresh, vec![false; library.fluents.len()]);
+        Self { proof, ..Self::resume((program, library, environment), state, names) }
+    }
+
+    /// A proof that continues from a state.
+    fn resume(
+        (program, library, environment): ProofInput<'a>,
+        state: AbstractState<'a>,
+        (symbols, fresh, aliased): (Symbols, Fluent, Vec<bool>),
+    ) -> Self {
         Self {
             library,
             environment,
             program,
-            symbols: Symbols::new(program, library, environment),
-            facts,
+            symbols,
             fresh,
-            lasting: FxHashMap::default(),
-            watched: Vec::new(),
-            volatile: Vec::new(),
-            enclosing: Vec::new(),
-            here: None,
-            partitions: Vec::new(),
-            live: true,
-            fixpoints: 0,
-            rehearsals: 0,
-            head: None,
-            aliased: vec![false; library.fluents.len()],
-            buffers: Default::default(),
-            diagnostics: Vec::new(),
-            proof: Proof {
-                needs: vec![NeedVerdicts::new(); steps],
-                reached: vec![false; steps],
-                certain: FxHashMap::default(),
-            },
-            observer: None,
+            aliased,
+            state,
+            control: Control { live: true, ..Control::default() },
             mode: Mode::Explain,
             target: ProofTarget::default(),
+            observer: None,
+            diagnostics: Vec::new(),
+            proof: Proof::default(),
             states_at_point: Vec::new(),
+            buffers: Default::default(),
         }
     }
 
-    /// Tells the observer of a problem.
+    /// Notifies the observer of a problem.
     pub(crate) fn notify(&mut self, problem: Problem<'_>, diagnostic: &Diagnostic) {
         if let Some(observer) = self.observer.take() {
             observer.observe(self, problem, diagnostic);

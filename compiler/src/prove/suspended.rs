@@ -1,46 +1,29 @@
-//! A proof that goes on step by step: what it holds between two steps, and the states in which a place of a policy is
-//! reached. Fed by [`crate::incremental`].
+//! Suspended proofs: the state of a proof between two steps, for [`crate::incremental`].
 
 use std::hash::Hasher;
 
 use motet_syntax::{Code, Diagnostic, Severity, Span};
-use rustc_hash::FxHashMap;
 
-use super::effects::PerceptionLifetime;
 use super::evaluation::CallFrame;
+use super::state::AbstractState;
 use super::symbols::Symbols;
-use super::{Mode, Proof, Prover, Volatile, Watched};
+use super::{Mode, Prover};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::TruthSet;
-use crate::facts::{ANY, FactKey, FactStore, PathPartition};
+use crate::facts::{ANY, FactKey, PathPartition};
 use crate::ir::{Condition, Fluent, Program, StepId, Term};
-
-/// What is known in one state.
-#[derive(Clone, Debug)]
-pub(crate) struct AbstractState {
-    facts: FactStore<'static>,
-    lasting: FxHashMap<StepId, PerceptionLifetime>,
-    watched: Vec<Watched>,
-    volatile: Vec<Volatile>,
-    partitions: Vec<PathPartition>,
-    /// Where the round began of the innermost loop around, as a mark of the facts.
-    head: Option<usize>,
-    /// The facts before what reactions may have done just now.
-    before_reactions: usize,
-}
 
 /// A proof between two steps of a policy's body.
 #[derive(Clone, Debug)]
 pub(crate) struct SuspendedProof {
-    state: AbstractState,
+    state: AbstractState<'static>,
     pub(crate) symbols: Symbols,
     fresh: Fluent,
     aliased: Vec<bool>,
     pub(crate) live: bool,
 }
 
-/// A place in a proof to go back to.
+/// Checkpoint of a suspended proof.
 #[derive(Clone, Debug)]
 pub(crate) struct Checkpoint {
     trail: usize,
@@ -51,8 +34,8 @@ pub(crate) struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Whether the steps since then have written anything that a fact may speak of.
-    pub(crate) fn touches(&self, state: &AbstractState, condition: &Condition) -> bool {
+    /// Returns whether the steps since the checkpoint may have written a fact of a condition.
+    pub(crate) fn touches(&self, state: &AbstractState<'static>, condition: &Condition) -> bool {
         let fact = match condition {
             Condition::Fact(fact) => fact,
             Condition::Not(inner) => return self.touches(state, inner),
@@ -76,46 +59,37 @@ impl Checkpoint {
     }
 }
 
-/// What is special in a step that is proved.
+/// Special roles in a step that is proved.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ProofTarget {
-    /// The state is remembered before this step.
+    /// Step before which the state is recorded.
     pub(crate) point: Option<StepId>,
-    /// This sequence states_at_point for any one of its steps.
+    /// Sequence that stands for any one of its steps.
     pub(crate) choice: Option<StepId>,
-    /// Whether nothing is known of it that is not known in every later round: no branches run at once, of which one takes as
-    /// unknown what another may change.
+    /// True if later rounds of a loop refute all that an earlier one does: there are no parallel branches,
+    /// each of which makes unknown what others may change.
     pub(crate) grows: bool,
 }
 
-/// What proving a step gave.
+/// Result of proving a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepOutcome {
-    /// Whether something is refuted.
+    /// True if a need is refuted.
     pub(crate) refuted: bool,
-    /// The states in which control reached the point.
-    pub(crate) states_at_point: Vec<AbstractState>,
+    /// States in which control reached the program point.
+    pub(crate) states_at_point: Vec<AbstractState<'static>>,
 }
 
-/// The program, and what it is proved from.
+/// Program, library and environment of a proof.
 pub(crate) type ProofInput<'p> = (&'p Program, &'p Library, &'p Environment);
 
 impl SuspendedProof {
     /// The proof before the first step.
     pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
-        let mut facts = FactStore::above(&environment.facts);
-        let fresh = facts.add_table(TruthSet::yes(crate::facts::Cause::NOTHING));
-        let state = AbstractState {
-            facts: facts.lift(),
-            lasting: FxHashMap::default(),
-            watched: Vec::new(),
-            volatile: Vec::new(),
-            partitions: Vec::new(),
-            head: None,
-            before_reactions: 0,
-        };
+        let (state, fresh) = AbstractState::at_start(environment);
         let symbols = Symbols::new(program, library, environment);
-        Self { state, symbols, fresh, aliased: vec![false; library.fluents.len()], live: true }
+        let aliased = vec![false; library.fluents.len()];
+        Self { state: state.lift(), symbols, fresh, aliased, live: true }
     }
 
     pub(crate) fn mark(&self, steps: usize) -> Checkpoint {
@@ -132,7 +106,7 @@ impl SuspendedProof {
         self.live = mark.live;
     }
 
-    /// Proves one step of the body, and looks on the way at the point in it.
+    /// Proves one step of the body, and records the states at the program point in it.
     pub(crate) fn step(&mut self, step: StepId, target: ProofTarget, given: ProofInput<'_>) -> StepOutcome {
         let (program, library, environment) = given;
         self.symbols.extend(program, library, environment);
@@ -149,15 +123,16 @@ impl SuspendedProof {
         })
     }
 
-    /// Asks something of the state as it is; the answer changes nothing.
+    /// Evaluates a question in the present state, which stays as it is.
     pub(crate) fn here<T>(&mut self, given: ProofInput<'_>, ask: impl FnOnce(&mut Prover<'_>) -> T) -> T {
         self.with(given, ask)
     }
 
-    /// Whether nothing is refuted where the loop around the point, which is at the end of its body, comes round from this state.
+    /// Returns whether no need is refuted when the loop around the program point, at the end of its body, is
+    /// repeated from this state.
     pub(crate) fn comes_round(
         &mut self,
-        state: &AbstractState,
+        state: &AbstractState<'static>,
         (point, until): (StepId, Option<&Condition>),
         given: ProofInput<'_>,
         seen: &mut impl Hasher,
@@ -170,10 +145,10 @@ impl SuspendedProof {
         })
     }
 
-    /// Asks something of another state than this proof's own.
+    /// Evaluates a question in another state.
     pub(crate) fn at<T>(
         &mut self,
-        state: &mut AbstractState,
+        state: &mut AbstractState<'static>,
         given: ProofInput<'_>,
         ask: impl FnOnce(&mut Prover<'_>) -> T,
     ) -> T {
@@ -185,60 +160,26 @@ impl SuspendedProof {
         answer
     }
 
-    fn with<T>(
-        &mut self,
-        (program, library, environment): ProofInput<'_>,
-        run: impl FnOnce(&mut Prover<'_>) -> T,
-    ) -> T {
-        let AbstractState { facts, lasting, watched, volatile, partitions, head, before_reactions } =
-            &mut self.state;
-        let (head, before_reactions) = (*head, *before_reactions);
-        let mut prover = Prover {
-            library,
-            environment,
-            program,
-            symbols: std::mem::take(&mut self.symbols),
-            facts: std::mem::take(facts).over(&environment.facts),
-            fresh: self.fresh,
-            lasting: std::mem::take(lasting),
-            watched: std::mem::take(watched),
-            volatile: std::mem::take(volatile),
-            enclosing: Vec::new(),
-            here: None,
-            partitions: std::mem::take(partitions),
-            live: self.live,
-            fixpoints: 0,
-            rehearsals: 0,
-            head,
-            aliased: std::mem::take(&mut self.aliased),
-            buffers: Default::default(),
-            diagnostics: Vec::new(),
-            proof: Proof::default(),
-            observer: None,
-            mode: Mode::Decide,
-            target: ProofTarget::default(),
-            states_at_point: Vec::new(),
-        };
+    fn with<T>(&mut self, input: ProofInput<'_>, run: impl FnOnce(&mut Prover<'_>) -> T) -> T {
+        let (_, _, environment) = input;
+        let head = self.state.head;
+        let state = std::mem::take(&mut self.state).over(environment);
+        let names = (std::mem::take(&mut self.symbols), self.fresh, std::mem::take(&mut self.aliased));
+        let mut prover = Prover::resume(input, state, names);
+        prover.control.live = self.live;
+        prover.mode = Mode::Decide;
         let answer = run(&mut prover);
-        let Prover { symbols, facts, lasting, watched, volatile, partitions, aliased, live, .. } = prover;
-        self.state = AbstractState {
-            facts: facts.lift(),
-            lasting,
-            watched,
-            volatile,
-            partitions,
-            head,
-            before_reactions,
-        };
+        let Prover { symbols, state, aliased, control, .. } = prover;
+        self.state = AbstractState { head, ..state.lift() };
         self.symbols = symbols;
         self.aliased = aliased;
-        self.live = live;
+        self.live = control.live;
         answer
     }
 }
 
 impl Prover<'_> {
-    /// Counts a mistake of which nobody reads more than that it is there.
+    /// Counts an error without its text, in mode [`Mode::Decide`].
     pub(crate) fn count(&mut self, code: Code) {
         self.diagnostics.push(Diagnostic {
             code,
@@ -253,12 +194,12 @@ impl Prover<'_> {
         });
     }
 
-    /// What was found so far, so that what a run finds that is only a rehearsal can be forgotten.
+    /// Numbers of diagnostics and states so far, so that those of a rehearsal can be dropped.
     pub(crate) fn said(&self) -> (usize, usize) {
         (self.diagnostics.len(), self.states_at_point.len())
     }
 
-    /// Forgets what was found since: a run that counts follows.
+    /// Drops diagnostics and states since then, because the run that counts follows.
     pub(crate) fn unsay(&mut self, (diagnostics, states_at_point): (usize, usize)) {
         if self.is_settled() {
             return;
@@ -267,10 +208,10 @@ impl Prover<'_> {
         self.states_at_point.truncate(states_at_point);
     }
 
-    /// Whether nothing that follows changes the answer: something is refuted, and by no rehearsal. What a round of a loop refutes
-    /// the rounds after it do too, since they begin in all states in which it does.
+    /// Returns whether the answer is final: a need is refuted outside of a rehearsal. Later rounds of a loop
+    /// refute what an earlier one does, since they begin in all its states.
     pub(crate) fn is_settled(&self) -> bool {
-        let counts = self.fixpoints == 0 || (self.target.grows && self.rehearsals == 0);
+        let counts = self.control.fixpoints == 0 || (self.target.grows && self.control.rehearsals == 0);
         self.mode == Mode::Decide && counts && self.target.point.is_none() && self.is_refuted()
     }
 
@@ -278,32 +219,24 @@ impl Prover<'_> {
         self.diagnostics.iter().any(|said| said.severity == Severity::Error)
     }
 
-    /// Remembers the state in which the point is reached, with what the reactions around it may have done just now.
+    /// Records the state at the program point, weakened by the reactions around it.
     pub(crate) fn record_state(&mut self) {
-        let before_reactions = self.facts.mark();
+        let before_reactions = self.state.facts.mark();
         self.erode();
-        self.states_at_point.push(AbstractState {
-            facts: self.facts.clone().lift(),
-            lasting: self.lasting.clone(),
-            watched: self.watched.clone(),
-            volatile: self.volatile.clone(),
-            partitions: self.partitions.clone(),
-            head: self.head,
-            before_reactions,
-        });
+        self.states_at_point.push(AbstractState { before_reactions, ..self.state.clone().lift() });
     }
 
-    /// Goes on where any of some steps leads.
+    /// Joins the paths through each of several steps.
     pub(crate) fn choose(&mut self, steps: &[StepId]) {
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         let mut ways = Vec::with_capacity(steps.len());
         for step in steps {
             self.step(*step);
-            if self.live {
-                ways.push(self.facts.delta(mark));
+            if self.control.live {
+                ways.push(self.state.facts.delta(mark));
             }
             self.back_to(mark);
-            self.live = true;
+            self.control.live = true;
             if self.is_settled() {
                 break;
             }
@@ -311,13 +244,13 @@ impl Prover<'_> {
         self.meet(mark, &ways);
     }
 
-    /// Whether a call is refuted here by the first `count` of its needs, taken in their order as a call takes them.
+    /// Returns whether one of the first `count` needs of a call is refuted here, in their order.
     pub(crate) fn refutes(&mut self, def: &PrimitiveDef, args: &[Term], count: usize) -> bool {
         let stale = |arg: &Term| matches!(arg, Term::Binding(id) if self.is_stale(*id));
         if args.iter().any(stale) {
             return true;
         }
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         // No step of the program has this number: the cause of what the call grants is the call itself.
         let id = StepId(u32::try_from(self.program.steps.len()).unwrap_or(u32::MAX));
         let frame = CallFrame { args, result: None, each: None };
@@ -330,29 +263,30 @@ impl Prover<'_> {
             }
             value.no.is_some()
         });
-        self.facts.back_to(mark);
+        self.state.facts.back_to(mark);
         is_refuted
     }
 
-    /// Whether nothing of a step is refuted here; it leaves no trace.
+    /// Returns whether no need of a step is refuted here; restores the state.
     pub(crate) fn permits(&mut self, step: StepId) -> bool {
-        let (mark, partitions, live) = (self.facts.mark(), self.partitions.clone(), self.live);
+        let (mark, partitions, live) =
+            (self.state.facts.mark(), self.state.partitions.clone(), self.control.live);
         self.step(step);
         let permits = !self.is_refuted();
         self.diagnostics.clear();
-        self.facts.back_to(mark);
-        self.partitions = partitions;
-        self.live = live;
-        self.lasting.retain(|other, _| *other < step);
+        self.state.facts.back_to(mark);
+        self.state.partitions = partitions;
+        self.control.live = live;
+        self.state.lasting.retain(|other, _| *other < step);
         permits
     }
 
-    /// Whether a condition holds here, whatever way led here.
+    /// Returns whether a condition holds here on every path.
     pub(crate) fn proves(&self, condition: &Condition) -> bool {
         self.evaluate(condition, CallFrame::default()).is_true()
     }
 
-    /// Whether a condition is refuted here.
+    /// Returns whether a condition is refuted here.
     pub(crate) fn denies(&self, condition: &Condition) -> bool {
         self.evaluate(condition, CallFrame::default()).no.is_some()
     }

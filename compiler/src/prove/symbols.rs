@@ -1,24 +1,24 @@
-//! What a binding may be. One that a description finds exactly once in the scene is that entity; any other is a symbol:
-//! an entity of its own that may be one of those it fits, or any of its kind.
+//! Symbols: entities behind bindings. A description that fits exactly one entity of the scene denotes it; any
+//! other binding is a symbol, an entity of its own that may be one of several.
 
 use crate::declare::Library;
 use crate::environment::Environment;
 use crate::ir::{Base, Entity, Kind, Program, Ty};
 
-/// What stands behind a binding.
+/// Entities and symbols of the bindings.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
-    /// By binding: the entity that stands for it in facts; none where it is no entity.
+    /// By binding, the entity or symbol for facts; `None` for other types.
     bindings: Vec<Option<Entity>>,
     symbols: Vec<Symbol>,
     first: u16,
 }
 
-/// An entity of which it is not known which it is.
+/// An unknown entity.
 #[derive(Clone, Debug)]
 pub(crate) struct Symbol {
     pub(crate) kind: Kind,
-    /// Those it may be; none where it may be any of its kind.
+    /// Entities that it may be; `None` for any of its kind.
     pub(crate) may_be: Option<Vec<Entity>>,
 }
 
@@ -31,7 +31,7 @@ impl Symbols {
         table
     }
 
-    /// Takes in the bindings that the program has beyond those seen before.
+    /// Adds the bindings that the program has gained.
     pub(crate) fn extend(&mut self, program: &Program, library: &Library, environment: &Environment) {
         for binding in program.bindings.iter().skip(self.bindings.len()) {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
@@ -48,12 +48,12 @@ impl Symbols {
         }
     }
 
-    /// How many bindings and symbols there are.
+    /// Numbers of bindings and symbols.
     pub(crate) fn len(&self) -> (usize, usize) {
         (self.bindings.len(), self.symbols.len())
     }
 
-    /// Goes back to so many bindings and symbols.
+    /// Restores earlier numbers of bindings and symbols.
     pub(crate) fn truncate(&mut self, (bindings, symbols): (usize, usize)) {
         self.bindings.truncate(bindings);
         self.symbols.truncate(symbols);
@@ -75,7 +75,7 @@ impl Symbols {
         self.symbols.get(usize::from(entity.0.checked_sub(self.first)?))
     }
 
-    /// The binding that a symbol stands for.
+    /// The binding of a symbol.
     pub(crate) fn binding_of(&self, entity: Entity) -> Option<usize> {
         self.get(entity)?;
         self.bindings.iter().position(|bound| *bound == Some(entity))
@@ -94,7 +94,7 @@ impl Symbols {
         environment.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
     }
 
-    /// Whether two entities may be the same.
+    /// Returns whether two entities may be the same.
     pub(crate) fn may_equal(
         &self,
         library: &Library,

@@ -1,4 +1,4 @@
-//! The walk over blocks and steps.
+//! Interpretation of blocks and steps.
 
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
@@ -17,7 +17,7 @@ use crate::ir::{Catch, Condition, StepId, StepKind, TIMEOUT};
 impl Prover<'_> {
     pub(crate) fn block(&mut self, block: &[StepId]) {
         for id in block {
-            if !self.live || self.is_settled() {
+            if !self.control.live || self.is_settled() {
                 return;
             }
             self.step(*id);
@@ -42,7 +42,7 @@ impl Prover<'_> {
                 self.branch(id, condition, then, otherwise.as_deref().unwrap_or_default());
             }
             StepKind::Wait { condition, .. } => {
-                self.throw(TIMEOUT, self.enclosing.len());
+                self.throw(TIMEOUT, self.control.enclosing.len());
                 self.await_condition(condition, Cause::step(id));
             }
             StepKind::Monitor { whens, body } => self.monitor(id, whens, body),
@@ -53,7 +53,7 @@ impl Prover<'_> {
             }
             StepKind::Each { item, body, .. } => {
                 if let Some(kind) = self.library.lang_items.exhausted {
-                    self.throw(kind, self.enclosing.len());
+                    self.throw(kind, self.control.enclosing.len());
                 }
                 self.looped(id, body, Loop::Each { symbol: self.symbols.of_binding(item.index()) });
             }
@@ -63,51 +63,51 @@ impl Prover<'_> {
         }
     }
 
-    /// Takes the facts back, and tells those who collect states.
+    /// Rolls the facts back, with the collectors of states.
     pub(crate) fn back_to(&mut self, mark: usize) {
-        self.facts.back_to(mark);
-        while self.partitions.last().is_some_and(|partition| partition.since > mark) {
-            self.partitions.pop();
+        self.state.facts.back_to(mark);
+        while self.state.partitions.last().is_some_and(|partition| partition.since > mark) {
+            self.state.partitions.pop();
         }
-        for enclosing in &mut self.enclosing {
+        for enclosing in &mut self.control.enclosing {
             enclosing.cut_to(mark);
         }
     }
 
-    /// Goes on where any of the ways leads, all from `mark`; nowhere if there is none.
+    /// Joins paths from `mark`; control ends if there is none.
     pub(crate) fn meet(&mut self, mark: usize, ways: &[Delta]) {
         self.back_to(mark);
-        self.live = !ways.is_empty();
-        if self.live {
-            let partition = self.facts.join(ways);
+        self.control.live = !ways.is_empty();
+        if self.control.live {
+            let partition = self.state.facts.join(ways);
             self.remember(partition);
         }
     }
 
     fn branch(&mut self, id: StepId, condition: &Condition, then: &[StepId], otherwise: &[StepId]) {
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         let mut ways = Vec::with_capacity(2);
         for (truth, block) in [(true, then), (false, otherwise)] {
-            self.live = self.assume(condition, truth, Cause::step(id), CallFrame::default());
-            if self.live {
+            self.control.live = self.assume(condition, truth, Cause::step(id), CallFrame::default());
+            if self.control.live {
                 self.block(block);
             }
-            if self.live {
-                ways.push(self.facts.delta(mark));
+            if self.control.live {
+                ways.push(self.state.facts.delta(mark));
             }
             self.back_to(mark);
         }
         self.meet(mark, &ways);
     }
 
-    /// After a wait its condition holds, whatever was known before: something else may have brought it about.
+    /// Assumes the condition of a wait, whatever was known before: something outside may have changed it.
     fn await_condition(&mut self, condition: &Condition, cause: Cause) {
         match condition {
             Condition::Fact(fact) => {
                 let known = self.evaluate(condition, CallFrame::default());
                 let key = self.key(fact, CallFrame::default()).filter(|key| !key.is_pattern());
                 if let (Some(key), false) = (key, known.is_true()) {
-                    self.facts.set(
+                    self.state.facts.set(
                         fact.fluent,
                         key,
                         known.narrow(true, cause).unwrap_or(TruthSet::yes(cause)),
@@ -119,7 +119,7 @@ impl Prover<'_> {
                 if let Condition::Fact(fact) = &**inner
                     && let Some(key) = self.key(fact, CallFrame::default())
                 {
-                    self.facts.set(fact.fluent, key, TruthSet::no(cause));
+                    self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
                 }
             }
             Condition::Literal(_)
@@ -132,31 +132,31 @@ impl Prover<'_> {
     }
 
     fn inline(&mut self, id: StepId, body: &[StepId]) {
-        let mark = self.facts.mark();
-        self.enclosing.push(Enclosing::Inline { step: id, exits: Collector::new(mark) });
+        let mark = self.state.facts.mark();
+        self.control.enclosing.push(Enclosing::Inline { step: id, exits: Collector::new(mark) });
         self.block(body);
-        let Some(Enclosing::Inline { exits, .. }) = self.enclosing.pop() else { return };
+        let Some(Enclosing::Inline { exits, .. }) = self.control.enclosing.pop() else { return };
         if exits.hit {
             let mut ways = vec![exits.delta()];
-            if self.live {
-                ways.push(self.facts.delta(mark));
+            if self.control.live {
+                ways.push(self.state.facts.delta(mark));
             }
             self.meet(mark, &ways);
         }
     }
 
     fn attempt(&mut self, body: &[StepId], catches: &[Catch]) {
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         let collectors = catches.iter().map(|catch| {
             let on = catch.on.as_ref().map(|kinds| kinds.iter().map(|(kind, _)| *kind).collect());
             (on, Collector::new(mark), Vec::new())
         });
-        self.enclosing.push(Enclosing::Try { catches: collectors.collect() });
+        self.control.enclosing.push(Enclosing::Try { catches: collectors.collect() });
         self.block(body);
-        let Some(Enclosing::Try { catches: caught }) = self.enclosing.pop() else { return };
+        let Some(Enclosing::Try { catches: caught }) = self.control.enclosing.pop() else { return };
         let mut ways = Vec::with_capacity(1 + catches.len());
-        if self.live {
-            ways.push(self.facts.delta(mark));
+        if self.control.live {
+            ways.push(self.state.facts.delta(mark));
         }
         for (catch, (_, states, kinds)) in catches.iter().zip(&caught) {
             for (kind, span) in catch.on.iter().flatten() {
@@ -167,12 +167,12 @@ impl Prover<'_> {
             }
             self.back_to(mark);
             if states.hit {
-                self.live = true;
-                self.facts.replay(&states.delta());
+                self.control.live = true;
+                self.state.facts.replay(&states.delta());
                 self.block(&catch.body);
                 self.check_catch(catch, kinds);
-                if self.live {
-                    ways.push(self.facts.delta(mark));
+                if self.control.live {
+                    ways.push(self.state.facts.delta(mark));
                 }
             } else {
                 // That nothing is caught was said; its steps need no word of their own.
@@ -190,23 +190,23 @@ impl Prover<'_> {
         }
     }
 
-    /// Each level of loops and branches is proved at least twice: beyond a limit that would take for ever.
+    /// Enters a loop or parallel block. Each level is proved at least twice, so the depth is limited.
     pub(crate) fn enter_fixpoint(&mut self, id: StepId) -> bool {
-        if self.fixpoints >= MAX_FIXPOINTS {
+        if self.control.fixpoints >= MAX_FIXPOINTS {
             let span = self.program.step(id).map_or(self.program.span, |step| step.span);
             self.diagnostics.push(TooDeep { span, limit: MAX_FIXPOINTS }.into());
             return false;
         }
-        self.fixpoints += 1;
+        self.control.fixpoints += 1;
         true
     }
 
     /// Ends the policy, or the inlined policy `of`.
     pub(crate) fn end(&mut self, id: Option<StepId>, kind: EndKind, of: Option<StepId>, span: Span) {
-        let depth = self
-            .enclosing
-            .iter()
-            .rposition(|enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of));
+        let depth =
+            self.control.enclosing.iter().rposition(
+                |enclosing| matches!(enclosing, Enclosing::Inline { step, .. } if Some(*step) == of),
+            );
         match (kind, of, depth) {
             (EndKind::Done, None, _) => {
                 let end = id.map(PolicyEnd::Before);
@@ -214,8 +214,8 @@ impl Prover<'_> {
                 self.check_end(end, span);
             }
             (EndKind::Done, Some(_), Some(depth)) => {
-                if let Some(Enclosing::Inline { exits, .. }) = self.enclosing.get_mut(depth) {
-                    exits.see(&self.facts);
+                if let Some(Enclosing::Inline { exits, .. }) = self.control.enclosing.get_mut(depth) {
+                    exits.see(&self.state.facts);
                 }
             }
             (EndKind::Fail, Some(_), Some(depth)) => {
@@ -225,10 +225,10 @@ impl Prover<'_> {
             }
             (EndKind::Fail | EndKind::Replan, _, _) | (EndKind::Done, Some(_), None) => {}
         }
-        self.live = false;
+        self.control.live = false;
     }
 
-    /// The first step of every run of steps that no way leads to.
+    /// Reports the first step of every run of unreachable steps.
     pub(crate) fn report_unreached(&mut self) {
         let program = self.program;
         let reached = |id: &StepId| self.proof.reached.get(id.index()).copied().unwrap_or(true);

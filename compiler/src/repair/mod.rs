@@ -182,7 +182,7 @@ impl RepairFinder {
 
     /// Offers to leave out the step that is being proved.
     fn leave_out(&mut self, prover: &Prover<'_>, diagnostic: &Diagnostic) {
-        let own = prover.here.filter(|id| !prover.is_inlined(*id));
+        let own = prover.control.here.filter(|id| !prover.is_inlined(*id));
         self.add(diagnostic, own.map(Repair::Drop).into_iter().collect());
     }
 

@@ -1,4 +1,4 @@
-//! Chaining backwards from what is wanted, with the facts as they would be.
+//! Backward search from unmet needs, on the facts as they would be.
 
 use motet_syntax::Span;
 
@@ -12,13 +12,13 @@ use crate::prove::effects::FactChange;
 use crate::prove::evaluation::CallFrame;
 
 impl Prover<'_> {
-    /// Runs of calls after which all needs hold, the shortest first.
+    /// Sequences of calls after which all needs hold, the shortest first.
     pub(super) fn plans(&mut self, needs: &[NeedDef], frame: CallFrame<'_>) -> Vec<Vec<CandidateCall>> {
         let mut plans = Vec::new();
         let mut tries = MAX_TRIES;
         for subgoal in self.first_refuted(needs, frame) {
             for achiever in self.achievers(subgoal) {
-                let mark = self.facts.mark();
+                let mark = self.state.facts.mark();
                 let mut calls = Vec::new();
                 let is_found = self.perform(&achiever, MAX_DEPTH, &mut tries, &mut calls)
                     && self.satisfy(needs, frame, MAX_DEPTH, &mut tries, &mut calls);
@@ -54,7 +54,7 @@ impl Prover<'_> {
             let before = calls.len();
             let is_found = subgoals.into_iter().any(|subgoal| {
                 self.achievers(subgoal).into_iter().any(|achiever| {
-                    let mark = self.facts.mark();
+                    let mark = self.state.facts.mark();
                     let is_found = self.perform(&achiever, depth - 1, tries, calls);
                     if !is_found {
                         self.back_to(mark);
@@ -69,7 +69,8 @@ impl Prover<'_> {
         }
     }
 
-    /// Brings about what a call needs, and does it. `false`, with facts and calls to be taken back, where that fails.
+    /// Achieves the needs of a call, and applies it. Returns false if that fails; the caller then restores
+    /// facts and calls.
     pub(super) fn perform(
         &mut self,
         achiever: &Achiever<'_>,
@@ -110,7 +111,7 @@ impl Prover<'_> {
         holds.is_none_or(|value| if truth { value.is_true() } else { value.is_false() })
     }
 
-    /// The facts each of which would be a first step towards the first need that is refuted.
+    /// Facts that are each a first step towards the first refuted need.
     pub(super) fn first_refuted(&self, needs: &[NeedDef], frame: CallFrame<'_>) -> Vec<Subgoal> {
         let mut subgoals = Vec::new();
         for need in needs {
@@ -154,7 +155,7 @@ impl Prover<'_> {
                 }
                 // That none holds: each that may hold has to go.
                 let mut held = Vec::new();
-                self.facts.entries(fact.fluent, key, |key, value| {
+                self.state.facts.entries(fact.fluent, key, |key, value| {
                     if value.yes.is_some() {
                         held.push(key);
                     }

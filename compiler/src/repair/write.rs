@@ -1,4 +1,4 @@
-//! What the prover proposes, as edits of a document in its own form and layout.
+//! Repairs as edits of a document, in its own syntax and layout.
 
 use motet_syntax::ast::{Arg, Call, Do, Expr, ExprKind, Name};
 use motet_syntax::{Code, Diagnostic, Edit, Fix, Form, Parsed, Span, print};
@@ -12,10 +12,10 @@ use crate::ir::{BindingId, Fluent, Program, Step, StepId, StepKind, Term};
 use crate::plan::achievers::CandidateCall;
 use crate::plan::write::spelled;
 
-/// Bindings by their new names.
+/// New names of bindings.
 type Renamed = SmallVec<[(BindingId, SmolStr); 2]>;
 
-/// A document and what it means.
+/// A document with its meaning.
 pub(super) struct Writer<'a> {
     pub(super) parsed: &'a Parsed,
     pub(super) program: &'a Program,
@@ -24,7 +24,7 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Writes a repair as edits; none where a call of it has no spelling.
+    /// Writes a repair as edits; `None` if a call has no spelling.
     pub(super) fn fix(&self, repair: &Repair) -> Option<Fix> {
         match repair {
             Repair::Before(id, calls) => {
@@ -45,14 +45,14 @@ impl Writer<'_> {
             Repair::Drop(id) => {
                 let edit = self.without(self.step(*id)?.span)?;
                 Some(Fix {
-                    title: "leave this step out: what it does is done already".to_owned(),
+                    title: "remove this step: its effects already hold".to_owned(),
                     edits: vec![edit],
                 })
             }
         }
     }
 
-    /// A monitor around a step that binds nothing which is used behind it.
+    /// Puts a monitor around a step that binds no value.
     fn watched(&self, id: StepId, fluent: Fluent) -> Option<Fix> {
         let step = self.step(id)?;
         if !matches!(&step.kind, StepKind::Call(call) if call.binds.is_none()) {
@@ -76,7 +76,7 @@ impl Writer<'_> {
         Some(Fix { title: format!("watch `{name}` meanwhile, and pause"), edits })
     }
 
-    /// The values that stand for bindings, by their new names, in the arguments of a step.
+    /// Replaces bindings by their new names in the arguments of a step.
     fn in_place_of(&self, step: &Step, renamed: &Renamed) -> Vec<Edit> {
         let StepKind::Call(call) = &step.kind else { return Vec::new() };
         let args = call.args.iter().zip(&call.spans);
@@ -87,7 +87,7 @@ impl Writer<'_> {
         edits.collect()
     }
 
-    /// A binding as the form writes it.
+    /// Spelling of a binding in the syntax of the document.
     fn binding(&self, name: &str) -> String {
         match self.parsed.form {
             Form::Text => print::identifier(name),
@@ -95,13 +95,13 @@ impl Writer<'_> {
         }
     }
 
-    /// A name that nothing is bound to yet: `mug_2`.
+    /// An unused name: `mug_2`.
     fn fresh(&self, bound: &str) -> Option<SmolStr> {
         let is_taken = |name: &SmolStr| self.program.bindings.iter().any(|other| other.name == *name);
         (2..).map(|count| format_smolstr!("{bound}_{count}")).find(|name| !is_taken(name))
     }
 
-    /// For a value that is missing, or of the wrong kind, where the environment has just one entity that fits: that.
+    /// Fix for a missing or wrong value, if only one entity of the environment fits.
     pub(super) fn only_one(&self, said: &Diagnostic) -> Option<Fix> {
         let is_missing = match said.code.0 {
             "M0303" => true,
@@ -130,10 +130,10 @@ impl Writer<'_> {
         } else {
             Edit { span: said.span, text: written }
         };
-        Some(Fix { title: format!("write `{name}`, the only one there is"), edits: vec![edit] })
+        Some(Fix { title: format!("write `{name}`, the only one that fits"), edits: vec![edit] })
     }
 
-    /// One more argument of a call.
+    /// Adds an argument to a call.
     fn argument(&self, call: Span, param: &str, written: &str) -> Option<Edit> {
         let text = self.parsed.text.get(call.range())?;
         let inside = text.strip_suffix([')', '}'])?;
@@ -146,8 +146,8 @@ impl Writer<'_> {
         Some(Edit { span: Span { start: end, end, ..call }, text })
     }
 
-    /// For a step that is never reached: it and all behind it in its block left out. The first of a block stays, since a
-    /// block without steps means nothing.
+    /// Fix for an unreachable step: removes it and the rest of its block. The first step of a block stays,
+    /// since a block must not be empty.
     pub(super) fn leaving_out(&self, said: &Diagnostic) -> Option<Fix> {
         if said.code.0 != "M0902" {
             return None;
@@ -164,12 +164,12 @@ impl Writer<'_> {
             return None;
         }
         Some(Fix {
-            title: "leave out what is never reached".to_owned(),
+            title: "remove the unreachable steps".to_owned(),
             edits: vec![self.without(step.span.to(last))?],
         })
     }
 
-    /// Perceives again: later, where nothing else looks at the value; else a second time, under a name of its own.
+    /// Repeats a perception: moves it if its value has no other use, else copies it under a new name.
     fn again(&self, found: StepId, before: StepId, used: Span) -> Option<Fix> {
         let (found, before) = (self.step(found)?, self.step(before)?);
         let StepKind::Call(call) = &found.kind else { return None };
@@ -185,7 +185,7 @@ impl Writer<'_> {
             step.bind = Some(Name { text: bound.clone(), span: Span::default() });
             let insert = self.insert_before(before.span, &self.texts(&[step]))?;
             let edits = vec![self.without(found.span)?, insert];
-            return Some(Fix { title: format!("perceive `{bound}` just before it is used"), edits });
+            return Some(Fix { title: format!("perceive `{bound}` just before its use"), edits });
         }
         let fresh = self.fresh(bound)?;
         step.bind = Some(Name { text: fresh.clone(), span: Span::default() });
@@ -195,8 +195,8 @@ impl Writer<'_> {
         Some(Fix { title, edits: vec![insert, Edit { span: used, text: written }] })
     }
 
-    /// A name in place of another as the form has it: in JSON with the quotes and the `$` of what it replaces, in text in
-    /// back-quotes where it needs them. A number or a quantity, which is no name, stays.
+    /// Adapts the name in a fix to the syntax: in JSON with the quotes and the `$` of the name that it
+    /// replaces, in text in back-quotes if it needs them. Numbers and quantities stay.
     pub(super) fn in_form(&self, code: Code, fix: &mut Fix) {
         let is_number = matches!(code.0, "M0302" | "M0310");
         for edit in fix.edits.iter_mut().filter(|_| !is_number) {
@@ -222,7 +222,7 @@ impl Writer<'_> {
         calls.iter().map(|call| print::call(call, self.parsed.form)).collect()
     }
 
-    /// Calls as the document would write them, and the new names of what they perceive once more.
+    /// Writes calls, and the new names of the values that they perceive again.
     fn calls(&self, proposed: &[CandidateCall]) -> Option<(Vec<Do>, Renamed)> {
         let mut renamed = Renamed::new();
         let mut calls = Vec::with_capacity(proposed.len());
@@ -238,7 +238,7 @@ impl Writer<'_> {
         Some((calls, renamed))
     }
 
-    /// A call as the document would write it, with bindings by their new names. Defaults are left unsaid.
+    /// Writes a call, with bindings by their new names, without defaults.
     fn call(&self, proposed: &CandidateCall, renamed: &Renamed) -> Option<Do> {
         let def = self.library.primitive(proposed.primitive)?;
         let span = Span::default();
@@ -267,7 +267,7 @@ impl Writer<'_> {
         spelled(term, self.library, self.environment)
     }
 
-    /// Steps before the one at a place, each on a line of its own where that one has one.
+    /// Inserts steps before a span, each on its own line if the step there has one.
     fn insert_before(&self, place: Span, steps: &[String]) -> Option<Edit> {
         let gap = self.gap(place)?;
         let comma = self.comma();
@@ -275,7 +275,7 @@ impl Writer<'_> {
         Some(Edit { span: Span { end: place.start, ..place }, text })
     }
 
-    /// Steps behind the one at a place.
+    /// Inserts steps after a span.
     fn insert_after(&self, place: Span, steps: &[String]) -> Option<Edit> {
         let gap = self.gap(place)?;
         let comma = self.comma();
@@ -290,7 +290,8 @@ impl Writer<'_> {
         }
     }
 
-    /// What stands between steps: a line break and the step's own indentation; a blank where it shares its line.
+    /// Separator between steps: a line break with the indentation of the step, or a blank if it shares its
+    /// line.
     fn gap(&self, place: Span) -> Option<String> {
         let before = self.parsed.text.get(..place.start as usize)?;
         let line = before.rsplit('\n').next().unwrap_or_default();
@@ -298,7 +299,7 @@ impl Writer<'_> {
         Some(if is_alone { format!("\n{line}") } else { " ".to_owned() })
     }
 
-    /// The text without a step, and in JSON without a comma beside it.
+    /// Removes a step, and in JSON a comma beside it.
     fn without(&self, place: Span) -> Option<Edit> {
         let text = &self.parsed.text;
         let before = text.get(..place.start as usize)?;
@@ -317,7 +318,7 @@ impl Writer<'_> {
     }
 }
 
-/// "insert `go(table)` before"
+/// Title of a fix: "insert `go(table)` before".
 fn title(verb: &str, calls: &[Do], place: &str) -> String {
     let calls: Vec<_> = calls.iter().map(|call| format!("`{}`", print::call(call, Form::Text))).collect();
     format!("{verb} {} {place}", calls.join(", "))

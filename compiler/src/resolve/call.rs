@@ -1,4 +1,4 @@
-//! Calls of primitives and of sub-policies, as steps.
+//! Calls of primitives and of sub-policies.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, 
 use crate::declare::suggestion::{list, near};
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
 
-/// A parameter as a call sees it.
+/// A parameter from the view of a call.
 struct FormalParam<'p> {
     name: &'p SmolStr,
     ty: Ty,
     optional: bool,
 }
 
-/// The parameters of something called: few, as a rule.
+/// Parameters of a callee: usually few.
 type Formals<'p> = SmallVec<[FormalParam<'p>; 4]>;
 
 impl StepResolver<'_> {
@@ -63,13 +63,13 @@ impl StepResolver<'_> {
         self.unknown(span, position)
     }
 
-    /// A step of which nothing is known, after an error that was reported.
+    /// Step with an error that was reported.
     fn unknown(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
         let id = self.reserve(span, position)?;
         self.fill(id, StepKind::Unknown)
     }
 
-    /// Names in the arguments of a call that does not exist count as used, and are not reported.
+    /// Marks the names in the arguments of an unknown callee as used, without reports.
     fn use_names(&mut self, expr: &Expr) {
         let said = self.elaborator.diagnostics.len();
         self.elaborator.term(expr, None);
@@ -151,8 +151,8 @@ impl StepResolver<'_> {
         for clause in [&call.within, &call.retry].into_iter().flatten() {
             self.elaborator.report(BadDeclaration {
                 span: clause.span,
-                what: format!("`{name}` is a policy: it has neither a deadline nor retries of its own"),
-                remedy: "put them on the steps inside, or use `try` and `repeat` around the call".to_owned(),
+                what: format!("`{name}` is a policy, which has neither a deadline nor retries"),
+                remedy: "put them on its steps, or use `try` and `repeat` around the call".to_owned(),
             });
         }
         let mut types = Vec::with_capacity(policy.params.len());
@@ -183,7 +183,7 @@ impl StepResolver<'_> {
         self.body(id, policy, &types, terms)
     }
 
-    /// A call of a policy outside of any step.
+    /// Inlines a call of a policy outside of any step.
     pub(super) fn write_out(&mut self, policy: &Policy, args: Vec<Term>) -> Option<StepId> {
         if self.calls.contains(&policy.name.text) {
             let (span, name) = (policy.name.span, policy.name.text.clone());
@@ -198,7 +198,7 @@ impl StepResolver<'_> {
         self.body(id, policy, &types, args)
     }
 
-    /// The steps of a policy that is called with these arguments.
+    /// Inlines the steps of a policy with arguments.
     fn body(&mut self, id: StepId, policy: &Policy, types: &[Ty], args: Vec<Term>) -> Option<StepId> {
         let name = policy.name.text.clone();
         let mark = self.elaborator.scope.mark();
@@ -215,7 +215,7 @@ impl StepResolver<'_> {
         self.fill(id, StepKind::Inline { policy: name, body })
     }
 
-    /// Sub-policies are always text, whatever form the calling document has.
+    /// Elaborates in text syntax, which sub-policies always have.
     fn in_text<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
         let form = std::mem::replace(&mut self.elaborator.form, motet_syntax::Form::Text);
         let result = run(self);
@@ -223,7 +223,7 @@ impl StepResolver<'_> {
         result
     }
 
-    /// The argument for each parameter.
+    /// Matches arguments with parameters.
     fn match_arguments<'e>(
         &mut self,
         call: &'e Do,
@@ -288,7 +288,7 @@ impl StepResolver<'_> {
     }
 }
 
-/// The one parameter without default that no argument of a call names: what an argument under a wrong name is meant for.
+/// The one parameter without default that has no argument: probably what a wrong name stands for.
 fn only_missing(call: &Do, formals: &[FormalParam<'_>]) -> Option<SmolStr> {
     let args = &call.call.args;
     let is_given = |formal: &FormalParam<'_>| {

@@ -1,6 +1,10 @@
-//! Stage 1: names and types. An AST becomes a [`Program`]: every name an index, every argument in its place, every
-//! sub-policy inlined. Names and types are one stage, because a plain string of the JSON form is an entity, a case, a
-//! quantity or a text as the type where it stands says.
+//! Stage 1, name resolution and typing: from a syntax tree to a [`Program`] in which every name is an id,
+//! every argument has its place, and every sub-policy is inlined.
+//!
+//! Names and types are one stage, because the expected type decides whether a plain string of the JSON syntax
+//! is an entity, a case, a quantity or a text.
+//!
+//! Guarded by the pages in `compiler/codes`, which `compiler/tests/compiler/explain.rs` runs.
 
 mod call;
 pub(crate) mod errors;
@@ -17,7 +21,7 @@ use crate::declare::scope;
 use crate::environment::Environment;
 use crate::ir::{Program, Term};
 
-/// The most steps of a policy with its sub-policies inlined.
+/// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
 
 /// Resolves one policy.
@@ -33,8 +37,8 @@ pub(crate) fn resolve(
     (program, steps.finish())
 }
 
-/// Resolves one more step of the body of a policy whose name is `name`: appends to `program` what it makes, and leaves
-/// in `scope` what it binds.
+/// Resolves one more step of the body of the policy `name`: appends it to `program`, and adds its bindings to
+/// `scope`.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
     (form, name): (Form, &smol_str::SmolStr),
@@ -59,7 +63,7 @@ pub(crate) fn resolve_step(
     (id, steps.finish())
 }
 
-/// Appends to a program a call of a policy with these arguments; its first step.
+/// Appends a call of a policy with arguments to a program, and returns its first step.
 pub(crate) fn resolve_inlined(
     policy: &Policy,
     args: Vec<Term>,

@@ -1,4 +1,4 @@
-//! A motion that is asked for by itself, without a policy: whether the things it names are of kinds that it may be about.
+//! Type checks of stand-alone motion queries.
 
 use motet_syntax::ast::{Expr, ExprKind};
 use motet_syntax::{Diagnostic, Form, Span};
@@ -7,20 +7,21 @@ use smol_str::SmolStr;
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::ir::Term;
+use crate::ir::{MotionKind, Term};
 
-/// What is wrong with the things that a motion names, as a call of a primitive with this motion would be told; nothing where one of
-/// the primitives that the robot has takes them all. Things other than parameters of a primitive are not looked at.
+/// Type-checks the arguments of a motion query as a call of a primitive with this motion would; empty if one
+/// of the robot's primitives accepts them. Checks only parameters of the primitive.
 pub(crate) fn check_motion(
     name: &str,
     args: &[(SmolStr, Span)],
     library: &Library,
     environment: &Environment,
 ) -> Vec<Diagnostic> {
+    let kind = MotionKind::from_name(name);
     let mut least: Option<Vec<Diagnostic>> = None;
     for def in library.primitives.iter().filter(|def| def.provided) {
         let Some((_, terms)) =
-            def.motion.as_ref().filter(|(own, terms)| own == name && terms.len() == args.len())
+            def.motion.as_ref().filter(|(own, terms)| Some(*own) == kind && terms.len() == args.len())
         else {
             continue;
         };

@@ -1,4 +1,4 @@
-//! StepResolver and blocks.
+//! Resolution of steps and blocks.
 
 use motet_syntax::ast::{Block, Catch, CatchOn, End, Policy, Reaction, Step, StepKind, When};
 use motet_syntax::{Diagnostic, Span};
@@ -11,7 +11,7 @@ use crate::declare::errors::{NotACondition, UnknownFailure, WrongType};
 use crate::declare::suggestion::{list, near};
 use crate::ir::{self, Base, Binding, BindingId, BlockSlot, Program, StepId, StepPosition, Term, Ty};
 
-/// Seconds of a `wait` or `pause` that says nothing of its own.
+/// Default deadline of a `wait` or `pause`, in seconds.
 pub(super) const DEFAULT_WAIT_SECS: f64 = 60.0;
 
 /// Resolves steps into the arena of a program.
@@ -20,7 +20,7 @@ pub(super) struct StepResolver<'a> {
     pub(super) program: Program,
     /// The inlined policy whose body is being resolved.
     pub(super) inline: Option<StepId>,
-    /// Names of the policies being inlined, outermost first.
+    /// Names of the policies that are being inlined, outermost first.
     pub(super) calls: Vec<SmolStr>,
     full: bool,
 }
@@ -74,7 +74,7 @@ impl<'a> StepResolver<'a> {
         steps
     }
 
-    /// Takes the next place in the arena, so that a parent comes before its children.
+    /// Reserves the next place in the arena, so that a parent precedes its children.
     pub(super) fn reserve(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
         if self.program.steps.len() >= MAX_NODES {
             if !self.full {
@@ -262,7 +262,7 @@ impl<'a> StepResolver<'a> {
         ir::Catch { on, span, body: self.block(&catch.body, Some(id), slot) }
     }
 
-    /// An expression in a place of a step where nothing but a name of something called makes sense.
+    /// Reports a condition in place of a step.
     pub(super) fn misplaced(&mut self, span: Span) {
         self.elaborator.report(NotACondition { span, found: "a condition", wanted: "a step" });
     }

@@ -1,5 +1,5 @@
-//! Whether a robot's card and the declarations fit: what it observes and provides is declared, its bounds are for
-//! parameters that are there and in their unit, what holds at the start is a fact. Every finding stands in the card.
+//! Checks a robot's card against the declarations: what it observes and provides must be declared, bounds
+//! must fit their parameter, and facts at the start must be facts. All diagnostics point into the card.
 
 use motet_robots::card::{Bound, Robot};
 use motet_syntax::ast::Expr;
@@ -14,7 +14,7 @@ use crate::declare::library::Library;
 use crate::declare::suggestion::{list, near};
 use crate::ir::Base;
 
-/// What the card names that is not declared, and bounds that do not fit their parameter.
+/// Reports names of the card that are not declared, and bounds that do not fit their parameter.
 pub(in crate::declare) fn check(
     library: &Library,
     declarations: &Declarations,
@@ -78,14 +78,15 @@ fn observes(library: &Library, robot: &Robot) -> Vec<Diagnostic> {
     found.collect()
 }
 
-/// Where the card says that the robot provides a primitive.
+/// Span at which the card provides a primitive.
 fn place(robot: &Robot, primitive: &str) -> Span {
     robot.places.primitives.get(primitive).copied().unwrap_or_default()
 }
 
-/// What is wrong with a primitive that the card provides and that a layer below the card declares. The declaration is
-/// right for other robots, so it is the card that has to remedy it. `is_alone` says that nothing lies above the card: what
-/// lies above may replace what a contract speaks of, but never gives a robot a resource.
+/// Diagnostic for a provided primitive whose declaration, in a layer below the card, has mistakes on this
+/// robot. The declaration is right for other robots, so the card has to change. `is_alone` is true if no
+/// layer lies above the card: such a layer may replace names that the contract uses, but never adds a
+/// resource.
 pub(in crate::declare) fn unfit(
     robot: &Robot,
     primitive: &SmolStr,
@@ -99,7 +100,8 @@ pub(in crate::declare) fn unfit(
     Some(UnfitPrimitive { span, name: primitive.clone(), why, at }.into())
 }
 
-/// The facts that the card says hold at the start, each with its place, and what is no fact at all.
+/// Parses the facts that the card states for the start, each with its span, and reports entries that are no
+/// condition.
 pub(in crate::declare) fn facts<'r>(
     robot: &'r Robot,
     diagnostics: &mut Vec<Diagnostic>,
@@ -115,7 +117,7 @@ pub(in crate::declare) fn facts<'r>(
     facts
 }
 
-/// What is said of an entry under `initially` that is no fact: why, and what to write instead where that is known.
+/// Diagnostic for an entry under `initially` that is no fact, with the reason and, where known, a correction.
 pub(in crate::declare) fn not_at_first(
     text: &str,
     (why, remedy): (String, Option<String>),

@@ -1,4 +1,4 @@
-//! A robot's card that does not fit the declarations (M0406 to M0410, M0446).
+//! Diagnostics of a robot's card that does not fit the declarations (M0406 to M0410, M0446).
 
 use motet_syntax::{Related, Span};
 use smol_str::SmolStr;
@@ -6,17 +6,17 @@ use smol_str::SmolStr;
 motet_syntax::mistakes! {
     pub(crate) const CODES;
 
-    /// A card observes what is not declared.
+    /// Unknown fluent or measure under `observes`.
     UnknownObserved("M0406", Error) { name: SmolStr, near: Option<SmolStr> }
-    message(m) { format!("there is no fluent and no measure `{}` to observe", m.name) }
+    message(m) { format!("there is no fluent or measure `{}` to observe", m.name) }
     help(m) {
         Some(match &m.near {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("declare it in primitives.motet, such as `fluent {}(what: Entity)`, or take it out", m.name),
+            None => format!("declare it in primitives.motet, such as `fluent {}(what: Entity)`, or remove it", m.name),
         })
     }
 
-    /// A card provides what is not declared as a primitive.
+    /// Unknown primitive in a card.
     UnknownProvided("M0407", Error) { name: SmolStr, near: Option<SmolStr>, is_policy: bool }
     message(m) {
         if m.is_policy {
@@ -27,30 +27,30 @@ motet_syntax::mistakes! {
     }
     help(m) {
         Some(match &m.near {
-            _ if m.is_policy => "take it out: a robot has every policy whose primitives it provides".to_owned(),
+            _ if m.is_policy => "remove it: a robot has every policy whose primitives it provides".to_owned(),
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("declare it in primitives.motet, `action {}()`, or take it out", m.name),
+            None => format!("declare it in primitives.motet, `action {}()`, or remove it", m.name),
         })
     }
 
-    /// A card bounds a parameter that the primitive does not have.
+    /// Bounds of an unknown parameter in a card.
     UnknownBound("M0408", Error) { primitive: SmolStr, param: SmolStr, near: Option<SmolStr>, known: String }
-    message(m) { format!("`{}` has no parameter `{}` to bound", m.primitive, m.param) }
+    message(m) { format!("`{}` has no parameter `{}`", m.primitive, m.param) }
     help(m) {
         Some(match &m.near {
             Some(near) => format!("did you mean `{near}`?"),
-            None if m.known.is_empty() => format!("it has none: write `{} = {{}}`", m.primitive),
-            None => format!("it has {}", m.known),
+            None if m.known.is_empty() => format!("it has no parameters: write `{} = {{}}`", m.primitive),
+            None => format!("its parameters are {}", m.known),
         })
     }
 
-    /// A card bounds a parameter in the wrong unit, or one that is no number. `unit` is the SI symbol of the parameter's
-    /// quantity, empty for plain numbers; none where the parameter is no number.
+    /// Bounds of a parameter in the wrong unit, or of one that is no number. `unit` is the SI symbol of the
+    /// parameter's quantity, empty for plain numbers; `None` if the parameter is no number.
     WrongBound("M0409", Error) { primitive: SmolStr, param: SmolStr, ty: String, unit: Option<&'static str> }
     message(m) {
         match m.unit {
-            Some(_) => format!("`{}` of `{}` is of the type {}, and its bounds have another unit", m.param, m.primitive, m.ty),
-            None => format!("`{}` of `{}` is of the type {}, and only numbers have bounds", m.param, m.primitive, m.ty),
+            Some(_) => format!("`{}` of `{}` has the type {}, but its bounds have another unit", m.param, m.primitive, m.ty),
+            None => format!("`{}` of `{}` has the type {}, but only numbers have bounds", m.param, m.primitive, m.ty),
         }
     }
     help(m) {
@@ -61,13 +61,13 @@ motet_syntax::mistakes! {
         })
     }
 
-    /// A primitive that a card provides, and whose declaration speaks of what the robot lacks.
+    /// Provided primitive whose declaration needs something that the robot lacks.
     UnfitPrimitive("M0410", Error) { name: SmolStr, why: String, at: Span }
-    message(m) { format!("this robot cannot provide `{}` as it is declared: {}", m.name, m.why) }
-    help(m) { Some(format!("add what is missing to the card, declare `{0}` anew in primitives.motet, or take `{0}` out", m.name)) }
+    message(m) { format!("this robot cannot provide `{}` as declared: {}", m.name, m.why) }
+    help(m) { Some(format!("add what is missing to the card, declare `{0}` again in primitives.motet, or remove `{0}`", m.name)) }
     related(m) { vec![Related::new("declared here", m.at)] }
 
-    /// A card's `initially` has an entry that is no fact.
+    /// Entry under `initially` of a card that is no fact.
     NotAtFirst("M0446", Error) { text: String, why: String, remedy: Option<String> }
     message(m) { format!("`{}` is not a fact: {}", m.text, m.why) }
     help(m) {

@@ -1,19 +1,20 @@
-//! What a robot's card adds to the library: resources, the enumerations of its hands and cameras, its numbers.
+//! Contribution of a robot's card to the library: resources, the enumerations of hands and cameras, numbers.
 
 pub(super) mod check;
 pub(in crate::declare) mod errors;
 
 use motet_robots::card::Robot;
+use motet_stdlib::lang;
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
 use crate::declare::library::{EnumDef, Library, ResourceDef, ResourceSet};
 use crate::ir::{Base, EnumId, Ty};
 
-/// The most resources of one robot.
+/// Maximal number of resources of one robot.
 pub const MAX_RESOURCES: usize = 64;
 
-/// Resources of a robot of which nothing is known.
+/// Resources of an unknown robot.
 const GENERIC: &[&str] = &["base", "arm", "hand", "camera", "voice"];
 
 pub(in crate::declare) fn apply(library: &mut Library, robot: Option<&Robot>) {
@@ -36,7 +37,11 @@ pub(in crate::declare) fn apply(library: &mut Library, robot: Option<&Robot>) {
         }
     };
     let all = library.resources.iter().map(|def| def.name.clone()).collect();
-    for (name, cases) in [("Hand", hands), ("Camera", cameras), ("Resource", all)] {
+    for (name, cases) in [
+        (lang::card_enums::HAND, hands),
+        (lang::card_enums::CAMERA, cameras),
+        (lang::card_enums::RESOURCE, all),
+    ] {
         let cases: Vec<SmolStr> = cases;
         let id = EnumId(u16::try_from(library.enums.len()).unwrap_or(u16::MAX));
         for (index, case) in cases.iter().enumerate() {
@@ -47,7 +52,7 @@ pub(in crate::declare) fn apply(library: &mut Library, robot: Option<&Robot>) {
         library.enums.push(EnumDef { name: name.into(), cases });
     }
     // Contracts say `hand` and `camera` whatever a robot calls its first.
-    for (word, name) in [("hand", "Hand"), ("camera", "Camera")] {
+    for (word, name) in [("hand", lang::card_enums::HAND), ("camera", lang::card_enums::CAMERA)] {
         let Some(id) = library.names.enums.get(name).copied() else { continue };
         if library.enums.get(id.index()).is_some_and(|def| !def.cases.is_empty()) {
             library.names.cases.entry(word.into()).or_insert((id, 0));

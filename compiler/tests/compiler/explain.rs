@@ -1,5 +1,5 @@
-//! The pages of `motet explain` are true: what stands under "Wrong" raises the page's code, what stands under "Right" and
-//! "Near miss" raises neither that code nor any error, every code has a page, and every page a code.
+//! Pages of `motet explain`: examples under "Wrong" raise the code of the page; those under "Right" and "Near miss" raise
+//! neither that code nor any error; every code has a page, and every page a code. Guards all `errors.rs`.
 
 use std::collections::BTreeSet;
 

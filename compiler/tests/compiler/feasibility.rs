@@ -1,15 +1,5 @@
-//! Motions in the worlds after the steps before them: what is feasible has a witness in the graph, what is not says why, and
-//! what turns on something that only the run can tell is left to it.
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    clippy::print_stderr,
-    missing_docs,
-    reason = "a test fails by panicking"
-)]
+//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions that are left to
+//! the run. Guards `src/feasibility/`.
 
 use std::sync::{Arc, LazyLock};
 
@@ -113,7 +103,7 @@ fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
     }
     let both = format!("policy bring for hsr {{ {} {} }}", bring("mug_1"), bring("glass_1"));
     let (said, since) = refusal(&session, &both);
-    assert!(said.starts_with("M0602 `place` cannot do `put(glass_1, stand)`: "), "{said}");
+    assert!(said.starts_with("M0602 `place` cannot perform `put(glass_1, stand)`: "), "{said}");
     assert!(said.contains("`mug_1` is in the way"), "{said}");
     assert!(said.contains("`mug_1` is as `place(mug_1, stand)` left it"), "{said}");
     assert_eq!(since.first().map(String::as_str), Some("changed here"), "{since:?}");
@@ -206,7 +196,10 @@ fn what_stands_before_a_drawer_is_named() {
     scene.entities.insert(chair.id.clone(), chair);
     let (said, _) =
         refusal(&session(&scene), "policy look for hsr { go(drawer_1) open(drawer_1) close(drawer_1) }");
-    assert!(said.starts_with("M0603 `open` cannot do `pull(drawer_1)`: `chair` blocks the way"), "{said}");
+    assert!(
+        said.starts_with("M0603 `open` cannot perform `pull(drawer_1)`: `chair` blocks the way"),
+        "{said}"
+    );
 }
 
 #[test]
