@@ -95,7 +95,7 @@ impl Session {
         let mut diagnostics = parsed.diagnostics.clone();
         for policy in parsed.file.policies() {
             let (program, more) =
-                crate::resolve::resolve(policy, parsed.form, &self.library, &self.environment);
+                crate::resolve::resolve(policy, parsed.syntax, &self.library, &self.environment);
             diagnostics.extend(more);
             let limit = self.options.max_duration_secs;
             let (_, more) = crate::limits::check(program, &self.library, &self.environment, limit);
@@ -186,7 +186,7 @@ impl Session {
         environment: &Environment,
         geometry: Option<&Geometry>,
     ) -> Analysis {
-        let (program, mut diagnostics) = crate::resolve::resolve(policy, parsed.form, library, environment);
+        let (program, mut diagnostics) = crate::resolve::resolve(policy, parsed.syntax, library, environment);
         diagnostics.extend(crate::limits::check_robot_name(policy, library));
         let limit = self.options.max_duration_secs;
         let (program, more) = crate::limits::check(program, library, environment, limit);
@@ -260,7 +260,7 @@ fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, libra
         diagnostic.fix = None;
     }
     let parameter = |callee: &str, position: usize| library.parameter(callee, position);
-    let pointer = |span| motet_syntax::path::pointer(policy, span, &parameter);
+    let pointer = |span| motet_syntax::pointer::pointer_to(policy, span, &parameter);
     diagnostic.path = pointer(diagnostic.span);
     for related in &mut diagnostic.related {
         if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {

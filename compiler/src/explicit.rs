@@ -5,7 +5,7 @@
 //! in the SI unit; arguments get names in JSON and positions in text. Where a name is unknown or a value does
 //! not fit, the policy stays as it is.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Arg, Block, Call, End, Expr, ExprKind, Name, Policy, Reaction, StepKind};
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
@@ -15,7 +15,7 @@ use crate::declare::elaborator::parse_quantity;
 use crate::ir::{Base, Ty};
 
 /// Makes a policy explicit, for printing it in a syntax.
-pub fn make_explicit(policy: &mut Policy, library: &Library, form: Form) {
+pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
     let writer = Writer { library, form };
     if let Some(goal) = &mut policy.achieves {
         writer.condition(goal);
@@ -25,7 +25,7 @@ pub fn make_explicit(policy: &mut Policy, library: &Library, form: Form) {
 
 struct Writer<'a> {
     library: &'a Library,
-    form: Form,
+    form: Syntax,
 }
 
 impl Writer<'_> {
@@ -143,11 +143,11 @@ impl Writer<'_> {
                 None => params.get(position),
             };
             self.term(&mut arg.value, param.map(|(_, ty)| *ty));
-            if let (Form::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
+            if let (Syntax::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
                 arg.name = Some(Name { text: param.clone(), span: arg.span });
             }
         }
-        if self.form == Form::Text {
+        if self.form == Syntax::Text {
             // As long as the names only say what the places say, the places are enough.
             for (arg, (param, _)) in args.iter_mut().zip(params) {
                 if arg.name.as_ref().is_some_and(|name| name.text != *param) {

@@ -3,8 +3,8 @@
 //! Grammars and prompts for language models derive from them, so they offer exactly what the stages accept.
 //! Built once from a library and an environment, then only read.
 
-use motet_syntax::Form;
 use motet_syntax::Severity;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Expr, Policy};
 use motet_syntax::unit::Dimension;
 use rustc_hash::FxHashMap;
@@ -304,7 +304,7 @@ fn of_policy(policy: &Policy, library: &Library) -> Option<Callable> {
 
 /// Returns whether a policy has no errors but those that depend on its state.
 fn can_be_carried_out(policy: &Policy, library: &Library, environment: &Environment) -> bool {
-    let (program, mut said) = crate::resolve::resolve(policy, Form::Text, library, environment);
+    let (program, mut said) = crate::resolve::resolve(policy, Syntax::Text, library, environment);
     said.extend(crate::limits::check(program, library, environment, None).1);
     said.iter().all(|said| said.severity != Severity::Error)
 }

@@ -38,8 +38,8 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, Trouble> {
     let signatures = bench.setting(&File::default(), report)?.session.signatures();
     let surface = Surface {
         form: match args.surface {
-            Form::Text => motet_syntax::Form::Text,
-            Form::Json => motet_syntax::Form::Json,
+            Form::Text => motet_syntax::Syntax::Text,
+            Form::Json => motet_syntax::Syntax::Json,
         },
         modifiers: if args.modifiers { Modifiers::Written } else { Modifiers::Default },
         depth: args.depth,

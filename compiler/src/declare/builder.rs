@@ -4,7 +4,7 @@
 use motet_robots::card::Robot;
 use motet_stdlib::lang;
 use motet_syntax::ast::{File, Param, TypeExpr};
-use motet_syntax::{Diagnostic, Form, Source, Sources};
+use motet_syntax::{Diagnostic, Source, Sources, Syntax};
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
@@ -99,7 +99,7 @@ impl LibraryBuilder {
 
 /// Elaborator for declarations: no bindings and no scene.
 pub(super) fn elaborator<'a>(library: &'a Library, entities: &'a Entities) -> Elaborator<'a> {
-    Elaborator::new(library, entities, true, Form::Text)
+    Elaborator::new(library, entities, true, Syntax::Text)
 }
 
 fn index<T>(table: &[T]) -> u16 {

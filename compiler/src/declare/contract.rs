@@ -5,6 +5,7 @@ use std::sync::Arc;
 use motet_robots::card::Robot;
 use motet_syntax::ast::{Clause, Expr, ExprKind, Name, PrimitiveDecl, Quantified, TypeExpr};
 use motet_syntax::unit::Dimension;
+use motet_syntax::words::is_json_key;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
@@ -19,14 +20,6 @@ use super::library::{EffectDef, LastsDef, Library, NeedDef, ParamDef, PrimitiveD
 use super::suggestion::{list, near};
 use crate::ir::Entities;
 use crate::ir::{Base, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};
-
-/// Keys of the JSON syntax, which no parameter may have as a name. `on` is not among them: it names the
-/// failures of a `catch`, which takes no arguments, and is the natural name for a support.
-const RESERVED: &[&str] = &[
-    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
-    "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "when", "for",
-    "react", "is", "get", "field", "of",
-];
 
 /// Duration in seconds, least and greatest, of a primitive without a `takes` clause.
 const DEFAULT_TAKES: (f64, f64) = (0.0, 60.0);
@@ -136,7 +129,7 @@ fn primitive(
     for (index, param) in decl.params.iter().enumerate() {
         let ty = resolve_type(elaborator, &param.ty);
         let param_name = &param.name.text;
-        if RESERVED.contains(&param_name.as_str()) {
+        if is_json_key(param_name) {
             elaborator.report(ReservedName { span: param.name.span, name: param_name.clone() });
         }
         if let Some(first) = elaborator.scope.find(param_name).map(|entry| entry.span) {
@@ -158,7 +151,7 @@ fn primitive(
     let mut def = PrimitiveDef {
         provided: robot.is_none_or(|robot| robot.primitives.contains_key(&name)),
         name,
-        form: decl.form,
+        form: decl.kind,
         params,
         result,
         needs: Vec::new(),

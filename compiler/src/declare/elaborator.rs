@@ -3,7 +3,7 @@
 
 use motet_syntax::ast::{Expr, ExprKind, Name};
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{About, Diagnostic, Form, Span};
+use motet_syntax::{About, Diagnostic, Span, Syntax};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::errors::{
@@ -22,7 +22,7 @@ pub(crate) struct Elaborator<'a> {
     /// True if there is a scene; without one an unknown name may be an entity of it.
     pub(crate) has_scene: bool,
     /// Syntax of the document: in text a quantity needs its unit.
-    pub(crate) form: Form,
+    pub(crate) form: Syntax,
     pub(crate) scope: Scope,
     pub(crate) bindings: Vec<Binding>,
     pub(crate) diagnostics: Vec<Diagnostic>,
@@ -64,7 +64,7 @@ impl std::fmt::Display for ValueRole<'_> {
 
 impl<'a> Elaborator<'a> {
     /// Elaborator outside of any policy, without bindings.
-    pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Form) -> Self {
+    pub(crate) fn new(library: &'a Library, entities: &'a Entities, has_scene: bool, form: Syntax) -> Self {
         let (scope, bindings, diagnostics) = (Scope::default(), Vec::new(), Vec::new());
         Self { library, entities, has_scene, form, scope, bindings, diagnostics }
     }
@@ -148,7 +148,7 @@ impl<'a> Elaborator<'a> {
 
     fn number(&mut self, value: f64, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
         if let Some(Expected { ty: Ty { base: Base::Quantity(dimension), lists: 0 }, .. }) = wanted {
-            if self.form == Form::Text {
+            if self.form == Syntax::Text {
                 // A number beyond a full turn is meant in degrees.
                 let unit = match dimension {
                     Dimension::NONE => "%",

@@ -2,7 +2,7 @@
 
 use indexmap::IndexMap;
 use motet_stdlib::lang;
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 
 use super::errors::NotAFact;
 use super::{Environment, hands};
@@ -25,7 +25,7 @@ impl InitialState {
         let mut said = Vec::new();
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with(lang::fluents::FREE));
         for (text, (value, span)) in &self.facts {
-            let parsed = match motet_syntax::text::condition(text) {
+            let parsed = match motet_syntax::text::parse_condition(text) {
                 Ok(expr) => expr,
                 Err(mistake) => {
                     diagnostics.push(
@@ -34,7 +34,7 @@ impl InitialState {
                     continue;
                 }
             };
-            let mut elaborator = Elaborator::new(library, &entities, environment.has_scene(), Form::Text);
+            let mut elaborator = Elaborator::new(library, &entities, environment.has_scene(), Syntax::Text);
             let fact = match &parsed.kind {
                 motet_syntax::ast::ExprKind::Call(call) => elaborator.fact(call),
                 _ => None,

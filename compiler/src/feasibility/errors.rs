@@ -9,7 +9,7 @@ pub(crate) struct RefusedMotion {
     pub(crate) callee: SmolStr,
     /// The query: `reach(mug_1)`.
     pub(crate) motion: String,
-    /// Reason with its numbers.
+    /// InfeasibleReason with its numbers.
     pub(crate) says: String,
     /// Steps that changed the world before the motion; empty if it is as in the scene.
     pub(crate) story: String,
@@ -88,17 +88,17 @@ motet_syntax::mistakes! {
 
 /// Diagnostic of a reason.
 pub(crate) fn refused(
-    reason: &motet_geometry::query::Reason,
+    reason: &motet_geometry::planning::InfeasibleReason,
     span: Span,
     told: RefusedMotion,
 ) -> motet_syntax::Diagnostic {
-    use motet_geometry::query::Reason;
+    use motet_geometry::planning::InfeasibleReason;
     match reason {
-        Reason::OutOfReach { .. } => OutOfReach { span, told }.into(),
-        Reason::NoFreePose { .. } => NoFreePose { span, told }.into(),
-        Reason::BlockedPath { .. } => BlockedPath { span, told }.into(),
-        Reason::NotInView { .. } => NotInView { span, told }.into(),
-        Reason::TooHeavy { .. } => TooHeavy { span, told }.into(),
-        Reason::TooWide { .. } => TooWide { span, told }.into(),
+        InfeasibleReason::OutOfReach { .. } => OutOfReach { span, told }.into(),
+        InfeasibleReason::NoFreePose { .. } => NoFreePose { span, told }.into(),
+        InfeasibleReason::BlockedPath { .. } => BlockedPath { span, told }.into(),
+        InfeasibleReason::NotInView { .. } => NotInView { span, told }.into(),
+        InfeasibleReason::TooHeavy { .. } => TooHeavy { span, told }.into(),
+        InfeasibleReason::TooWide { .. } => TooWide { span, told }.into(),
     }
 }

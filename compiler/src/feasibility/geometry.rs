@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use motet_geometry::query::{
-    Answer, Budget, Infeasible, Machine, Maps, Query, Room, State as Placed, Witness, World,
+use motet_geometry::planning::{
+    BaseMapCache, Configuration as Placed, Infeasible, MotionAnswer, MotionQuery, MotionWitness,
+    QueryContext, RobotModel, SceneState, SearchBudget,
 };
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, Placement, Scene};
@@ -23,22 +24,22 @@ const MOST_ANSWERS: usize = 20_000;
 /// A robot's body in a scene, for motion queries. Shared by all sessions with this robot, scene and state.
 #[derive(Debug)]
 pub struct Geometry {
-    machine: Machine,
+    machine: RobotModel,
     scene: Scene,
     start: Result<Arc<Fingerprinted>, SmolStr>,
-    budget: Budget,
+    budget: SearchBudget,
     memo: Mutex<Memo>,
-    maps: Maps,
+    maps: BaseMapCache,
 }
 
 #[derive(Debug, Default)]
 struct Memo {
-    answers: FxHashMap<(Box<[u8]>, Query), Arc<Answer>>,
-    after: FxHashMap<(Box<[u8]>, Query, SceneChange), Next>,
-    told: FxHashMap<(Box<[u8]>, Query), Infeasible>,
+    answers: FxHashMap<(Box<[u8]>, MotionQuery), Arc<MotionAnswer>>,
+    after: FxHashMap<(Box<[u8]>, MotionQuery, SceneChange), Next>,
+    told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
 }
 
-/// World after a motion; `None` if it is unknown.
+/// SceneState after a motion; `None` if it is unknown.
 type Next = Option<Arc<Fingerprinted>>;
 
 /// Change of the scene by a motion, beside the robot's own pose.
@@ -64,12 +65,12 @@ impl Geometry {
         urdf: &Urdf,
         scene: &Scene,
         state: Option<&InitialState>,
-        budget: Budget,
+        budget: SearchBudget,
     ) -> Self {
-        let machine = Machine::new(robot, urdf);
+        let machine = RobotModel::new(robot, urdf);
         let mut scene = scene.clone();
         let start = begin(&machine, &mut scene, state);
-        Self { machine, scene, start, budget, memo: Mutex::default(), maps: Maps::default() }
+        Self { machine, scene, start, budget, memo: Mutex::default(), maps: BaseMapCache::default() }
     }
 
     /// The same robot in another scene, without an initial state.
@@ -83,7 +84,7 @@ impl Geometry {
             start,
             budget: self.budget,
             memo: Mutex::default(),
-            maps: Maps::default(),
+            maps: BaseMapCache::default(),
         }
     }
 
@@ -99,12 +100,12 @@ impl Geometry {
         Some(poses.get(link)?.translation.vector.into())
     }
 
-    /// World at the start, or the reason why it is unknown.
+    /// SceneState at the start, or the reason why it is unknown.
     pub(super) fn start(&self) -> Result<Arc<Fingerprinted>, SmolStr> {
         self.start.clone()
     }
 
-    pub(super) fn machine(&self) -> &Machine {
+    pub(super) fn machine(&self) -> &RobotModel {
         &self.machine
     }
 
@@ -113,7 +114,7 @@ impl Geometry {
     }
 
     /// Returns whether a container is open in a world; `None` if it has no door.
-    pub(super) fn is_open(&self, world: &World, id: &str) -> Option<bool> {
+    pub(super) fn is_open(&self, world: &SceneState, id: &str) -> Option<bool> {
         let entity = self.scene.entities.get(id)?;
         entity.travel.as_ref()?;
         Some(world.is_open(entity))
@@ -123,7 +124,7 @@ impl Geometry {
     pub(super) fn holds(
         &self,
         library: &Library,
-        world: &World,
+        world: &SceneState,
         fluent: Fluent,
         entity: &str,
     ) -> Option<bool> {
@@ -135,7 +136,7 @@ impl Geometry {
     }
 
     /// Answers a query in a world, from the cache if it is there.
-    pub(super) fn answer(&self, at: &Fingerprinted, query: &Query) -> Arc<Answer> {
+    pub(super) fn answer(&self, at: &Fingerprinted, query: &MotionQuery) -> Arc<MotionAnswer> {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
             return known;
@@ -151,12 +152,12 @@ impl Geometry {
     }
 
     /// Explanation of infeasibility in a world, with a proposed change.
-    pub(super) fn explained(&self, at: &Fingerprinted, query: &Query, why: &Infeasible) -> Infeasible {
+    pub(super) fn explained(&self, at: &Fingerprinted, query: &MotionQuery, why: &Infeasible) -> Infeasible {
         let key = (at.key.clone(), query.clone());
         if let Some(known) = self.memo().and_then(|memo| memo.told.get(&key).cloned()) {
             return known;
         }
-        let told = self.room(&at.world).explained(query, why, self.budget);
+        let told = self.room(&at.world).explain(query, why, self.budget);
         if let Some(mut memo) = self.memo() {
             memo.told.insert(key, told.clone());
         }
@@ -165,20 +166,20 @@ impl Geometry {
 
     /// Returns whether the robot can grasp a thing from its pose; `None` if neither answer is proven.
     pub(super) fn reaches(&self, at: &Fingerprinted, object: &str) -> Option<bool> {
-        match &*self.answer(at, &Query::Reach(object.into(), None)) {
-            Answer::Feasible(_) => Some(true),
-            Answer::Infeasible(why) => why.certified.then_some(false),
-            Answer::Unknown(_) => None,
+        match &*self.answer(at, &MotionQuery::Reach(object.into(), None)) {
+            MotionAnswer::Feasible(_) => Some(true),
+            MotionAnswer::Infeasible(why) => why.certified.then_some(false),
+            MotionAnswer::Unknown(_) => None,
         }
     }
 
-    /// World after a motion that was found; `None` if it is unknown.
+    /// SceneState after a motion that was found; `None` if it is unknown.
     pub(super) fn after(
         &self,
         at: &Fingerprinted,
-        query: &Query,
+        query: &MotionQuery,
         change: SceneChange,
-        way: &Witness,
+        way: &MotionWitness,
     ) -> Option<Arc<Fingerprinted>> {
         let key = (at.key.clone(), query.clone(), change);
         if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
@@ -186,12 +187,12 @@ impl Geometry {
         }
         let room = self.room(&at.world);
         let world = match change {
-            SceneChange::Gone => Some(room.gone_along(way)),
-            SceneChange::Taken => room.taken(way),
-            SceneChange::Put => room.put_there(way),
-            SceneChange::Travelled => room.travelled(way),
+            SceneChange::Gone => Some(room.after_move(way)),
+            SceneChange::Taken => room.after_reach(way),
+            SceneChange::Put => room.after_put(way),
+            SceneChange::Travelled => room.after_pull(way),
             SceneChange::Given => match query {
-                Query::Offer(_, to) => room.given(to),
+                MotionQuery::Offer(_, to) => room.after_offer(to),
                 _ => None,
             },
         };
@@ -202,8 +203,8 @@ impl Geometry {
         world
     }
 
-    fn room<'w>(&'w self, world: &'w World) -> Room<'w> {
-        Room::new(&self.machine, &self.scene, world).sharing(&self.maps)
+    fn room<'w>(&'w self, world: &'w SceneState) -> QueryContext<'w> {
+        QueryContext::new(&self.machine, &self.scene, world).with_base_maps(&self.maps)
     }
 
     /// Cache of answers; `None` after a panic of another thread, which only loses the cache.
@@ -212,9 +213,9 @@ impl Geometry {
     }
 }
 
-/// World at the start of a scene and a state. Adds `start` to the places of the scene.
+/// SceneState at the start of a scene and a state. Adds `start` to the places of the scene.
 fn begin(
-    machine: &Machine,
+    machine: &RobotModel,
     scene: &mut Scene,
     state: Option<&InitialState>,
 ) -> Result<Arc<Fingerprinted>, SmolStr> {
@@ -249,10 +250,10 @@ fn begin(
     let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
     let start = lang::entities::START;
     scene.entities.entry(start.into()).or_insert_with(|| Entity::place(start.into(), pose));
-    Ok(Arc::new(fingerprinted(World::new(machine, scene))))
+    Ok(Arc::new(fingerprinted(SceneState::new(machine, scene))))
 }
 
-fn fingerprinted(world: World) -> Fingerprinted {
+fn fingerprinted(world: SceneState) -> Fingerprinted {
     let key = world.fingerprint().into_boxed_slice();
     Fingerprinted { world, key }
 }

@@ -1,6 +1,6 @@
 //! Translation of calls to motion queries, and of contracts to changes of the scene.
 
-use motet_geometry::query::{Query, Side};
+use motet_geometry::planning::{GraspSide, MotionQuery};
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -15,7 +15,7 @@ impl Walk<'_> {
     /// # Errors
     ///
     /// The reason why its arguments are unknown.
-    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<Query, SmolStr> {
+    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
         let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
         let mut names = Vec::with_capacity(args.len());
         for arg in args {
@@ -24,8 +24,8 @@ impl Walk<'_> {
         Ok(motion_query(*name, names, self.side(call)))
     }
 
-    /// Side of a grasp that an argument of the call asks for.
-    fn side(&self, call: &Call) -> Option<Side> {
+    /// GraspSide of a grasp that an argument of the call asks for.
+    fn side(&self, call: &Call) -> Option<GraspSide> {
         let approach = self.library.lang_items.approach?;
         call.args.iter().find_map(|arg| match arg {
             Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
@@ -88,28 +88,28 @@ impl Walk<'_> {
 }
 
 /// Motion query of a name and arguments.
-pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<Side>) -> Query {
+pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
     let mut args = args.into_iter();
     let (first, second) = (args.next().unwrap_or_default(), args.next());
     match (kind, second) {
-        (MotionKind::GoTo, None) => Query::GoTo(first),
-        (MotionKind::Reach, None) => Query::Reach(first, side),
-        (MotionKind::Put, Some(on)) => Query::Put(first, on),
-        (MotionKind::Offer, Some(to)) => Query::Offer(first, to),
-        (MotionKind::Look, None) => Query::Look(first),
-        (MotionKind::Pull, None) => Query::Pull(first),
-        (MotionKind::Push, None) => Query::Push(first),
-        (MotionKind::Posture, None) => Query::Posture(first),
-        (kind, _) => Query::Other(kind.name().into()),
+        (MotionKind::GoTo, None) => MotionQuery::GoTo(first),
+        (MotionKind::Reach, None) => MotionQuery::Reach(first, side),
+        (MotionKind::Put, Some(on)) => MotionQuery::Put(first, on),
+        (MotionKind::Offer, Some(to)) => MotionQuery::Offer(first, to),
+        (MotionKind::Look, None) => MotionQuery::Look(first),
+        (MotionKind::Pull, None) => MotionQuery::Pull(first),
+        (MotionKind::Push, None) => MotionQuery::Push(first),
+        (MotionKind::Posture, None) => MotionQuery::Posture(first),
+        (kind, _) => MotionQuery::Other(kind.name().into()),
     }
 }
 
-/// Side of a case of `Approach`; `None` if any side is allowed.
-pub(super) fn side_of(case: &str) -> Option<Side> {
+/// GraspSide of a case of `Approach`; `None` if any side is allowed.
+pub(super) fn side_of(case: &str) -> Option<GraspSide> {
     match case {
-        lang::approaches::TOP => Some(Side::Top),
-        lang::approaches::SIDE => Some(Side::Side),
-        lang::approaches::FRONT => Some(Side::Front),
+        lang::approaches::TOP => Some(GraspSide::Top),
+        lang::approaches::SIDE => Some(GraspSide::Side),
+        lang::approaches::FRONT => Some(GraspSide::Front),
         _ => None,
     }
 }
@@ -125,19 +125,19 @@ pub(super) enum MotionEffect {
 }
 
 /// Change of the scene by a motion that succeeded, from the contract of its primitive.
-pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &Query) -> MotionEffect {
+pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &MotionQuery) -> MotionEffect {
     let items = &library.lang_items;
     let makes = |fluent: Option<Fluent>, value: bool| makes(fluent, def, value).is_some();
     match query {
-        Query::GoTo(_) | Query::Posture(_) => MotionEffect::Changed(SceneChange::Gone),
-        Query::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
-        Query::Reach(..) | Query::Look(_) => MotionEffect::Nothing,
-        Query::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
-        Query::Offer(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Given),
-        Query::Pull(_) if makes(items.open, true) => MotionEffect::Changed(SceneChange::Travelled),
-        Query::Push(_) if makes(items.open, false) => MotionEffect::Changed(SceneChange::Travelled),
-        Query::Put(..) | Query::Offer(..) => MotionEffect::Unknown,
-        Query::Pull(_) | Query::Push(_) | Query::Other(_) => MotionEffect::Unknown,
+        MotionQuery::GoTo(_) | MotionQuery::Posture(_) => MotionEffect::Changed(SceneChange::Gone),
+        MotionQuery::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
+        MotionQuery::Reach(..) | MotionQuery::Look(_) => MotionEffect::Nothing,
+        MotionQuery::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
+        MotionQuery::Offer(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Given),
+        MotionQuery::Pull(_) if makes(items.open, true) => MotionEffect::Changed(SceneChange::Travelled),
+        MotionQuery::Push(_) if makes(items.open, false) => MotionEffect::Changed(SceneChange::Travelled),
+        MotionQuery::Put(..) | MotionQuery::Offer(..) => MotionEffect::Unknown,
+        MotionQuery::Pull(_) | MotionQuery::Push(_) | MotionQuery::Other(_) => MotionEffect::Unknown,
     }
 }
 

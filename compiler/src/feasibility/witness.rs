@@ -1,10 +1,10 @@
 //! Translation of witnesses to the graph.
 
-use motet_geometry::query::{Machine, Witness, components};
+use motet_geometry::planning::{MotionWitness, RobotModel, components};
 use motet_graph as graph;
 
 /// Witness of a motion for the graph. Holds only the joints that move.
-pub(super) fn kept(machine: &Machine, witness: &Witness) -> graph::Witness {
+pub(super) fn kept(machine: &RobotModel, witness: &MotionWitness) -> graph::Witness {
     let first = witness.path.first();
     let moves = |at: &usize| {
         let value = |joints: &[f64]| joints.get(*at).copied();

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::{Answer, Infeasible, Query, Reason, Unknown};
+use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::Value;
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
@@ -36,7 +36,7 @@ pub enum Forecast {
     Infeasible {
         /// The most specific failure that the primitive lists.
         failure: SmolStr,
-        /// Reason with its numbers, and a proposed change.
+        /// InfeasibleReason with its numbers, and a proposed change.
         why: String,
     },
     Unknown {
@@ -75,11 +75,11 @@ impl WorldTracker {
         };
         let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
         match &*self.geometry.answer(at, &motion_query(kind, names, side(args))) {
-            Answer::Feasible(_) => Forecast::Feasible,
-            Answer::Infeasible(why) if why.certified => self.infeasible(def, why),
-            Answer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
-            Answer::Unknown(Unknown::Budget) => unknown("the search was cut short"),
-            Answer::Unknown(Unknown::Because(why)) => unknown(why),
+            MotionAnswer::Feasible(_) => Forecast::Feasible,
+            MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
+            MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
+            MotionAnswer::Unknown(UnknownReason::Budget) => unknown("the search was cut short"),
+            MotionAnswer::Unknown(UnknownReason::Because(why)) => unknown(why),
         }
     }
 
@@ -182,7 +182,7 @@ fn after(
     };
     let next = step(geometry, at, &query, change).ok_or_else(lost)?;
     // A motion of the base may go on to where the robot serves what it found.
-    let Query::GoTo(target) = &query else { return Ok(next) };
+    let MotionQuery::GoTo(target) = &query else { return Ok(next) };
     let Some(effect) = makes(library.lang_items.at, def, true) else { return Ok(next) };
     let [Some(robot), Some(place)] = effect.fact.args.as_slice() else { return Ok(next) };
     if *robot != Term::Entity(ROBOT) {
@@ -192,29 +192,33 @@ fn after(
     if place == *target {
         return Ok(next);
     }
-    step(geometry, &next, &Query::GoTo(place), SceneChange::Gone).ok_or_else(lost)
+    step(geometry, &next, &MotionQuery::GoTo(place), SceneChange::Gone).ok_or_else(lost)
 }
 
 fn step(
     geometry: &Geometry,
     at: &Arc<Fingerprinted>,
-    query: &Query,
+    query: &MotionQuery,
     change: SceneChange,
 ) -> Option<Arc<Fingerprinted>> {
     match &*geometry.answer(at, query) {
-        Answer::Feasible(way) => geometry.after(at, query, change, way),
-        Answer::Infeasible(_) | Answer::Unknown(_) => None,
+        MotionAnswer::Feasible(way) => geometry.after(at, query, change, way),
+        MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
     }
 }
 
 /// Failures that match a reason, the most specific first.
-fn failures(library: &Library, reason: &Reason) -> [Option<Failure>; 3] {
+fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<Failure>; 3] {
     let items = &library.lang_items;
     match reason {
-        Reason::OutOfReach { .. } | Reason::TooWide { .. } => [items.unreachable, None, None],
-        Reason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
-        Reason::NoFreePose { .. } | Reason::BlockedPath { .. } => [items.unreachable, items.blocked, None],
-        Reason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
+        InfeasibleReason::OutOfReach { .. } | InfeasibleReason::TooWide { .. } => {
+            [items.unreachable, None, None]
+        }
+        InfeasibleReason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
+        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
+            [items.unreachable, items.blocked, None]
+        }
+        InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
     }
 }
 
@@ -252,7 +256,7 @@ fn name(value: &Value) -> Option<SmolStr> {
     }
 }
 
-/// Side of a grasp that an argument asks for.
-fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::query::Side> {
+/// GraspSide of a grasp that an argument asks for.
+fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::planning::GraspSide> {
     args.iter().find_map(|(_, value)| if let Value::Case(case) = value { side_of(case) } else { None })
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_geometry::query::World;
+use motet_geometry::planning::SceneState;
 use smol_str::SmolStr;
 
 use crate::ir::StepId;
@@ -10,10 +10,10 @@ use crate::ir::StepId;
 /// Maximal number of possible worlds at a program point.
 pub(super) const MOST_WORLDS: usize = 8;
 
-/// World with its fingerprint; equal fingerprints mean equal worlds.
+/// SceneState with its fingerprint; equal fingerprints mean equal worlds.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Fingerprinted {
-    pub(super) world: World,
+    pub(super) world: SceneState,
     pub(super) key: Box<[u8]>,
 }
 
@@ -43,7 +43,7 @@ impl PossibleWorld {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Worlds {
     pub(super) known: Vec<PossibleWorld>,
-    /// Reason why other worlds than the known ones are possible, if they are.
+    /// InfeasibleReason why other worlds than the known ones are possible, if they are.
     pub(super) lost: Option<SmolStr>,
 }
 

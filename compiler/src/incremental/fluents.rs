@@ -1,6 +1,6 @@
 //! Fluents that a step needs, tests or changes. Two steps without a common fluent cannot refute each other.
 
-use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::ast::PrimitiveKind;
 
 use super::PolicyTemplate;
 use crate::declare::{Library, NeedDef, PrimitiveDef};
@@ -57,7 +57,7 @@ pub(super) fn of_effects(def: &PrimitiveDef, library: &Library) -> u64 {
     let effects = effects.map(|effect| bit(effect.fact.fluent) | when(effect.when.as_ref()));
     let mut all = effects.fold(0, |all, more| all | more);
     // What was perceived is stale once its resource is used or its object moved.
-    let moves = def.form == PrimitiveForm::Action && !(def.makes.is_empty() && def.unsettles.is_empty());
+    let moves = def.form == PrimitiveKind::Action && !(def.makes.is_empty() && def.unsettles.is_empty());
     let lasts = library.primitives.iter().filter_map(|def| def.lasts.as_ref());
     if moves || lasts.into_iter().any(|lasts| lasts.resources & def.uses != 0) {
         all |= library.perceived.iter().fold(FRESH, |all, fluent| all | bit(*fluent));

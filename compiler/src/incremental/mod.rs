@@ -13,7 +13,7 @@ mod template;
 use std::hash::Hasher;
 
 use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Diagnostic, FileId, Form, Severity, Span};
+use motet_syntax::{Diagnostic, FileId, Severity, Span, Syntax};
 use rustc_hash::FxHasher;
 use smallvec::SmallVec;
 use smol_str::SmolStr;
@@ -88,7 +88,7 @@ pub enum LoopTest {
 /// Checker of a policy that is being written. Clones are independent; a clone costs the size of the policy.
 #[derive(Clone, Debug)]
 pub struct IncrementalChecker {
-    form: Form,
+    form: Syntax,
     program: Program,
     scope: Scope,
     proof: SuspendedProof,
@@ -113,7 +113,7 @@ impl IncrementalChecker {
     /// Starts a policy with a name, a robot and a goal; its steps are ignored. The diagnostics are about goal
     /// and robot; the checker is usable in any case.
     #[must_use]
-    pub fn new(session: &Session, policy: &Policy, form: Form) -> (Self, Vec<Diagnostic>) {
+    pub fn new(session: &Session, policy: &Policy, form: Syntax) -> (Self, Vec<Diagnostic>) {
         let (library, environment) = session.parts();
         let head = Policy { body: ast::Block::default(), ..policy.clone() };
         let (mut program, mut said) = crate::resolve::resolve(&head, form, library, environment);

@@ -1,6 +1,6 @@
 //! Achievers: calls whose effects include a given fact.
 
-use motet_syntax::ast::{CompareOp, PrimitiveForm};
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use crate::declare::{EffectDef, PrimitiveDef};
 use crate::facts::{ANY, FactKey, arg};
@@ -98,7 +98,7 @@ impl<'a> Prover<'a> {
         args: Vec<Option<Term>>,
         result: Option<Entity>,
     ) -> Vec<CandidateCall> {
-        let Some(found) = result.filter(|_| def.form == PrimitiveForm::Perception) else { return Vec::new() };
+        let Some(found) = result.filter(|_| def.form == PrimitiveKind::Perception) else { return Vec::new() };
         if let Some(binding) = self.symbols.binding_of(found) {
             return self.as_before(primitive, found, binding).into_iter().collect();
         }

@@ -15,7 +15,7 @@ mod search;
 pub(crate) mod write;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
 pub use error::NoPlan;
@@ -57,7 +57,7 @@ impl Goal {
     ///
     /// [`NoPlan::NoCondition`] if the text is no condition.
     pub fn read(text: &str, persistence: Persistence) -> Result<Self, NoPlan> {
-        match motet_syntax::text::condition(text) {
+        match motet_syntax::text::parse_condition(text) {
             Ok(condition) => Ok(Self { condition, persistence }),
             Err(why) => Err(NoPlan::NoCondition { text: text.to_owned(), why }),
         }
@@ -213,7 +213,7 @@ fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &CandidateCall) -> 
 
 fn resolve(goal: &Expr, library: &Library, environment: &Environment) -> Result<Condition, NoPlan> {
     let mut elaborator =
-        Elaborator::new(library, environment.entities(), environment.has_scene(), Form::Text);
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text);
     let condition = elaborator.condition(goal);
     let wrong: Vec<Diagnostic> = elaborator.diagnostics;
     if wrong.is_empty() { Ok(condition) } else { Err(NoPlan::Wrong { diagnostics: wrong }) }

@@ -1,6 +1,6 @@
 //! Effects on the facts: makes, unsettles, and stale perceptions.
 
-use motet_syntax::ast::{CompareOp, PrimitiveForm};
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::Prover;
 use super::evaluation::{CallFrame, MAX_ALIASES};
@@ -359,7 +359,7 @@ impl Prover<'_> {
 
     /// Entities that a step moves: the first arguments of an action's effects.
     fn moved(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Entities {
-        if def.form == PrimitiveForm::Perception {
+        if def.form == PrimitiveKind::Perception {
             return Entities::new();
         }
         let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);

@@ -1,7 +1,7 @@
 //! Lints of intent: warnings about policies that are legal but probably not meant. They rest on the facts of
 //! the prover. Guarded by `tests/spec/intent.md`.
 
-use motet_syntax::ast::PrimitiveForm;
+use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Span};
 
 use super::assume::mentions;
@@ -100,7 +100,7 @@ impl Prover<'_> {
         span: Span,
     ) {
         let plain = |base: Base| matches!(base, Base::Entity(_) | Base::Enum(_));
-        let says_all = def.form == PrimitiveForm::Action
+        let says_all = def.form == PrimitiveKind::Action
             && def.params.iter().all(|param| plain(param.ty.base))
             && !verdicts.contains(&NeedVerdict::Refuted);
         if !says_all || !self.is_own(span) || self.may_have_changed(frame) {

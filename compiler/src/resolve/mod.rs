@@ -12,7 +12,7 @@ pub(crate) mod motion;
 mod step;
 
 use motet_syntax::ast::Policy;
-use motet_syntax::{Diagnostic, Form};
+use motet_syntax::{Diagnostic, Syntax};
 
 use self::step::StepResolver;
 use crate::declare::Library;
@@ -27,7 +27,7 @@ pub const MAX_NODES: usize = 100_000;
 /// Resolves one policy.
 pub(crate) fn resolve(
     policy: &Policy,
-    form: Form,
+    form: Syntax,
     library: &Library,
     environment: &Environment,
 ) -> (Program, Vec<Diagnostic>) {
@@ -41,7 +41,7 @@ pub(crate) fn resolve(
 /// `scope`.
 pub(crate) fn resolve_step(
     step: &motet_syntax::ast::Step,
-    (form, name): (Form, &smol_str::SmolStr),
+    (form, name): (Syntax, &smol_str::SmolStr),
     (library, environment): (&Library, &Environment),
     program: &mut Program,
     scope: &mut scope::Scope,
@@ -72,7 +72,7 @@ pub(crate) fn resolve_inlined(
 ) -> (Option<crate::ir::StepId>, Vec<Diagnostic>) {
     let elaborator = Elaborator {
         bindings: std::mem::take(&mut program.bindings),
-        ..Elaborator::new(library, environment.entities(), environment.has_scene(), Form::Text)
+        ..Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text)
     };
     let mut steps = StepResolver::new(elaborator);
     steps.program = std::mem::take(program);

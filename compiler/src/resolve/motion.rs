@@ -1,7 +1,7 @@
 //! Type checks of stand-alone motion queries.
 
 use motet_syntax::ast::{Expr, ExprKind};
-use motet_syntax::{Diagnostic, Form, Span};
+use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
@@ -41,7 +41,7 @@ fn taken(
     environment: &Environment,
 ) -> Vec<Diagnostic> {
     let mut elaborator =
-        Elaborator::new(library, environment.entities(), environment.has_scene(), Form::Text);
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text);
     for (term, (name, span)) in terms.iter().zip(args) {
         let Term::Param(index) = term else { continue };
         let Some(param) = def.params.get(usize::from(*index)) else { continue };

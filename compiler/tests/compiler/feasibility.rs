@@ -4,7 +4,7 @@
 use std::sync::{Arc, LazyLock};
 
 use motet_compiler::{Geometry, Session};
-use motet_geometry::query::Budget;
+use motet_geometry::planning::SearchBudget;
 use motet_graph::{CallNode, Graph, NodeKind, Verdict};
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Placement, Scene};
@@ -29,7 +29,7 @@ fn session(scene: &Scene) -> Session {
     let session = Session::builder().robot(&robot).scene(scene).build(&mut sources);
     let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
-    let geometry = Geometry::new(&robot, &urdf, scene, None, Budget::default());
+    let geometry = Geometry::new(&robot, &urdf, scene, None, SearchBudget::default());
     session.with_geometry(Arc::new(geometry))
 }
 

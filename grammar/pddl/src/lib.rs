@@ -26,14 +26,14 @@ pub const MAX_ARITY: usize = 4;
 
 /// A domain and a problem, as Motet says them.
 #[derive(Clone, Debug)]
-pub struct Imported {
+pub struct Translation {
     /// Kinds, fluents, actions, entities, `initially` and `closed world`.
     pub declarations: File,
     /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is given.
     pub policy: File,
 }
 
-impl Imported {
+impl Translation {
     /// The declarations in the text form, with the goal in a comment above them.
     #[must_use]
     pub fn declarations_text(&self) -> String {
@@ -52,7 +52,7 @@ impl Imported {
 
 /// A source with its place among the files of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Input<'s> {
+pub struct PddlSource<'s> {
     /// The text.
     pub source: &'s Source,
     /// Its id in the diagnostics.
@@ -63,10 +63,10 @@ pub struct Input<'s> {
 /// which are in the order of the files. O(n log n) in the length of the files.
 #[must_use]
 pub fn import(
-    domain: Input<'_>,
-    problem: Input<'_>,
-    plan: Option<Input<'_>>,
-) -> (Option<Imported>, Vec<Diagnostic>) {
+    domain: PddlSource<'_>,
+    problem: PddlSource<'_>,
+    plan: Option<PddlSource<'_>>,
+) -> (Option<Translation>, Vec<Diagnostic>) {
     let mut said = Vec::new();
     let domain = tree::read(domain, &mut said).and_then(|tree| domain::read(&tree, &mut said));
     let problem = tree::read(problem, &mut said)

@@ -5,17 +5,12 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use motet_syntax::ast::{Item, Name};
+use motet_syntax::words::is_json_key;
 use motet_syntax::{FileId, Source, Span};
 use smol_str::{SmolStr, format_smolstr};
 
 use crate::typed::Typed;
 
-/// Keys of a JSON step or condition, which name no parameter, and `result`, which in a contract is what it gives.
-const PARAMETER_TAKEN: [&str; 30] = [
-    "do", "as", "within", "retry", "if", "then", "else", "wait", "monitor", "during", "try", "catch",
-    "repeat", "until", "steps", "each", "in", "at_most", "parallel", "end", "why", "sequence", "on", "when",
-    "for", "react", "is", "get", "field", "of",
-];
 /// Entities that always exist, and the word for all of them.
 const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
 
@@ -25,8 +20,7 @@ pub(crate) fn param(text: &str, span: Span, constants: &[Typed]) -> Name {
         // In PDDL `?depot` and `depot` are two names.
         return Name { text: format_smolstr!("{text}__"), span };
     }
-    let is_taken =
-        text != "on" && PARAMETER_TAKEN.contains(&text) || text == "result" || ENTITY_TAKEN.contains(&text);
+    let is_taken = is_json_key(text) || text == "result" || ENTITY_TAKEN.contains(&text);
     suffixed(text, is_taken, span)
 }
 
@@ -51,7 +45,8 @@ fn suffixed(text: &str, is_taken: bool, span: Span) -> Name {
         let bare = text.trim_end_matches('_');
         bare != text
             && (ENTITY_TAKEN.contains(&bare)
-                || PARAMETER_TAKEN.contains(&bare)
+                || is_json_key(bare)
+                || bare == "on"
                 || standard_fluents().contains(bare))
     };
     let text = if is_taken { SmolStr::from(format!("{text}_")) } else { text.into() };

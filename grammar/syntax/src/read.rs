@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Ignored, IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::reply::{self, Reply};
-use crate::source::{FileId, Form, Source, Span};
+use crate::source::{FileId, Source, Span, Syntax};
 use crate::{json, text};
 
 /// What a document says, and what is wrong with it.
@@ -15,7 +15,7 @@ pub struct Parsed {
     /// The declarations; of a JSON document one policy. After an error whatever could be read.
     pub file: File,
     /// The form that the document is in.
-    pub form: Form,
+    pub syntax: Syntax,
     /// The text that was read, to which the spans belong.
     pub text: Arc<str>,
     /// Errors and warnings in the order of the document.
@@ -30,8 +30,8 @@ pub fn read(source: &Source, file: FileId) -> Parsed {
     let document: &str = &source.text;
     if document.len() > MAX_BYTES {
         let mistake = TooLarge { span: Span::new(file, 0, 0), bytes: document.len() };
-        let (form, text) = (form(document), Arc::clone(&source.text));
-        return Parsed { file: File::default(), form, text, diagnostics: vec![mistake.into()] };
+        let (syntax, text) = (syntax_of(document), Arc::clone(&source.text));
+        return Parsed { file: File::default(), syntax, text, diagnostics: vec![mistake.into()] };
     }
     let parsed = match document.strip_prefix(BOM) {
         Some(rest) => located(&format!("{BLANK_BOM}{rest}"), file),
@@ -70,10 +70,10 @@ fn located(document: &str, file: FileId) -> Parsed {
         Reply::Whole => whole(document, file),
         Reply::Part(found) => {
             let mut parsed = whole(&reply::blanked(document, &found), file);
-            let prose = found.ignored.iter().map(|place| (place, Ignored::Prose));
-            let ignored = prose.chain(found.others.iter().map(|place| (place, Ignored::Policy)));
-            parsed.diagnostics.extend(ignored.map(|((start, end), what)| {
-                Diagnostic::from(IgnoredProse { span: Span::new(file, *start, *end), what })
+            let prose = found.ignored.iter().map(|place| (place, IgnoredPart::Prose));
+            let ignored = prose.chain(found.others.iter().map(|place| (place, IgnoredPart::Policy)));
+            parsed.diagnostics.extend(ignored.map(|((start, end), part)| {
+                Diagnostic::from(IgnoredProse { span: Span::new(file, *start, *end), part })
             }));
             parsed.diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
             parsed
@@ -83,24 +83,24 @@ fn located(document: &str, file: FileId) -> Parsed {
             let line = document.trim_start().lines().next().unwrap_or("").trim_end();
             let mistake = NoDocument { span: Span::new(file, start, start + line.len()) };
             let text = Arc::default();
-            Parsed { file: File::default(), form: Form::Text, text, diagnostics: vec![mistake.into()] }
+            Parsed { file: File::default(), syntax: Syntax::Text, text, diagnostics: vec![mistake.into()] }
         }
     }
 }
 
 fn whole(document: &str, file: FileId) -> Parsed {
-    let form = form(document);
-    let (file, diagnostics) = match form {
-        Form::Text => text::parse(document, file),
-        Form::Json => json::read_policy(document, file),
+    let syntax = syntax_of(document);
+    let (file, diagnostics) = match syntax {
+        Syntax::Text => text::parse(document, file),
+        Syntax::Json => json::read_policy(document, file),
     };
-    Parsed { file, form, text: Arc::default(), diagnostics }
+    Parsed { file, syntax, text: Arc::default(), diagnostics }
 }
 
 /// The form of a document by its first character.
-fn form(document: &str) -> Form {
+fn syntax_of(document: &str) -> Syntax {
     match document.trim_start().bytes().next() {
-        Some(b'{' | b'[') => Form::Json,
-        Some(_) | None => Form::Text,
+        Some(b'{' | b'[') => Syntax::Json,
+        Some(_) | None => Syntax::Text,
     }
 }

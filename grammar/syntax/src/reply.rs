@@ -1,7 +1,8 @@
 //! A language model's reply as it comes: finds the one document in a Markdown fence or between prose. What is around it
 //! is blanked out rather than cut off before it, so that every place stays right. Feeds [`crate::read()`].
 
-use crate::text::token::{Token, TokenKind, Tokens, tokens};
+use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
+use crate::words::DECLARATIONS;
 
 /// The document of a reply.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -26,21 +27,6 @@ pub(crate) enum Reply {
     /// Prose.
     Prose,
 }
-
-/// Words with which a declaration begins.
-const DECLARATIONS: &[&str] = &[
-    "policy",
-    "action",
-    "perception",
-    "kind",
-    "fluent",
-    "measure",
-    "failure",
-    "enum",
-    "entity",
-    "initially",
-    "closed",
-];
 
 /// Finds the document of a text. O(bytes).
 pub(crate) fn locate(text: &str) -> Reply {

@@ -49,7 +49,7 @@ impl Span {
 
 /// The surface form of a document.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Form {
+pub enum Syntax {
     /// `.motet`
     Text,
     /// `.json`

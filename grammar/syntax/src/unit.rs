@@ -139,6 +139,44 @@ const UNITS: &[(Unit, &str, Dimension, f64, f64)] = &[
     (Unit::Percent, "%", Dimension::NONE, 1.0, 100.0),
 ];
 
+/// Other spellings of units, in lower case.
+const SPELLINGS: &[(&str, Unit)] = &[
+    ("sec", Unit::Second),
+    ("secs", Unit::Second),
+    ("second", Unit::Second),
+    ("seconds", Unit::Second),
+    ("msec", Unit::Millisecond),
+    ("millisecond", Unit::Millisecond),
+    ("milliseconds", Unit::Millisecond),
+    ("mins", Unit::Minute),
+    ("minute", Unit::Minute),
+    ("minutes", Unit::Minute),
+    ("hour", Unit::Hour),
+    ("hours", Unit::Hour),
+    ("meter", Unit::Metre),
+    ("meters", Unit::Metre),
+    ("metre", Unit::Metre),
+    ("metres", Unit::Metre),
+    ("centimeter", Unit::Centimetre),
+    ("centimeters", Unit::Centimetre),
+    ("centimetre", Unit::Centimetre),
+    ("centimetres", Unit::Centimetre),
+    ("millimeters", Unit::Millimetre),
+    ("millimetres", Unit::Millimetre),
+    ("degree", Unit::Degree),
+    ("degrees", Unit::Degree),
+    ("radian", Unit::Radian),
+    ("radians", Unit::Radian),
+    ("gram", Unit::Gram),
+    ("grams", Unit::Gram),
+    ("kilo", Unit::Kilogram),
+    ("kilogram", Unit::Kilogram),
+    ("kilograms", Unit::Kilogram),
+    ("newton", Unit::Newton),
+    ("newtons", Unit::Newton),
+    ("percent", Unit::Percent),
+];
+
 impl Unit {
     /// Every unit, by dimension.
     pub const ALL: &[Self] = &[
@@ -164,6 +202,14 @@ impl Unit {
     #[must_use]
     pub fn parse(symbol: &str) -> Option<Self> {
         UNITS.iter().find(|row| row.1 == symbol).map(|row| row.0)
+    }
+
+    /// The unit that a word means where it is not a symbol: `sec`, `Metres`, `KG`. `None` for any other word.
+    #[must_use]
+    pub fn from_spelling(word: &str) -> Option<Self> {
+        let lower = word.to_ascii_lowercase();
+        let spelling = SPELLINGS.iter().find(|(known, _)| *known == lower).map(|(_, unit)| *unit);
+        spelling.or_else(|| Self::parse(&lower)).or_else(|| Self::parse(&word.to_ascii_uppercase()))
     }
 
     fn row(self) -> (&'static str, Dimension, f64, f64) {
@@ -212,4 +258,46 @@ impl Unit {
     pub fn symbols_of(dimension: Dimension) -> impl Iterator<Item = &'static str> {
         UNITS.iter().filter(move |row| row.2 == dimension).map(|row| row.1)
     }
+}
+
+/// Reads a quantity such as `"20 cm"`: a number, perhaps spaces, and the symbol of a unit. `None` for any other text.
+///
+/// ```
+/// use motet_syntax::unit::{Unit, parse_quantity};
+///
+/// assert_eq!(parse_quantity("20 cm"), Some((20.0, Unit::Centimetre)));
+/// assert_eq!(parse_quantity("20 cubits"), None);
+/// ```
+#[must_use]
+pub fn parse_quantity(text: &str) -> Option<(f64, Unit)> {
+    let text = text.trim();
+    let sign = usize::from(text.starts_with('-'));
+    let digits = text.get(sign..).map_or(0, number_length);
+    let (number, unit) = text.split_at_checked(sign + digits).filter(|_| digits > 0)?;
+    let unit = Unit::parse(unit.trim_start())?;
+    let value: f64 = number.parse().ok()?;
+    value.is_finite().then_some((value, unit))
+}
+
+/// Length in bytes of the unsigned number at the start of a text: digits, one fraction, one exponent. 0 without digits.
+pub(crate) fn number_length(text: &str) -> usize {
+    let digits = |from: usize| {
+        text.get(from..).map_or(0, |rest| rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len()))
+    };
+    let mut length = digits(0);
+    if length == 0 {
+        return 0;
+    }
+    let mark = |at: usize| text.as_bytes().get(at).copied();
+    if mark(length) == Some(b'.') && digits(length + 1) > 0 {
+        length += 1 + digits(length + 1);
+    }
+    if let Some(b'e' | b'E') = mark(length) {
+        let sign = usize::from(matches!(mark(length + 1), Some(b'+' | b'-')));
+        let exponent = digits(length + 1 + sign);
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
 }

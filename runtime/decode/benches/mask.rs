@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use common::peer::Peer;
 use motet_compiler::Session;
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
-use motet_syntax::{FileId, Form, Source, Sources};
+use motet_syntax::{FileId, Source, Sources, Syntax};
 
 /// The tokens with bytes; those above are special.
 const TOKENS: u32 = 199_998;
@@ -36,7 +36,7 @@ fn main() {
     tokens.resize(END as usize + 1, Vec::new());
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = common::peer::environment(&tokens, END);
-    for form in [Form::Json, Form::Text] {
+    for form in [Syntax::Json, Syntax::Text] {
         println!("{form:?}");
         let surface = Surface { modifiers: Modifiers::Written, form, ..Surface::default() };
         let (mut examples, mut written) = (Times::default(), Times::default());

@@ -18,7 +18,7 @@ use common::tokens::{END, tokens};
 use common::walks::{Ended, KINDS, of_kind, steps, walk, written};
 use common::{errors, session};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary, canonical};
-use motet_syntax::{FileId, Form, Source};
+use motet_syntax::{FileId, Source, Syntax};
 
 fn surface(modifiers: Modifiers) -> Surface {
     Surface { modifiers, ..Surface::default() }
@@ -31,15 +31,15 @@ fn walks() -> usize {
 
 #[test]
 fn what_is_written_at_random_checks() {
-    write_at_random(Form::Json);
+    write_at_random(Syntax::Json);
 }
 
 #[test]
 fn what_is_written_at_random_in_text_checks() {
-    write_at_random(Form::Text);
+    write_at_random(Syntax::Text);
 }
 
-fn write_at_random(form: Form) {
+fn write_at_random(form: Syntax) {
     let (mut lengths, mut done, mut all) = (Vec::new(), 0, 0);
     let mut kinds = [0usize; KINDS.len()];
     for (index, (robot, scene)) in
@@ -128,15 +128,15 @@ fn last_fails(text: &str) -> bool {
 
 #[test]
 fn examples_are_accepted_byte_by_byte() {
-    accept_examples(Form::Json);
+    accept_examples(Syntax::Json);
 }
 
 #[test]
 fn examples_in_text_are_accepted_byte_by_byte() {
-    accept_examples(Form::Text);
+    accept_examples(Syntax::Text);
 }
 
-fn accept_examples(form: Form) {
+fn accept_examples(form: Syntax) {
     let surface = Surface { form, ..surface(Modifiers::Written) };
     let mut count = 0;
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
@@ -184,7 +184,7 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
     let (mut count, mut outside) = (0, 0);
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
-        for (from, to) in [(Form::Json, Form::Text), (Form::Text, Form::Json)] {
+        for (from, to) in [(Syntax::Json, Syntax::Text), (Syntax::Text, Syntax::Json)] {
             let [from, to] = [from, to].map(|form| Surface { form, ..surface(Modifiers::Written) });
             let prepared = Prepared::new(&session, to);
             // The acceptor of the text form writes no comparison of a field.
@@ -207,15 +207,15 @@ fn what_is_written_is_accepted_byte_by_byte_in_both_surfaces() {
 
 #[test]
 fn a_mask_has_the_tokens_that_are_accepted() {
-    compare_masks(Form::Json);
+    compare_masks(Syntax::Json);
 }
 
 #[test]
 fn a_mask_of_text_has_the_tokens_that_are_accepted() {
-    compare_masks(Form::Text);
+    compare_masks(Syntax::Text);
 }
 
-fn compare_masks(form: Form) {
+fn compare_masks(form: Syntax) {
     let session = session("hsr", "kitchen");
     let prepared = Prepared::new(&session, Surface { form, ..surface(Modifiers::Default) });
     let tokens = tokens();

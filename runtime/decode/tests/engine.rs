@@ -14,7 +14,7 @@ use common::peer::{Peer, environment};
 use common::session;
 use common::tokens::{END, tokens};
 use motet_decode::{Modifiers, Prepared, Surface, Vocabulary};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 /// How many walks each pair of robot and scene gets with each surface.
 const WALKS: u64 = 3;
@@ -23,12 +23,12 @@ const LENGTH: usize = 120;
 
 #[test]
 fn a_mask_is_within_that_of_the_grammar() {
-    compare(Form::Json);
+    compare(Syntax::Json);
 }
 
 #[test]
 fn a_mask_of_text_is_within_that_of_the_grammar() {
-    compare(Form::Text);
+    compare(Syntax::Text);
 }
 
 /// What a loop goes through is bound for its body: a container here, of which no step gives one.
@@ -38,9 +38,9 @@ fn an_item_may_be_an_argument() {
     let environment = environment(&tokens, END);
     let session = session("hsr", "living_room");
     for (form, policy) in [
-        (Form::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
+        (Syntax::Text, "policy p for hsr { each J in [drawer_1] at most 1 { open(J) done } done }"),
         (
-            Form::Json,
+            Syntax::Json,
             r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
         ),
     ] {
@@ -54,7 +54,7 @@ fn an_item_may_be_an_argument() {
     }
 }
 
-fn compare(form: Form) {
+fn compare(form: Syntax) {
     let tokens = tokens();
     let vocabulary = Vocabulary::new(&tokens, END);
     let environment = environment(&tokens, END);

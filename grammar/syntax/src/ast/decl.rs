@@ -1,10 +1,13 @@
 //! Declarations: what a library, a robot's card or a domain says there is, and policies.
 
+use derive_where::derive_where;
+
 use super::{Block, Call, Doc, Expr, Name};
 use crate::source::Span;
 
 /// `kind Object: Entity { width: Length, mass: Mass }`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct KindDecl {
     /// Its documentation.
     pub doc: Doc,
@@ -15,11 +18,13 @@ pub struct KindDecl {
     /// Its fields, beside those of its parent.
     pub fields: Vec<Param>,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `fluent holding(object: Object)`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct FluentDecl {
     /// Its documentation.
     pub doc: Doc,
@@ -28,11 +33,13 @@ pub struct FluentDecl {
     /// Its parameters.
     pub params: Vec<Param>,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `measure distance(to: Entity) -> Length`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct MeasureDecl {
     /// Its documentation.
     pub doc: Doc,
@@ -43,22 +50,26 @@ pub struct MeasureDecl {
     /// What it gives.
     pub result: TypeExpr,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `failure slipped`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct FailureDecl {
     /// Its documentation.
     pub doc: Doc,
     /// Its name.
     pub name: Name,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `enum Approach { auto, top, side, front }`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct EnumDecl {
     /// Its documentation.
     pub doc: Doc,
@@ -67,11 +78,13 @@ pub struct EnumDecl {
     /// Its cases, at least one.
     pub cases: Vec<Name>,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `entity block_a, block_b: Object`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct EntitiesDecl {
     /// Its documentation.
     pub doc: Doc,
@@ -80,20 +93,23 @@ pub struct EntitiesDecl {
     /// Their kind.
     pub kind: Name,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// `initially on(block_a, block_b), not holding(block_a)`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct InitiallyDecl {
     /// Fluents, each perhaps under one `not`.
     pub facts: Vec<Expr>,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// A parameter of a declaration, or a field of a kind.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Param {
     /// Its name.
     pub name: Name,
@@ -105,11 +121,12 @@ pub struct Param {
 
 /// A type as written.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub enum TypeExpr {
     /// `Object`, `Length`, `Text`
     Named(Name),
     /// `List<Object>`
-    List(Box<TypeExpr>, Span),
+    List(Box<TypeExpr>, #[derive_where(skip)] Span),
 }
 
 impl TypeExpr {
@@ -125,7 +142,7 @@ impl TypeExpr {
 
 /// Whether a primitive acts or perceives.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum PrimitiveForm {
+pub enum PrimitiveKind {
     /// It may change the world.
     Action,
     /// It only looks.
@@ -134,11 +151,12 @@ pub enum PrimitiveForm {
 
 /// `action pick(object: Object) needs … makes …`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct PrimitiveDecl {
     /// Its documentation.
     pub doc: Doc,
     /// Action or perception.
-    pub form: PrimitiveForm,
+    pub kind: PrimitiveKind,
     /// Its name.
     pub name: Name,
     /// Its parameters.
@@ -148,11 +166,12 @@ pub struct PrimitiveDecl {
     /// Its contract, in the order written.
     pub clauses: Vec<Clause>,
     /// The whole declaration.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// One clause of a contract.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Clause {
     /// `needs free(hand), open(c) for each c: Container when in(object, c)`
     Needs(Vec<Quantified>),
@@ -178,7 +197,7 @@ pub enum Clause {
 }
 
 /// One entry of `needs`, `makes` or `unsettles`: `at(x, to) for each x: Object when in(x, c)`. Both tails may be absent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Quantified {
     /// In `needs` a condition; in `makes` a fluent, perhaps under one `not`; in `unsettles` a fluent.
     pub expr: Expr,
@@ -190,6 +209,7 @@ pub struct Quantified {
 
 /// A policy or a sub-policy.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Policy {
     /// Its documentation.
     pub doc: Doc,
@@ -204,5 +224,6 @@ pub struct Policy {
     /// Its steps.
     pub body: Block,
     /// The whole document in JSON, the declaration in text.
+    #[derive_where(skip)]
     pub span: Span,
 }

@@ -1,5 +1,6 @@
 //! Expressions: conditions, terms and calls.
 
+use derive_where::derive_where;
 use smol_str::SmolStr;
 
 use super::Name;
@@ -9,15 +10,17 @@ use crate::unit::Unit;
 /// A condition or a term. One grammar serves both, so that `(a + b) < c` and `(a and b)` need no look-ahead; the
 /// check stage tells them apart by their types.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Expr {
     /// What it is.
     pub kind: ExprKind,
     /// Where it stands, without surrounding parentheses.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// What an expression is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
     /// `true`, `false`
     Bool(bool),
@@ -61,7 +64,7 @@ impl Expr {
     pub fn unit(&self) -> Option<Unit> {
         match &self.kind {
             ExprKind::Quantity(_, unit) => Some(*unit),
-            ExprKind::Plain(text) => crate::json::quantity(text).map(|(_, unit)| unit),
+            ExprKind::Plain(text) => crate::unit::parse_quantity(text).map(|(_, unit)| unit),
             _ => None,
         }
     }
@@ -69,23 +72,27 @@ impl Expr {
 
 /// A name applied to arguments: a primitive, a sub-policy, a fluent, a measure or a motion.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Call {
     /// What is called.
     pub name: Name,
     /// The arguments.
     pub args: Vec<Arg>,
     /// The whole call.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// One argument.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Arg {
     /// Its parameter, where it is named.
     pub name: Option<Name>,
     /// Its value.
     pub value: Expr,
     /// Name and value.
+    #[derive_where(skip)]
     pub span: Span,
 }
 

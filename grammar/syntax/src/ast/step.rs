@@ -1,28 +1,34 @@
 //! Steps: what a policy is made of.
 
+use derive_where::derive_where;
+
 use super::{Call, Expr, Name};
 use crate::source::Span;
 
 /// A list of steps that run one after the other.
 #[derive(Clone, Debug, Default)]
+#[derive_where(PartialEq)]
 pub struct Block {
     /// The steps.
     pub steps: Vec<Step>,
     /// The braces or brackets, with what is between them.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// One step.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Step {
     /// What it does.
     pub kind: StepKind,
     /// The whole step.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// What a step does.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum StepKind {
     /// `let m = detect("mug") within 2 s retry 1`
     Do(Do),
@@ -93,7 +99,7 @@ pub enum StepKind {
 }
 
 /// A call of a primitive or of a sub-policy, as a step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Do {
     /// The call.
     pub call: Call,
@@ -107,6 +113,7 @@ pub struct Do {
 
 /// `when c for 200 ms then R`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct When {
     /// What is watched for.
     pub condition: Expr,
@@ -115,17 +122,20 @@ pub struct When {
     /// What then happens.
     pub reaction: Reaction,
     /// All of it.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// What a monitor does when it fires.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub enum Reaction {
     /// `pause within 60 s`
     Pause {
         /// The longest pause: a duration; 60 s where nothing is said.
         within: Option<Expr>,
         /// The reaction as written.
+        #[derive_where(skip)]
         span: Span,
     },
     /// `restart at most 3`
@@ -133,6 +143,7 @@ pub enum Reaction {
         /// How often: a whole number.
         at_most: Expr,
         /// The reaction as written.
+        #[derive_where(skip)]
         span: Span,
     },
     /// `resume at most 3 { … }`
@@ -142,6 +153,7 @@ pub enum Reaction {
         /// What runs in between.
         body: Block,
         /// The reaction as written.
+        #[derive_where(skip)]
         span: Span,
     },
     /// `done`, `fail "…"`, `replan "…"`
@@ -150,32 +162,37 @@ pub enum Reaction {
 
 /// `catch slipped, blocked { … }`
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct Catch {
     /// Which failures.
     pub on: CatchOn,
     /// What then runs.
     pub body: Block,
     /// All of it.
+    #[derive_where(skip)]
     pub span: Span,
 }
 
 /// Which failures a `catch` takes.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub enum CatchOn {
     /// `any`
-    Any(Span),
+    Any(#[derive_where(skip)] Span),
     /// The named kinds; at least one.
     Kinds(Vec<Name>),
 }
 
 /// An ending of the policy.
 #[derive(Clone, Debug)]
+#[derive_where(PartialEq)]
 pub struct End {
     /// Which ending.
     pub kind: EndKind,
     /// The reason: a text; never on `done`.
     pub why: Option<Expr>,
     /// All of it.
+    #[derive_where(skip)]
     pub span: Span,
 }
 

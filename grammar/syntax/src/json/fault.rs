@@ -6,9 +6,9 @@ use std::fmt::{self, Display};
 use serde::de::{self, Expected, Unexpected};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::{BadValue, MissingKey, NoForm, NumberRange, TwoForms, UnknownKey, WrongType};
 use super::tree::Tree;
 use crate::diagnostic::Diagnostic;
+use crate::errors::{BadValue, MissingKey, NoForm, NumberRange, TwoForms, UnknownKey, WrongType};
 use crate::suggest;
 
 /// One mistake in a value.
@@ -68,23 +68,31 @@ impl Fault {
             Reason::Type { found, expected } => WrongType { span, expected, found }.into(),
             Reason::Range { found, expected } => NumberRange { span, found, expected: Some(expected) }.into(),
             Reason::Choice { found, expected } => BadValue {
-                span,
-                message: format!("`{found}` is not known here"),
-                expected,
-                found,
-                help: None,
+                expected: expected.iter().copied().map(SmolStr::new_static).collect(),
+                found: found.clone(),
+                ..BadValue::new(span, format!("`{found}` is not known here"))
             }
             .into(),
-            Reason::UnknownKey { key, expected } => UnknownKey { key, span, expected }.into(),
-            Reason::Missing(key) => MissingKey { key, span: head }.into(),
+            Reason::UnknownKey { key, expected } => UnknownKey {
+                key,
+                span,
+                expected: expected.iter().copied().map(SmolStr::new_static).collect(),
+            }
+            .into(),
+            Reason::Missing(key) => MissingKey { key: key.into(), span: head }.into(),
             Reason::NoForm(forms) => {
                 let meant = tree.keys(at).find_map(|key| {
                     let text = tree.text(key);
                     let meant = suggest::closest(text, forms.iter().copied())?;
-                    Some((key, (SmolStr::new(text), meant)))
+                    Some((key, (SmolStr::new(text), SmolStr::new_static(meant))))
                 });
                 let span = meant.as_ref().map_or(head, |(key, _)| tree.span(*key));
-                NoForm { span, forms, meant: meant.map(|(_, meant)| meant) }.into()
+                NoForm {
+                    span,
+                    forms: forms.iter().copied().map(SmolStr::new_static).collect(),
+                    meant: meant.map(|(_, meant)| meant),
+                }
+                .into()
             }
             Reason::TwoForms { first, second } => TwoForms {
                 span: tree.span(second),
@@ -93,9 +101,7 @@ impl Fault {
                 second: tree.text(second).into(),
             }
             .into(),
-            Reason::Words(message) => {
-                BadValue { span, message, expected: &[], found: SmolStr::default(), help: None }.into()
-            }
+            Reason::Words(message) => BadValue::new(span, message).into(),
         };
         diagnostic.path = tree.pointer(at);
         diagnostic

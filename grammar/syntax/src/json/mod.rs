@@ -25,29 +25,27 @@ mod access;
 mod convert;
 mod convert_term;
 mod de;
-pub mod errors;
 mod fault;
 mod lenient;
 mod parse;
 mod scan;
 mod schema;
 mod spanned;
-pub mod term;
+pub(crate) mod term;
 mod tree;
-pub mod wire;
+pub(crate) mod wire;
 
 use std::cell::RefCell;
 
 use serde::Deserialize;
 
-pub use convert_term::quantity;
 pub use lenient::Lenient;
 pub use spanned::Spanned;
 pub(crate) use tree::push_escaped;
 
 use crate::ast::{File, Item, MAX_BYTES, MAX_NESTING};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{Empty, TooLarge, Wanted};
+use crate::errors::{DocumentKind, Empty, TooLarge};
 use crate::source::{FileId, Source, Span};
 
 /// How deep brackets may nest in a JSON document. One block of a policy takes up to four: the handlers of a `try` are an
@@ -80,7 +78,7 @@ fn read_tree<'s, T: Deserialize<'s>>(
         return (None, None, vec![TooLarge { span: start, bytes: text.len() }.into()]);
     }
     if text.trim_ascii().is_empty() {
-        return (None, None, vec![Empty { span: start, wanted: Wanted::Json }.into()]);
+        return (None, None, vec![Empty { span: start, wanted: DocumentKind::Json }.into()]);
     }
     let (tree, mut found) = parse::parse(text, file);
     let Some(tree) = tree else { return (None, None, found) };
@@ -116,4 +114,10 @@ pub(crate) fn read_policy(text: &str, file: FileId) -> (File, Vec<Diagnostic>) {
     }
     found.sort_by_key(|diagnostic| diagnostic.span.start);
     (File { items: vec![Item::Policy(policy)] }, found)
+}
+
+/// JSON Schema of a policy: the format that [`crate::read()`] accepts.
+#[must_use]
+pub fn policy_schema() -> schemars::Schema {
+    schemars::schema_for!(wire::Document)
 }

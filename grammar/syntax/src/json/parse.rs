@@ -5,11 +5,11 @@ use std::borrow::Cow;
 
 use rustc_hash::FxHashSet;
 
-use super::errors::{DuplicateKey, JsonSyntax, SyntaxFault};
 use super::scan::Scanner;
 use super::tree::{Kind, Node, Tree};
 use crate::ast::MAX_TOKENS;
 use crate::diagnostic::Diagnostic;
+use crate::errors::{DuplicateKey, JsonSyntax, SyntaxFault};
 use crate::errors::{TooDeep, TooManyTokens};
 use crate::source::{FileId, Span};
 

@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::errors::{JsonSyntax, NumberRange, SyntaxFault};
 use super::tree::{Kind, Number};
 use crate::diagnostic::Diagnostic;
+use crate::errors::{JsonSyntax, NumberRange, SyntaxFault};
 use crate::source::{FileId, Span};
 
 /// A position in a document.

@@ -18,7 +18,7 @@ pub(crate) const MIXED: &str = "$mixed";
 
 /// A literal, a binding, or a form.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Term {
+pub(crate) enum Term {
     /// `true`
     Bool(bool),
     /// `0.5`: a number, in SI units where a quantity is meant.
@@ -34,7 +34,7 @@ pub enum Term {
 /// An object that is a condition or a term; its key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Form {
+pub(crate) enum Form {
     /// The condition does not hold.
     Not(Condition),
     /// All conditions hold.
@@ -73,55 +73,55 @@ pub enum Form {
 }
 
 /// The two sides of a comparison or a calculation.
-pub type Pair = [Spanned<Term>; 2];
+pub(crate) type Pair = [Spanned<Term>; 2];
 
 /// A fluent holds. Every other key is an argument; `"any"` stands for some entity.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Is {
+pub(crate) struct Is {
     /// The fluent.
-    pub is: Spanned<SmolStr>,
+    pub(crate) is: Spanned<SmolStr>,
     /// The arguments.
     #[serde(flatten)]
-    pub args: Args,
+    pub(crate) args: Args,
 }
 
 /// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Get {
+pub(crate) struct Get {
     /// The measure.
-    pub get: Spanned<SmolStr>,
+    pub(crate) get: Spanned<SmolStr>,
     /// The arguments.
     #[serde(flatten)]
-    pub args: Args,
+    pub(crate) args: Args,
     /// How the value is compared.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub is: Option<Box<Spanned<Relation>>>,
+    pub(crate) is: Option<Box<Spanned<Relation>>>,
     /// With what.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub than: Option<Box<Spanned<Term>>>,
+    pub(crate) than: Option<Box<Spanned<Term>>>,
 }
 
 /// The value of a field of an entity. With `is` and `than` it is a condition: a comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Field {
+pub(crate) struct Field {
     /// The field.
-    pub field: Spanned<SmolStr>,
+    pub(crate) field: Spanned<SmolStr>,
     /// The entity.
-    pub of: Spanned<Term>,
+    pub(crate) of: Spanned<Term>,
     /// How the value is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub is: Option<Box<Spanned<Relation>>>,
+    pub(crate) is: Option<Box<Spanned<Relation>>>,
     /// With what.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub than: Option<Box<Spanned<Term>>>,
+    pub(crate) than: Option<Box<Spanned<Term>>>,
 }
 
 /// How two values are compared, where the comparison is written in one object: `{"get": "distance", "to": "user", "is":
 /// "less", "than": 0.5}`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Relation {
+pub(crate) enum Relation {
     /// `<`
     Less,
     /// `<=`
@@ -138,22 +138,22 @@ pub enum Relation {
 
 /// Arguments by the names of their parameters, in the order written.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Args(pub Vec<(Spanned<SmolStr>, Spanned<Term>)>);
+pub(crate) struct Args(pub(crate) Vec<(Spanned<SmolStr>, Spanned<Term>)>);
 
 /// A condition; a string is read as the text form.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Condition(pub Spanned<Term>);
+pub(crate) struct Condition(pub(crate) Spanned<Term>);
 
 /// A duration: a number of seconds, or a string with a unit such as `"200 ms"`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Duration(pub Spanned<Term>);
+pub(crate) struct Duration(pub(crate) Spanned<Term>);
 
 /// A whole number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Count(pub Spanned<Term>);
+pub(crate) struct Count(pub(crate) Spanned<Term>);
 
 impl<'de> Deserialize<'de> for Term {
     #[inline]

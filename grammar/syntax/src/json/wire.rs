@@ -19,31 +19,31 @@ use super::{Lenient, Spanned};
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Motet policy", rename = "Policy")]
-pub struct Document {
+pub(crate) struct Document {
     /// Version of the format: 1.
     #[schemars(extend("const" = 1))]
-    pub motet: Spanned<u32>,
+    pub(crate) motet: Spanned<u32>,
     /// The policy's name.
-    pub policy: Spanned<SmolStr>,
+    pub(crate) policy: Spanned<SmolStr>,
     /// The robot that it is written for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub robot: Option<Spanned<SmolStr>>,
+    pub(crate) robot: Option<Spanned<SmolStr>>,
     /// What holds where the policy is done.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub achieves: Option<Condition>,
+    pub(crate) achieves: Option<Condition>,
     /// What it does, step by step.
-    pub steps: Steps,
+    pub(crate) steps: Steps,
 }
 
 /// Steps that run one after the other.
-pub type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
+pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 
 // What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved often.
 /// One step; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "an object that is a step", rename_all = "lowercase")]
 #[schemars(rename = "Step", untagged)]
-pub enum Step {
+pub(crate) enum Step {
     /// A call.
     Do(Do),
     /// A named group.
@@ -68,86 +68,86 @@ pub enum Step {
 
 /// Runs one primitive or sub-policy. Every other key is an argument, under the name of its parameter.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
-pub struct Do {
+pub(crate) struct Do {
     /// The primitive or sub-policy.
-    pub r#do: Spanned<SmolStr>,
+    pub(crate) r#do: Spanned<SmolStr>,
     /// The arguments.
     #[serde(flatten)]
-    pub args: Args,
+    pub(crate) args: Args,
     /// The deadline.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub within: Option<Box<Duration>>,
+    pub(crate) within: Option<Box<Duration>>,
     /// How often it is tried again after a failure.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub retry: Option<Box<Count>>,
+    pub(crate) retry: Option<Box<Count>>,
     /// The name that its result is bound to; `"$name"` stands for it afterwards.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub r#as: Option<Box<Spanned<SmolStr>>>,
+    pub(crate) r#as: Option<Box<Spanned<SmolStr>>>,
 }
 
 /// A named group of steps.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Sequence {
+pub(crate) struct Sequence {
     /// Its name.
-    pub sequence: Spanned<SmolStr>,
+    pub(crate) sequence: Spanned<SmolStr>,
     /// Its steps.
-    pub steps: Steps,
+    pub(crate) steps: Steps,
 }
 
 /// Runs `then` if the condition holds and `else` otherwise.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct If {
+pub(crate) struct If {
     /// The condition.
-    pub r#if: Condition,
+    pub(crate) r#if: Condition,
     /// Steps where it holds.
-    pub then: Steps,
+    pub(crate) then: Steps,
     /// Steps where it does not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub r#else: Option<Steps>,
+    pub(crate) r#else: Option<Steps>,
 }
 
 /// Blocks until the condition holds, else fails with `timeout`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wait {
+pub(crate) struct Wait {
     /// The condition.
-    pub wait: Condition,
+    pub(crate) wait: Condition,
     /// The deadline; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub within: Option<Box<Duration>>,
+    pub(crate) within: Option<Box<Duration>>,
 }
 
 /// Runs `during` while watching every condition.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Monitor {
+pub(crate) struct Monitor {
     /// What is watched.
     #[schemars(length(min = 1))]
-    pub monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
+    pub(crate) monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
     /// What runs meanwhile.
-    pub during: Steps,
+    pub(crate) during: Steps,
 }
 
 /// A watched condition and what happens when it holds.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct When {
+pub(crate) struct When {
     /// The condition.
-    pub when: Condition,
+    pub(crate) when: Condition,
     /// How long it must hold before anything happens.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub r#for: Option<Duration>,
+    pub(crate) r#for: Option<Duration>,
     /// What then happens.
-    pub then: Spanned<Reaction>,
+    pub(crate) then: Spanned<Reaction>,
 }
 
 /// What a monitor does; its first key says which.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "an object that is a reaction", rename_all = "lowercase")]
 #[schemars(rename = "Reaction", untagged)]
-pub enum Reaction {
+pub(crate) enum Reaction {
     /// The policy goes on.
     React(React),
     /// The policy ends.
@@ -158,24 +158,24 @@ pub enum Reaction {
 /// `steps` and goes on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct React {
+pub(crate) struct React {
     /// The reaction.
-    pub react: Spanned<ReactKind>,
+    pub(crate) react: Spanned<ReactKind>,
     /// Of `pause`: the longest pause; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub within: Option<Duration>,
+    pub(crate) within: Option<Duration>,
     /// Of `restart` and `resume`: how often.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<Count>,
+    pub(crate) at_most: Option<Count>,
     /// Of `resume`: what runs in between.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub steps: Option<Steps>,
+    pub(crate) steps: Option<Steps>,
 }
 
 /// A reaction after which the policy goes on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum ReactKind {
+pub(crate) enum ReactKind {
     /// Hold, and go on when the condition is false again.
     Pause,
     /// Run the body again from its start.
@@ -187,76 +187,76 @@ pub enum ReactKind {
 /// Runs steps and handles their failures by kind; the first handler that fits.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Try {
+pub(crate) struct Try {
     /// What may fail.
-    pub r#try: Steps,
+    pub(crate) r#try: Steps,
     /// The handlers.
     #[schemars(length(min = 1))]
-    pub catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
+    pub(crate) catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
 }
 
 /// A handler of failures.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Catch {
+pub(crate) struct Catch {
     /// The kinds of failure, or `["any"]`.
     #[schemars(length(min = 1))]
-    pub on: Spanned<Vec<Spanned<SmolStr>>>,
+    pub(crate) on: Spanned<Vec<Spanned<SmolStr>>>,
     /// What then runs.
-    pub steps: Steps,
+    pub(crate) steps: Steps,
 }
 
 /// Runs the steps, then tests; with `until`, not true after the last run is the failure `exhausted`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Repeat {
+pub(crate) struct Repeat {
     /// How often at most.
-    pub repeat: Count,
+    pub(crate) repeat: Count,
     /// The steps.
-    pub steps: Steps,
+    pub(crate) steps: Steps,
     /// The test after each run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub until: Option<Condition>,
+    pub(crate) until: Option<Condition>,
 }
 
 /// Runs the steps for each element of a list; a longer list is the failure `exhausted`.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Each {
+pub(crate) struct Each {
     /// The name that each element is bound to.
-    pub each: Spanned<SmolStr>,
+    pub(crate) each: Spanned<SmolStr>,
     /// The list.
-    pub r#in: Spanned<Term>,
+    pub(crate) r#in: Spanned<Term>,
     /// The longest list that is taken.
-    pub at_most: Count,
+    pub(crate) at_most: Count,
     /// The steps.
-    pub steps: Steps,
+    pub(crate) steps: Steps,
 }
 
 /// Runs all branches at the same time.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Parallel {
+pub(crate) struct Parallel {
     /// The branches, each a list of steps.
     #[schemars(length(min = 1))]
-    pub parallel: Spanned<Vec<Steps>>,
+    pub(crate) parallel: Spanned<Vec<Steps>>,
 }
 
 /// Ends the policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct End {
+pub(crate) struct End {
     /// The ending.
-    pub end: Spanned<EndKind>,
+    pub(crate) end: Spanned<EndKind>,
     /// The reason, of `fail` and `replan`: a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub why: Option<Spanned<Term>>,
+    pub(crate) why: Option<Spanned<Term>>,
 }
 
 /// The ways a policy can end by its own word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum EndKind {
+pub(crate) enum EndKind {
     /// It reached what it was for.
     Done,
     /// It gives up.

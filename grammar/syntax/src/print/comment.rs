@@ -3,7 +3,7 @@
 use std::iter::Peekable;
 use std::vec::IntoIter;
 
-use crate::text::token::{TokenKind, tokens};
+use crate::text::lexer::{TokenKind, tokens};
 
 /// The comments that are still to be printed, in order.
 pub(super) struct Comments<'s> {

@@ -3,7 +3,7 @@
 use super::expr;
 use super::writer::{Blank, Writer};
 use crate::ast::{
-    Clause, Expr, File, Item, Name, Param, Policy, PrimitiveDecl, PrimitiveForm, Quantified, TypeExpr,
+    Clause, Expr, File, Item, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, TypeExpr,
 };
 use crate::source::Span;
 
@@ -105,9 +105,9 @@ impl Writer<'_> {
     }
 
     fn primitive(&mut self, decl: &PrimitiveDecl) {
-        let keyword = match decl.form {
-            PrimitiveForm::Action => "action",
-            PrimitiveForm::Perception => "perception",
+        let keyword = match decl.kind {
+            PrimitiveKind::Action => "action",
+            PrimitiveKind::Perception => "perception",
         };
         self.keyword(keyword, &decl.name);
         self.in_parentheses(&decl.params);

@@ -31,7 +31,7 @@ pub(super) fn call(step: &Do) -> String {
 
 /// A policy as the wire types of the JSON form. Spans are left empty.
 #[must_use]
-pub fn policy_wire(policy: &Policy) -> wire::Document {
+fn policy_wire(policy: &Policy) -> wire::Document {
     let mut lowering =
         Lowering { scope: policy.params.iter().map(|param| param.name.text.clone()).collect() };
     wire::Document {

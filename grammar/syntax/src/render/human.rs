@@ -12,7 +12,7 @@ use crate::source::{Sources, Span};
 
 /// Whether escape sequences for colours are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Color {
+pub enum ColorChoice {
     /// They are.
     On,
     /// They are not.
@@ -21,10 +21,10 @@ pub enum Color {
 
 /// All diagnostics, one below the other, wrapped at `width` columns. Empty where there is none.
 #[must_use]
-pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: Color, width: usize) -> String {
+pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: ColorChoice, width: usize) -> String {
     let theme = match color {
-        Color::On => GraphicalTheme::unicode(),
-        Color::Off => GraphicalTheme::unicode_nocolor(),
+        ColorChoice::On => GraphicalTheme::unicode(),
+        ColorChoice::Off => GraphicalTheme::unicode_nocolor(),
     };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_links(false);
     let mut text = String::new();

@@ -11,7 +11,7 @@ use crate::source::{Sources, Span};
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Motet diagnostic", rename = "Diagnostic")]
-pub struct Record {
+pub struct DiagnosticRecord {
     /// Its code, `M0501`: `motet explain M0501` tells more.
     pub code: String,
     /// `error`, `warning` or `note`.
@@ -107,7 +107,7 @@ pub struct EditRecord {
 
 /// A diagnostic as it is written out.
 #[must_use]
-pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
+pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> DiagnosticRecord {
     let span = |span: Span| {
         let (line, column) = line_column(sources, span);
         SpanRecord { start: span.start, end: span.end, line, column }
@@ -129,7 +129,7 @@ pub fn record(diagnostic: &Diagnostic, sources: &Sources) -> Record {
             .map(|edit| EditRecord { start: edit.span.start, end: edit.span.end, text: edit.text.clone() })
             .collect(),
     });
-    Record {
+    DiagnosticRecord {
         code: diagnostic.code.0.into(),
         severity: diagnostic.severity.name().into(),
         message: diagnostic.message.clone(),

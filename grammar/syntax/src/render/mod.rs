@@ -8,10 +8,10 @@ mod llm;
 mod sarif;
 
 pub use github::github;
-pub use human::{Color, human};
-pub use json::{EditRecord, FixRecord, Record, RelatedRecord, SpanRecord, json, record};
+pub use human::{ColorChoice, human};
+pub use json::{DiagnosticRecord, EditRecord, FixRecord, RelatedRecord, SpanRecord, json, record};
 pub use llm::{MAX_CHARS, capital, llm};
-pub use sarif::{Help, sarif};
+pub use sarif::{CodePage, sarif};
 
 use crate::source::{Source, Sources, Span};
 

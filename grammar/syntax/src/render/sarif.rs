@@ -10,7 +10,7 @@ use crate::source::{Source, Sources, Span};
 
 /// What there is to read about a code.
 #[derive(Clone, Copy, Debug)]
-pub struct Help<'h> {
+pub struct CodePage<'h> {
     /// Its title, a few words.
     pub title: &'h str,
     /// Its page.
@@ -22,7 +22,7 @@ pub struct Help<'h> {
 pub fn sarif<'h>(
     diagnostics: &[Diagnostic],
     sources: &Sources,
-    help: &dyn Fn(&str) -> Option<Help<'h>>,
+    help: &dyn Fn(&str) -> Option<CodePage<'h>>,
 ) -> String {
     let codes: BTreeMap<&str, usize> = diagnostics.iter().map(|diagnostic| (diagnostic.code.0, 0)).collect();
     let codes: BTreeMap<&str, usize> =
@@ -50,7 +50,7 @@ pub fn sarif<'h>(
     text
 }
 
-fn rule(code: &str, help: Option<Help<'_>>) -> Value {
+fn rule(code: &str, help: Option<CodePage<'_>>) -> Value {
     let text = format!("motet explain {code}");
     match help {
         None => json!({"id": code, "help": {"text": text}}),

@@ -1,7 +1,7 @@
 //! Pairs to steps. `depth` is how many blocks a step is in, counted as braces: a branch of `parallel` and the block of a
 //! `resume` are in two.
 
-use super::build::{Builder, Parts};
+use super::builder::{Builder, Parts};
 use super::{Pair, Rule};
 use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, MAX_NESTING, MAX_STEPS, Reaction, Step, StepKind, When,

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use motet_decode::{Modifiers, Prepared, Surface, World};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_syntax::{FileId, Source, Sources, Syntax, render};
 
 use crate::border::{free, guarded, handle, shared, slice, string, string_out};
 
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn motet_world_new(texts: *const MotetWorldTexts) -> *mut 
         };
         let session = world.session().map_err(|error| error.to_string())?;
         let modifiers = if texts.modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if texts.text { Form::Text } else { Form::Json };
+        let form = if texts.text { Syntax::Text } else { Syntax::Json };
         let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
         Ok(handle(MotetWorld { prepared, session }))
     })

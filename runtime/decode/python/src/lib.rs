@@ -3,7 +3,7 @@
 
 use motet_decode::vocabulary::Encoding;
 use motet_decode::{End, Modifiers, Prepared, Session, Surface, World as Texts};
-use motet_syntax::{FileId, Form, Source, Sources, render};
+use motet_syntax::{FileId, Syntax, Source, Sources, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -99,7 +99,7 @@ impl World {
     ) -> PyResult<Self> {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
-        let form = if text { Form::Text } else { Form::Json };
+        let form = if text { Syntax::Text } else { Syntax::Json };
         let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
         Ok(Self { session, prepared })
     }

@@ -2,7 +2,7 @@
 
 use motet_compiler::incremental::IncrementalChecker;
 use motet_syntax::ast::{self, Policy, Step};
-use motet_syntax::{Form, Span};
+use motet_syntax::{Span, Syntax};
 
 use super::arena::{Arenas, Event, Id};
 use super::build::Builder;
@@ -86,7 +86,7 @@ impl Follower {
         ends.reverse();
         let (head, steps) = ends.split_first()?;
         if self.draft.is_none() || self.head != told.arenas.hash(*head) {
-            let (draft, _) = IncrementalChecker::new(session, &told.head(*head), Form::Json);
+            let (draft, _) = IncrementalChecker::new(session, &told.head(*head), Syntax::Json);
             self.draft = Some(draft);
             self.head = told.arenas.hash(*head);
             self.steps.clear();

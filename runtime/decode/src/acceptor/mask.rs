@@ -1,6 +1,6 @@
 //! From bytes to tokens: which of a vocabulary may follow.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
 use super::bytes::Bytes;
@@ -61,8 +61,8 @@ impl Decoder {
                     set.or(names);
                 }
                 let ends = match walk.machine.program.surface.form {
-                    Form::Json => &tokens.name_ends,
-                    Form::Text => &tokens.bare_name_ends,
+                    Syntax::Json => &tokens.name_ends,
+                    Syntax::Text => &tokens.bare_name_ends,
                 };
                 ends.add_bias(&mut Stepper(walk), set, &[]);
             }
@@ -198,7 +198,7 @@ impl Walk {
     /// The tokens that begin with a space, where a name follows it that has room for any of them; false where none does.
     fn mask_spaced_name(&mut self, tokens: &Tokens, set: &mut SimpleVob) -> bool {
         let before = self.bytes.len();
-        if self.machine.program.surface.form == Form::Json || !self.push(b' ') {
+        if self.machine.program.surface.form == Syntax::Json || !self.push(b' ') {
             return false;
         }
         let names = match self.free_text(tokens.longest) {

@@ -22,7 +22,7 @@ mod word;
 use std::sync::Arc;
 
 use motet_compiler::Session;
-use motet_syntax::{Diagnostic, FileId, Form, Severity, Source};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Syntax};
 
 pub use self::mask::Decoder;
 use self::memo::Memo;
@@ -157,7 +157,7 @@ impl Acceptor {
 }
 
 /// A policy that breaks off, with its strings, brackets and braces closed.
-fn closed(text: &str, form: Form) -> String {
+fn closed(text: &str, form: Syntax) -> String {
     let (mut open, mut in_string, mut escaped) = (Vec::new(), false, false);
     for character in text.chars() {
         match character {
@@ -167,8 +167,8 @@ fn closed(text: &str, form: Form) -> String {
             _ if in_string => {}
             '{' => open.push('}'),
             '[' => open.push(']'),
-            '(' if form == Form::Text => open.push(')'),
-            ')' if form == Form::Json => {}
+            '(' if form == Syntax::Text => open.push(')'),
+            ')' if form == Syntax::Json => {}
             '}' | ']' | ')' => {
                 open.pop();
             }

@@ -1,6 +1,6 @@
 //! Texts and names, letter by letter.
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use super::arena::{Event, Id, Name, State};
 use super::walk::Walk;
@@ -34,7 +34,7 @@ impl Walk {
             Naming::Result(_) | Naming::Item | Naming::Let => state.scope,
             Naming::Policy | Naming::Group => 0,
         };
-        let end = if self.machine.program.surface.form == Form::Json { b'"' } else { b' ' };
+        let end = if self.machine.program.surface.form == Syntax::Json { b'"' } else { b' ' };
         if byte == end {
             let (start, len) = self.written(state.pos).filter(|_| state.pos > 0)?;
             if self.is_taken(scope, start, len, None) {

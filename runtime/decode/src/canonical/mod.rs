@@ -13,7 +13,7 @@ pub use complete::complete;
 
 use motet_compiler::Signatures;
 use motet_syntax::ast::Policy;
-use motet_syntax::{Form, Span};
+use motet_syntax::{Span, Syntax};
 
 use crate::surface::Surface;
 
@@ -43,7 +43,7 @@ impl std::error::Error for Outside {}
 pub fn canonical(policy: &Policy, signatures: &Signatures, surface: Surface) -> Result<String, Outside> {
     let document = complete(policy, signatures, surface)?;
     Ok(match surface.form {
-        Form::Json => json::print(&document, surface),
-        Form::Text => text::print(&document),
+        Syntax::Json => json::print(&document, surface),
+        Syntax::Text => text::print(&document),
     })
 }

@@ -1,7 +1,7 @@
 //! Values by the types that are asked for, and conditions.
 
 use motet_compiler::signature::Type;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::ast::{Call, Expr, ExprKind};
 use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
@@ -24,7 +24,7 @@ impl Completer<'_> {
                 })
             }
             (ExprKind::Plain(text), Type::Quantity(dimension)) => {
-                let quantity = motet_syntax::json::quantity(text);
+                let quantity = motet_syntax::unit::parse_quantity(text);
                 let quantity = quantity.filter(|(_, unit)| unit.dimension() == *dimension);
                 let (value, unit) =
                     quantity.ok_or_else(|| outside(expr, format!("`{text}` is no quantity of that type")))?;
@@ -267,7 +267,7 @@ impl Completer<'_> {
         if self.signatures.entities.iter().any(|(entity, _)| entity == name) {
             return Err(Outside { span, why: format!("`{name}` is an entity, which no name may hide") });
         }
-        if self.surface.form == Form::Text && self.is_taken(name) {
+        if self.surface.form == Syntax::Text && self.is_taken(name) {
             return Err(Outside { span, why: format!("`{name}` means something else in the text form") });
         }
         Ok(name.clone())

@@ -23,7 +23,6 @@ mod schema;
 mod shape;
 mod slot;
 mod text;
-mod word;
 
 pub use grammar::{Expr, Grammar, Rule, RuleId};
 pub use lark::Header;
@@ -33,10 +32,9 @@ pub use request::{
     Dialect, Prompt, lark_constraint, probe_body, request_body, request_constraint, schema_of,
 };
 pub use shape::{Shape, Shapes};
-pub use word::RESERVED;
 
 use motet_compiler::Signatures;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use crate::surface::Surface;
 
@@ -74,7 +72,7 @@ pub fn export(signatures: &Signatures, surface: Surface, format: Format, header:
 #[must_use]
 pub fn grammar(offer: &Offer) -> Grammar {
     match offer.surface.form {
-        Form::Json => compact::grammar(&Shapes::new(offer)),
-        Form::Text => text::grammar(offer),
+        Syntax::Json => compact::grammar(&Shapes::new(offer)),
+        Syntax::Text => text::grammar(offer),
     }
 }

@@ -2,11 +2,11 @@
 
 use motet_compiler::Signatures;
 use motet_compiler::signature::Type;
-use motet_syntax::Form;
+use motet_syntax::Syntax;
+use motet_syntax::words::RESERVED;
 use smol_str::SmolStr;
 
 use super::slot::{Place, Slot};
-use super::word::RESERVED;
 use crate::surface::{NumberRange, Surface};
 
 /// Above so many entities and cases a name of the text form may be one of theirs: a grammar that excludes them all would be
@@ -102,7 +102,7 @@ impl Offer {
                 .collect(),
             binds_lists,
             failures: signatures.failures.clone(),
-            excluded: if surface.form == Form::Text { excluded(signatures) } else { Vec::new() },
+            excluded: if surface.form == Syntax::Text { excluded(signatures) } else { Vec::new() },
         }
     }
 

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use motet_compiler::signature::{Signatures, Type};
 use motet_compiler::{Session, incremental::IncrementalChecker};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::print::identifier;
+use motet_syntax::words::RESERVED;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use super::{Assembler, Bound, Callable, Ends, Entry, Guard, Meaning, Op, OpId, Program, Role, Table, Words};
-use crate::export::RESERVED;
 use crate::surface::{NumberRange, Relation, Surface};
 
 /// A program in the making.
@@ -134,8 +134,8 @@ impl<'a> Compiler<'a> {
                 _ => Table::default(),
             };
             let table = match form {
-                Form::Json => table,
-                Form::Text => Table::new(
+                Syntax::Json => table,
+                Syntax::Text => Table::new(
                     table
                         .entries
                         .into_iter()
@@ -152,7 +152,7 @@ impl<'a> Compiler<'a> {
 /// What a name that a policy gives may not be: an entity, and in the text form what would mean something else there.
 fn taken(signatures: &Signatures, surface: Surface) -> FxHashSet<SmolStr> {
     let entities = signatures.entities.iter().map(|row| row.0.clone());
-    if surface.form == Form::Json {
+    if surface.form == Syntax::Json {
         return entities.collect();
     }
     let words = RESERVED.iter().map(|word| SmolStr::new_static(word));

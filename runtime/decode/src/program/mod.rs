@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use motet_compiler::Session;
 use motet_compiler::signature::{Signatures, Type};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 use motet_syntax::unit::Unit;
 use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
@@ -339,8 +339,8 @@ impl Program {
     /// Compiles the program of a session. O(declarations × entities).
     pub(crate) fn new(session: &Session, surface: Surface) -> Self {
         match surface.form {
-            Form::Json => json::compile(session, surface),
-            Form::Text => text::compile(session, surface),
+            Syntax::Json => json::compile(session, surface),
+            Syntax::Text => text::compile(session, surface),
         }
     }
 
@@ -354,7 +354,7 @@ impl Program {
 
     /// How many decimals a number has that is spelled in a range: percents have two less than what they say.
     pub(crate) fn decimals(&self, range: &NumberRange) -> u8 {
-        let is_percent = range.unit == Some(Unit::Percent) && self.surface.form == Form::Text;
+        let is_percent = range.unit == Some(Unit::Percent) && self.surface.form == Syntax::Text;
         range.decimals + if is_percent { 2 } else { 0 }
     }
 

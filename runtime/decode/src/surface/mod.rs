@@ -13,7 +13,7 @@ pub use decimal::Decimal;
 pub use number::NumberRange;
 pub use tree::{Call, Catch, Condition, Document, End, Reaction, Relation, Step, Subject, Value, When};
 
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 /// The most characters of a name that a policy gives: its own, of a binding, of a sequence.
 pub const MAX_NAME_CHARS: usize = 32;
@@ -38,7 +38,7 @@ pub const DEFAULT_DEPTH: usize = 4;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Surface {
     /// JSON or text.
-    pub form: Form,
+    pub form: Syntax,
     /// Whether deadlines and retries are written.
     pub modifiers: Modifiers,
     /// How many blocks may stand in one another below the policy's own: with 0 no step has steps.
@@ -57,7 +57,7 @@ pub enum Modifiers {
 
 impl Default for Surface {
     fn default() -> Self {
-        Self { form: Form::Json, modifiers: Modifiers::Default, depth: DEFAULT_DEPTH }
+        Self { form: Syntax::Json, modifiers: Modifiers::Default, depth: DEFAULT_DEPTH }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use motet_compiler::Session;
 use motet_decode::{Acceptor, Prepared, Surface};
-use motet_syntax::Form;
+use motet_syntax::Syntax;
 
 use super::dice::Dice;
 
@@ -45,7 +45,7 @@ pub fn written(
     let (prepared, mut dice) = (Prepared::new(session, surface), Dice::new(7));
     let mut found = Vec::new();
     // The text form takes fewer tokens a step.
-    let (least, spread) = if surface.form == Form::Json { (12, 8) } else { (24, 20) };
+    let (least, spread) = if surface.form == Syntax::Json { (12, 8) } else { (24, 20) };
     while found.len() < count {
         let steps = least + dice.below(spread);
         if let Some(Ended::Whole(policy)) = walk(&prepared, 6000, steps, &mut dice)
@@ -70,7 +70,7 @@ pub fn steps(policy: &str) -> usize {
 /// How many steps of a kind it has.
 #[must_use]
 pub fn of_kind(policy: &str, kind: &str) -> usize {
-    if form(policy) == Form::Json {
+    if form(policy) == Syntax::Json {
         return policy.matches(&format!("{{\"{kind}\":")).count();
     }
     let count = |words: &[&str]| words.iter().map(|word| policy.matches(word).count()).sum();
@@ -93,8 +93,8 @@ fn is_call(rest: &str) -> bool {
 
 /// The form of a policy.
 #[must_use]
-pub fn form(policy: &str) -> Form {
-    if policy.starts_with('{') { Form::Json } else { Form::Text }
+pub fn form(policy: &str) -> Syntax {
+    if policy.starts_with('{') { Syntax::Json } else { Syntax::Text }
 }
 
 /// The keys that tell what a step is.
