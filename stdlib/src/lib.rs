@@ -1,8 +1,8 @@
 //! The standard library: kinds, fluents, measures, failures, primitives and policies, as Motet text.
 //!
 //! The texts are the whole of it: no crate knows a primitive by name, and the few other names that Rust code knows
-//! are the language items of [`lang`]. The texts are compiled once, before the declarations of the robot and of domains,
-//! which replace declarations of the same name.
+//! are the language items of [`lang`]. The texts are compiled once, before the declarations of the robot and of
+//! domains, which replace declarations of the same name.
 //!
 //! ```
 //! let (name, text) = motet_stdlib::FILES[0];

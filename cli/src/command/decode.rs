@@ -9,7 +9,7 @@ use std::io;
 use std::path::Path;
 
 use motet_compiler::Session;
-use motet_decode::{Acceptor, Modifiers, Prepared, Surface};
+use motet_decode::{Acceptor, AcceptorFactory, Modifiers, Subset};
 use motet_syntax::ast::{File, MAX_BYTES};
 use motet_syntax::{Sources, Syntax, render};
 
@@ -42,7 +42,7 @@ fn decode(args: &DecodeArgs, report: &mut Report) -> Result<Exit, Trouble> {
         DecodeForm::Text => Syntax::Text,
     };
     let modifiers = if args.modifiers { Modifiers::Written } else { Modifiers::Default };
-    let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+    let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
     let mut acceptor = prepared
         .acceptor(args.budget)
         .ok_or_else(|| Trouble::Other(format!("no policy has at most {} bytes", args.budget)))?;

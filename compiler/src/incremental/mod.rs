@@ -32,11 +32,11 @@ pub const PROGRAM_POINT: Span = Span { file: FileId(u16::MAX), start: u32::MAX -
 /// Span of a sequence that stands for any one of its steps: see [`IncrementalChecker::permits_any`].
 pub const CHOICE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 2, end: u32::MAX };
 
-/// Argument of a call that is being written.
+/// ArgumentValue of a call that is being written.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Argument(Term);
+pub struct ArgumentValue(Term);
 
-impl Argument {
+impl ArgumentValue {
     /// Entity by its index in the environment.
     #[must_use]
     pub fn entity(index: u16) -> Self {
@@ -240,7 +240,12 @@ impl IncrementalChecker {
 
     /// Returns whether a call of the primitive with this index is permitted at the program point. An unknown
     /// argument is `None`: the needs that mention one, and those after them, stay open.
-    pub fn permits_call(&mut self, session: &Session, primitive: usize, args: &[Option<Argument>]) -> bool {
+    pub fn permits_call(
+        &mut self,
+        session: &Session,
+        primitive: usize,
+        args: &[Option<ArgumentValue>],
+    ) -> bool {
         let (library, _) = session.parts();
         let Some(def) = library.primitives.get(primitive) else { return false };
         let open = args.iter().position(Option::is_none).and_then(|index| u16::try_from(index).ok());
@@ -261,7 +266,7 @@ impl IncrementalChecker {
         &mut self,
         session: &Session,
         fluent: &str,
-        args: &[Option<Argument>],
+        args: &[Option<ArgumentValue>],
         negated: bool,
     ) -> LoopTest {
         let (library, environment) = session.parts();
@@ -294,7 +299,7 @@ impl IncrementalChecker {
     pub fn permits_round(
         &mut self,
         session: &Session,
-        until: Option<(&str, &[Option<Argument>], bool)>,
+        until: Option<(&str, &[Option<ArgumentValue>], bool)>,
     ) -> Option<u64> {
         let (library, environment) = session.parts();
         let Self { proof, program, inside, point, .. } = self;
@@ -319,9 +324,9 @@ impl IncrementalChecker {
 
     /// The latest binding with a name, as an argument.
     #[must_use]
-    pub fn binding(&self, name: &str) -> Option<Argument> {
+    pub fn binding(&self, name: &str) -> Option<ArgumentValue> {
         let index = self.program.bindings.iter().rposition(|binding| binding.name == name)?;
-        Some(Argument(Term::Binding(BindingId(u32::try_from(index).ok()?))))
+        Some(ArgumentValue(Term::Binding(BindingId(u32::try_from(index).ok()?))))
     }
 
     fn everywhere(&mut self, session: &Session, mut ask: impl FnMut(&mut Prover<'_>) -> bool) -> bool {
@@ -389,7 +394,7 @@ impl IncrementalChecker {
 }
 
 /// Condition of a fluent; an argument that is `None` stands for `any`.
-fn condition(fluent: Fluent, args: &[Option<Argument>], negated: bool) -> Condition {
+fn condition(fluent: Fluent, args: &[Option<ArgumentValue>], negated: bool) -> Condition {
     let args = args.iter().map(|arg| arg.as_ref().map(|value| value.0.clone()));
     let plain = Condition::Fact(Fact { fluent, args: args.collect() });
     if negated { Condition::Not(Box::new(plain)) } else { plain }

@@ -4,7 +4,7 @@ use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Mistake, Severity};
 use smol_str::SmolStr;
 
-use super::Argument;
+use super::ArgumentValue;
 use crate::declare::{Library, NeedDef};
 use crate::ir::{
     Base, BindingId, Block, Condition, Fact, Program, Reaction, Step, StepId, StepKind, Term, When,
@@ -264,7 +264,7 @@ impl super::IncrementalChecker {
         &mut self,
         session: &Session,
         (name, template): (&str, Option<&PolicyTemplate>),
-        args: &[Option<Argument>],
+        args: &[Option<ArgumentValue>],
     ) -> bool {
         if template.is_some_and(|template| template.calls.contains(&self.program.name)) {
             return false;
@@ -288,7 +288,7 @@ impl super::IncrementalChecker {
         &mut self,
         session: &Session,
         (name, template): (&str, Option<&PolicyTemplate>),
-        args: &[Option<Argument>],
+        args: &[Option<ArgumentValue>],
     ) -> bool {
         let (library, environment) = session.parts();
         let terms: Vec<Term> =

@@ -1,9 +1,9 @@
 //! PDDL in, Motet out: a STRIPS domain and a problem become declarations, a plan becomes a policy.
 //!
-//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects` of PDDL 2.1
-//! (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its place. The stages are
-//! `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which the canonical printer prints).
-//! Nothing here reads a file, and no text panics.
+//! What is taken is `:strips`, `:typing`, `:negative-preconditions`, `:equality` and `:conditional-effects`
+//! of PDDL 2.1 (Fox and Long 2003, <https://doi.org/10.1613/jair.1129>); the rest is refused by name, at its
+//! place. The stages are `tree` (brackets), `domain` and `problem` (what they say), `write` (the AST, which
+//! the canonical printer prints). Nothing here reads a file, and no text panics.
 
 mod actions;
 mod domain;
@@ -29,7 +29,8 @@ pub const MAX_ARITY: usize = 4;
 pub struct Translation {
     /// Kinds, fluents, actions, entities, `initially` and `closed world`.
     pub declarations: File,
-    /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is given.
+    /// One policy without parameters that states the problem's goal: with the steps of the plan, where one is
+    /// given.
     pub policy: File,
 }
 
@@ -59,8 +60,8 @@ pub struct PddlSource<'s> {
     pub file: FileId,
 }
 
-/// Imports a domain with a problem, and a plan where one is given. `None` where there is an error among the diagnostics,
-/// which are in the order of the files. O(n log n) in the length of the files.
+/// Imports a domain with a problem, and a plan where one is given. `None` where there is an error among the
+/// diagnostics, which are in the order of the files. O(n log n) in the length of the files.
 #[must_use]
 pub fn import(
     domain: PddlSource<'_>,

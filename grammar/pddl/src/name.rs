@@ -1,5 +1,5 @@
-//! Names of PDDL as names of Motet. Any name may stand in back-quotes, so most stay as they are; those that would mean
-//! something else get a `_` at their end.
+//! Names of PDDL as names of Motet. Any name may stand in back-quotes, so most stay as they are; those that
+//! would mean something else get a `_` at their end.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -14,7 +14,7 @@ use crate::typed::Typed;
 /// Entities that always exist, and the word for all of them.
 const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
 
-/// A parameter. `on` is free in Motet, yet `result` is not.
+/// Name of a parameter. `on` is free in Motet, yet `result` is not.
 pub(crate) fn param(text: &str, span: Span, constants: &[Typed]) -> Name {
     if constants.iter().any(|constant| constant.name == text) {
         // In PDDL `?depot` and `depot` are two names.
@@ -24,17 +24,19 @@ pub(crate) fn param(text: &str, span: Span, constants: &[Typed]) -> Name {
     suffixed(text, is_taken, span)
 }
 
-/// An object.
+/// Name of an object.
 pub(crate) fn entity(text: &str, span: Span) -> Name {
     suffixed(text, ENTITY_TAKEN.contains(&text), span)
 }
 
-/// A predicate. One of the standard library's cannot be declared anew with other parameters: its primitives use it.
+/// Name of a predicate. One of the standard library cannot be declared anew with other parameters: its
+/// primitives use it.
 pub(crate) fn fluent(text: &str, span: Span) -> Name {
     suffixed(text, standard_fluents().contains(text) || text == "monitored", span)
 }
 
-/// A type. Kinds of the standard library begin with a capital letter, and types of PDDL with a small one.
+/// Name of a type. Kinds of the standard library begin with a capital letter, and types of PDDL with a small
+/// one.
 pub(crate) fn kind(text: &str, span: Span) -> Name {
     Name { text: text.into(), span }
 }

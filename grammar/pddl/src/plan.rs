@@ -1,4 +1,5 @@
-//! Plans: an `(action argument …)` a line, perhaps behind a time `0:` or `0.000:` and before a duration `[1]`.
+//! Plans: an `(action argument …)` a line, perhaps behind a time `0:` or `0.000:` and before a duration
+//! `[1]`.
 
 use motet_syntax::{Diagnostic, Source, Span};
 use smol_str::SmolStr;

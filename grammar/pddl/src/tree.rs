@@ -1,4 +1,5 @@
-//! Brackets: PDDL text to a tree of words and lists. Letter case does not matter, so words are lower case from here on.
+//! Brackets: PDDL text to a tree of words and lists. Letter case does not matter, so words are lower case
+//! from here on.
 
 use motet_syntax::ast::MAX_NESTING;
 use motet_syntax::errors::too_deep;
@@ -17,7 +18,7 @@ pub(crate) struct Tree {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Kind {
-    /// Lower case.
+    /// A word in lower case: PDDL ignores case.
     Word(SmolStr),
     List(Vec<Tree>),
 }
@@ -43,7 +44,7 @@ impl Tree {
         Some((head.word()?, rest))
     }
 
-    /// How a message calls it.
+    /// Text of the tree in a message.
     pub(crate) fn shown(&self) -> String {
         match &self.kind {
             Kind::Word(word) => format!("`{word}`"),
@@ -55,7 +56,7 @@ impl Tree {
         }
     }
 
-    /// That something else is asked for here.
+    /// Reports that another part of PDDL is expected here.
     pub(crate) fn not(&self, wanted: impl Into<String>) -> Malformed {
         Malformed { span: self.span, wanted: wanted.into(), found: self.shown() }
     }
@@ -134,7 +135,7 @@ pub(crate) fn read_all(input: PddlSource<'_>, said: &mut Vec<Diagnostic>) -> Opt
     Some(top)
 }
 
-/// What a name, a variable, a keyword or a number is made of.
+/// Checks for a character of a name, a variable, a keyword or a number.
 fn is_of_word(char: char) -> bool {
     char.is_alphanumeric()
         || matches!(char, '_' | '-' | '?' | ':' | '=' | '.' | '+' | '*' | '/' | '<' | '>' | '@' | '#' | '!')

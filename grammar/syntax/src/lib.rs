@@ -1,7 +1,7 @@
 //! The front end of Motet: source text in, a spanned AST and diagnostics out.
 //!
-//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a name means is
-//! decided by the compiler's resolve stage, which is fed from here.
+//! Two surfaces, text and JSON ([`json`]), give one AST ([`ast`]). This crate knows no declaration: what a
+//! name means is decided by the compiler's resolve stage, which is fed from here.
 
 #[cfg(feature = "arbitrary")]
 #[doc(hidden)]
@@ -10,6 +10,7 @@ pub mod ast;
 pub mod diagnostic;
 pub mod errors;
 pub mod json;
+pub mod located;
 pub mod pointer;
 pub mod print;
 mod read;

@@ -1,17 +1,18 @@
-//! JSON Pointers of places in a policy, whichever form it was read from: a diagnostic of any stage says where in the
-//! JSON form it belongs.
+//! JSON Pointers into a policy, whichever syntax it was read from: a diagnostic of any stage names its node
+//! in the JSON form it belongs.
 
 use smol_str::SmolStr;
 
 use crate::ast::{
     Arg, ArithOp, Block, Call, CompareOp, Expr, ExprKind, Policy, Reaction, Step, StepKind, When,
 };
-use crate::json::push_escaped;
+use crate::located::push_token;
 use crate::source::Span;
 
-/// The pointer of the innermost step, argument or condition that contains the span, such as `/steps/2/try/0/object`;
-/// empty where none does. `parameter` names the parameter of a primitive or policy at a position, from 0, for arguments without a
-/// name; such an argument has the pointer of its call where there is none. O(nodes on the way).
+/// The pointer of the innermost step, argument or condition that contains the span, such as
+/// `/steps/2/try/0/object`; empty where none does. `parameter` names the parameter of a primitive or policy
+/// at a position, from 0, for arguments without a name; such an argument has the pointer of its call where
+/// there is none. O(nodes on the way).
 #[must_use]
 pub fn pointer_to(policy: &Policy, span: Span, parameter: &dyn Fn(&str, usize) -> Option<SmolStr>) -> String {
     let mut walk = Walk { span, parameter, pointer: String::new() };
@@ -28,21 +29,20 @@ struct Walk<'a> {
     pointer: String,
 }
 
-/// Each method appends its key and goes on inside, where its node contains the span, and tells whether it did.
+/// Each method appends its key and goes on inside, if its node contains the span, and returns true if it did.
 impl Walk<'_> {
     fn key(&mut self, key: &str) {
-        self.pointer.push('/');
-        push_escaped(&mut self.pointer, key);
+        push_token(&mut self.pointer, key);
     }
 
     fn index(&mut self, index: usize) {
-        self.pointer.push('/');
-        self.pointer.push_str(&index.to_string());
+        push_token(&mut self.pointer, &index.to_string());
     }
 
     fn block(&mut self, key: &str, block: &Block) -> bool {
         let steps = &block.steps;
-        // Steps stand in the order of the text, so the first that does not end before the span is the only candidate.
+        // Steps stand in the order of the text, so the first that does not end before the span is the only
+        // candidate.
         let index = steps.partition_point(|step| step.span.end < self.span.end);
         let Some(step) = steps.get(index).filter(|step| step.span.contains(self.span)) else { return false };
         self.key(key);

@@ -1,4 +1,5 @@
-//! The entry point: bytes to text, and a document of either form, or a model's reply with one in it, to the AST.
+//! Entry point of the front end: bytes to text, and a document in either syntax, or a reply that holds one,
+//! to the tree.
 
 use std::sync::Arc;
 
@@ -9,22 +10,21 @@ use crate::reply::{self, Reply};
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::{json, text};
 
-/// What a document says, and what is wrong with it.
+/// A document after reading, with its diagnostics.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// The declarations; of a JSON document one policy. After an error whatever could be read.
+    /// Declarations; of a JSON document one policy. After an error all that could be read.
     pub file: File,
-    /// The form that the document is in.
     pub syntax: Syntax,
-    /// The text that was read, to which the spans belong.
+    /// Text that the spans refer to.
     pub text: Arc<str>,
     /// Errors and warnings in the order of the document.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. A document in a
-/// Markdown fence or between prose is found, and what is ignored is a warning. O(bytes), no recursion deeper than
-/// [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
+/// Reads a document. Its first character says which form it is in: JSON begins with `{` or `[`. A document in
+/// a Markdown fence or between prose is found, and what is ignored is a warning. O(bytes), no recursion
+/// deeper than [`crate::ast::MAX_NESTING`] allows, and no panic on any text.
 #[must_use]
 pub fn read(source: &Source, file: FileId) -> Parsed {
     let document: &str = &source.text;
@@ -40,7 +40,7 @@ pub fn read(source: &Source, file: FileId) -> Parsed {
     Parsed { text: Arc::clone(&source.text), ..parsed }
 }
 
-/// The text of a file: a byte order mark is blanked out, so that offsets stay those of the bytes.
+/// Decodes a file to text. A byte order mark is blanked out, so that offsets stay those of the bytes.
 ///
 /// # Errors
 /// Bytes that are not UTF-8, with the offset of the first, and more than [`MAX_BYTES`] of them.
@@ -97,7 +97,7 @@ fn whole(document: &str, file: FileId) -> Parsed {
     Parsed { file, syntax, text: Arc::default(), diagnostics }
 }
 
-/// The form of a document by its first character.
+/// Syntax of a document, by its first character.
 fn syntax_of(document: &str) -> Syntax {
     match document.trim_start().bytes().next() {
         Some(b'{' | b'[') => Syntax::Json,

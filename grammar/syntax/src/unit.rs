@@ -1,6 +1,7 @@
-//! Dimensions and units. Inside, everything is SI and radians; a unit exists only where a document is read or written.
+//! Dimensions and units. Inside, everything is SI and radians; a unit exists only where a document is read or
+//! written.
 
-/// What a quantity measures, as exponents of the base units metre, second, kilogram and radian.
+/// Physical dimension of a quantity, as exponents of the base units metre, second, kilogram and radian.
 ///
 /// `Ratio` and plain numbers have all exponents zero.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, PartialOrd, Ord)]
@@ -16,19 +17,19 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// No dimension: `Number` and `Ratio`.
+    /// No dimension, as of `Number` and `Ratio`.
     pub const NONE: Self = Self { metre: 0, second: 0, kilogram: 0, radian: 0 };
-    /// `Length`, metres.
+    /// Dimension of `Length`, in metres.
     pub const LENGTH: Self = Self { metre: 1, ..Self::NONE };
-    /// `Angle`, radians.
+    /// Dimension of `Angle`, in radians.
     pub const ANGLE: Self = Self { radian: 1, ..Self::NONE };
-    /// `Duration`, seconds.
+    /// Dimension of `Duration`, in seconds.
     pub const DURATION: Self = Self { second: 1, ..Self::NONE };
-    /// `Mass`, kilograms.
+    /// Dimension of `Mass`, in kilograms.
     pub const MASS: Self = Self { kilogram: 1, ..Self::NONE };
-    /// `Force`, newtons.
+    /// Dimension of `Force`, in newtons.
     pub const FORCE: Self = Self { metre: 1, second: -2, kilogram: 1, radian: 0 };
-    /// `Speed`, metres a second.
+    /// Dimension of `Speed`, in metres a second.
     pub const SPEED: Self = Self { metre: 1, second: -1, ..Self::NONE };
 
     /// The dimension of a product.
@@ -65,7 +66,8 @@ impl Dimension {
         DIMENSIONS.iter().find(|(known, _)| *known == name).map(|(_, dimension)| *dimension)
     }
 
-    /// The symbol of its SI unit; empty for [`Dimension::NONE`] and for dimensions without a unit of their own.
+    /// The symbol of its SI unit; empty for [`Dimension::NONE`] and for dimensions without a unit of their
+    /// own.
     #[must_use]
     pub fn si_symbol(self) -> &'static str {
         Unit::si(self).map_or("", Unit::symbol)
@@ -85,37 +87,21 @@ const DIMENSIONS: &[(&str, Dimension)] = &[
 /// A unit as written in a document.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
 pub enum Unit {
-    /// `m`
     Metre,
-    /// `cm`
     Centimetre,
-    /// `mm`
     Millimetre,
-    /// `km`
     Kilometre,
-    /// `rad`
     Radian,
-    /// `deg`
     Degree,
-    /// `s`
     Second,
-    /// `ms`
     Millisecond,
-    /// `min`
     Minute,
-    /// `h`
     Hour,
-    /// `kg`
     Kilogram,
-    /// `g`
     Gram,
-    /// `N`
     Newton,
-    /// `m/s`
     MetrePerSecond,
-    /// `km/h`
     KilometrePerHour,
-    /// `%`
     Percent,
 }
 
@@ -219,13 +205,13 @@ impl Unit {
             .map_or(("", Dimension::NONE, 1.0, 1.0), |row| (row.1, row.2, row.3, row.4))
     }
 
-    /// Its symbol.
+    /// Symbol as written in a document.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         self.row().0
     }
 
-    /// What it measures.
+    /// Dimension of the unit.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         self.row().1
@@ -260,7 +246,8 @@ impl Unit {
     }
 }
 
-/// Reads a quantity such as `"20 cm"`: a number, perhaps spaces, and the symbol of a unit. `None` for any other text.
+/// Reads a quantity such as `"20 cm"`: a number, perhaps spaces, and the symbol of a unit. `None` for any
+/// other text.
 ///
 /// ```
 /// use motet_syntax::unit::{Unit, parse_quantity};
@@ -279,7 +266,8 @@ pub fn parse_quantity(text: &str) -> Option<(f64, Unit)> {
     value.is_finite().then_some((value, unit))
 }
 
-/// Length in bytes of the unsigned number at the start of a text: digits, one fraction, one exponent. 0 without digits.
+/// Length in bytes of the unsigned number at the start of a text: digits, one fraction, one exponent. 0
+/// without digits.
 pub(crate) fn number_length(text: &str) -> usize {
     let digits = |from: usize| {
         text.get(from..).map_or(0, |rest| rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len()))

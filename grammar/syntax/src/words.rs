@@ -1,5 +1,5 @@
-//! The words of the language: the one list of reserved words, declaration words and JSON keys. `motet.pest` spells the same
-//! words as rules; a test below holds it against these lists.
+//! The words of the language: the one list of reserved words, declaration words and JSON keys. `motet.pest`
+//! spells the same words as rules; a test below holds it against these lists.
 
 /// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
 pub const RESERVED: [&str; 24] = [
@@ -34,8 +34,9 @@ pub const STEP_WORDS: [&str; 17] = [
 /// Keys of a `do` step in JSON that are not arguments.
 pub const CALL_KEYS: [&str; 4] = ["do", "as", "within", "retry"];
 
-/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not among them: it
-/// names the failures of a `catch`, which has no arguments, and is the natural name for a support.
+/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` is not
+/// among them: it names the failures of a `catch`, which has no arguments, and is the natural name for a
+/// support.
 pub const FORM_KEYS: [(&str, &str); 25] = [
     ("if", "a step of its own"),
     ("then", "`if` and to a monitor's `when`"),
@@ -83,8 +84,8 @@ pub fn is_json_key(key: &str) -> bool {
     CALL_KEYS.contains(&key) || json_key_owner(key).is_some()
 }
 
-/// Checks if a text can stand in the text syntax as a name without back-quotes: a letter or `_`, then letters, digits and `_`
-/// of ASCII, and no word of [`RESERVED`].
+/// Checks if a text can stand in the text syntax as a name without back-quotes: a letter or `_`, then
+/// letters, digits and `_` of ASCII, and no word of [`RESERVED`].
 ///
 /// ```
 /// use motet_syntax::words::is_bare_name;
@@ -100,8 +101,8 @@ pub fn is_bare_name(text: &str) -> bool {
         && !RESERVED.contains(&text)
 }
 
-/// Checks if a text can stand as a name, in back-quotes where it is not a bare one: it is not empty, does not begin with `$`
-/// and has no back-quote and no control character but the tab.
+/// Checks if a text can stand as a name, in back-quotes where it is not a bare one: it is not empty, does not
+/// begin with `$` and has no back-quote and no control character but the tab.
 #[must_use]
 pub fn is_name(text: &str) -> bool {
     let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);

@@ -13,7 +13,7 @@ use common::dice::Dice;
 use common::peer::{Peer, environment};
 use common::session;
 use common::tokens::{END, tokens};
-use motet_decode::{Modifiers, Prepared, Surface, Vocabulary};
+use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary};
 use motet_syntax::Syntax;
 
 /// How many walks each pair of robot and scene gets with each surface.
@@ -44,12 +44,12 @@ fn an_item_may_be_an_argument() {
             r#"{"motet":1,"policy":"p","robot":"hsr","achieves":null,"steps":[{"each":"J","in":["drawer_1"],"at_most":1,"steps":[{"do":"open","what":"$J"},{"end":"done"}]},{"end":"done"}]}"#,
         ),
     ] {
-        let surface = Surface { form, ..Surface::default() };
+        let surface = Subset { syntax: form, ..Subset::default() };
         let mut matcher = Peer::new(&environment, &session, surface).start();
         for byte in policy.bytes() {
             assert!(matcher.consume_token(u32::from(byte)).is_ok(), "`{}` in {policy}", char::from(byte));
         }
-        let mut acceptor = Prepared::new(&session, surface).acceptor(2000).unwrap();
+        let mut acceptor = AcceptorFactory::new(&session, surface).acceptor(2000).unwrap();
         assert_eq!(acceptor.accept(policy.as_bytes()), policy.len(), "{policy}");
     }
 }
@@ -62,8 +62,8 @@ fn compare(form: Syntax) {
     for (robot, scene) in [("hsr", "kitchen"), ("hsr", "living_room"), ("anymal_z1", "lab")] {
         let session = session(robot, scene);
         for modifiers in [Modifiers::Default, Modifiers::Written] {
-            let surface = Surface { form, modifiers, ..Surface::default() };
-            let prepared = Prepared::new(&session, surface);
+            let surface = Subset { syntax: form, modifiers, ..Subset::default() };
+            let prepared = AcceptorFactory::new(&session, surface);
             let peer = Peer::new(&environment, &session, surface);
             for seed in 0..WALKS {
                 let mut dice = Dice::new(seed);

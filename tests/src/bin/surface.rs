@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
@@ -23,7 +23,7 @@ fn main() {
         let (card, room) = (setup::robot(&robot), setup::scene(&scene));
         let (session, _) = setup::session(Some(&card), Some(&room), &mut Sources::default());
         let signatures = session.signatures();
-        let surface = |form| Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+        let surface = |form| Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
         let parsed = motet_syntax::read(&Source::new(name.as_str(), read(&path)), FileId(0));
         let lines = parsed.file.runnable().next().map(|policy| {
             [Syntax::Json, Syntax::Text]

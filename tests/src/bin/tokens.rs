@@ -2,7 +2,7 @@
 //! `cargo run --release -p motet-tests --bin tokens`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::setup;
@@ -18,8 +18,9 @@ fn main() {
         let Some(policy) = parsed.file.runnable().next() else { continue };
         let mut row = Vec::new();
         for form in [Syntax::Json, Syntax::Text] {
-            let of =
-                |modifiers| canonical(policy, &signatures, Surface { form, modifiers, ..Surface::default() });
+            let of = |modifiers| {
+                canonical(policy, &signatures, Subset { syntax: form, modifiers, ..Subset::default() })
+            };
             // Deadlines and retries have a place only where the policy has some.
             let Ok(line) = of(Modifiers::Default).or_else(|_| of(Modifiers::Written)) else { continue };
             let count = |encoding: Encoding| encoding.tokenizer().encode_ordinary(&line).len();

@@ -4,7 +4,7 @@ use llguidance::api::TopLevelGrammar;
 use llguidance::toktrie::ApproximateTokEnv;
 use llguidance::{Matcher, ParserFactory};
 use motet_decode::export::{Format, Header, export};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
 use motet_tests::{misses, setup};
@@ -34,7 +34,7 @@ fn llguidance_takes_the_examples_and_refuses_near_misses() {
         let parsed = motet_syntax::read(&Source::new("example", read(&path)), FileId(0));
         let policy = parsed.file.runnable().next().unwrap();
         for form in [Syntax::Json, Syntax::Text] {
-            let surface = Surface { form, modifiers: Modifiers::Written, ..Surface::default() };
+            let surface = Subset { syntax: form, modifiers: Modifiers::Written, ..Subset::default() };
             let line = canonical(policy, &signatures, surface).unwrap();
             let lark = export(&signatures, surface, Format::Lark, Header::Llguidance).unwrap();
             let mut engines = vec![engine(&factory, TopLevelGrammar::from_lark(lark))];

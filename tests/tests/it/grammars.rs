@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use motet_compiler::{Session, Signatures};
 use motet_decode::export::{Format, Grammar, Header, Offer, export, grammar};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::{Parsed, Severity, Source, Sources, Syntax};
 use motet_tests::notation::{Deriver, Notation, Random, derive_schema, read};
 use motet_tests::setup;
@@ -36,8 +36,8 @@ fn settings() -> Vec<(Session, std::sync::Arc<Signatures>)> {
         .collect()
 }
 
-fn surfaces() -> Vec<Surface> {
-    let of = |form, modifiers| Surface { form, modifiers, ..Surface::default() };
+fn surfaces() -> Vec<Subset> {
+    let of = |form, modifiers| Subset { syntax: form, modifiers, ..Subset::default() };
     vec![
         of(Syntax::Json, Modifiers::Default),
         of(Syntax::Json, Modifiers::Written),
@@ -84,7 +84,7 @@ fn check(session: &Session, text: &str, is_proven: bool, found: &mut BTreeMap<St
 fn walk(
     session: &Session,
     signatures: &Signatures,
-    surface: Surface,
+    surface: Subset,
     grammar: &Grammar,
     seed: u64,
 ) -> BTreeMap<String, usize> {

@@ -1,7 +1,7 @@
 //! The model surface: canonical text means what the policy means, and is a fixed point.
 
 use motet_compiler::{Session, Signatures};
-use motet_decode::{Modifiers, Surface, canonical};
+use motet_decode::{Modifiers, Subset, canonical};
 use motet_syntax::ast::Policy;
 use motet_syntax::{Source, Sources, Syntax};
 use motet_tests::examples::{examples, read};
@@ -24,12 +24,12 @@ fn outline(session: &Session, text: &str) -> (usize, String) {
     (graph.nodes.len(), format!("{:?}", graph.duration))
 }
 
-fn surfaces(modifiers: Modifiers) -> [Surface; 2] {
-    [Syntax::Json, Syntax::Text].map(|form| Surface { form, modifiers, ..Surface::default() })
+fn surfaces(modifiers: Modifiers) -> [Subset; 2] {
+    [Syntax::Json, Syntax::Text].map(|form| Subset { syntax: form, modifiers, ..Subset::default() })
 }
 
 /// The canonical line, which must be that of what it reads as.
-fn line(policy: &Policy, signatures: &Signatures, surface: Surface) -> String {
+fn line(policy: &Policy, signatures: &Signatures, surface: Subset) -> String {
     let line = canonical(policy, signatures, surface)
         .unwrap_or_else(|outside| panic!("{outside} at {}", outside.span.start));
     let again =

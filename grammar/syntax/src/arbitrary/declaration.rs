@@ -1,4 +1,4 @@
-//! Made declarations.
+//! Generators of declarations.
 
 use smol_str::SmolStr;
 

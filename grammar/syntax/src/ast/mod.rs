@@ -1,7 +1,8 @@
-//! The abstract syntax of both surfaces. Every node carries its span.
+//! Syntax tree of policies and declarations, the same for text and JSON. Every node carries its span;
+//! equality ignores spans.
 //!
-//! Nothing here is resolved: a name is text, a call may not exist. Invariant: a tree made by a front end is at most
-//! [`MAX_NESTING`] blocks and expressions deep, so recursion over it is safe.
+//! Nothing here is resolved: a name is text, a call may not exist. Invariant: a tree made by a front end is
+//! at most [`MAX_NESTING`] blocks and expressions deep, so recursion over it is safe.
 
 mod decl;
 mod expr;
@@ -16,7 +17,7 @@ use smol_str::SmolStr;
 
 use crate::source::Span;
 
-/// How deep blocks, conditions and brackets may nest in a document of either form.
+/// Greatest depth of blocks, conditions and brackets in a document of either syntax.
 pub const MAX_NESTING: usize = 64;
 /// The largest document, in bytes.
 pub const MAX_BYTES: usize = 16 * 1024 * 1024;
@@ -25,13 +26,12 @@ pub const MAX_STEPS: usize = 100_000;
 /// The most words, numbers, texts and marks (in JSON: keys and values) that one document may hold.
 pub const MAX_TOKENS: usize = 4_000_000;
 
-/// An identifier where it is written.
+/// An identifier with its range.
 #[derive(Clone, Debug)]
 #[derive_where(PartialEq)]
 pub struct Name {
-    /// Its text, without back-quotes or `$`.
+    /// Text without back-quotes or `$`.
     pub text: SmolStr,
-    /// Where it stands.
     #[derive_where(skip)]
     pub span: Span,
 }
@@ -39,7 +39,6 @@ pub struct Name {
 /// A file of the text form: declarations in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct File {
-    /// The declarations.
     pub items: Vec<Item>,
 }
 
@@ -55,34 +54,26 @@ impl File {
     }
 }
 
-/// One declaration.
+/// One declaration of a file.
 #[derive(Clone, Debug)]
 #[derive_where(PartialEq)]
 pub enum Item {
-    /// `kind Object: Entity { mass: Mass }`
     Kind(KindDecl),
-    /// `fluent holding(object: Object)`
     Fluent(FluentDecl),
-    /// `measure distance(to: Entity) -> Length`
     Measure(MeasureDecl),
-    /// `failure slipped`
     Failure(FailureDecl),
-    /// `enum Approach { auto, top }`
     Enum(EnumDecl),
     /// `action pick(…)` or `perception detect(…)`
     Primitive(PrimitiveDecl),
-    /// `policy fetch_mug for hsr { … }`
     Policy(Policy),
-    /// `entity block_a, block_b: Object`
     Entities(EntitiesDecl),
-    /// `initially on(block_a, block_b), not holding(block_a)`
     Initially(InitiallyDecl),
-    /// `closed world`
+    /// The declaration `closed world`: facts that are not given are false.
     ClosedWorld(#[derive_where(skip)] Span),
 }
 
 impl Item {
-    /// The policy, where it is one.
+    /// The policy of the declaration; `None` for any other.
     #[must_use]
     pub fn policy(&self) -> Option<&Policy> {
         match self {
@@ -99,7 +90,7 @@ impl Item {
         }
     }
 
-    /// The whole declaration.
+    /// Range of the whole declaration.
     #[must_use]
     pub fn span(&self) -> Span {
         match self {

@@ -3,7 +3,8 @@
 use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
 
 /// Help for a document without a policy.
-const POLICY: &str = "a policy is written `policy name { … }`, or in JSON `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`";
+const POLICY: &str = "a policy is written `policy name { … }`, or in JSON \
+                      `{\"motet\": 1, \"policy\": \"name\", \"steps\": [ … ]}`";
 
 /// Kind of document that the reader was asked for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -26,7 +27,8 @@ pub(crate) enum IgnoredPart {
 crate::mistakes! {
     pub(crate) const CODES;
 
-    /// Brackets, blocks or expressions nest deeper than any policy needs. The span is the first that is too deep.
+    /// Brackets, blocks or expressions nest deeper than any policy needs. The span is the first that is too
+    /// deep.
     TooDeep("M0111", Error) { limit: usize }
     message(m) { format!("this is nested more than {} levels deep", m.limit) }
     help(m) {
@@ -64,9 +66,10 @@ crate::mistakes! {
             DocumentKind::Policy => format!(
                 "{POLICY}; declarations such as `fluent clean(what: Object)` may stand beside it or alone"
             ),
-            DocumentKind::Json => "write a JSON object here: a scene is `{\"motet_scene\": 1, \"entities\": [ … ]}`, \
-                                   a state `{\"free(hand)\": true}`"
-                .into(),
+            DocumentKind::Json => {
+                let scene = "{\"motet_scene\": 1, \"entities\": [ … ]}";
+                format!("write a JSON object here: a scene is `{scene}`, a state `{{\"free(hand)\": true}}`")
+            }
         })
     }
 

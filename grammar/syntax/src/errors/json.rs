@@ -32,7 +32,8 @@ crate::mistakes! {
     message(m) { format!("the key `{}` is missing here", m.key) }
     help(m) { Some(format!("add `\"{}\": …` to this object", m.key)) }
 
-    /// A value of another JSON type than the one that belongs there. Both types are written with their article.
+    /// A value of another JSON type than the one that belongs there. Both types are written with their
+    /// article.
     WrongType("M0106", Error) { expected: SmolStr, found: SmolStr }
     message(m) { format!("expected {}, found {}", m.expected, m.found) }
     help(m) { Some(format!("write {} here", m.expected)) }
@@ -52,9 +53,15 @@ crate::mistakes! {
         })
     }
 
-    /// A value of the right JSON type without a meaning there. `found` is the value where it is a string, `expected` the
-    /// values that would do where they can be listed, `otherwise` the help where no value can be named.
-    BadValue("M0108", Error) { message: String, expected: Vec<SmolStr>, found: SmolStr, otherwise: Option<String> }
+    /// A value of the right JSON type without a meaning there. `found` is the value where it is a string,
+    /// `expected` the values that would do where they can be listed, `otherwise` the help where no value can
+    /// be named.
+    BadValue("M0108", Error) {
+        message: String,
+        expected: Vec<SmolStr>,
+        found: SmolStr,
+        otherwise: Option<String>,
+    }
     message(m) { m.message.clone() }
     help(m) {
         match m.meant() {
@@ -65,7 +72,8 @@ crate::mistakes! {
     }
     fix(m) { m.meant().map(|meant| replacement(m.span, &format!("\"{meant}\""), meant)) }
 
-    /// An object without the key that would name its form. `meant` is a misspelt key and the form that it is close to.
+    /// An object without the key that would name its form. `meant` is a misspelt key and the form that it is
+    /// close to.
     NoForm("M0109", Error) { forms: Vec<SmolStr>, meant: Option<(SmolStr, SmolStr)> }
     message(m) {
         match &m.meant {
@@ -76,7 +84,9 @@ crate::mistakes! {
     help(m) {
         Some(match &m.meant {
             Some((_, meant)) => format!("did you mean `{meant}`?"),
-            None => format!("it has one of the keys {}", suggest::one_of(m.forms.iter().map(SmolStr::as_str))),
+            None => {
+                format!("it has one of the keys {}", suggest::one_of(m.forms.iter().map(SmolStr::as_str)))
+            }
         })
     }
     fix(m) { m.meant.as_ref().map(|(_, meant)| replacement(m.span, &format!("\"{meant}\""), meant)) }

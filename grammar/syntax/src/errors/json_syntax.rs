@@ -13,9 +13,9 @@ pub(crate) enum SyntaxFault {
     Ended { opened: Option<(bool, Span)> },
     /// Something after the whole value.
     Trailing,
-    /// `,]`
+    /// A comma before the closing bracket, `,]`.
     TrailingComma,
-    /// `[1}`
+    /// A container closed by the other bracket, `[1}`.
     WrongClosing { opened: Span, is_object: bool },
     /// Neither a comma nor the closing bracket.
     NoComma { is_object: bool },
@@ -25,7 +25,7 @@ pub(crate) enum SyntaxFault {
     KeyNotText,
     /// Something that begins no value.
     NoValue,
-    /// `//`, `/*` or `#`.
+    /// A comment that begins with `//`, `/*` or `#`.
     Comment,
     /// A word that is none of `true`, `false`, `null`.
     Word(SmolStr),
@@ -74,7 +74,9 @@ crate::mistakes! {
             SyntaxFault::Ended { opened: None } | SyntaxFault::NoColon => return None,
             SyntaxFault::Ended { opened: Some((true, _)) } => "close it with `}`".into(),
             SyntaxFault::Ended { opened: Some((false, _)) } => "close it with `]`".into(),
-            SyntaxFault::Trailing => "a document is one JSON value: remove the rest, or wrap the values in one".into(),
+            SyntaxFault::Trailing => {
+                "a document is one JSON value: remove the rest, or wrap the values in one".into()
+            }
             SyntaxFault::TrailingComma => "remove the comma".into(),
             SyntaxFault::WrongClosing { is_object: true, .. } => "write `}`".into(),
             SyntaxFault::WrongClosing { is_object: false, .. } => "write `]`".into(),
@@ -82,17 +84,20 @@ crate::mistakes! {
             SyntaxFault::KeyNotText => "JSON keys stand in double quotes".into(),
             SyntaxFault::Comment => "remove it, or write the policy as text".into(),
             SyntaxFault::NoValue => {
-                "a value is a string in double quotes, a number, `true`, `false`, `null`, `[…]` or `{…}`".into()
+                "a value is a string in double quotes, a number, `true`, `false`, `null`, `[…]` or `{…}`"
+                    .into()
             }
             SyntaxFault::Word(word) => match word_in_json(word) {
                 Some(right) => format!("write `{right}`"),
                 None => format!("write a text as `\"{word}\"`"),
             },
-            SyntaxFault::Number => "write for example `0.5`, `-3` or `1e-3`: no leading `+`, `.` or `0`".into(),
+            SyntaxFault::Number => {
+                "write for example `0.5`, `-3` or `1e-3`: no leading `+`, `.` or `0`".into()
+            }
             SyntaxFault::OpenText => "close it with `\"`; a line break inside is written `\\n`".into(),
             SyntaxFault::Control(byte) => format!("write it as `\\u{byte:04x}`"),
-            SyntaxFault::Escape => "the escapes are `\\\"`, `\\\\`, `\\/`, `\\b`, `\\f`, `\\n`, `\\r`, `\\t` and \
-                                    `\\u` with four hex digits"
+            SyntaxFault::Escape => "the escapes are `\\\"`, `\\\\`, `\\/`, `\\b`, `\\f`, `\\n`, `\\r`, `\\t`, \
+                                    and `\\u` with four hex digits"
                 .into(),
             SyntaxFault::LoneSurrogate => "write both halves, or the character itself".into(),
         })

@@ -1,5 +1,5 @@
-//! The mistakes of the syntax stage (M0101 to M0121): one struct and one code each. Raised by [`crate::read()`] and by the
-//! front ends for text and JSON; each becomes a [`Diagnostic`].
+//! The mistakes of the syntax stage (M0101 to M0121): one struct and one code each. Raised by
+//! [`crate::read()`] and by the front ends for text and JSON; each becomes a [`Diagnostic`].
 
 mod document;
 mod json;

@@ -1,5 +1,5 @@
-//! Mistakes of the text syntax. Raised by the bracket check before parsing, by the explanation of parse errors, and by the
-//! builders of the tree.
+//! Mistakes of the text syntax. Raised by the bracket check before parsing, by the explanation of parse
+//! errors, and by the builders of the tree.
 
 use smol_str::SmolStr;
 
@@ -12,7 +12,8 @@ use crate::unit::Unit;
 crate::mistakes! {
     pub(crate) const CODES;
 
-    /// The text does not follow the grammar. `fix` is the text to write in place of the span, where it is sure to be right.
+    /// The text does not follow the grammar. `fix` is the text to write in place of the span, where it is
+    /// sure to be right.
     TextSyntax("M0101", Error) {
         message: String,
         help: Option<String>,

@@ -1,5 +1,6 @@
-//! The wire types of a policy to the AST, step by step. What the types cannot say is checked here: names, nesting, the
-//! number of steps, which keys a reaction has. Conditions and terms are in [`super::convert_term`].
+//! The wire types of a policy to the AST, step by step. What the types cannot say is checked here: names,
+//! nesting, the number of steps, which keys a reaction has. Conditions and terms are in
+//! [`super::convert_term`].
 
 use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};

@@ -1,5 +1,6 @@
-//! The wire types of conditions and terms to the AST. A string means something else in each place: the text form of a
-//! condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its place.
+//! The wire types of conditions and terms to the AST. A string means something else in each place: the text
+//! form of a condition, seconds with a unit, or a name whose meaning the compiler settles by the type of its
+//! place.
 
 use smol_str::{SmolStr, format_smolstr};
 
@@ -209,7 +210,7 @@ impl Converter {
     }
 }
 
-/// What to write for a duration that is none.
+/// Help for a string that is not a duration.
 fn duration_help(text: &str) -> String {
     let unit = text.trim().trim_start_matches(|c: char| matches!(c, '0'..='9' | '.' | '-' | ' '));
     let number = text.trim().strip_suffix(unit).unwrap_or("").trim_end();

@@ -12,22 +12,19 @@ use smol_str::SmolStr;
 
 use super::Spanned;
 use super::wire::Do;
-
-/// The name by which [`super::de`] knows a type that is an enum as an object and a literal otherwise.
-pub(crate) const MIXED: &str = "$mixed";
+use crate::located::{MIXED, Number};
 
 /// A literal, a binding, or a form.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Term {
-    /// `true`
     Bool(bool),
     /// `0.5`: a number, in SI units where a quantity is meant.
     Number(f64),
     /// `"$mug"`, `"mug_1"`, `"20 cm"`, `"red mug"`
     Text(SmolStr),
-    /// `["$a", "$b"]`
+    /// A list: `["$a", "$b"]`.
     List(Vec<Spanned<Term>>),
-    /// `{"get": "distance", "to": "user"}`
+    /// An object: `{"get": "distance", "to": "user"}`.
     Form(Box<Form>),
 }
 
@@ -41,30 +38,30 @@ pub(crate) enum Form {
     All(Vec<Condition>),
     /// One condition at least holds.
     Any(Vec<Condition>),
-    /// `<`
+    /// The left side is less: `<`.
     Less(Pair),
-    /// `<=`
+    /// The left side is at most the right: `<=`.
     AtMost(Pair),
-    /// `==`
+    /// Both sides are equal: `==`.
     Equal(Pair),
-    /// `>`
+    /// The left side is more: `>`.
     More(Pair),
-    /// `>=`
+    /// The left side is at least the right: `>=`.
     AtLeast(Pair),
-    /// `!=`
+    /// The sides are not equal: `!=`.
     Unequal(Pair),
-    /// `+`
+    /// The sum: `+`.
     Add(Pair),
-    /// `-`
+    /// The difference: `-`.
     Subtract(Pair),
-    /// `*`
+    /// The product: `*`.
     Multiply(Pair),
-    /// `/`
+    /// The quotient: `/`.
     Divide(Pair),
-    /// A fluent.
+    /// A fluent that holds.
     #[schemars(untagged)]
     Is(Is),
-    /// A measure.
+    /// Value of a measure.
     #[schemars(untagged)]
     Get(Get),
     /// A field of an entity.
@@ -78,25 +75,26 @@ pub(crate) type Pair = [Spanned<Term>; 2];
 /// A fluent holds. Every other key is an argument; `"any"` stands for some entity.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
 pub(crate) struct Is {
-    /// The fluent.
+    /// Name of the fluent.
     pub(crate) is: Spanned<SmolStr>,
-    /// The arguments.
+    /// Arguments by parameter.
     #[serde(flatten)]
     pub(crate) args: Args,
 }
 
-/// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a comparison.
+/// The value of a measure. Every other key is an argument. With `is` and `than` it is a condition: a
+/// comparison.
 #[derive(Clone, PartialEq, Debug, Serialize, JsonSchema)]
 pub(crate) struct Get {
-    /// The measure.
+    /// Name of the measure.
     pub(crate) get: Spanned<SmolStr>,
-    /// The arguments.
+    /// Arguments by parameter.
     #[serde(flatten)]
     pub(crate) args: Args,
-    /// How the value is compared.
+    /// Operator of the comparison.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) is: Option<Box<Spanned<Relation>>>,
-    /// With what.
+    /// Right side of the comparison.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) than: Option<Box<Spanned<Term>>>,
 }
@@ -105,34 +103,34 @@ pub(crate) struct Get {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Field {
-    /// The field.
+    /// Name of the field.
     pub(crate) field: Spanned<SmolStr>,
-    /// The entity.
+    /// Entity that has the field.
     pub(crate) of: Spanned<Term>,
-    /// How the value is compared.
+    /// Operator of the comparison.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) is: Option<Box<Spanned<Relation>>>,
-    /// With what.
+    /// Right side of the comparison.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) than: Option<Box<Spanned<Term>>>,
 }
 
-/// How two values are compared, where the comparison is written in one object: `{"get": "distance", "to": "user", "is":
+/// Operator of a comparison that is written in one object: `{"get": "distance", "to": "user", "is":
 /// "less", "than": 0.5}`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Relation {
-    /// `<`
+    /// The left side is less: `<`.
     Less,
-    /// `<=`
+    /// The left side is at most the right: `<=`.
     AtMost,
-    /// `==`
+    /// Both sides are equal: `==`.
     Equal,
-    /// `>`
+    /// The left side is more: `>`.
     More,
-    /// `>=`
+    /// The left side is at least the right: `>=`.
     AtLeast,
-    /// `!=`
+    /// The sides are not equal: `!=`.
     Unequal,
 }
 
@@ -203,10 +201,10 @@ impl Serialize for Term {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Bool(value) => serializer.serialize_bool(*value),
-            Self::Number(value) => match super::tree::Number::of(*value) {
-                super::tree::Number::Unsigned(whole) => serializer.serialize_u64(whole),
-                super::tree::Number::Signed(whole) => serializer.serialize_i64(whole),
-                super::tree::Number::Float(value) => serializer.serialize_f64(value),
+            Self::Number(value) => match Number::new(*value) {
+                Number::Unsigned(whole) => serializer.serialize_u64(whole),
+                Number::Signed(whole) => serializer.serialize_i64(whole),
+                Number::Float(value) => serializer.serialize_f64(value),
             },
             Self::Text(text) => serializer.serialize_str(text),
             Self::List(members) => members.serialize(serializer),
@@ -249,9 +247,9 @@ impl Serialize for Args {
     }
 }
 
-/// What an object with arguments among its keys is made into.
+/// Target type of an object with arguments among its keys.
 trait Applied: Sized {
-    /// The keys that are no arguments, the one that names what is called first, and [`super::de::OPEN`].
+    /// The keys that are no arguments, the one that names what is called first, and [`crate::located::OPEN`].
     const KEYS: &'static [&'static str];
     /// One key that is no argument.
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error>;
@@ -308,7 +306,7 @@ impl<'de, T: Applied> Visitor<'de> for AppliedVisitor<T> {
 }
 
 impl Applied for Do {
-    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["do", "as", "within", "retry", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {
@@ -327,7 +325,7 @@ impl Applied for Do {
 }
 
 impl Applied for Is {
-    const KEYS: &'static [&'static str] = &["is", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["is", crate::located::OPEN];
     fn take<'de, A: MapAccess<'de>>(_: &mut Parts, _: &str, _: &mut A) -> Result<bool, A::Error> {
         Ok(false)
     }
@@ -337,7 +335,7 @@ impl Applied for Is {
 }
 
 impl Applied for Get {
-    const KEYS: &'static [&'static str] = &["get", "is", "than", super::de::OPEN];
+    const KEYS: &'static [&'static str] = &["get", "is", "than", crate::located::OPEN];
 
     fn take<'de, A: MapAccess<'de>>(parts: &mut Parts, key: &str, access: &mut A) -> Result<bool, A::Error> {
         match key {

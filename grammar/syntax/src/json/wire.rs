@@ -1,12 +1,12 @@
-//! What a policy looks like in JSON. From these types it is read, written, and described (`motet schema policy`: their
+//! Wire types of a policy in JSON. From them it is read, written, and described (`motet schema policy`: their
 //! doc comments are its descriptions). They are not the AST: [`super::convert`] turns one into the other.
 //!
-//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a condition
-//! or a term is a literal or an object that has one of the keys of [`Form`].
+//! A step is an object that has one of the keys `do sequence if wait monitor try repeat each parallel end`; a
+//! condition or a term is a literal or an object that has one of the keys of [`Form`].
 //!
-//! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`, `multiply`, `divide`
-//! calculate; `true` and `false` are conditions; an array is a list; the plain string `"any"` as an argument of `is` or
-//! `get` is `any`; `"on": ["any"]` is `catch any`.
+//! Beyond the forms of the language page: `more`, `at_least`, `unequal` compare; `add`, `subtract`,
+//! `multiply`, `divide` calculate; `true` and `false` are conditions; an array is a list; the plain string
+//! `"any"` as an argument of `is` or `get` is `any`; `"on": ["any"]` is `catch any`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,27 +28,28 @@ pub(crate) struct Document {
     /// The robot that it is written for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) robot: Option<Spanned<SmolStr>>,
-    /// What holds where the policy is done.
+    /// Condition that holds when the policy is done.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) achieves: Option<Condition>,
-    /// What it does, step by step.
+    /// Steps of the policy, in order.
     pub(crate) steps: Steps,
 }
 
 /// Steps that run one after the other.
 pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
 
-// What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved often.
-/// One step; its first key says which.
+// What is large and rare is boxed, here and in `Do`: on its way out of the deserializer a step is moved
+// often.
+/// One step; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a step", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Step", untagged)]
 pub(crate) enum Step {
-    /// A call.
+    /// A call of a primitive or sub-policy.
     Do(Do),
     /// A named group.
     Sequence(Sequence),
-    /// A choice.
+    /// A choice between steps.
     If(Box<If>),
     /// Waiting for a condition.
     Wait(Wait),
@@ -62,7 +63,7 @@ pub(crate) enum Step {
     Each(Box<Each>),
     /// Steps at the same time.
     Parallel(Parallel),
-    /// An ending.
+    /// An ending of the policy.
     End(End),
 }
 
@@ -71,13 +72,13 @@ pub(crate) enum Step {
 pub(crate) struct Do {
     /// The primitive or sub-policy.
     pub(crate) r#do: Spanned<SmolStr>,
-    /// The arguments.
+    /// Arguments by parameter.
     #[serde(flatten)]
     pub(crate) args: Args,
-    /// The deadline.
+    /// Deadline of the call.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) within: Option<Box<Duration>>,
-    /// How often it is tried again after a failure.
+    /// Number of retries after a failure.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) retry: Option<Box<Count>>,
     /// The name that its result is bound to; `"$name"` stands for it afterwards.
@@ -89,9 +90,9 @@ pub(crate) struct Do {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Sequence {
-    /// Its name.
+    /// Name of the group.
     pub(crate) sequence: Spanned<SmolStr>,
-    /// Its steps.
+    /// Steps of the group.
     pub(crate) steps: Steps,
 }
 
@@ -99,7 +100,7 @@ pub(crate) struct Sequence {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct If {
-    /// The condition.
+    /// The condition to test.
     pub(crate) r#if: Condition,
     /// Steps where it holds.
     pub(crate) then: Steps,
@@ -112,7 +113,7 @@ pub(crate) struct If {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Wait {
-    /// The condition.
+    /// The condition to test.
     pub(crate) wait: Condition,
     /// The deadline; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -123,10 +124,10 @@ pub(crate) struct Wait {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Monitor {
-    /// What is watched.
+    /// Watched conditions with their reactions.
     #[schemars(length(min = 1))]
     pub(crate) monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
-    /// What runs meanwhile.
+    /// Steps that run meanwhile.
     pub(crate) during: Steps,
 }
 
@@ -134,18 +135,18 @@ pub(crate) struct Monitor {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct When {
-    /// The condition.
+    /// The condition to test.
     pub(crate) when: Condition,
-    /// How long it must hold before anything happens.
+    /// Duration for which the condition must hold before the reaction starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) r#for: Option<Duration>,
-    /// What then happens.
+    /// Reaction to the condition.
     pub(crate) then: Spanned<Reaction>,
 }
 
-/// What a monitor does; its first key says which.
+/// Reaction of a monitor; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
-#[serde(rename = "an object that is a reaction", rename_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 #[schemars(rename = "Reaction", untagged)]
 pub(crate) enum Reaction {
     /// The policy goes on.
@@ -154,12 +155,12 @@ pub(crate) enum Reaction {
     End(End),
 }
 
-/// `pause` holds until the condition is false again; `restart` runs the body again from its start; `resume` runs
-/// `steps` and goes on.
+/// `pause` holds until the condition is false again; `restart` runs the body again from its start; `resume`
+/// runs `steps` and goes on.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct React {
-    /// The reaction.
+    /// Kind of the reaction.
     pub(crate) react: Spanned<ReactKind>,
     /// Of `pause`: the longest pause; 60 s where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -188,9 +189,9 @@ pub(crate) enum ReactKind {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Try {
-    /// What may fail.
+    /// Steps that may fail.
     pub(crate) r#try: Steps,
-    /// The handlers.
+    /// Handlers, tried in order.
     #[schemars(length(min = 1))]
     pub(crate) catch: Spanned<Vec<Lenient<Spanned<Catch>>>>,
 }
@@ -202,7 +203,7 @@ pub(crate) struct Catch {
     /// The kinds of failure, or `["any"]`.
     #[schemars(length(min = 1))]
     pub(crate) on: Spanned<Vec<Spanned<SmolStr>>>,
-    /// What then runs.
+    /// Steps that handle the failure.
     pub(crate) steps: Steps,
 }
 
@@ -210,9 +211,9 @@ pub(crate) struct Catch {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Repeat {
-    /// How often at most.
+    /// Greatest number of runs.
     pub(crate) repeat: Count,
-    /// The steps.
+    /// Steps of the loop.
     pub(crate) steps: Steps,
     /// The test after each run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -225,11 +226,11 @@ pub(crate) struct Repeat {
 pub(crate) struct Each {
     /// The name that each element is bound to.
     pub(crate) each: Spanned<SmolStr>,
-    /// The list.
+    /// List of the elements.
     pub(crate) r#in: Spanned<Term>,
     /// The longest list that is taken.
     pub(crate) at_most: Count,
-    /// The steps.
+    /// Steps of the loop.
     pub(crate) steps: Steps,
 }
 
@@ -246,7 +247,7 @@ pub(crate) struct Parallel {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct End {
-    /// The ending.
+    /// Kind of the ending.
     pub(crate) end: Spanned<EndKind>,
     /// The reason, of `fail` and `replan`: a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]

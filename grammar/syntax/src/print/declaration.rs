@@ -7,7 +7,7 @@ use crate::ast::{
 };
 use crate::source::Span;
 
-/// Where the entries of a clause begin, behind its keyword.
+/// Column of the entries of a clause, after its keyword.
 const CLAUSE_WIDTH: usize = 10;
 /// Lists of entries are broken before this column.
 const LINE_WIDTH: usize = 100;
@@ -217,7 +217,7 @@ fn head(item: &Item) -> (&str, Span) {
     }
 }
 
-/// Whether a declaration takes more than a line.
+/// Checks if a declaration takes more than one line.
 fn stands_apart(item: &Item) -> bool {
     let has_body = match item {
         Item::Primitive(decl) => !decl.clauses.is_empty(),

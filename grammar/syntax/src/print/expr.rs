@@ -1,4 +1,5 @@
-//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a reader.
+//! Conditions and terms in the text form, with as few parentheses as the grammar needs, and those that help a
+//! reader.
 
 use smol_str::SmolStr;
 
@@ -7,7 +8,7 @@ use crate::unit::Unit;
 use crate::unit::parse_quantity;
 use crate::words::is_bare_name;
 
-/// How tightly an expression holds together; the order is that of the grammar.
+/// Precedence of an expression, in the order of the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Or,
@@ -148,7 +149,7 @@ fn spaced(text: &mut String, symbol: &str) {
     text.push(' ');
 }
 
-/// Appends `pick(mug, from: top)`.
+/// Appends a call: `pick(mug, from: top)`.
 pub(super) fn call(text: &mut String, call: &Call) {
     name(text, &call.name.text);
     text.push('(');
@@ -186,7 +187,8 @@ pub(super) fn names(text: &mut String, values: &[Name]) {
     }
 }
 
-/// A string of JSON whose meaning no one has settled: a quantity or an id if it looks like one, a text otherwise.
+/// A string of JSON whose meaning no one has settled: a quantity or an id if it looks like one, a text
+/// otherwise.
 fn plain(text: &mut String, value: &SmolStr) {
     let is_id = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
     if let Some((number, unit)) = parse_quantity(value) {

@@ -6,8 +6,9 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::read::read;
 use crate::source::{FileId, Source, Syntax};
 
-/// The document as the canonical printer writes it. In the text form comments stay where they are, on lines of their own
-/// or behind what they follow, and so do single blank lines. Formatting twice is formatting once.
+/// The document as the canonical printer writes it. In the text form comments stay where they are, on lines
+/// of their own or behind what they follow, and so do single blank lines. Formatting twice is formatting
+/// once.
 ///
 /// # Errors
 /// All diagnostics, where one of them is an error: what cannot be read is not formatted.

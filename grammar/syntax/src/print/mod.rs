@@ -1,5 +1,5 @@
-//! The canonical printers: AST to either form. Reading what they print gives the same tree back, and printing that gives
-//! the same text.
+//! The canonical printers: AST to either form. Reading what they print gives the same tree back, and printing
+//! that gives the same text.
 
 mod comment;
 mod declaration;

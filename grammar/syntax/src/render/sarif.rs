@@ -8,16 +8,15 @@ use super::tool_file;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Source, Sources, Span};
 
-/// What there is to read about a code.
+/// Documentation of one diagnostic code.
 #[derive(Clone, Copy, Debug)]
 pub struct CodePage<'h> {
-    /// Its title, a few words.
+    /// Title of a few words.
     pub title: &'h str,
-    /// Its page.
     pub markdown: &'h str,
 }
 
-/// One log with one run of the tool `motet`. `help` gives what there is to read about a code, where there is something.
+/// One log with one run of the tool `motet`. `help` returns the page of a code, where there is one.
 #[must_use]
 pub fn sarif<'h>(
     diagnostics: &[Diagnostic],
@@ -92,9 +91,13 @@ fn result(diagnostic: &Diagnostic, rule: Option<usize>, sources: &Sources) -> Va
         let replacements: Vec<Value> = fix
             .edits
             .iter()
-            .map(|edit| json!({"deletedRegion": region(edit.span, sources), "insertedContent": {"text": edit.text}}))
+            .map(|edit| {
+                let deleted = region(edit.span, sources);
+                json!({"deletedRegion": deleted, "insertedContent": {"text": edit.text}})
+            })
             .collect();
-        let changes = json!([{"artifactLocation": artifact(diagnostic.span, sources), "replacements": replacements}]);
+        let file = artifact(diagnostic.span, sources);
+        let changes = json!([{"artifactLocation": file, "replacements": replacements}]);
         json!([{"description": {"text": fix.title}, "artifactChanges": changes}])
     });
     if let Some(result) = result.as_object_mut() {

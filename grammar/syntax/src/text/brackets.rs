@@ -1,5 +1,6 @@
-//! What is checked of a text before it is parsed: that brackets match and are few enough to recurse over, that texts
-//! end, that there are not too many tokens. A missing bracket is best explained here, where the open one is known.
+//! Bracket check of a text before it is parsed: brackets match and nest little enough to recurse over, texts
+//! end, and tokens are within the limit. A missing bracket is best explained here, where the open one is
+//! known.
 
 use super::lexer::{Token, TokenKind, tokens};
 use crate::ast::{MAX_NESTING, MAX_TOKENS};
@@ -7,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::errors::{DocumentKind, Empty, TextSyntax, TooDeep, TooManyTokens};
 use crate::source::{FileId, Span};
 
-/// The first thing that makes parsing hopeless or dangerous.
+/// Finds the first mistake that makes parsing hopeless or dangerous.
 pub(crate) fn check(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
     let mut open: Vec<Token<'_>> = Vec::with_capacity(MAX_NESTING);
     let (mut count, mut previous) = (0, "");

@@ -13,16 +13,16 @@ use crate::ast::{
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
-/// Makes the tree of one file; mistakes that the grammar cannot see collect in `found`.
+/// Builder of the tree of one file. Mistakes that the grammar cannot see collect in `found`.
 pub(super) struct Builder {
-    /// Where the text stands.
+    /// Position of the text in its document.
     pub(super) origin: Origin,
     pub(super) found: Vec<Diagnostic>,
     /// Steps so far.
     pub(super) steps: usize,
 }
 
-/// The children of a pair that mean something: marks and most keywords are left out.
+/// Children of a pair without marks and most keywords.
 pub(super) struct Parts<'s>(Peekable<pest::iterators::Pairs<'s, Rule>>);
 
 impl<'s> Parts<'s> {
@@ -50,7 +50,7 @@ impl<'s> Iterator for Parts<'s> {
     }
 }
 
-/// Whether a token only separates: what it says is in its parent's rule.
+/// Checks for a token that only separates: its meaning is in its parent's rule.
 fn is_mark(rule: Rule) -> bool {
     matches!(
         rule,

@@ -1,6 +1,6 @@
-//! Pairs to expressions: the grammar gives a flat list of operands and operators, which is put together by precedence
-//! here. Recursion follows brackets, which [`super::brackets`] has bounded; chains without brackets are built in loops and
-//! bounded by their height.
+//! Pairs to expressions: the grammar gives a flat list of operands and operators, which is put together by
+//! precedence here. Recursion follows brackets, which [`super::brackets`] has bounded; chains without
+//! brackets are built in loops and bounded by their height.
 
 use smol_str::SmolStr;
 
@@ -21,7 +21,7 @@ struct Built {
     height: usize,
 }
 
-/// What a flat list is made of.
+/// Element of the flat list that the grammar gives.
 enum Part {
     Not(Span),
     Infix(Rule),
@@ -173,7 +173,8 @@ impl Builder {
         join(left, right, |left, right| ExprKind::Arith(op, left, right))
     }
 
-    /// What follows an operator that binds tighter than `not`: an operand, or a `not` and all that is in its reach.
+    /// Right side of an operator that binds tighter than `not`: an operand, or a `not` with all that is in
+    /// its reach.
     fn right_side(
         &mut self,
         parts: &mut Flat,

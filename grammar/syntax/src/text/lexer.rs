@@ -1,23 +1,24 @@
-//! A lexer for what pest is not asked: counting brackets before parsing, naming the word at an error, finding comments.
-//! It splits any text into tokens and knows nothing of how they fit together; the grammar alone says that.
+//! Lexer for the tasks that pest does not do: counting brackets before parsing, naming the word at an error,
+//! finding comments. It splits any text into tokens and knows nothing of how they fit together; the grammar
+//! alone says that.
 
 use crate::source::{FileId, Span};
 use crate::unit::number_length;
 
-/// What a token is.
+/// Kind of a token.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum TokenKind {
-    /// `pick`, `let`
+    /// A word: `pick`, `let`.
     Word,
-    /// `` `7up` ``
+    /// A back-quoted name: `` `7up` ``.
     Quoted,
-    /// `20`, without sign and unit
+    /// A number without sign and unit.
     Number,
-    /// `"red mug"`
+    /// A text: `"red mug"`.
     Text,
     /// `// …` and `//// …`
     Comment,
-    /// `/// …`
+    /// A documentation comment: `/// …`.
     Doc,
     /// Any other mark: `{`, `==`, `->`, a stray character.
     Mark,
@@ -25,7 +26,7 @@ pub(crate) enum TokenKind {
     Open,
 }
 
-/// One token.
+/// One token of a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Token<'s> {
     pub(crate) kind: TokenKind,
@@ -40,7 +41,7 @@ impl Token<'_> {
         self.start + self.text.len()
     }
 
-    /// Its place.
+    /// Range of the token.
     pub(crate) fn span(&self, file: FileId) -> Span {
         Span::new(file, self.start, self.end())
     }
@@ -51,7 +52,7 @@ pub(crate) fn tokens(text: &str, from: usize) -> Tokens<'_> {
     Tokens { text, at: from }
 }
 
-/// See [`tokens`].
+/// Iterator that [`tokens`] returns.
 #[derive(Clone)]
 pub(crate) struct Tokens<'s> {
     text: &'s str,

@@ -16,7 +16,7 @@ use crate::ast;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
-/// What pest makes of the grammar.
+/// Parser that pest generates from the grammar.
 mod grammar {
     #![allow(missing_docs, unreachable_pub, reason = "generated, and private to the front end")]
 
@@ -78,7 +78,7 @@ pub fn parse_condition(text: &str) -> Result<ast::Expr, String> {
     }
 }
 
-/// Where a text stands in its document.
+/// Position of a text in its document.
 #[derive(Clone, Copy)]
 pub(crate) enum Origin {
     /// As it is, from this offset of this file on.

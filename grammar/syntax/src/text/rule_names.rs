@@ -1,8 +1,8 @@
-//! What the rules of the grammar are called in a message.
+//! Names of the grammar's rules in messages.
 
 use super::Rule;
 
-/// The rules that could have gone on, as a phrase.
+/// Phrase for the rules that could have continued.
 pub(super) fn words(expected: &[Rule]) -> Option<String> {
     let mut labels: Vec<(u8, &'static str)> = expected.iter().filter_map(|rule| label(*rule)).collect();
     labels.sort_unstable();
@@ -36,7 +36,7 @@ pub(super) const VALUE: &str = "a value";
 pub(super) const NAME: &str = "a name";
 pub(super) const OPERATOR: &str = "an operator";
 
-/// What a rule is called, and its rank in an enumeration; `None` for what nobody would miss.
+/// Name of a rule and its rank in an enumeration; `None` for a rule that a message leaves out.
 pub(super) fn label(rule: Rule) -> Option<(u8, &'static str)> {
     Some(match rule {
         Rule::do_step

@@ -1,5 +1,5 @@
-//! What the grammar refuses, in plain words: what was expected at the furthest place that the parser reached, what is
-//! there instead, and what other languages' habit explains it.
+//! Explanation of parse errors in plain words: the rules expected at the furthest offset that the parser
+//! reached, the token found there, and the habit of another language behind it.
 
 use pest::error::{Error, ErrorVariant, InputLocation};
 
@@ -143,7 +143,8 @@ impl<'t> ErrorContext<'t> {
         })
     }
 
-    /// A word where a step should begin, without the `(` of a call after it. It is the mistake, not what follows it.
+    /// A word where a step should begin, without the `(` of a call after it. It is the mistake, not what
+    /// follows it.
     fn lone_word(&self) -> Option<Token<'t>> {
         let needs_args = self.expected.iter().all(|rule| matches!(rule, Rule::args | Rule::lparen));
         let word = self.before.filter(|before| before.kind == TokenKind::Word)?;
@@ -165,7 +166,8 @@ impl<'t> ErrorContext<'t> {
             );
         }
         if matches!(word.text, "retry" | "within") {
-            let advice = "`within` and `retry` stand once behind a call, in this order: `pick(mug) within 20 s retry 2`";
+            let advice = "`within` and `retry` stand once behind a call, in this order: \
+                          `pick(mug) within 20 s retry 2`";
             return (Some(advice.into()), None);
         }
         let starters = STEP_WORDS.into_iter().chain(DECLARATIONS).chain(CLAUSES);
@@ -239,7 +241,7 @@ impl<'t> ErrorContext<'t> {
         }
     }
 
-    /// What the construct that is being written looks like.
+    /// Example of the construct that the author is writing.
     fn structure(&self) -> Option<&'static str> {
         let wants = |rules: &[Rule]| self.expected.iter().any(|rule| rules.contains(rule));
         if wants(&[Rule::at_most, Rule::kw_at, Rule::kw_most]) {
@@ -259,8 +261,8 @@ impl<'t> ErrorContext<'t> {
         }
         if wants(&[Rule::pause, Rule::kw_pause]) {
             return Some(
-                "the reactions are `pause`, `restart at most 3`, `resume at most 3 { … }`, `done`, `fail \"why\"` and \
-                 `replan \"why\"`",
+                "the reactions are `pause`, `restart at most 3`, `resume at most 3 { … }`, `done`, \
+                 `fail \"why\"` and `replan \"why\"`",
             );
         }
         if wants(&[Rule::block, Rule::lbrace]) {

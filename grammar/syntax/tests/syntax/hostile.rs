@@ -1,4 +1,5 @@
-//! No input panics, overflows the stack or is misplaced: random bytes, mutated documents, documents at the limits.
+//! No input panics, overflows the stack or is misplaced: random bytes, mutated documents, documents at the
+//! limits.
 
 use motet_syntax::ast::{Item, MAX_NESTING, MAX_STEPS};
 use motet_syntax::{FileId, Parsed, Source, Sources, arbitrary, decode, pointer, print, read, render};

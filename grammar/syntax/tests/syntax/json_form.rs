@@ -1,4 +1,5 @@
-//! The JSON surface: its schema, its canonical layout, pointers into it, and the machine-readable diagnostics.
+//! The JSON surface: its schema, its canonical layout, pointers into it, and the machine-readable
+//! diagnostics.
 
 use motet_syntax::ast::{Item, Policy};
 use motet_syntax::{FileId, Source, Sources, Span, arbitrary, pointer, print, read, render};
@@ -11,7 +12,7 @@ fn policy(document: &str) -> Policy {
     policy
 }
 
-/// Where the text `needle` of a document is said to be.
+/// Pointer of the text `needle` in a document.
 fn pointer(document: &str, needle: &str) -> String {
     let start = document.find(needle).unwrap();
     let parameter = |callee: &str, at: usize| (callee == "say" && at == 0).then(|| "text".into());

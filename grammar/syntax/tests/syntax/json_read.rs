@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use motet_syntax::json::{self, Lenient, Spanned};
 use motet_syntax::{FileId, Source, read};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Scene {
     version: u32,
@@ -18,7 +19,7 @@ struct Scene {
     joints: BTreeMap<String, f64>,
 }
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Thing {
     id: String,
@@ -28,7 +29,7 @@ struct Thing {
     step: Option<Step>,
 }
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(rename_all = "lowercase")]
 enum Shape {
     Box([f64; 3]),
@@ -36,21 +37,21 @@ enum Shape {
     Point,
 }
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(rename_all = "lowercase")]
 enum Step {
     Repeat(Repeat),
     If(If),
 }
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Repeat {
     repeat: u32,
     steps: Vec<String>,
 }
 
-#[derive(Deserialize, Debug, PartialEq)]
+#[derive(Deserialize, JsonSchema, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct If {
     r#if: bool,

@@ -1,4 +1,4 @@
-//! What the front end says of common mistakes, as a person reads it.
+//! Diagnostics of the front end for common mistakes, as a person reads them.
 
 use motet_syntax::{Source, Sources, read, render};
 
@@ -168,7 +168,7 @@ pick(mug)
     json_conditions: r##"{"motet": 1, "policy": "p", "steps": [{"wait": {"iz": "open"}}, {"wait": {"less": [1]}}, {"wait": {"not": true, "all": []}}, {"wait": "not holding(mug"}, {"wait": "holding(\"mug\") &&"}]}"##;
 }
 
-/// What is said of a document, each with its code and words of its message or help.
+/// Compares the diagnostics of a document, each with its code and words of its message or help.
 fn check(document: &str, expected: &[(&str, &str)]) {
     let parsed = read(&Source::new("policy", document), motet_syntax::FileId(0));
     let said = parsed.diagnostics.iter();

@@ -2,7 +2,7 @@
 //! Python, names of files and tokenizers of other libraries, is in `motet/*.py`.
 
 use motet_decode::vocabulary::Encoding;
-use motet_decode::{End, Modifiers, Prepared, Session, Surface, World as Texts};
+use motet_decode::{EndToken, Modifiers, AcceptorFactory, Session, Subset, Environment as Texts};
 use motet_syntax::{FileId, Syntax, Source, Sources, render};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -67,11 +67,11 @@ enum EndOfSequence {
 }
 
 impl EndOfSequence {
-    fn as_end(end: Option<&Self>) -> End<'_> {
+    fn as_end(end: Option<&Self>) -> EndToken<'_> {
         match end {
-            None => End::Known,
-            Some(Self::Number(number)) => End::Number(*number),
-            Some(Self::Name(name)) => End::Named(name),
+            None => EndToken::Known,
+            Some(Self::Number(number)) => EndToken::Number(*number),
+            Some(Self::Name(name)) => EndToken::Named(name),
         }
     }
 }
@@ -80,7 +80,7 @@ impl EndOfSequence {
 #[pyclass(frozen, module = "motet._motet")]
 struct World {
     session: Session,
-    prepared: Prepared,
+    prepared: AcceptorFactory,
 }
 
 #[pymethods]
@@ -100,7 +100,7 @@ impl World {
         let session = Texts { robot, declarations, scene, state, domain }.session().map_err(wrong)?;
         let modifiers = if modifiers { Modifiers::Written } else { Modifiers::Default };
         let form = if text { Syntax::Text } else { Syntax::Json };
-        let prepared = Prepared::new(&session, Surface { form, modifiers, ..Surface::default() });
+        let prepared = AcceptorFactory::new(&session, Subset { syntax: form, modifiers, ..Subset::default() });
         Ok(Self { session, prepared })
     }
 

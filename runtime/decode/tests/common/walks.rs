@@ -1,7 +1,7 @@
 //! Random walks through the acceptor: what a model without any sense writes.
 
 use motet_compiler::Session;
-use motet_decode::{Acceptor, Prepared, Surface};
+use motet_decode::{Acceptor, AcceptorFactory, Subset};
 use motet_syntax::Syntax;
 
 use super::dice::Dice;
@@ -17,7 +17,7 @@ pub enum Ended {
 
 /// Walks at random until the policy is whole. Long walks are likelier than short ones: after a step another one follows as
 /// a rule, until there are `steps`.
-pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
+pub fn walk(prepared: &AcceptorFactory, budget: usize, steps: usize, dice: &mut Dice) -> Option<Ended> {
     let mut acceptor = prepared.acceptor(budget)?;
     loop {
         if acceptor.is_accepting() {
@@ -36,16 +36,11 @@ pub fn walk(prepared: &Prepared, budget: usize, steps: usize, dice: &mut Dice) -
 
 /// So many policies that are written at random and fit, by walks of a session of their own, so that no answer is known
 /// beforehand.
-pub fn written(
-    session: &Session,
-    surface: Surface,
-    count: usize,
-    fits: impl Fn(&str) -> bool,
-) -> Vec<String> {
-    let (prepared, mut dice) = (Prepared::new(session, surface), Dice::new(7));
+pub fn written(session: &Session, surface: Subset, count: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let (prepared, mut dice) = (AcceptorFactory::new(session, surface), Dice::new(7));
     let mut found = Vec::new();
     // The text form takes fewer tokens a step.
-    let (least, spread) = if surface.form == Syntax::Json { (12, 8) } else { (24, 20) };
+    let (least, spread) = if surface.syntax == Syntax::Json { (12, 8) } else { (24, 20) };
     while found.len() < count {
         let steps = least + dice.below(spread);
         if let Some(Ended::Whole(policy)) = walk(&prepared, 6000, steps, &mut dice)
