@@ -103,11 +103,13 @@ fn domain(text: &str, sources: &mut Sources) -> Result<File, EnvironmentError> {
     right("domain", Some(parsed.file), &parsed.diagnostics, sources)
 }
 
-fn state(text: &str, sources: &mut Sources) -> Result<State, EnvironmentError> {
+fn state(text: &str, sources: &mut Sources) -> Result<InitialState, EnvironmentError> {
     let (source, file) = add("state.json", text, sources);
     let (facts, diagnostics) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     let facts = right("state", facts, &diagnostics, sources)?;
-    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+    Ok(InitialState {
+        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+    })
 }
 
 fn add(name: &str, text: &str, sources: &mut Sources) -> (Source, FileId) {

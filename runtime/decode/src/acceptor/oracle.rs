@@ -343,7 +343,7 @@ impl Machine {
             Event::Text(start, len) => ArgumentValue::text(text(start, len)?),
             Event::Constant(_) | Event::Number(..) | Event::AnyText => ArgumentValue::unknown(),
             Event::Open(_) | Event::Close | Event::Name(..) | Event::Joined(_) | Event::Hole => {
-                Argument::unknown()
+                ArgumentValue::unknown()
             }
         })
     }
