@@ -1,7 +1,7 @@
 //! Checks a robot's card against the declarations: what it observes and provides must be declared, bounds
 //! must fit their parameter, and facts at the start must be facts. All diagnostics point into the card.
 
-use motet_robots::card::{Bound, Robot};
+use motet_robots::card::{BoundSpan, Robot};
 use motet_syntax::ast::Expr;
 use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, Mistake, Span};
@@ -36,7 +36,7 @@ pub(in crate::declare) fn check(
         let params = &decl.item.params;
         for param in bounds.keys() {
             let key = (name.clone(), param.clone());
-            let bound = robot.places.bounds.get(&key).copied().unwrap_or(Bound { span, dimension: None });
+            let bound = robot.spans.bounds.get(&key).copied().unwrap_or(BoundSpan { span, dimension: None });
             let Some(known) = params.iter().find(|known| known.name.text == *param) else {
                 let names = || params.iter().map(|param| &param.name.text);
                 let near = near(param, names().map(SmolStr::as_str));
@@ -72,7 +72,7 @@ fn observes(library: &Library, robot: &Robot) -> Vec<Diagnostic> {
         fluents.chain(library.measures.iter().map(|def| def.name.as_str()))
     };
     let found = robot.observes.iter().filter(unknown).map(|name| {
-        let span = robot.places.observes.get(name).copied().unwrap_or_default();
+        let span = robot.spans.observes.get(name).copied().unwrap_or_default();
         UnknownObserved { span, name: name.clone(), near: near(name, known()) }.into()
     });
     found.collect()
@@ -80,7 +80,7 @@ fn observes(library: &Library, robot: &Robot) -> Vec<Diagnostic> {
 
 /// Span at which the card provides a primitive.
 fn place(robot: &Robot, primitive: &str) -> Span {
-    robot.places.primitives.get(primitive).copied().unwrap_or_default()
+    robot.spans.primitives.get(primitive).copied().unwrap_or_default()
 }
 
 /// Diagnostic for a provided primitive whose declaration, in a layer below the card, has mistakes on this
@@ -106,7 +106,7 @@ pub(in crate::declare) fn facts<'r>(
     robot: &'r Robot,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<(&'r str, Expr, Span)> {
-    let spans = robot.places.initially.iter().copied().chain(std::iter::repeat(Span::default()));
+    let spans = robot.spans.initially.iter().copied().chain(std::iter::repeat(Span::default()));
     let mut facts = Vec::new();
     for (text, span) in robot.initially.iter().zip(spans) {
         match motet_syntax::text::parse_condition(text) {

@@ -1,16 +1,16 @@
 //! Configurations spread evenly over the limits, without chance.
 
-use super::tree::Variable;
+use super::tree::Dof;
 
 /// Configuration `index` of a low-discrepancy sequence over the variables' spans (Roberts 2018: multiples of powers of a
 /// generalised golden ratio); the middle for index 0.
 #[must_use]
-pub fn spread(variables: &[Variable], index: usize) -> Vec<f64> {
-    spread_over(variables.iter().map(Variable::span), index)
+pub fn quasi_random(dofs: &[Dof], index: usize) -> Vec<f64> {
+    quasi_random_in(dofs.iter().map(Dof::sampling_range), index)
 }
 
 /// The same over some ranges.
-pub(crate) fn spread_over(ranges: impl ExactSizeIterator<Item = (f64, f64)>, index: usize) -> Vec<f64> {
+pub(crate) fn quasi_random_in(ranges: impl ExactSizeIterator<Item = (f64, f64)>, index: usize) -> Vec<f64> {
     // The root of x^(n+1) = x + 1, to which this iteration closes in from any start.
     let mut ratio = 1.5_f64;
     for _ in 0..40 {

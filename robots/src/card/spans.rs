@@ -8,9 +8,9 @@ use smol_str::SmolStr;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Places in a card. They are no part of what the robot is, so any two are equal.
+/// CardSpans in a card. They are no part of what the robot is, so any two are equal.
 #[derive(Clone, Debug, Default)]
-pub struct Places {
+pub struct CardSpans {
     /// The name of the card's `primitives.motet`, as diagnostics call it.
     pub declarations: SmolStr,
     /// Each name under `observes`.
@@ -18,21 +18,21 @@ pub struct Places {
     /// Each key under `[primitives]`.
     pub primitives: IndexMap<SmolStr, Span>,
     /// The bounds of each parameter, by primitive and parameter.
-    pub bounds: IndexMap<(SmolStr, SmolStr), Bound>,
+    pub bounds: IndexMap<(SmolStr, SmolStr), BoundSpan>,
     /// Each fact under `initially`, in their order.
     pub initially: Vec<Span>,
 }
 
 /// The bounds of a parameter as they are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Bound {
+pub struct BoundSpan {
     /// Their key.
     pub span: Span,
     /// The dimension of their unit; none where both are bare numbers.
     pub dimension: Option<Dimension>,
 }
 
-impl PartialEq for Places {
+impl PartialEq for CardSpans {
     fn eq(&self, _: &Self) -> bool {
         true
     }

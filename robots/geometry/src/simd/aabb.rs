@@ -2,22 +2,22 @@
 
 use pulp::Simd;
 
-use super::number::{Number, Vector};
+use super::lanes::{Lanes, Lanes3};
 
 /// A box by its least and its greatest corner.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bound {
+pub(super) struct Aabb {
     pub(super) low: [f32; 3],
     pub(super) high: [f32; 3],
 }
 
 /// Boxes in rows of eight; what is left of the last row is nowhere.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Bounds {
+pub(super) struct AabbRows {
     rows: Vec<[[f32; 8]; 6]>,
 }
 
-impl Bound {
+impl Aabb {
     /// What holds nothing.
     pub(super) const NOWHERE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
@@ -33,14 +33,14 @@ impl Bound {
     }
 }
 
-impl Default for Bound {
+impl Default for Aabb {
     fn default() -> Self {
         Self::NOWHERE
     }
 }
 
-impl FromIterator<Bound> for Bounds {
-    fn from_iter<I: IntoIterator<Item = Bound>>(bounds: I) -> Self {
+impl FromIterator<Aabb> for AabbRows {
+    fn from_iter<I: IntoIterator<Item = Aabb>>(bounds: I) -> Self {
         let mut all = Self::default();
         for (bound, at) in bounds.into_iter().zip(0..) {
             all.set(at, &bound);
@@ -49,10 +49,10 @@ impl FromIterator<Bound> for Bounds {
     }
 }
 
-impl Bounds {
+impl AabbRows {
     /// Sets one, of which the row before is there.
     #[inline(always)]
-    pub(super) fn set(&mut self, at: usize, bound: &Bound) {
+    pub(super) fn set(&mut self, at: usize, bound: &Aabb) {
         let (row, lane) = (at / 8, at % 8);
         if row == self.rows.len() {
             let (low, high) = ([f32::INFINITY; 8], [f32::NEG_INFINITY; 8]);
@@ -72,17 +72,17 @@ impl Bounds {
 
     /// A bit for each box of a row that is no farther than `wide` from another one along each of the directions.
     #[inline(always)]
-    pub(super) fn near<S: Simd>(&self, simd: S, row: usize, other: &Bound, wide: f32) -> u8 {
+    pub(super) fn near<S: Simd>(&self, simd: S, row: usize, other: &Aabb, wide: f32) -> u8 {
         let Some([low_x, low_y, low_z, high_x, high_y, high_z]) = self.rows.get(row) else { return 0 };
         let mut bits = 0;
         for chunk in 0..8 / S::F32_LANES {
-            let (Vector([x, y, z]), Vector([a, b, c])) =
-                (Vector::splat(simd, other.low), Vector::splat(simd, other.high));
-            let of = |row: &[f32; 8]| Number::of(simd, row, chunk);
-            let along_x = (of(low_x) - a).most(x - of(high_x));
-            let along_y = (of(low_y) - b).most(y - of(high_y));
-            let along_z = (of(low_z) - c).most(z - of(high_z));
-            let apart = along_x.most(along_y).most(along_z) - Number::splat(simd, wide);
+            let (Lanes3([x, y, z]), Lanes3([a, b, c])) =
+                (Lanes3::splat(simd, other.low), Lanes3::splat(simd, other.high));
+            let of = |row: &[f32; 8]| Lanes::of(simd, row, chunk);
+            let along_x = (of(low_x) - a).max(x - of(high_x));
+            let along_y = (of(low_y) - b).max(y - of(high_y));
+            let along_z = (of(low_z) - c).max(z - of(high_z));
+            let apart = along_x.max(along_y).max(along_z) - Lanes::splat(simd, wide);
             bits |= apart.not_positive() << (chunk * S::F32_LANES);
         }
         bits

@@ -12,14 +12,14 @@ use pulp::Simd;
 
 /// Numbers in as many lanes as `S` has.
 #[derive(Clone, Copy)]
-pub(super) struct Number<S: Simd>(S, S::f32s);
+pub(super) struct Lanes<S: Simd>(S, S::f32s);
 
 /// A quarter of a turn in three parts, each of which has so few digits that small multiples of it are exact.
 const QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
 /// Added and taken away again, it rounds to a whole number.
 const ROUNDER: f32 = 12_582_912.0;
 
-impl<S: Simd> Number<S> {
+impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(super) fn splat(simd: S, value: f32) -> Self {
         Self(simd, simd.splat_f32s(value))
@@ -47,7 +47,7 @@ impl<S: Simd> Number<S> {
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
         // The library's own is a call.
-        self.most(-self)
+        self.max(-self)
     }
 
     #[inline(always)]
@@ -56,33 +56,33 @@ impl<S: Simd> Number<S> {
     }
 
     #[inline(always)]
-    pub(super) fn over(self, other: Self) -> Self {
+    pub(super) fn div(self, other: Self) -> Self {
         Self(self.0, self.0.div_f32s(self.1, other.1))
     }
 
     /// Of each lane the smaller one.
     #[inline(always)]
-    pub(super) fn least(self, other: Self) -> Self {
+    pub(super) fn min(self, other: Self) -> Self {
         // By the greater one, which is the same on every processor.
-        -(-self).most(-other)
+        -(-self).max(-other)
     }
 
     /// Of each lane the greater one.
     #[inline(always)]
-    pub(super) fn most(self, other: Self) -> Self {
+    pub(super) fn max(self, other: Self) -> Self {
         Self(self.0, self.0.max_f32s(self.1, other.1))
     }
 
     /// Zero where negative.
     #[inline(always)]
-    pub(super) fn above_zero(self) -> Self {
-        self.most(Self::splat(self.0, 0.0))
+    pub(super) fn max_zero(self) -> Self {
+        self.max(Self::splat(self.0, 0.0))
     }
 
     /// No less than −1 and no more than 1.
     #[inline(always)]
     pub(super) fn within(self) -> Self {
-        self.most(self.like(-1.0)).least(self.like(1.0))
+        self.max(self.like(-1.0)).min(self.like(1.0))
     }
 
     /// One of two, by whether this is less than a number.
@@ -94,13 +94,13 @@ impl<S: Simd> Number<S> {
 
     /// The least of all lanes.
     #[inline(always)]
-    pub(super) fn least_lane(self) -> f32 {
+    pub(super) fn min_lane(self) -> f32 {
         self.0.reduce_min_f32s(self.1)
     }
 
     /// The greatest of all lanes.
     #[inline(always)]
-    pub(super) fn most_lane(self) -> f32 {
+    pub(super) fn max_lane(self) -> f32 {
         self.0.reduce_max_f32s(self.1)
     }
 
@@ -172,7 +172,7 @@ impl<S: Simd> Number<S> {
     }
 }
 
-impl<S: Simd> Add for Number<S> {
+impl<S: Simd> Add for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -180,7 +180,7 @@ impl<S: Simd> Add for Number<S> {
     }
 }
 
-impl<S: Simd> Sub for Number<S> {
+impl<S: Simd> Sub for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -188,7 +188,7 @@ impl<S: Simd> Sub for Number<S> {
     }
 }
 
-impl<S: Simd> Mul for Number<S> {
+impl<S: Simd> Mul for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -196,7 +196,7 @@ impl<S: Simd> Mul for Number<S> {
     }
 }
 
-impl<S: Simd> Neg for Number<S> {
+impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -206,16 +206,16 @@ impl<S: Simd> Neg for Number<S> {
 
 /// Vectors in lanes.
 #[derive(Clone, Copy)]
-pub(super) struct Vector<S: Simd>(pub(super) [Number<S>; 3]);
+pub(super) struct Lanes3<S: Simd>(pub(super) [Lanes<S>; 3]);
 
-impl<S: Simd> Vector<S> {
+impl<S: Simd> Lanes3<S> {
     #[inline(always)]
     pub(super) fn splat(simd: S, [x, y, z]: [f32; 3]) -> Self {
-        Self([Number::splat(simd, x), Number::splat(simd, y), Number::splat(simd, z)])
+        Self([Lanes::splat(simd, x), Lanes::splat(simd, y), Lanes::splat(simd, z)])
     }
 
     #[inline(always)]
-    pub(super) fn dot(self, other: Self) -> Number<S> {
+    pub(super) fn dot(self, other: Self) -> Lanes<S> {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         a * x + b * y + c * z
     }
@@ -223,7 +223,7 @@ impl<S: Simd> Vector<S> {
     /// The chunk `at` of eight vectors.
     #[inline(always)]
     pub(super) fn of(simd: S, [x, y, z]: &[[f32; 8]; 3], at: usize) -> Self {
-        Self([Number::of(simd, x, at), Number::of(simd, y, at), Number::of(simd, z, at)])
+        Self([Lanes::of(simd, x, at), Lanes::of(simd, y, at), Lanes::of(simd, z, at)])
     }
 
     /// Writes them to the chunk `at` of eight vectors.
@@ -242,13 +242,13 @@ impl<S: Simd> Vector<S> {
     }
 
     #[inline(always)]
-    pub(super) fn times(self, factor: Number<S>) -> Self {
+    pub(super) fn times(self, factor: Lanes<S>) -> Self {
         let [x, y, z] = self.0;
         Self([x * factor, y * factor, z * factor])
     }
 }
 
-impl<S: Simd> Add for Vector<S> {
+impl<S: Simd> Add for Lanes3<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -257,7 +257,7 @@ impl<S: Simd> Add for Vector<S> {
     }
 }
 
-impl<S: Simd> Sub for Vector<S> {
+impl<S: Simd> Sub for Lanes3<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {

@@ -1,13 +1,13 @@
 //! The solids of one link: what its URDF lists, without what is listed twice.
 
-use motet_robots::urdf::{Link, Shape as Listed};
+use motet_robots::urdf::{Link, UrdfShape};
 
 use super::solid::{Shape, Solid};
 use crate::kinematics::isometry;
 
 /// A solid that a link carries.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Part {
+pub struct LinkSolid {
     /// Index of the link.
     pub link: usize,
     /// The solid, in the link's frame.
@@ -18,16 +18,16 @@ pub struct Part {
 ///
 /// URDFs write a capsule as a cylinder with a ball at each end, and so it becomes one again. A ball within another part
 /// goes.
-pub(super) fn parts(link: &Link, at: usize) -> (Vec<Part>, bool) {
+pub(super) fn parts(link: &Link, at: usize) -> (Vec<LinkSolid>, bool) {
     let mut solids: Vec<Solid> = Vec::new();
     let mut is_complete = true;
     for listed in &link.collisions {
         let shape = match listed.shape {
-            Listed::Box([x, y, z]) => Shape::Box([x / 2.0, y / 2.0, z / 2.0].into()),
-            Listed::Cylinder { radius, length } => Shape::Cylinder { radius, half: length / 2.0 },
-            Listed::Capsule { radius, length } => Shape::Capsule { radius, half: length / 2.0 },
-            Listed::Sphere { radius } => Shape::Capsule { radius, half: 0.0 },
-            Listed::Mesh { .. } => {
+            UrdfShape::Box([x, y, z]) => Shape::Box([x / 2.0, y / 2.0, z / 2.0].into()),
+            UrdfShape::Cylinder { radius, length } => Shape::Cylinder { radius, half: length / 2.0 },
+            UrdfShape::Capsule { radius, length } => Shape::Capsule { radius, half: length / 2.0 },
+            UrdfShape::Sphere { radius } => Shape::Capsule { radius, half: 0.0 },
+            UrdfShape::Mesh { .. } => {
                 is_complete = false;
                 continue;
             }
@@ -44,7 +44,7 @@ pub(super) fn parts(link: &Link, at: usize) -> (Vec<Part>, bool) {
         !rounded.iter().enumerate().any(hides)
     };
     let kept =
-        rounded.iter().enumerate().filter(is_needed).map(|(_, solid)| Part { link: at, solid: *solid });
+        rounded.iter().enumerate().filter(is_needed).map(|(_, solid)| LinkSolid { link: at, solid: *solid });
     (kept.collect(), is_complete)
 }
 

@@ -12,7 +12,7 @@ const SPINS: usize = 3;
 
 /// A frame goes by no more than this: it slides, turns about a point, then about axes one after the other, and is shifted before or after.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Drift {
+pub(crate) struct DisplacementBound {
     /// In m, in any direction, and in any that is level.
     shift: f64,
     flat: f64,
@@ -22,20 +22,20 @@ pub(crate) struct Drift {
     /// In rad about any axis through a point, in the map.
     turn: f64,
     about: Vector3<f64>,
-    spins: [Spin; SPINS],
+    spins: [RotationBound; SPINS],
     turns: usize,
 }
 
 /// A turn about one axis of length 1 through a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spin {
+pub(crate) struct RotationBound {
     /// In rad.
     pub(crate) angle: f64,
     pub(crate) axis: Vector3<f64>,
     pub(crate) at: Vector3<f64>,
 }
 
-impl Spin {
+impl RotationBound {
     /// From the axis to a point.
     fn out(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let off = point - self.at;
@@ -59,11 +59,11 @@ impl Spin {
     }
 }
 
-impl Drift {
+impl DisplacementBound {
     /// What does not move.
     pub(crate) fn none() -> Self {
         let (zero, axis) = (Vector3::zeros(), Vector3::z());
-        let spins = [Spin { angle: 0.0, axis, at: zero }; SPINS];
+        let spins = [RotationBound { angle: 0.0, axis, at: zero }; SPINS];
         let slides = [zero; SLIDES];
         Self { shift: 0.0, flat: 0.0, slides, count: 0, turn: 0.0, about: zero, spins, turns: 0 }
     }
@@ -101,7 +101,7 @@ impl Drift {
     /// The same, with a turn about an axis through a point after all others.
     pub(crate) fn spun(mut self, axis: Vector3<f64>, at: Vector3<f64>, angle: f64) -> Self {
         match self.spins.get_mut(self.turns) {
-            Some(slot) => (*slot, self.turns) = (Spin { angle, axis, at }, self.turns + 1),
+            Some(slot) => (*slot, self.turns) = (RotationBound { angle, axis, at }, self.turns + 1),
             None => self.shift = f64::INFINITY,
         }
         self
@@ -202,7 +202,7 @@ impl Drift {
         self.slides.get(..self.count).unwrap_or_default()
     }
 
-    fn spins(&self) -> &[Spin] {
+    fn spins(&self) -> &[RotationBound] {
         self.spins.get(..self.turns).unwrap_or_default()
     }
 }
@@ -251,7 +251,7 @@ mod tests {
     use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
     use proptest::prelude::*;
 
-    use super::Drift;
+    use super::DisplacementBound;
 
     fn turned(axis: &Vector3<f64>, at: &Vector3<f64>, angle: f64) -> Isometry3<f64> {
         let about = Translation3::from(*at);
@@ -273,37 +273,37 @@ mod tests {
             size in prop::sample::select(vec![1e-3, 0.02, 0.3]), shift in vector(), pivot in (vector(), vector()),
             point in vector(), direction in vector(), is_level in any::<bool>(), has_turn in any::<bool>(),
         ) {
-            let mut drift = Drift::none().shifted(size * shift.norm());
+            let mut displacement = DisplacementBound::none().shifted(size * shift.norm());
             let mut moves = Isometry3::from(Translation3::from(shift * (size * shares[0])));
             for (slide, share) in slides.iter().zip(&shares[1..]) {
-                drift = drift.slid(slide * size);
+                displacement = displacement.slid(slide * size);
                 moves = Translation3::from(slide * (size * share)) * moves;
             }
             let (axis, about) = pivot;
             if has_turn && !is_level {
-                drift = drift.turned(about, angles[0]);
+                displacement = displacement.turned(about, angles[0]);
                 moves = turned(&axis.normalize(), &about, angles[0] * shares[4]) * moves;
             }
             if is_level {
-                drift = drift.level();
+                displacement = displacement.level();
                 moves.translation.z = 0.0;
             }
             for (((axis, at), share), angle) in spins.iter().zip(&shares[5..]).zip(&angles[1..]) {
                 let axis = if is_level { Vector3::z() } else { axis.normalize() };
-                drift = drift.spun(axis, *at, *angle);
+                displacement = displacement.spun(axis, *at, *angle);
                 moves = turned(&axis, at, angle * share) * moves;
             }
             let place = nalgebra::Point3::from(point);
             let gone = (moves * place).coords - point;
             let direction = direction.normalize();
-            let told = [drift.along(&point, &direction), drift.carried(&point).along(&Vector3::zeros(), &direction)];
+            let told = [displacement.along(&point, &direction), displacement.carried(&point).along(&Vector3::zeros(), &direction)];
             for told in told {
                 prop_assert!(gone.dot(&direction).abs() <= told + 1e-12, "{} > {told}", gone.dot(&direction));
             }
-            prop_assert!(gone.norm() <= drift.point(&point, 0.0) + 1e-12);
-            prop_assert!(moves.rotation.angle() <= drift.angle() + 1e-9);
+            prop_assert!(gone.norm() <= displacement.point(&point, 0.0) + 1e-12);
+            prop_assert!(moves.rotation.angle() <= displacement.angle() + 1e-9);
             if is_level {
-                prop_assert!(drift.along(&point, &Vector3::z()) < 1e-12);
+                prop_assert!(displacement.along(&point, &Vector3::z()) < 1e-12);
             }
         }
     }

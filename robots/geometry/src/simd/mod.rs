@@ -1,35 +1,35 @@
 //! Eight states of a robot at a time, in `f32`: which pairs of solids are apart for certain.
 //!
-//! A [`Figure`] is a robot of which some joints move, made once for a room; [`Slab`]s are what stands around. [`Look`] places the
-//! robot in [`Eight`] states and hands over the pairs that it cannot tell to be apart, with those states in which they touch for certain;
+//! A [`BatchModel`] is a robot of which some joints move, made once for a room; [`Obb`]s are what stands around. [`BatchCheck`] places the
+//! robot in [`Batch8`] states and hands over the pairs that it cannot tell to be apart, with those states in which they touch for certain;
 //! the others are looked at again in `f64`. So it takes work away and decides only what is farther from open than it may be off.
 //!
 //! **Rounding.** The base is no farther than [`FAR`] m from the origin along either side, no part farther than [`LONG`] m from the base,
 //! and no joint further than [`TURNS`] rad from 0; else nothing is said. An angle is off by 5e-7 rad as it is rounded, its sine by 2e-7
 //! more, and an entry of a rotation by 1.1e-6 after its three products and sums; a product of two rotations adds 3e-7. So a joint
 //! adds less than [`TURNED`], three times as much as an entry, to how far any direction is off, and [`MOVED`] for the sums of places
-//! below 8 m. These are added up along the chain of each part ([`figure::Part::slack`]), so that the bound grows with the lengths
+//! below 8 m. These are added up along the chain of each part ([`batch_model::BatchPart::slack`]), so that the bound grows with the lengths
 //! in between: 1e-5 m to 6e-5 m for arms. It is taken off every distance twice for each part, once for how far it goes, as
-//! is [`TOLD`] for the distance itself. A velocity is off by that for each rad that the joints turn, which is added to it ([`drift`]).
+//! is [`TOLD`] for the distance itself. A velocity is off by that for each rad that the joints turn, which is added to it ([`motion`]).
 
-mod apart;
-mod bounds;
-mod drift;
-mod figure;
-mod look;
-mod number;
-mod pair;
-mod pose;
+mod aabb;
+mod batch_check;
+mod batch_model;
+mod lanes;
+mod motion;
+mod pair_check;
+mod posed_batch;
+mod separation;
 
-pub(crate) use figure::{Eight, Figure};
-pub(crate) use look::{Against, Look, Met, Pair};
-pub(crate) use pose::Posed;
-pub(crate) use slab::{Slab, Slabs};
+pub(crate) use batch_check::{BatchCheck, BatchPair, NearPair, PairTarget};
+pub(crate) use batch_model::{Batch8, BatchModel};
+pub(crate) use obb::{Obb, ObbSet};
+pub(crate) use posed_batch::PosedBatch;
 
-mod slab;
+mod obb;
+mod self_pairs;
 #[cfg(test)]
 mod tests;
-mod two;
 
 /// How far from the origin of a neighbourhood the base may be, in m along either side.
 const FAR: f64 = 3.0;
@@ -44,5 +44,5 @@ const MOVED: f64 = 2e-6;
 /// How far the distance between two solids may be off, in m.
 const TOLD: f32 = 1e-5;
 /// How much nearer than wanted two solids have to be to count as near for certain, beside what may be off of parts, in m: a tenth of
-/// a millimetre, which is more than what a thing is rounded by ([`slab::Slab::is_exact`]).
+/// a millimetre, which is more than what a thing is rounded by ([`obb::Obb::is_exact`]).
 const SURE: f32 = 1e-4;

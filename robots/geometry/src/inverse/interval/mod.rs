@@ -7,7 +7,7 @@
 //! the shoulder; [`ParallelArm`](super::ParallelArm) on a base that drives, by the heading of the arm, the lean of the forearm,
 //! and the base's yaw; [`SevenArm`](super::SevenArm) on one that does not, by the last joint.
 
-mod drift;
+mod displacement;
 mod lift;
 mod parallel;
 mod seven;
@@ -16,10 +16,10 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-pub(crate) use drift::{Drift, Spin, farthest};
+pub(crate) use displacement::{DisplacementBound, RotationBound, farthest};
 
 use super::lift_arm::wrist;
-use crate::kinematics::{Chain, planar};
+use crate::kinematics::{KinematicChain, planar};
 use crate::trigonometry::acos;
 
 /// How far, in rad or m, a value may be beyond a limit and still be rounding.
@@ -27,8 +27,8 @@ const SLACK: f64 = 1e-5;
 
 /// A box of free parameters, and one of the ways in which the rest follows from them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cell {
-    pub(crate) way: u8,
+pub(crate) struct IkCell {
+    pub(crate) branch: u8,
     pub(crate) middle: [f64; 3],
     /// Half of each side; 0 for a parameter that the family does not have.
     pub(crate) half: [f64; 3],
@@ -36,16 +36,16 @@ pub(crate) struct Cell {
 
 /// Poses of the tip that are near to one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tips {
+pub(crate) struct PoseSet {
     pub(crate) map_from_tip: Isometry3<f64>,
-    pub(crate) drift: Drift,
+    pub(crate) displacement: DisplacementBound,
     /// Whether joints count that are beyond their limits, and an arm that is too short.
     pub(crate) is_any: bool,
 }
 
-impl Tips {
-    pub(crate) fn new(map_from_tip: Isometry3<f64>, drift: Drift) -> Self {
-        Self { map_from_tip, drift, is_any: false }
+impl PoseSet {
+    pub(crate) fn new(map_from_tip: Isometry3<f64>, displacement: DisplacementBound) -> Self {
+        Self { map_from_tip, displacement, is_any: false }
     }
 
     /// The same, whatever the limits of joints.
@@ -55,22 +55,22 @@ impl Tips {
 }
 
 /// What is known of a cell.
-pub(crate) enum Over {
+pub(crate) enum IntervalSolution {
     /// No member is within the limits.
-    Nothing,
+    Empty,
     /// All members are as near to this as it says.
-    Near(Box<Stretch>),
+    Enclosed(Box<CellEnclosure>),
     /// Nothing is known.
-    Unclear,
+    Unknown,
 }
 
 /// The middle of a cell, and how far its members can be from it.
-pub(crate) struct Stretch {
+pub(crate) struct CellEnclosure {
     /// x, y and yaw of the base.
     pub(crate) base: [f64; 3],
-    pub(crate) base_drift: Drift,
+    pub(crate) base_displacement: DisplacementBound,
     /// The frame after each joint, in the map.
-    pub(crate) frames: Vec<(Isometry3<f64>, Drift)>,
+    pub(crate) frames: Vec<(Isometry3<f64>, DisplacementBound)>,
     /// Of each variable its value, and how far it can be from there.
     pub(crate) values: Vec<[f64; 2]>,
     /// By how much an arm is too short in the middle, in m, and how far that can be off.
@@ -79,7 +79,7 @@ pub(crate) struct Stretch {
     pub(crate) is_joined: bool,
 }
 
-impl Cell {
+impl IkCell {
     /// The two halves of a cell, cut across a parameter.
     pub(crate) fn halves(&self, across: usize) -> [Self; 2] {
         let mut halves = [*self; 2];
@@ -96,14 +96,14 @@ impl Cell {
 
 /// The angles about three axes, each square to the next, that make up a rotation, in one of two ways, and how far each can be from
 /// there where the rotation is off by some angle.
-fn wrist_over(
+fn wrist_interval(
     axes: &[Vector3<f64>; 3],
     rotation: &UnitQuaternion<f64>,
     off: f64,
-    way: u8,
+    branch: u8,
 ) -> Option<[[f64; 2]; 3]> {
     let [one, _, three] = axes;
-    let [first, middle, last] = *wrist(axes, rotation).get(usize::from(way))?;
+    let [first, middle, last] = *wrist(axes, rotation).get(usize::from(branch))?;
     // The third axis is this far from the first, and that changes by no more than the rotation does; so does the middle angle.
     let polar = acos(one.dot(&(rotation * three)));
     let around = azimuth(polar, off);
@@ -112,14 +112,14 @@ fn wrist_over(
 
 /// The same of a wrist that something carries, which turns in the map by no more than `carrier`, while what it holds turns by no more than
 /// `held`: by which way both turn. A hand that points straight down does so however the arm turns about the vertical.
-fn wrist_held(
+fn carried_wrist_interval(
     axes: &[Vector3<f64>; 3],
     [map_from_carrier, rotation]: [&UnitQuaternion<f64>; 2],
-    [carrier, held]: [&Drift; 2],
-    way: u8,
+    [carrier, held]: [&DisplacementBound; 2],
+    branch: u8,
 ) -> Option<[[f64; 2]; 3]> {
     let [one, _, three] = axes;
-    let [first, middle, last] = wrist_over(axes, rotation, carrier.angle() + held.angle(), way)?;
+    let [first, middle, last] = wrist_interval(axes, rotation, carrier.angle() + held.angle(), branch)?;
     let (u, w) = (map_from_carrier * one, map_from_carrier * (rotation * three));
     let (cos, aside) = (u.dot(&w), u.cross(&w));
     let sin = aside.norm();
@@ -128,13 +128,15 @@ fn wrist_held(
     }
     let aside = aside / sin;
     // How far a direction that goes along with one is off along another one that goes along with the other.
-    let off = |[drift, beyond]: [&Drift; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
-        drift.along(from, to) + beyond.along(to, from) + drift.point(from, 0.0) * beyond.point(to, 0.0)
+    let off = |[displacement, beyond]: [&DisplacementBound; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
+        displacement.along(from, to)
+            + beyond.along(to, from)
+            + displacement.point(from, 0.0) * beyond.point(to, 0.0)
     };
-    let around = |drifts: [&Drift; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
+    let around = |displacements: [&DisplacementBound; 2], from: &Vector3<f64>, to: &Vector3<f64>| {
         let out = (from - to * cos) / sin;
-        let room = sin - off(drifts, from, &out);
-        if room > 1e-6 { libm::atan(off(drifts, from, &aside) / room) + 1e-9 } else { PI }
+        let room = sin - off(displacements, from, &out);
+        if room > 1e-6 { libm::atan(off(displacements, from, &aside) / room) + 1e-9 } else { PI }
     };
     let along = off([held, carrier], &w, &u);
     let polar = acos(cos);
@@ -162,14 +164,14 @@ fn wave(slope: f64, long: f64, off: f64) -> f64 {
 
 /// Values of a chain's variables for positions of its joints, each with how far it can be off; `None` where one is beyond its
 /// limits throughout and that counts.
-fn values_over(chain: &Chain, positions: &[[f64; 2]], is_any: bool) -> Option<Vec<[f64; 2]>> {
-    let joints = chain.joints.iter().zip(&chain.variables).zip(positions);
-    let values = joints.map(|((joint, variable), [position, off])| {
-        let size = joint.driver.multiplier.abs();
-        let (mut value, off) = ((position - joint.driver.offset) / joint.driver.multiplier, off / size);
-        let Some((lower, upper)) = variable.limits else { return Some([value, off]) };
+fn dof_intervals(chain: &KinematicChain, positions: &[[f64; 2]], is_any: bool) -> Option<Vec<[f64; 2]>> {
+    let joints = chain.joints.iter().zip(&chain.dofs).zip(positions);
+    let values = joints.map(|((joint, dof), [position, off])| {
+        let size = joint.coupling.multiplier.abs();
+        let (mut value, off) = ((position - joint.coupling.offset) / joint.coupling.multiplier, off / size);
+        let Some((lower, upper)) = dof.limits else { return Some([value, off]) };
         let (least, greatest) = (lower - off - SLACK, upper + off + SLACK);
-        if !joint.slides {
+        if !joint.is_prismatic {
             // The first of the values that differ by full turns and are not too small.
             let turn = TAU / size;
             value += turn * libm::ceil((least - value) / turn);
@@ -180,11 +182,11 @@ fn values_over(chain: &Chain, positions: &[[f64; 2]], is_any: bool) -> Option<Ve
 }
 
 /// The frames after the joints, in the map, for values of the variables.
-fn frames(chain: &Chain, map_from_base: Isometry3<f64>, values: &[[f64; 2]]) -> Vec<Isometry3<f64>> {
+fn frames(chain: &KinematicChain, map_from_base: Isometry3<f64>, values: &[[f64; 2]]) -> Vec<Isometry3<f64>> {
     let values: Vec<f64> = values.iter().map(|[value, _]| *value).collect();
     let mut pose = map_from_base;
     let placed = chain.joints.iter().map(|joint| {
-        pose = pose * joint.before * joint.motion(joint.driver.position(&values));
+        pose = pose * joint.before * joint.motion(joint.coupling.position(&values));
         pose
     });
     placed.collect()

@@ -3,37 +3,37 @@
 use nalgebra::Isometry3;
 use pulp::Arch;
 
-use super::{Against, Eight, Figure, Look, Met, Posed, Slab, Slabs};
-use crate::collision::{Body, Shape, Solid};
-use crate::kinematics::{Tree, planar, spread};
+use super::{Batch8, BatchCheck, BatchModel, NearPair, Obb, ObbSet, PairTarget, PosedBatch};
+use crate::collision::{CollisionModel, Shape, Solid};
+use crate::kinematics::{KinematicTree, planar, quasi_random};
 use motet_robots::{card, urdf};
 use motet_syntax::{FileId, Source};
 
 struct Robot {
-    tree: Tree,
-    body: Body,
-    figure: Figure,
+    tree: KinematicTree,
+    body: CollisionModel,
+    batch_model: BatchModel,
     rest: Vec<f64>,
 }
 
 fn robot(name: &str) -> Robot {
     let urdf = urdf::read(&Source::new(name, card::embedded_urdf(name).unwrap()), FileId(0)).0.unwrap();
-    let tree = Tree::new(&urdf);
-    let body = Body::new(&urdf, &tree, &[]);
+    let tree = KinematicTree::new(&urdf);
+    let body = CollisionModel::new(&urdf, &tree, &[]);
     let rest = tree.neutral();
-    let rig = tree.rig(&rest, |at| !is_leg(&tree, at)).unwrap();
-    let figure = Figure::new(&rig, &Isometry3::translation(0.0, 0.0, 0.3), &body).unwrap();
-    Robot { tree, body, figure, rest }
+    let reduced = tree.reduced(&rest, |at| !is_leg(&tree, at)).unwrap();
+    let batch_model = BatchModel::new(&reduced, &Isometry3::translation(0.0, 0.0, 0.3), &body).unwrap();
+    Robot { tree, body, batch_model, rest }
 }
 
 /// Legs turn farther than is accurate, and stand still.
-fn is_leg(tree: &Tree, at: usize) -> bool {
-    ["HAA", "HFE", "KFE"].iter().any(|end| tree.variables()[at].name.ends_with(end))
+fn is_leg(tree: &KinematicTree, at: usize) -> bool {
+    ["HAA", "HFE", "KFE"].iter().any(|end| tree.dofs()[at].name.ends_with(end))
 }
 
 impl Robot {
     fn joints(&self, index: usize) -> Vec<f64> {
-        let mut joints = spread(self.tree.variables(), index);
+        let mut joints = quasi_random(self.tree.dofs(), index);
         for (at, value) in joints.iter_mut().enumerate() {
             if is_leg(&self.tree, at) {
                 *value = self.rest[at];
@@ -80,11 +80,12 @@ fn things() -> Vec<Solid> {
     (0..12).map(thing).collect()
 }
 
-fn met(robot: &Robot, eight: &Eight, slabs: &Slabs, gap: f32, arch: Arch) -> Vec<Met> {
+fn near_pairs(robot: &Robot, batch: &Batch8, obbs: &ObbSet, gap: f32, arch: Arch) -> Vec<NearPair> {
     let counts = |_: usize, _: Option<usize>| true;
-    let (figure, pairs, posed) = (&robot.figure, None, &mut Posed::default());
+    let (batch_model, pairs, posed) = (&robot.batch_model, None, &mut PosedBatch::default());
     let gaps = [gap; 8];
-    Look { figure, eight, slabs, gaps, is_own: true, is_first: false, pairs, posed, counts }.met_on(arch)
+    BatchCheck { batch_model, batch, obbs, gaps, is_own: true, is_first: false, pairs, posed, counts }
+        .near_pairs_on(arch)
 }
 
 const GAP: f32 = 0.01;
@@ -92,30 +93,30 @@ const GAP: f32 = 0.01;
 #[test]
 fn what_is_near_is_met() {
     let things = things();
-    let slabs: Slabs = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         let (mut told, mut near, mut sure) = (0, 0, 0);
         for block in 0..8 {
-            let mut eight = robot.figure.eight();
+            let mut batch = robot.batch_model.batch();
             let states: Vec<_> =
                 (0..8).map(|lane| (base(block * 8 + lane), robot.joints(block * 8 + lane))).collect();
             for (lane, (base, joints)) in states.iter().enumerate() {
-                assert!(robot.figure.set(&mut eight, lane, *base, joints));
+                assert!(robot.batch_model.set(&mut batch, lane, *base, joints));
             }
-            let met = met(&robot, &eight, &slabs, GAP, Arch::new());
-            let is_met = |part: usize, is: &dyn Fn(Against) -> bool, lane: usize| {
+            let met = near_pairs(&robot, &batch, &obbs, GAP, Arch::new());
+            let is_met = |part: usize, is: &dyn Fn(PairTarget) -> bool, lane: usize| {
                 met.iter()
-                    .any(|met| met.pair.part == part && is(met.pair.against) && met.lanes >> lane & 1 == 1)
+                    .any(|met| met.pair.part == part && is(met.pair.target) && met.lanes >> lane & 1 == 1)
             };
             for (lane, (base, joints)) in states.iter().enumerate() {
                 let placed = robot.placed(*base, joints);
                 for met in met.iter().filter(|met| met.sure >> lane & 1 == 1) {
                     let one = &placed[met.pair.part];
-                    let is_near = match met.pair.against {
-                        Against::Slab(at) => !one.is_farther(&things[at], f64::from(GAP)),
-                        Against::Part(at, _) => !one.is_farther(&placed[at], f64::from(GAP)),
-                        Against::Floor => {
+                    let is_near = match met.pair.target {
+                        PairTarget::Obb(at) => !one.is_farther(&things[at], f64::from(GAP)),
+                        PairTarget::Part(at, _) => !one.is_farther(&placed[at], f64::from(GAP)),
+                        PairTarget::Floor => {
                             one.centre.z - one.extent(&nalgebra::Vector3::z()) <= f64::from(GAP)
                         }
                     };
@@ -127,18 +128,18 @@ fn what_is_near_is_met() {
                     for (at, thing) in things.iter().enumerate() {
                         let is_near = !solid.is_farther(thing, f64::from(GAP));
                         near += u32::from(is_near);
-                        assert!(!is_near || is_met(part, &|it| it == Against::Slab(at), lane), "{name}");
+                        assert!(!is_near || is_met(part, &|it| it == PairTarget::Obb(at), lane), "{name}");
                     }
                     let above = solid.centre.z - solid.extent(&nalgebra::Vector3::z());
                     let is_near = above <= f64::from(GAP);
                     near += u32::from(is_near);
-                    assert!(!is_near || is_met(part, &|it| it == Against::Floor, lane), "{name}");
+                    assert!(!is_near || is_met(part, &|it| it == PairTarget::Floor, lane), "{name}");
                 }
                 let still = robot.placed(*base, &robot.joints(0));
                 for ([one, other], distance) in robot.moved_pairs(&placed, &still) {
                     let is_near = distance <= f64::from(GAP);
                     near += u32::from(is_near);
-                    let is = |it| matches!(it, Against::Part(at, _) if at == other);
+                    let is = |it| matches!(it, PairTarget::Part(at, _) if at == other);
                     assert!(!is_near || is_met(one, &is, lane), "{name}: {one} {other} {distance}");
                 }
             }
@@ -151,19 +152,19 @@ fn what_is_near_is_met() {
 
 #[test]
 fn every_processor_tells_the_same() {
-    let slabs: Slabs = things().iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things().iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         for block in 0..24 {
-            let mut eight = robot.figure.eight();
+            let mut batch = robot.batch_model.batch();
             for lane in 0..8 {
                 let at = block * 8 + lane;
-                robot.figure.set(&mut eight, lane, base(at), &robot.joints(at));
+                robot.batch_model.set(&mut batch, lane, base(at), &robot.joints(at));
             }
             if block % 2 == 1 {
-                robot.figure.spread(&mut eight, [0.02, 0.01, 0.03], |at| 0.01 * (at % 4) as f64);
+                robot.batch_model.set_motion(&mut batch, [0.02, 0.01, 0.03], |at| 0.01 * (at % 4) as f64);
             }
-            let told = [Arch::Scalar, Arch::new()].map(|arch| met(&robot, &eight, &slabs, GAP, arch));
+            let told = [Arch::Scalar, Arch::new()].map(|arch| near_pairs(&robot, &batch, &obbs, GAP, arch));
             assert_eq!(told[0], told[1], "{name}");
             assert!(!told[0].is_empty());
         }
@@ -174,7 +175,7 @@ fn every_processor_tells_the_same() {
 #[test]
 fn what_is_told_to_stay_apart_on_a_leg_does() {
     let things = things();
-    let slabs: Slabs = things.iter().map(|thing| Slab::new(0, thing, [0.0; 2]).unwrap()).collect();
+    let obbs: ObbSet = things.iter().map(|thing| Obb::new(0, thing, [0.0; 2]).unwrap()).collect();
     for name in ["hsr", "anymal_z1", "panda"] {
         let robot = robot(name);
         let (mut near, mut told) = (0, 0);
@@ -186,9 +187,9 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                 if block % 3 == 0 { start } else { [0, 1, 2].map(|at| start[at] + [0.3, -0.2, 0.4][at]) };
             let half = [0.01, 0.03, 0.1][block % 3];
             let shares = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
-            let mut eight = robot.figure.eight();
-            assert!(robot.figure.set_on(&mut eight, [(start, &from), (end, &to)], &shares, half));
-            let met = met(&robot, &eight, &slabs, GAP, Arch::new());
+            let mut batch = robot.batch_model.batch();
+            assert!(robot.batch_model.set_on(&mut batch, [(start, &from), (end, &to)], &shares, half));
+            let met = near_pairs(&robot, &batch, &obbs, GAP, Arch::new());
             told += met.iter().map(|met| met.lanes.count_ones()).sum::<u32>();
             for (lane, share) in shares.iter().enumerate() {
                 let at = |part: f64| {
@@ -197,9 +198,9 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                     robot
                         .placed([0, 1, 2].map(|axis| start[axis] + (end[axis] - start[axis]) * part), &joints)
                 };
-                let is_met = |part: usize, is: &dyn Fn(Against) -> bool| {
+                let is_met = |part: usize, is: &dyn Fn(PairTarget) -> bool| {
                     let mut all = met.iter().filter(|met| met.lanes >> lane & 1 == 1);
-                    all.any(|met| met.pair.part == part && is(met.pair.against))
+                    all.any(|met| met.pair.part == part && is(met.pair.target))
                 };
                 let still = robot.placed(start, &from);
                 for placed in [-1.0, -0.6, -0.2, 0.3, 0.7, 1.0].map(at) {
@@ -210,7 +211,7 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                                 !solid.is_farther(thing, f64::from(GAP)) && moves(solid, &still[part]);
                             near += u32::from(is_near);
                             assert!(
-                                !is_near || is_met(part, &|it| it == Against::Slab(at)),
+                                !is_near || is_met(part, &|it| it == PairTarget::Obb(at)),
                                 "{name} {block}"
                             );
                         }
@@ -218,7 +219,7 @@ fn what_is_told_to_stay_apart_on_a_leg_does() {
                     for ([one, other], distance) in robot.moved_pairs(&placed, &still) {
                         let is_near = distance <= f64::from(GAP);
                         near += u32::from(is_near);
-                        let is = |it| matches!(it, Against::Part(at, _) if at == other);
+                        let is = |it| matches!(it, PairTarget::Part(at, _) if at == other);
                         assert!(!is_near || is_met(one, &is), "{name} {block}: {one} {other} {distance}");
                     }
                 }
@@ -242,14 +243,14 @@ fn parts_stay_within_how_far_they_go() {
             let (from, to) = (robot.joints(block), robot.joints(block + 1));
             let (start, change) = (base(block), [0.05, -0.03, 0.1]);
             let share = 0.05;
-            let mut eight = robot.figure.eight();
+            let mut batch = robot.batch_model.batch();
             for lane in 0..8 {
-                assert!(robot.figure.set(&mut eight, lane, start, &from));
+                assert!(robot.batch_model.set(&mut batch, lane, start, &from));
             }
             robot
-                .figure
-                .spread(&mut eight, change.map(|value| value * share), |at| (to[at] - from[at]) * share);
-            let goes = super::pose::goes_in_map(&robot.figure, &eight);
+                .batch_model
+                .set_motion(&mut batch, change.map(|value| value * share), |at| (to[at] - from[at]) * share);
+            let goes = super::posed_batch::displacements_in_map(&robot.batch_model, &batch);
             let at = |part: f64| {
                 let joints: Vec<f64> =
                     from.iter().zip(&to).map(|(a, b)| a + (b - a) * share * part).collect();

@@ -2,23 +2,23 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use super::pose::Rows;
-use super::slab::{sides, single};
+use super::obb::{sides, single};
+use super::posed_batch::Lane8x3;
 use super::{FAR, LONG, MOVED, TURNED, TURNS};
-use crate::collision::{Body, Shape, Solid};
-use crate::kinematics::{Driver, Rig, RigJoint};
+use crate::collision::{CollisionModel, Shape, Solid};
+use crate::kinematics::{JointCoupling, ReducedJoint, ReducedModel};
 
 /// A robot. Frame 0 stands still on the base, frame `n` + 1 is that of joint `n`.
 #[derive(Clone, Debug)]
-pub(crate) struct Figure {
+pub(crate) struct BatchModel {
     pub(super) base_from_root: Rigid,
-    pub(super) joints: Vec<Joint>,
-    drivers: Vec<Driver>,
-    pub(super) parts: Vec<Part>,
+    pub(super) joints: Vec<BatchJoint>,
+    couplings: Vec<JointCoupling>,
+    pub(super) parts: Vec<BatchPart>,
     /// For each part, in rows of eight, the later ones that it may not touch.
     pub(super) beside: Vec<Vec<Beside>>,
     /// For each frame the joints that move it, from the root on.
-    pub(super) levers: Vec<Vec<usize>>,
+    pub(super) ancestors: Vec<Vec<usize>>,
     stride: usize,
 }
 
@@ -31,9 +31,9 @@ pub(super) struct Rigid {
 
 /// A joint turned by `q`: `still + swing sin q + bend (1 − cos q)`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Joint {
+pub(super) struct BatchJoint {
     pub(super) parent: usize,
-    pub(super) slides: bool,
+    pub(super) is_prismatic: bool,
     /// In the frame that carries it, as is all else.
     pub(super) at: [f32; 3],
     pub(super) axis: [f32; 3],
@@ -44,7 +44,7 @@ pub(super) struct Joint {
 
 /// A part as the capsule that holds it, in its frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct BatchPart {
     pub(super) frame: usize,
     /// A bit for that frame and for each that carries it.
     pub(super) carriers: u64,
@@ -61,7 +61,7 @@ pub(super) struct Part {
     /// How far it may be off as it is placed, twice, in m.
     pub(super) slack: f32,
     /// What is no capsule: the box that holds it, by its directions and half of its sides.
-    pub(super) slab: Option<([[f32; 3]; 3], [f32; 3])>,
+    pub(super) obb: Option<([[f32; 3]; 3], [f32; 3])>,
     /// Whether it is a cylinder along the last of these directions.
     pub(super) is_round: bool,
 }
@@ -77,11 +77,11 @@ pub(super) struct Beside {
 
 /// Eight states, and how far the robot may go from each.
 #[derive(Clone, Debug)]
-pub(crate) struct Eight {
+pub(crate) struct Batch8 {
     /// x and y from the origin, and yaw.
     pub(super) base: [[f32; 8]; 3],
     /// The directions and the origin of the root's frame, where it is not on a base.
-    pub(super) root: Option<[Rows; 4]>,
+    pub(super) root: Option<[Lane8x3; 4]>,
     /// For each joint.
     pub(super) positions: Vec<[f32; 8]>,
     /// By how much each joint changes on the way, and the base.
@@ -95,37 +95,41 @@ pub(crate) struct Eight {
     pub(super) is_way: bool,
 }
 
-impl Figure {
+impl BatchModel {
     /// A robot with a body; `None` where it is too large.
-    pub(crate) fn new(rig: &Rig, base_from_root: &Isometry3<f64>, body: &Body) -> Option<Self> {
-        let mut levers: Vec<Vec<usize>> = vec![vec![]];
+    pub(crate) fn new(
+        reduced: &ReducedModel,
+        base_from_root: &Isometry3<f64>,
+        body: &CollisionModel,
+    ) -> Option<Self> {
+        let mut ancestors: Vec<Vec<usize>> = vec![vec![]];
         // How far from the base's origin each frame can be, and how far its directions and its origin may be off.
         let mut frames = vec![[base_from_root.translation.vector.norm(), TURNED, 4.0 * TURNED + MOVED]];
-        for (joint, at) in rig.joints.iter().zip(0..) {
-            let mut own = levers.get(joint.parent)?.clone();
+        for (joint, at) in reduced.joints.iter().zip(0..) {
+            let mut own = ancestors.get(joint.parent)?.clone();
             own.push(at);
-            levers.push(own);
-            let slide = if joint.slides { 1.0 } else { 0.0 };
+            ancestors.push(own);
+            let slide = if joint.is_prismatic { 1.0 } else { 0.0 };
             let long = joint.before.translation.vector.norm() + slide;
             let [far, turned, moved] = frames.get(joint.parent)?;
             frames.push([far + long, turned + TURNED, moved + turned * long + MOVED]);
         }
         let parts = body.parts().iter().map(|part| {
-            let (frame, pose) = rig.links.get(part.link)?;
+            let (frame, pose) = reduced.links.get(part.link)?;
             let solid = part.solid.moved(pose);
             let [far, turned, moved] = frames.get(*frame)?;
             let long = solid.centre.norm() + solid.reach();
             let slack = 2.0 * (moved + turned * long + MOVED);
-            let carriers = levers.get(*frame)?.iter().fold(0, |bits, joint| bits | bit(joint + 1));
-            if far + long <= LONG { Part::new((*frame, carriers), &solid, slack) } else { None }
+            let carriers = ancestors.get(*frame)?.iter().fold(0, |bits, joint| bits | bit(joint + 1));
+            if far + long <= LONG { BatchPart::new((*frame, carriers), &solid, slack) } else { None }
         });
-        let parts = parts.collect::<Option<Vec<Part>>>()?;
+        let parts = parts.collect::<Option<Vec<BatchPart>>>()?;
         let mut beside = vec![vec![Beside::default(); parts.len().div_ceil(8)]; parts.len()];
         for [one, other] in body.pairs() {
             let frames = (parts.get(*one)?.frame, parts.get(*other)?.frame);
             // What is in one frame is as far apart as it was.
             if frames.0 != frames.1 {
-                let (a, b) = (levers.get(frames.0)?, levers.get(frames.1)?);
+                let (a, b) = (ancestors.get(frames.0)?, ancestors.get(frames.1)?);
                 let common = a.iter().zip(b).take_while(|(a, b)| a == b).count();
                 let row = beside.get_mut(*one)?.get_mut(other / 8)?;
                 row.parts |= 1 << (other % 8);
@@ -134,12 +138,12 @@ impl Figure {
         }
         Some(Self {
             base_from_root: Rigid::new(base_from_root),
-            joints: rig.joints.iter().map(Joint::new).collect(),
-            drivers: rig.joints.iter().map(|joint| joint.driver).collect(),
+            joints: reduced.joints.iter().map(BatchJoint::new).collect(),
+            couplings: reduced.joints.iter().map(|joint| joint.coupling).collect(),
             parts,
             beside,
-            stride: levers.iter().map(Vec::len).max().unwrap_or_default() + 2,
-            levers,
+            stride: ancestors.iter().map(Vec::len).max().unwrap_or_default() + 2,
+            ancestors,
         })
     }
 
@@ -148,24 +152,24 @@ impl Figure {
         let parts = solids.map(|solid| {
             let long = solid.centre.norm() + solid.reach();
             let slack = 2.0 * (4.0 * TURNED + MOVED + TURNED * long + MOVED);
-            if long <= LONG { Part::new((0, 0), solid, slack) } else { None }
+            if long <= LONG { BatchPart::new((0, 0), solid, slack) } else { None }
         });
-        let parts = parts.collect::<Option<Vec<Part>>>()?;
+        let parts = parts.collect::<Option<Vec<BatchPart>>>()?;
         let beside = vec![vec![]; parts.len()];
         let base_from_root = Rigid::new(&Isometry3::identity());
         Some(Self {
             base_from_root,
             joints: vec![],
-            drivers: vec![],
+            couplings: vec![],
             parts,
             beside,
-            levers: vec![vec![]],
+            ancestors: vec![vec![]],
             stride: 2,
         })
     }
 
     /// The root's frame at some poses, at most eight, the first again for what is left; `None` where one is too far away.
-    pub(crate) fn at(&self, poses: &[Isometry3<f64>]) -> Option<Eight> {
+    pub(crate) fn at(&self, poses: &[Isometry3<f64>]) -> Option<Batch8> {
         let mut root = [[[0.0; 8]; 3]; 4];
         let first = poses.first()?;
         for lane in 0..8 {
@@ -181,7 +185,7 @@ impl Figure {
                 }
             }
         }
-        Some(Eight { root: Some(root), ..self.eight() })
+        Some(Batch8 { root: Some(root), ..self.batch() })
     }
 
     /// One more than the most joints that move a part, and one more.
@@ -190,8 +194,8 @@ impl Figure {
     }
 
     /// Eight times the same state, which is nowhere yet.
-    pub(crate) fn eight(&self) -> Eight {
-        Eight {
+    pub(crate) fn batch(&self) -> Batch8 {
+        Batch8 {
             base: [[0.0; 8]; 3],
             root: None,
             positions: vec![[0.0; 8]; self.joints.len()],
@@ -205,14 +209,14 @@ impl Figure {
     }
 
     /// Sets one of eight states; whether it is within what is accurate. The base is seen from the origin.
-    pub(crate) fn set(&self, eight: &mut Eight, lane: usize, base: [f64; 3], joints: &[f64]) -> bool {
+    pub(crate) fn set(&self, batch: &mut Batch8, lane: usize, base: [f64; 3], joints: &[f64]) -> bool {
         let mut is_within = true;
-        for ((slots, value), limit) in eight.base.iter_mut().zip(base).zip([FAR, FAR, TURNS]) {
+        for ((slots, value), limit) in batch.base.iter_mut().zip(base).zip([FAR, FAR, TURNS]) {
             is_within &= value.abs() <= limit;
             slots.get_mut(lane).into_iter().for_each(|slot| *slot = value as f32);
         }
-        for (slots, driver) in eight.positions.iter_mut().zip(&self.drivers) {
-            let position = driver.position(joints);
+        for (slots, coupling) in batch.positions.iter_mut().zip(&self.couplings) {
+            let position = coupling.position(joints);
             is_within &= position.abs() <= TURNS;
             slots.get_mut(lane).into_iter().for_each(|slot| *slot = position as f32);
         }
@@ -223,7 +227,7 @@ impl Figure {
     /// way to either side; whether the way is within what is accurate.
     pub(crate) fn set_on(
         &self,
-        eight: &mut Eight,
+        batch: &mut Batch8,
         [(from, from_joints), (to, to_joints)]: [([f64; 3], &[f64]); 2],
         shares: &[f64; 8],
         half: f64,
@@ -235,18 +239,18 @@ impl Figure {
                 *slot = (from + (to - from) * share) as f32;
             }
         };
-        let [x, y, yaw] = &mut eight.base;
+        let [x, y, yaw] = &mut batch.base;
         let [from_x, from_y, from_yaw] = from;
         let [to_x, to_y, to_yaw] = to;
         set(x, [from_x, to_x], FAR);
         set(y, [from_y, to_y], FAR);
         set(yaw, [from_yaw, to_yaw], TURNS);
-        for (slots, driver) in eight.positions.iter_mut().zip(&self.drivers) {
-            set(slots, [driver.position(from_joints), driver.position(to_joints)], TURNS);
+        for (slots, coupling) in batch.positions.iter_mut().zip(&self.couplings) {
+            set(slots, [coupling.position(from_joints), coupling.position(to_joints)], TURNS);
         }
         let change = |from: f64, to: f64| (to - from) * half;
         let base = [change(from_x, to_x), change(from_y, to_y), change(from_yaw, to_yaw)];
-        self.spread(eight, base, |at| {
+        self.set_motion(batch, base, |at| {
             from_joints.get(at).zip(to_joints.get(at)).map_or(0.0, |(from, to)| change(*from, *to))
         });
         is_within
@@ -254,17 +258,19 @@ impl Figure {
 
     /// Says that the states are on a way between free ones, and how far the robot goes from each: by a change of the base, and of
     /// the tree's variables.
-    pub(crate) fn spread(&self, eight: &mut Eight, base: [f64; 3], change: impl Fn(usize) -> f64) {
-        eight.is_way = true;
+    pub(crate) fn set_motion(&self, batch: &mut Batch8, base: [f64; 3], change: impl Fn(usize) -> f64) {
+        batch.is_way = true;
         // Rounded up.
         let single = |value: f64| (value.abs() * (1.0 + 1e-5)) as f32;
-        for ((slot, signed), driver) in eight.amounts.iter_mut().zip(&mut eight.changes).zip(&self.drivers) {
-            let change = change(driver.variable) * driver.multiplier;
+        for ((slot, signed), coupling) in
+            batch.amounts.iter_mut().zip(&mut batch.changes).zip(&self.couplings)
+        {
+            let change = change(coupling.dof) * coupling.multiplier;
             (*slot, *signed) = (single(change), change as f32);
         }
         let [x, y, yaw] = base;
-        eight.shift = base.map(|value| value as f32);
-        (eight.slides, eight.turns) = (single((x * x + y * y).sqrt()), single(yaw));
+        batch.shift = base.map(|value| value as f32);
+        (batch.slides, batch.turns) = (single((x * x + y * y).sqrt()), single(yaw));
     }
 }
 
@@ -275,13 +281,13 @@ impl Rigid {
     }
 }
 
-impl Joint {
-    fn new(joint: &RigJoint) -> Self {
+impl BatchJoint {
+    fn new(joint: &ReducedJoint) -> Self {
         let before = joint.before.rotation.to_rotation_matrix().into_inner();
         let cross = joint.axis.cross_matrix();
         Self {
             parent: joint.parent,
-            slides: joint.slides,
+            is_prismatic: joint.is_prismatic,
             at: single(&joint.before.translation.vector),
             axis: single(&(before * joint.axis.into_inner())),
             still: columns(&before),
@@ -291,7 +297,7 @@ impl Joint {
     }
 }
 
-impl Part {
+impl BatchPart {
     /// Whether a joint of which the frame's bit is set moves one of two and not the other.
     #[inline(always)]
     pub(super) fn is_moved_against(&self, other: &Self, moving: u64) -> bool {
@@ -329,12 +335,12 @@ impl Part {
             far: ((solid.centre.norm() + solid.reach()) * (1.0 + 1e-6)) as f32,
             slack: slack as f32,
             is_round: matches!(solid.shape, Shape::Cylinder { .. }),
-            slab: (!is_capsule).then(|| (axes, single(&sides))),
+            obb: (!is_capsule).then(|| (axes, single(&sides))),
         })
     }
 }
 
-impl Eight {
+impl Batch8 {
     /// Bits of the frames whose joints move on the way.
     pub(super) fn moving(&self) -> u64 {
         let moving = self.amounts.iter().zip(1..).filter(|(amount, _)| **amount > 0.0);

@@ -9,7 +9,10 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Cell, Drift, Over, Stretch, Tips, based, frames, values_over, wave, wrist_held};
+use super::{
+    CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet, based, carried_wrist_interval,
+    dof_intervals, frames, wave,
+};
 use crate::inverse::ParallelArm;
 use crate::inverse::screw::ROUNDED;
 use crate::inverse::subproblem::turned;
@@ -17,12 +20,12 @@ use crate::trigonometry::{acos, atan2};
 
 impl ParallelArm {
     /// Cells that hold all solutions with the base anywhere; none where the arm does not stand upright, or where the axes are not square.
-    pub(crate) fn cells(&self) -> Vec<Cell> {
+    pub(crate) fn cells(&self) -> Vec<IkCell> {
         let [up, across, _, _, five, six] = &self.axes;
         let is_square = up.z > 1.0 - ROUNDED * ROUNDED
             && [(up, across), (across, five), (five, six)].iter().all(|(a, b)| a.dot(b).abs() < ROUNDED);
         let ways = if is_square { 0..4 } else { 0..0 };
-        ways.map(|way| Cell { way, middle: [0.0; 3], half: [PI; 3] }).collect()
+        ways.map(|branch| IkCell { branch, middle: [0.0; 3], half: [PI; 3] }).collect()
     }
 
     /// How far something goes for a change of each parameter of a cell, about, in m; that of the base counts less, because it is
@@ -33,21 +36,22 @@ impl ParallelArm {
     }
 
     /// What is known of a cell, with the base so high above the floor.
-    pub(crate) fn over(&self, tips: &Tips, height: f64, cell: &Cell) -> Over {
+    pub(crate) fn enclose(&self, tips: &PoseSet, height: f64, cell: &IkCell) -> IntervalSolution {
         let map_from_tip = &tips.map_from_tip;
         let ([heading, lean, yaw], [headings, leans, yaws]) = (cell.middle, cell.half);
         let [_, across, _, _, five, six] = self.axes;
         let [to_two, to_three, to_four, to_centre] = self.offsets;
         let centre = (map_from_tip * nalgebra::Point3::from(self.centre_in_tip)).coords;
         // The wrist's centre may be off as well, and the hand turned.
-        let (moves, tilts) = (tips.drift.along(&centre, &Vector3::z()), tips.drift.angle());
+        let (moves, tilts) = (tips.displacement.along(&centre, &Vector3::z()), tips.displacement.angle());
         let facing = crate::trigonometry::turn(&Vector3::z_axis(), heading);
         let left = facing.inverse() * map_from_tip.rotation * self.base_from_tip.inverse();
-        let carrier = Drift::none().spun(Vector3::z(), Vector3::zeros(), headings);
-        let (turns, drifts) = ([&facing, &left], [&carrier, &tips.drift.turning()]);
-        let Some([[sum, sums], fifth, sixth]) = wrist_held(&[across, five, six], turns, drifts, cell.way & 1)
+        let carrier = DisplacementBound::none().spun(Vector3::z(), Vector3::zeros(), headings);
+        let (turns, displacements) = ([&facing, &left], [&carrier, &tips.displacement.turning()]);
+        let Some([[sum, sums], fifth, sixth]) =
+            carried_wrist_interval(&[across, five, six], turns, displacements, cell.branch & 1)
         else {
-            return Over::Unclear;
+            return IntervalSolution::Unknown;
         };
         // What leads from the elbow and from the fourth axis on, and the upper arm as it would be at 0.
         let (end, fore) = (turned(&across, sum, &to_centre), turned(&across, lean, &to_four));
@@ -59,12 +63,12 @@ impl ParallelArm {
         let rise = centre.z - height - self.first.z - to_two.z - end.z - fore.z;
         let (low, high) = ((rise - rises) / long, (rise + rises) / long);
         if !tips.is_any && (low > 1.0 + ROUNDED || high < -1.0 - ROUNDED) {
-            return Over::Nothing;
+            return IntervalSolution::Empty;
         }
         let (least, greatest) = (acos(high), acos(low));
         let ahead = across.cross(&Vector3::z());
         let upright = atan2(to_three.dot(&ahead), to_three.z);
-        let sign = if cell.way & 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if cell.branch & 2 == 0 { 1.0 } else { -1.0 };
         let (raise, raises) = (sign * (least + greatest) / 2.0 - upright, (greatest - least) / 2.0 + 1e-7);
         let upper = turned(&across, raise, &to_three);
         let [_, third, fourth] = self.signs;
@@ -76,7 +80,9 @@ impl ParallelArm {
             fifth,
             sixth,
         ];
-        let Some(values) = values_over(&self.chain, &positions, tips.is_any) else { return Over::Nothing };
+        let Some(values) = dof_intervals(&self.chain, &positions, tips.is_any) else {
+            return IntervalSolution::Empty;
+        };
         // Back from the wrist's centre to the first axis.
         let four = centre - facing * end;
         let elbow = four - facing * fore;
@@ -94,28 +100,28 @@ impl ParallelArm {
         // All in the plane of the arm turns about one direction.
         let aside = facing * across;
         let square = |vector: &Vector3<f64>| facing * (vector - across * across.dot(vector));
-        let held = tips.drift.carried(&centre);
-        let heads = |drift: Drift| drift.spun(Vector3::z(), centre, headings);
+        let held = tips.displacement.carried(&centre);
+        let heads = |displacement: DisplacementBound| displacement.spun(Vector3::z(), centre, headings);
         let wrist = held.swung(&aside, &square(&end), sums);
         let forearm = wrist.swung(&aside, &square(&fore), leans);
         let shoulder = forearm.swung(&aside, &square(&upper), raises).level();
-        let drifts = [
+        let displacements = [
             heads(shoulder),
             heads(forearm.spun(aside, elbow, raises)),
             heads(wrist.spun(aside, four, leans)),
             heads(held.spun(aside, centre, sums)),
             held.turned(centre, tilts).spun(axis, centre, rolls),
-            tips.drift,
+            tips.displacement,
         ];
         // The base turns about the first axis, which goes about the wrist's centre.
         let out = first - centre;
         let out = Vector3::new(out.x, out.y, 0.0);
         let more = headings.min(2.0) * shoulder.point(&first, 0.0);
-        let base_drift = shoulder.swung(&Vector3::z(), &out, headings).shifted(more).level();
-        Over::Near(Box::new(Stretch {
+        let base_displacement = shoulder.swung(&Vector3::z(), &out, headings).shifted(more).level();
+        IntervalSolution::Enclosed(Box::new(CellEnclosure {
             base,
-            base_drift: base_drift.spun(Vector3::z(), first, yaws),
-            frames: placed.into_iter().zip(drifts).collect(),
+            base_displacement: base_displacement.spun(Vector3::z(), first, yaws),
+            frames: placed.into_iter().zip(displacements).collect(),
             values,
             short: [rise.abs() - long, rises],
             is_joined: false,

@@ -10,7 +10,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 
-use super::{Cell, Drift, Over, Stretch, Tips, azimuth, frames, values_over, wrist_over};
+use super::{
+    CellEnclosure, DisplacementBound, IkCell, IntervalSolution, PoseSet, azimuth, dof_intervals, frames,
+    wrist_interval,
+};
 use crate::inverse::SevenArm;
 use crate::inverse::seven_arm::between;
 use crate::inverse::subproblem::{angle_between, turned};
@@ -21,10 +24,10 @@ const ROUNDED: f64 = 1e-7;
 
 impl SevenArm {
     /// Cells that hold all solutions.
-    pub(crate) fn cells(&self) -> Vec<Cell> {
+    pub(crate) fn cells(&self) -> Vec<IkCell> {
         let (lower, upper) = self.last_span();
         let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0);
-        (0..8).map(|way| Cell { way, middle: [middle, 0.0, 0.0], half: [half, 0.0, 0.0] }).collect()
+        (0..8).map(|branch| IkCell { branch, middle: [middle, 0.0, 0.0], half: [half, 0.0, 0.0] }).collect()
     }
 
     /// How far something goes for a change of each parameter of a cell, about, in m.
@@ -33,18 +36,18 @@ impl SevenArm {
     }
 
     /// What is known of a cell, with the base at a pose.
-    pub(crate) fn over(
+    pub(crate) fn enclose(
         &self,
-        tips: &Tips,
+        tips: &PoseSet,
         map_from_base: &Isometry3<f64>,
         base: [f64; 3],
-        cell: &Cell,
-    ) -> Over {
+        cell: &IkCell,
+    ) -> IntervalSolution {
         let [h1, h2, h3, h4, h5, h6, h7] = &self.axes;
         let ([value, ..], [values, ..]) = (cell.middle, cell.half);
-        let Some(joint) = self.chain.joints.last() else { return Over::Unclear };
-        let last = joint.driver.multiplier * value + joint.driver.offset;
-        let lasts = values * joint.driver.multiplier.abs();
+        let Some(joint) = self.chain.joints.last() else { return IntervalSolution::Unknown };
+        let last = joint.coupling.multiplier * value + joint.coupling.offset;
+        let lasts = values * joint.coupling.multiplier.abs();
         let base_from_tip = map_from_base.inverse() * tips.map_from_tip;
         let moved = base_from_tip * self.base_from_tip.inverse();
         let back = turn(&Unit::new_unchecked(*h7), -last);
@@ -54,8 +57,8 @@ impl SevenArm {
         let wrist_in_map = (map_from_base * Point3::from(reached_at)).coords;
         // The wrist turns about the last axis, and goes where the tip does.
         let swing = h7.cross(&(self.wrist - self.last)).norm() * lasts.min(2.0);
-        let moves = swing + tips.drift.point(&wrist_in_map, swing) + ROUNDED;
-        let tilts = lasts + tips.drift.angle();
+        let moves = swing + tips.displacement.point(&wrist_in_map, swing) + ROUNDED;
+        let tilts = lasts + tips.displacement.angle();
 
         // The elbow.
         let reached = reached_at - self.shoulder;
@@ -63,13 +66,13 @@ impl SevenArm {
         let (long, one, two) = (reached.norm(), upper.norm(), fore.norm());
         let (near, far) = ((long - moves).max(0.0), long + moves);
         if near > one + two + ROUNDED || far < (one - two).abs() - ROUNDED {
-            return Over::Nothing;
+            return IntervalSolution::Empty;
         }
         let bent =
             |long: f64| acos(((one * one + two * two - long * long) / (2.0 * one * two)).clamp(-1.0, 1.0));
         let (least, greatest) = (bent(near), bent(far));
         let straight = atan2(upper.dot(&h4.cross(&fore)), upper.dot(&fore));
-        let sign = if cell.way & 1 == 0 { 1.0 } else { -1.0 };
+        let sign = if cell.branch & 1 == 0 { 1.0 } else { -1.0 };
         let (q4, fourth) = (straight + sign * (least + greatest) / 2.0, (greatest - least) / 2.0 + ROUNDED);
         let to_wrist = turned(h4, q4, &fore) - upper;
         let leaning = turned(h4, q4, h5);
@@ -104,12 +107,12 @@ impl SevenArm {
                 (f64::min(least, next), f64::max(most, next))
             });
             if least > 1.0 + ROUNDED || most < -1.0 - ROUNDED {
-                return Over::Nothing;
+                return IntervalSolution::Empty;
             }
             (alo, ahi) = (acos(most.clamp(-1.0, 1.0)), acos(least.clamp(-1.0, 1.0)));
         }
         let ahead = atan2(seen.dot(&h6.cross(h5)), seen.dot(h5));
-        let sign = if cell.way & 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if cell.branch & 2 == 0 { 1.0 } else { -1.0 };
         let q6 = -(ahead + sign * (alo + ahi) / 2.0);
         let sixth = ((ahi - alo) / 2.0 + azimuth(polar, off) + ROUNDED).min(PI);
 
@@ -127,12 +130,15 @@ impl SevenArm {
         let square = rest * h6;
         let q5 = angle_between(h5, h6, &square);
         let fifths = azimuth(acos(h5.dot(&square)), (turns + fourth + tilts + sixth).min(PI));
-        let Some([first, second, third]) = wrist_over(&[*h1, *h2, *h3], &shoulder, turns, cell.way >> 2)
+        let Some([first, second, third]) =
+            wrist_interval(&[*h1, *h2, *h3], &shoulder, turns, cell.branch >> 2)
         else {
-            return Over::Unclear;
+            return IntervalSolution::Unknown;
         };
         let positions = [first, second, third, [q4, fourth], [q5, fifths], [q6, sixth], [last, lasts]];
-        let Some(known) = values_over(&self.chain, &positions, tips.is_any) else { return Over::Nothing };
+        let Some(known) = dof_intervals(&self.chain, &positions, tips.is_any) else {
+            return IntervalSolution::Empty;
+        };
 
         // From the base up to the forearm, from the tip down to the wrist.
         let mut placed = frames(&self.chain, *map_from_base, &known);
@@ -150,19 +156,22 @@ impl SevenArm {
             let found = self.chain.joints.get(at).zip(placed.get(at));
             found.map_or(Vector3::z(), |(joint, pose)| pose * joint.axis.into_inner())
         };
-        let drifts = [
-            Drift::none().spun(axis(0), at, first[1]),
-            Drift::none().spun(axis(1), at, second[1]).spun(axis(0), at, first[1]),
-            Drift::none().turned(at, turns),
-            Drift::none().turned(elbow, turns + fourth).shifted(turns.min(2.0) * one),
-            Drift::none().turned(wrist_in_map, tilts).spun(axis(5), wrist_in_map, sixth).shifted(moves),
-            Drift::none().turned(wrist_in_map, tilts).shifted(moves),
-            tips.drift,
+        let displacements = [
+            DisplacementBound::none().spun(axis(0), at, first[1]),
+            DisplacementBound::none().spun(axis(1), at, second[1]).spun(axis(0), at, first[1]),
+            DisplacementBound::none().turned(at, turns),
+            DisplacementBound::none().turned(elbow, turns + fourth).shifted(turns.min(2.0) * one),
+            DisplacementBound::none()
+                .turned(wrist_in_map, tilts)
+                .spun(axis(5), wrist_in_map, sixth)
+                .shifted(moves),
+            DisplacementBound::none().turned(wrist_in_map, tilts).shifted(moves),
+            tips.displacement,
         ];
-        Over::Near(Box::new(Stretch {
+        IntervalSolution::Enclosed(Box::new(CellEnclosure {
             base,
-            base_drift: Drift::none(),
-            frames: placed.into_iter().zip(drifts).collect(),
+            base_displacement: DisplacementBound::none(),
+            frames: placed.into_iter().zip(displacements).collect(),
             values: known,
             short: [0.0; 2],
             is_joined: false,

@@ -5,27 +5,27 @@ use std::ops::Range;
 use motet_robots::urdf::{JointKind, Urdf};
 use nalgebra::Isometry3;
 
-use super::part::{Part, parts};
+use super::link_solid::{LinkSolid, parts};
 use super::solid::Solid;
-use crate::kinematics::{Tree, spread_over};
+use crate::kinematics::{KinematicTree, quasi_random_in};
 
 /// Configurations that are looked at to find links which always touch.
 const SAMPLES: usize = 64;
 
-/// What of a robot can touch something. Poses are those of [`Tree::root_from_links`], in any frame.
+/// What of a robot can touch something. Poses are those of [`KinematicTree::root_from_links`], in any frame.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Body {
-    parts: Vec<Part>,
+pub struct CollisionModel {
+    parts: Vec<LinkSolid>,
     /// Pairs of parts, by index, that may not touch.
     pairs: Vec<[usize; 2]>,
     /// For each link the links that it is fixed to, by the first of them.
     groups: Vec<usize>,
-    unseen: Vec<usize>,
+    uncovered_links: Vec<usize>,
 }
 
 /// What is nearest.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Near {
+pub struct NearestPair {
     /// Distance in m; 0 or less where they overlap.
     pub metres: f64,
     /// Index of one part.
@@ -34,7 +34,7 @@ pub struct Near {
     pub other: usize,
 }
 
-impl Body {
+impl CollisionModel {
     /// The body of a URDF; its shapes as they are, but for meshes.
     ///
     /// Parts of a link and of links that are fixed to each other never count, nor links next to each other at a joint, nor
@@ -42,13 +42,13 @@ impl Body {
     /// the limits are built into each other, and do not count either. O(parts²) where most are apart in the first of these, else
     /// O(parts² × 64).
     #[must_use]
-    pub fn new(urdf: &Urdf, tree: &Tree, allowed: &[[usize; 2]]) -> Self {
+    pub fn new(urdf: &Urdf, tree: &KinematicTree, allowed: &[[usize; 2]]) -> Self {
         let (groups, next_to) = groups(urdf);
-        let mut body = Self { parts: vec![], pairs: vec![], groups, unseen: vec![] };
+        let mut body = Self { parts: vec![], pairs: vec![], groups, uncovered_links: vec![] };
         for (link, at) in urdf.links.iter().zip(0..) {
             let (found, is_complete) = parts(link, at);
             body.parts.extend(found);
-            body.unseen.extend((!is_complete).then_some(at));
+            body.uncovered_links.extend((!is_complete).then_some(at));
         }
         let sorted = |mut pairs: Vec<[usize; 2]>| {
             pairs.sort_unstable();
@@ -59,12 +59,12 @@ impl Body {
             pairs.binary_search(&[one, other]).is_ok() || pairs.binary_search(&[other, one]).is_ok()
         };
         // All of the limits: what follows a joint may go on where that has turned once.
-        let ranges = tree.variables().iter().map(|known| known.limits.unwrap_or(known.span()));
-        let samples = (0..SAMPLES).map(|sample| spread_over(ranges.clone(), sample));
+        let ranges = tree.dofs().iter().map(|known| known.limits.unwrap_or(known.sampling_range()));
+        let samples = (0..SAMPLES).map(|sample| quasi_random_in(ranges.clone(), sample));
         let poses: Vec<_> = samples.map(|sample| tree.root_from_links(&sample)).collect();
         let placed: Vec<Vec<Solid>> = poses.iter().map(|poses| body.placed(poses)).collect();
         // Parts are in the order of their links.
-        let of_links: Vec<&[Part]> = body.parts.chunk_by(|one, other| one.link == other.link).collect();
+        let of_links: Vec<&[LinkSolid]> = body.parts.chunk_by(|one, other| one.link == other.link).collect();
         let mut first = 0;
         let of_links: Vec<(usize, Range<usize>)> = of_links
             .into_iter()
@@ -96,7 +96,7 @@ impl Body {
 
     /// The body with one more solid that a link carries. It may touch no link but those of `exempt`.
     #[must_use]
-    pub fn carrying(&self, part: Part, exempt: impl Fn(usize) -> bool) -> Self {
+    pub fn with_attached(&self, part: LinkSolid, exempt: impl Fn(usize) -> bool) -> Self {
         let mut body = self.clone();
         let at = body.parts.len();
         let others = self.parts.iter().zip(0..).filter(|(other, _)| !exempt(other.link));
@@ -107,7 +107,7 @@ impl Body {
 
     /// The parts.
     #[must_use]
-    pub fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[LinkSolid] {
         &self.parts
     }
 
@@ -119,7 +119,7 @@ impl Body {
 
     /// Whether two links are one, or fixed to each other.
     #[must_use]
-    pub fn is_rigid(&self, one: usize, other: usize) -> bool {
+    pub fn is_rigidly_attached(&self, one: usize, other: usize) -> bool {
         self.group(one) == self.group(other)
     }
 
@@ -129,8 +129,8 @@ impl Body {
 
     /// Links with a mesh, which no solid stands for: what is said of the robot does not hold for them.
     #[must_use]
-    pub fn unseen(&self) -> &[usize] {
-        &self.unseen
+    pub fn uncovered_links(&self) -> &[usize] {
+        &self.uncovered_links
     }
 
     /// The parts where the links are, in their order.
@@ -142,10 +142,10 @@ impl Body {
 
     /// The two parts that are nearest to each other, of those that may not touch. O(pairs).
     #[must_use]
-    pub fn to_itself(&self, placed: &[Solid]) -> Option<Near> {
+    pub fn nearest_self_pair(&self, placed: &[Solid]) -> Option<NearestPair> {
         let near = self.pairs.iter().filter_map(|[part, other]| {
             let metres = placed.get(*part)?.distance(placed.get(*other)?);
-            Some(Near { metres, part: *part, other: *other })
+            Some(NearestPair { metres, part: *part, other: *other })
         });
         near.reduce(|best, next| if next.metres < best.metres { next } else { best })
     }

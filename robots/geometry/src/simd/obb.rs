@@ -4,47 +4,47 @@ use nalgebra::Vector3;
 use pulp::Simd;
 
 use super::FAR;
-use super::bounds::{Bound, Bounds};
-use super::number::{Number, Vector};
+use super::aabb::{Aabb, AabbRows};
+use super::lanes::{Lanes, Lanes3};
 use crate::collision::{Shape, Solid};
 
 /// A box that holds a thing, in m from the origin of a neighbourhood.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slab {
+pub(crate) struct Obb {
     /// Index of the entity in the scene.
     pub(crate) entity: usize,
     pub(super) centre: [f32; 3],
     pub(super) axes: [[f32; 3]; 3],
     pub(super) half: [f32; 3],
     /// The box around it along the directions of the map.
-    pub(super) bound: Bound,
+    pub(super) bound: Aabb,
     /// Whether the thing is that box, and so small and near that a tenth of a millimetre is more than it is rounded by.
     pub(super) is_exact: bool,
 }
 
 /// What stands around.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Slabs {
-    pub(super) all: Vec<Slab>,
-    pub(super) bounds: Bounds,
+pub(crate) struct ObbSet {
+    pub(super) all: Vec<Obb>,
+    pub(super) bounds: AabbRows,
 }
 
-impl FromIterator<Slab> for Slabs {
-    fn from_iter<I: IntoIterator<Item = Slab>>(slabs: I) -> Self {
-        let all: Vec<Slab> = slabs.into_iter().collect();
-        Self { bounds: all.iter().map(|slab| slab.bound).collect(), all }
+impl FromIterator<Obb> for ObbSet {
+    fn from_iter<I: IntoIterator<Item = Obb>>(obbs: I) -> Self {
+        let all: Vec<Obb> = obbs.into_iter().collect();
+        Self { bounds: all.iter().map(|obb| obb.bound).collect(), all }
     }
 }
 
-impl Slab {
+impl Obb {
     /// Positive where a point is farther than `wanted` for certain: by the box along the directions of the map.
     #[inline(always)]
-    pub(super) fn aside<S: Simd>(&self, simd: S, point: Vector<S>, wanted: Number<S>) -> Number<S> {
-        let (Vector([x, y, z]), Vector([a, b, c]), Vector([d, e, f])) =
-            (point, Vector::splat(simd, self.bound.low), Vector::splat(simd, self.bound.high));
-        let x = (a - x).most(x - d).above_zero();
-        let y = (b - y).most(y - e).above_zero();
-        let z = (c - z).most(z - f).above_zero();
+    pub(super) fn aside<S: Simd>(&self, simd: S, point: Lanes3<S>, wanted: Lanes<S>) -> Lanes<S> {
+        let (Lanes3([x, y, z]), Lanes3([a, b, c]), Lanes3([d, e, f])) =
+            (point, Lanes3::splat(simd, self.bound.low), Lanes3::splat(simd, self.bound.high));
+        let x = (a - x).max(x - d).max_zero();
+        let y = (b - y).max(y - e).max_zero();
+        let z = (c - z).max(z - f).max_zero();
         x * x + y * y + z * z - wanted * wanted
     }
 
@@ -66,7 +66,7 @@ impl Slab {
             centre: single(&centre),
             axes: [0, 1, 2].map(|at: usize| solid.axes.get(at).map_or([0.0; 3], single)),
             half: single(&half),
-            bound: Bound { low: single(&low.add_scalar(-1e-5)), high: single(&high.add_scalar(1e-5)) },
+            bound: Aabb { low: single(&low.add_scalar(-1e-5)), high: single(&high.add_scalar(1e-5)) },
             is_exact: matches!(solid.shape, Shape::Box(_)) && size < 50.0,
         })
     }

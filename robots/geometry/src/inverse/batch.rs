@@ -9,10 +9,10 @@
 use nalgebra::{Isometry3, Vector3};
 use wide::f32x8;
 
-use super::lanes::{above, atan2};
 use super::lift_arm::LiftArm;
 use super::subproblem::turned;
-use crate::kinematics::Variable;
+use super::wide_angles::{above, atan2};
+use crate::kinematics::Dof;
 use crate::trigonometry::{atan2 as atan2_of_one, sin_cos, wrapped};
 
 /// Poses that are looked at at once.
@@ -20,20 +20,20 @@ pub const LANES: usize = 8;
 
 /// What of an arm its candidates need; made once for a query.
 #[derive(Clone, Debug)]
-pub struct Manifold<'a> {
+pub struct BatchSolver<'a> {
     arm: &'a LiftArm,
     /// From the third axis back to the first, about the second.
     bend: f32,
     /// Vectors whose images show the angles: n₃, n₂ and n₂ × n₃.
     shown: [Vector3<f64>; 3],
     /// Of the lift and of the wrist.
-    lift: Limits,
-    wrist: [Limits; 3],
+    lift: JointScale,
+    wrist: [JointScale; 3],
 }
 
 /// Eight poses of the tip, each with a yaw of the base from which others are counted.
 #[derive(Clone, Debug)]
-pub struct Poses {
+pub struct TipBatch {
     /// The wrist's centre, in m.
     centre: [f32x8; 3],
     /// Where what shows the angles points.
@@ -45,7 +45,7 @@ pub struct Poses {
 
 /// How a joint's value follows from its angle, and where it has to be.
 #[derive(Clone, Copy, Debug)]
-struct Limits {
+struct JointScale {
     scale: f32,
     offset: f32,
     lower: f32,
@@ -54,7 +54,7 @@ struct Limits {
 
 /// Candidates at one value of the shoulder, one for each of eight poses.
 #[derive(Clone, Copy, Debug)]
-pub struct Block {
+pub struct CandidateBatch {
     /// Value of the shoulder's variable.
     pub shoulder: f64,
     /// Values of the lift's variable.
@@ -64,19 +64,19 @@ pub struct Block {
     /// The base's places, x then y, in m from the origin of the poses.
     pub base: [f32x8; 2],
     /// The two ways to hold the wrist.
-    pub branches: [Branch; 2],
+    pub branches: [WristBranch; 2],
 }
 
 /// One way to hold the wrist.
 #[derive(Clone, Copy, Debug)]
-pub struct Branch {
+pub struct WristBranch {
     /// Values of the wrist's variables.
     pub values: [f32x8; 3],
     /// A bit for each lane, the first lowest: whether all values are within the limits, to about 1e-6 rad.
     pub allowed: u8,
 }
 
-impl<'a> Manifold<'a> {
+impl<'a> BatchSolver<'a> {
     /// What an arm's candidates need.
     #[must_use]
     pub fn new(arm: &'a LiftArm) -> Self {
@@ -85,8 +85,8 @@ impl<'a> Manifold<'a> {
         Self {
             bend: bend as f32,
             shown: [three, two, two.cross(&three)],
-            lift: Limits::new(arm, 0),
-            wrist: std::array::from_fn(|at| Limits::new(arm, at + 2)),
+            lift: JointScale::new(arm, 0),
+            wrist: std::array::from_fn(|at| JointScale::new(arm, at + 2)),
             arm,
         }
     }
@@ -94,7 +94,7 @@ impl<'a> Manifold<'a> {
     /// Poses, seen from an origin on the floor, each with the yaw from which others are counted, in rad: at most eight, and of
     /// fewer the first stands in the lanes that are left.
     #[must_use]
-    pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> Poses {
+    pub fn poses(&self, poses: &[(Isometry3<f64>, f64)], [x, y]: [f64; 2]) -> TipBatch {
         let lane = |lane: usize| poses.get(lane).or(poses.first()).copied().unwrap_or_default();
         let all: [(Isometry3<f64>, f64); LANES] = std::array::from_fn(lane);
         let lanes = |each: &dyn Fn(&Isometry3<f64>) -> Vector3<f64>| {
@@ -108,7 +108,7 @@ impl<'a> Manifold<'a> {
         let back = self.arm.base_from_tip.inverse();
         let yaws = all.map(|(_, yaw)| yaw);
         let waves = yaws.map(sin_cos);
-        Poses {
+        TipBatch {
             centre: lanes(&|pose| self.arm.centre(pose).coords - Vector3::new(x, y, 0.0)),
             shown: self.shown.map(|vector| lanes(&|pose| pose.rotation * (back * vector))),
             yaws,
@@ -119,12 +119,12 @@ impl<'a> Manifold<'a> {
 
     /// The candidates with the base turned on by `further` rad from the yaw of each pose, at a value of the shoulder's variable.
     #[must_use]
-    pub fn block(&self, poses: &Poses, further: f64, shoulder: f64) -> Block {
+    pub fn block(&self, poses: &TipBatch, further: f64, shoulder: f64) -> CandidateBatch {
         let splat = f32x8::splat;
         let (sin, cos) = sin_cos(further);
         let (sin, cos) = (splat(sin as f32), splat(cos as f32));
         let (sin, cos) = (poses.sin * cos + poses.cos * sin, poses.cos * cos - poses.sin * sin);
-        let held = Shoulder::new(self.arm, shoulder);
+        let held = ShoulderPose::new(self.arm, shoulder);
         let (px, py, pz) = (splat(held.wrist.x), splat(held.wrist.y), splat(held.wrist.z));
         let [x, y, z] = poses.centre;
         let up = splat(self.arm.up as f32);
@@ -150,11 +150,11 @@ impl<'a> Manifold<'a> {
         ];
         branches.iter_mut().for_each(|branch| branch.allowed &= is_lifted as u8);
         let yaws = poses.yaws.map(|yaw| wrapped(yaw + further));
-        Block { shoulder, lift, yaws, base, branches }
+        CandidateBatch { shoulder, lift, yaws, base, branches }
     }
 
     #[inline]
-    fn branch(&self, angles: [f32x8; 3]) -> Branch {
+    fn branch(&self, angles: [f32x8; 3]) -> WristBranch {
         let mut values = angles;
         let mut allowed = 0xff;
         for (value, limits) in values.iter_mut().zip(&self.wrist) {
@@ -163,21 +163,21 @@ impl<'a> Manifold<'a> {
             allowed &= found.simd_le(f32x8::splat(limits.upper)).to_bitmask() as u8;
             *value = found;
         }
-        Branch { values, allowed }
+        WristBranch { values, allowed }
     }
 }
 
 /// The arm at a value of the shoulder.
-struct Shoulder {
+struct ShoulderPose {
     /// From the base to the wrist's centre with the lift at position 0.
     wrist: Vector3<f32>,
     /// n₁, n₂ and n₂ × n₁, as the shoulder turns them.
     frame: [Vector3<f32>; 3],
 }
 
-impl Shoulder {
+impl ShoulderPose {
     fn new(arm: &LiftArm, value: f64) -> Self {
-        let angle = arm.chain.joints.get(1).map_or(0.0, |joint| joint.driver.position(&[0.0, value]));
+        let angle = arm.chain.joints.get(1).map_or(0.0, |joint| joint.coupling.position(&[0.0, value]));
         let turn = |vector: &Vector3<f64>| turned(&arm.shoulder.axis, angle, vector);
         let [one, two, _] = &arm.wrist;
         Self {
@@ -187,16 +187,16 @@ impl Shoulder {
     }
 }
 
-impl Limits {
+impl JointScale {
     fn new(arm: &LiftArm, at: usize) -> Self {
         let (scale, offset) = arm
             .chain
             .joints
             .get(at)
-            .map_or((1.0, 0.0), |joint| (1.0 / joint.driver.multiplier, joint.driver.offset));
+            .map_or((1.0, 0.0), |joint| (1.0 / joint.coupling.multiplier, joint.coupling.offset));
         // Of a wrist joint one turn, of the lift all.
-        let range = |variable: &Variable| variable.limits.filter(|_| at == 0).unwrap_or(variable.span());
-        let (lower, upper) = arm.chain.variables.get(at).map_or((0.0, 0.0), range);
+        let range = |dof: &Dof| dof.limits.filter(|_| at == 0).unwrap_or(dof.sampling_range());
+        let (lower, upper) = arm.chain.dofs.get(at).map_or((0.0, 0.0), range);
         Self { scale: scale as f32, offset: offset as f32, lower: lower as f32, upper: upper as f32 }
     }
 }

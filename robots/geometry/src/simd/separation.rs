@@ -2,21 +2,21 @@
 
 use pulp::Simd;
 
-use super::number::{Number, Vector};
+use super::lanes::{Lanes, Lanes3};
 
 /// The axis of a capsule: its centre, and from there to an end.
 #[derive(Clone, Copy)]
-pub(super) struct Axis<S: Simd> {
-    pub(super) centre: Vector<S>,
-    pub(super) half: Vector<S>,
+pub(super) struct CapsuleAxis<S: Simd> {
+    pub(super) centre: Lanes3<S>,
+    pub(super) half: Lanes3<S>,
 }
 
 /// A box: its centre, directions, and half of its sides.
 #[derive(Clone, Copy)]
 pub(super) struct Cuboid<S: Simd> {
-    pub(super) centre: Vector<S>,
-    pub(super) axes: [Vector<S>; 3],
-    pub(super) half: Vector<S>,
+    pub(super) centre: Lanes3<S>,
+    pub(super) axes: [Lanes3<S>; 3],
+    pub(super) half: Lanes3<S>,
     /// Whether it is a cylinder along the last direction.
     pub(super) is_round: bool,
 }
@@ -24,36 +24,36 @@ pub(super) struct Cuboid<S: Simd> {
 impl<S: Simd> Cuboid<S> {
     /// Positive where another box is farther than `wanted` for certain: by the box around it along the directions of this one.
     #[inline(always)]
-    pub(super) fn aside(self, simd: S, other: Self, wanted: Number<S>) -> Number<S> {
+    pub(super) fn aside(self, simd: S, other: Self, wanted: Lanes<S>) -> Lanes<S> {
         let between = other.centre - self.centre;
         let [x, y, z] = self.axes;
-        let Vector([a, b, c]) = self.half;
-        let x = (between.dot(x).abs() - a - other.extent(simd, x)).above_zero();
-        let y = (between.dot(y).abs() - b - other.extent(simd, y)).above_zero();
-        let z = (between.dot(z).abs() - c - other.extent(simd, z)).above_zero();
+        let Lanes3([a, b, c]) = self.half;
+        let x = (between.dot(x).abs() - a - other.extent(simd, x)).max_zero();
+        let y = (between.dot(y).abs() - b - other.extent(simd, y)).max_zero();
+        let z = (between.dot(z).abs() - c - other.extent(simd, z)).max_zero();
         x * x + y * y + z * z - wanted * wanted
     }
 
     /// How far it goes from its centre in a direction of length 1.
     #[inline(always)]
-    fn extent(self, simd: S, direction: Vector<S>) -> Number<S> {
+    fn extent(self, simd: S, direction: Lanes3<S>) -> Lanes<S> {
         let [x, y, z] = self.axes;
-        let Vector([a, b, c]) = self.half;
+        let Lanes3([a, b, c]) = self.half;
         let up = direction.dot(z).abs();
         if self.is_round {
             // A little more, for directions that are not quite of length 1.
-            let aside = (Number::splat(simd, 1.00001) - up * up).above_zero().sqrt();
+            let aside = (Lanes::splat(simd, 1.00001) - up * up).max_zero().sqrt();
             return a * aside + c * up;
         }
         a * direction.dot(x).abs() + b * direction.dot(y).abs() + c * up
     }
 }
 
-impl<S: Simd> Axis<S> {
+impl<S: Simd> CapsuleAxis<S> {
     /// Positive where the axis is farther than `wanted` from a box for certain: by the boxes along the directions of that one around
     /// `pieces` pieces of the axis.
     #[inline(always)]
-    pub(super) fn beside(self, simd: S, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> Number<S> {
+    pub(super) fn beside(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>, pieces: u8) -> Lanes<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
         let off = [between.dot(x), between.dot(y), between.dot(z)];
@@ -62,14 +62,14 @@ impl<S: Simd> Axis<S> {
         let mut least = squared(simd, off, along, other.half, [share - 1.0, share]);
         for piece in 1..pieces {
             let place = (2.0 * f32::from(piece) + 1.0) * share - 1.0;
-            least = least.least(squared(simd, off, along, other.half, [place, share]));
+            least = least.min(squared(simd, off, along, other.half, [place, share]));
         }
         least - wanted * wanted
     }
 
     /// Negative where the middle or an end of the axis is nearer to a box than `wanted` for certain.
     #[inline(always)]
-    pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Number<S>) -> Number<S> {
+    pub(super) fn within(self, simd: S, other: Cuboid<S>, wanted: Lanes<S>) -> Lanes<S> {
         let between = self.centre - other.centre;
         let [x, y, z] = other.axes;
         let off = [between.dot(x), between.dot(y), between.dot(z)];
@@ -77,28 +77,34 @@ impl<S: Simd> Axis<S> {
         let middle = squared(simd, off, along, other.half, [0.0, 0.0]);
         let first = squared(simd, off, along, other.half, [-1.0, 0.0]);
         let last = squared(simd, off, along, other.half, [1.0, 0.0]);
-        middle.least(first).least(last) - wanted * wanted
+        middle.min(first).min(last) - wanted * wanted
     }
 
     /// The way from a place on another axis to one on this, of which both are nearly the nearest (Ericson 2005, 5.1.9).
     #[inline(always)]
-    pub(super) fn way(self, simd: S, other: Self) -> Vector<S> {
-        let tiny = Number::splat(simd, 1e-9);
+    pub(super) fn way(self, simd: S, other: Self) -> Lanes3<S> {
+        let tiny = Lanes::splat(simd, 1e-9);
         let between = self.centre - other.centre;
         let (d1, d2) = (self.half, other.half);
         let (a, b, e) = (d1.dot(d1) + tiny, d1.dot(d2), d2.dot(d2) + tiny);
         let (c, f) = (d1.dot(between), d2.dot(between));
         // From −1 to 1 along each, the first free of the other's ends.
-        let s = (b * f - c * e).over((a * e - b * b).most(Number::splat(simd, 1e-12))).within();
-        let t = (b * s + f).over(e).within();
-        let s = (b * t - c).over(a).within();
+        let s = (b * f - c * e).div((a * e - b * b).max(Lanes::splat(simd, 1e-12))).within();
+        let t = (b * s + f).div(e).within();
+        let s = (b * t - c).div(a).within();
         between + d1.times(s) - d2.times(t)
     }
 }
 
 /// A bit for each state in which an axis may be no farther from a box than wanted; in pieces where it matters.
 #[inline(always)]
-pub(super) fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: Number<S>, pieces: u8) -> u8 {
+pub(super) fn beside<S: Simd>(
+    simd: S,
+    axis: CapsuleAxis<S>,
+    other: Cuboid<S>,
+    wanted: Lanes<S>,
+    pieces: u8,
+) -> u8 {
     match axis.beside(simd, other, wanted, 1).not_positive() {
         0 => 0,
         bits => bits & axis.beside(simd, other, wanted, pieces).not_positive(),
@@ -110,15 +116,15 @@ pub(super) fn beside<S: Simd>(simd: S, axis: Axis<S>, other: Cuboid<S>, wanted: 
 #[inline(always)]
 fn squared<S: Simd>(
     simd: S,
-    [off_x, off_y, off_z]: [Number<S>; 3],
-    [x, y, z]: [Number<S>; 3],
-    half: Vector<S>,
+    [off_x, off_y, off_z]: [Lanes<S>; 3],
+    [x, y, z]: [Lanes<S>; 3],
+    half: Lanes3<S>,
     [place, share]: [f32; 2],
-) -> Number<S> {
-    let (place, share) = (Number::splat(simd, place), Number::splat(simd, share));
-    let Vector([a, b, c]) = half;
-    let x = ((off_x + x * place).abs() - a - x.abs() * share).above_zero();
-    let y = ((off_y + y * place).abs() - b - y.abs() * share).above_zero();
-    let z = ((off_z + z * place).abs() - c - z.abs() * share).above_zero();
+) -> Lanes<S> {
+    let (place, share) = (Lanes::splat(simd, place), Lanes::splat(simd, share));
+    let Lanes3([a, b, c]) = half;
+    let x = ((off_x + x * place).abs() - a - x.abs() * share).max_zero();
+    let y = ((off_y + y * place).abs() - b - y.abs() * share).max_zero();
+    let z = ((off_z + z * place).abs() - c - z.abs() * share).max_zero();
     x * x + y * y + z * z
 }
