@@ -1,18 +1,8 @@
-//! The standard library: kinds, fluents, measures, failures, primitives and policies, as Motet text.
-//!
-//! The texts are the whole of it: no crate knows a primitive by name, and the few other names that Rust code knows
-//! are the language items of [`lang`]. The texts are compiled once, before the declarations of the robot and of
-//! domains, which replace declarations of the same name.
-//!
-//! ```
-//! let (name, text) = motet_stdlib::FILES[0];
-//! assert_eq!(name, "stdlib/world.motet");
-//! assert!(text.contains(motet_stdlib::lang::kinds::PERSON));
-//! ```
+#![doc = include_str!("../README.md")]
 
 pub mod lang;
 
-/// The files, in the order in which they are read: name and text.
+/// Files of the library in reading order: name and text of each.
 pub const FILES: &[(&str, &str)] = &[
     ("stdlib/world.motet", include_str!("../motet/world.motet")),
     ("stdlib/motion.motet", include_str!("../motet/motion.motet")),
