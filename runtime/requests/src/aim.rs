@@ -1,4 +1,5 @@
-//! One goal of a request, named for the steps that reach it. The reader of requests yields aims; the planner reaches them.
+//! One goal of a request, named for the steps that reach it. The reader of requests yields aims; the planner
+//! reaches them.
 
 use motet_compiler::plan::Goal;
 use motet_syntax::ast::Expr;

@@ -1,9 +1,10 @@
-//! How people ask whether somebody would do something: `I was wondering whether you might possibly`, `it would be a great help
-//! if you could`, `do you think you'd be able to`. A grammar of what is composed there, since no table has all of it.
+//! Indirect requests: `I was wondering whether you might possibly`, `it would be a great help
+//! if you could`, `do you think you'd be able to`. A grammar of what is composed there, since no table has
+//! all of it.
 //!
-//! Words of wishing, thinking and politeness lead up to who is asked and the modal verb; none of them denies or bounds
-//! anything. Those that do, `not`, `unless`, `when`, are no part of it but in a few phrases that ask for the contrary of
-//! what they say.
+//! Words of wishing, thinking and politeness lead up to who is asked and the modal verb; none of them denies
+//! or bounds anything. Those that do, `not`, `unless`, `when`, are no part of it but in a few phrases that
+//! ask for the contrary of what they say.
 
 use super::inflection::{Form, base, of_past};
 use super::token::{Token, stands};
@@ -14,7 +15,8 @@ use crate::english::{
 };
 use crate::phrases::Phrases;
 
-/// Where the words end that ask somebody for something, as a number of words; what is asked for stands behind.
+/// Finds where the words end that ask somebody for something, as a number of words; what is asked for stands
+/// behind.
 pub(super) fn asking(tokens: &[Token], at: usize) -> Option<usize> {
     let (mut end, mut last) = (at, None);
     loop {
@@ -30,7 +32,8 @@ pub(super) fn asking(tokens: &[Token], at: usize) -> Option<usize> {
     Some(end + SOFTENERS.run(tokens, end) - at)
 }
 
-/// Where the words end with which somebody asks whether they may: `could I maybe`, `any chance that we might`, as a number of words.
+/// Finds where the words end with which somebody asks whether they may: `could I maybe`, `any chance that we
+/// might`, as a number of words.
 pub(super) fn before_speaker(tokens: &[Token], at: usize) -> Option<usize> {
     let (mut end, mut last, mut doubts) = (at, None, false);
     loop {
@@ -76,8 +79,8 @@ fn asks(tokens: &[Token], at: usize) -> Option<usize> {
     Some(modal + ASKED_PERSON.longest(tokens, at + modal)?)
 }
 
-/// `would you mind terribly popping it on the table`, `I'd be over the moon if you fetched it`: up to where the verb takes
-/// the place of it, and the verb.
+/// `would you mind terribly popping it on the table`, `I'd be over the moon if you fetched it`: up to where
+/// the verb takes the place of it, and the verb.
 pub(super) fn in_another_form(tokens: &[Token], at: usize) -> Option<(usize, String)> {
     // `could you see your way to fetching`: what leads up to it was passed over.
     let before = at.checked_sub(1).and_then(|at| tokens.get(at)).map_or("", Token::word);

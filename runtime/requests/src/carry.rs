@@ -6,14 +6,14 @@ use smol_str::SmolStr;
 
 use super::RequestError;
 use super::command::{BELONGS, Command, KEPT, WANTED};
-use super::errand::{all_of, any_of, hold_on, question};
+use super::errand::{all_of, any_of, hold_on, not, question};
 use super::meaning::{HOLDERS, OBJECTS, Reader};
 use super::noun::{Noun, Which};
 use super::spot::{Relation, Spot};
 use super::verb::Act;
 use super::vocabulary::Role;
 
-/// Where a command takes a thing.
+/// The target of a command that takes a thing somewhere.
 enum Target {
     /// To a place or a person.
     To(SmolStr),
@@ -36,8 +36,9 @@ impl Reader<'_> {
         }
         let mut from = match &command.from {
             Some(from) => Some(self.things(from, HOLDERS, None)?),
-            None => None,
+            None => self.opened_before(command).map(|place| vec![place]),
         };
+        let out_of = self.opened_before(command);
         let target = self.target(command, act)?;
         if let Target::Where(place) = &target {
             from.get_or_insert_with(|| vec![place.clone()]);
@@ -54,6 +55,13 @@ impl Reader<'_> {
                 }
                 let own = if is_placed { None } else { self.own_place(command, &choice) };
                 self.carry_one(act, &choice, own.as_ref().unwrap_or(&target), later)?;
+                // What is taken out and let go of for the door is not put back.
+                if let (Some(place), [thing], Persistence::Once) =
+                    (&out_of, choice.as_slice(), hold_on(later))
+                {
+                    let goal = not(fact("in", &[thing, place]));
+                    self.aim(format!("take_out_{thing}"), goal, Persistence::ToTheEnd);
+                }
                 if let Some(aim) =
                     self.said.aims.last_mut().filter(|aim| command.has(KEPT) && aim.name.starts_with("put_"))
                 {
@@ -64,8 +72,20 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Whether a place behind a thing says where it shall go or where it is: `throw the can in the bin`, `throw away the
-    /// can on the table`. Where both could be meant it is asked.
+    /// `open the fridge, take the bottle out`: out of what was opened just before.
+    fn opened_before(&self, command: &Command) -> Option<SmolStr> {
+        let is_out = command.act == Act::Take
+            && command.has("out")
+            && command.from.is_none()
+            && command.to.is_none()
+            && command.to_whom.is_none();
+        let place = self.places.last().filter(|_| is_out)?;
+        let opened = format!("open_{place}");
+        self.said.aims.iter().any(|aim| aim.name == opened).then(|| place.clone())
+    }
+
+    /// Checks whether a place behind a thing says where it shall go or where it is: `throw the can in the
+    /// bin`, `throw away the can on the table`. Where both could be meant it is asked.
     fn target(&mut self, command: &Command, act: Act) -> Result<Target, RequestError> {
         if let Some(whom) = self.thrown_to(command, act) {
             return Err(self.bring_instead(command, &whom)?);
@@ -112,7 +132,7 @@ impl Reader<'_> {
         Ok(if is_where { Target::Where(place) } else { Target::To(place) })
     }
 
-    /// What a place is, where something can be so to it.
+    /// Reads what a place is, where something can be so to it.
     pub(super) fn holder(&mut self, spot: &Spot) -> Result<SmolStr, RequestError> {
         let not_understood = || RequestError::NotUnderstood { part: spot.said() };
         if spot.relation == Relation::Beside {
@@ -171,7 +191,7 @@ impl Reader<'_> {
         Ok(said.join(" and "))
     }
 
-    /// Whether something that is meant is at a place.
+    /// Checks whether something that is meant is at a place.
     fn are_there(&mut self, command: &Command, place: &SmolStr) -> bool {
         let items = command.items.clone();
         items.iter().any(|item| {
@@ -186,8 +206,8 @@ impl Reader<'_> {
         matches!(there, Err(RequestError::AmbiguousReference { .. }))
     }
 
-    /// `put the toys on the sofa away`, `put away everything on the table`: where they are. `put the sponge away in the
-    /// drawer`, `put away the sponge in the drawer`: where to, unless it is there.
+    /// `put the toys on the sofa away`, `put away everything on the table`: where they are. `put the sponge
+    /// away in the drawer`, `put away the sponge in the drawer`: where to, unless it is there.
     fn is_stowed_from(&mut self, command: &Command, to: &Spot, place: &SmolStr) -> bool {
         let is_several = command.items.iter().any(is_several);
         command.act != Act::Stow
@@ -195,13 +215,14 @@ impl Reader<'_> {
             || self.are_there(command, place)
     }
 
-    /// Whether it was said before where a thing shall be.
+    /// Checks whether it was said before where a thing shall be.
     fn has_its_place(&self, choice: &[SmolStr]) -> bool {
         let [thing] = choice else { return false };
         self.said.aims.iter().any(|aim| aim.name == format!("keep_{thing}"))
     }
 
-    /// Where a thing goes of which it is not said: where it is usually kept, where it was, or into what was spoken of last.
+    /// Finds where a thing goes of which it is not said: where it is usually kept, where it was, or into what
+    /// was spoken of last.
     fn own_place(&self, command: &Command, choice: &[SmolStr]) -> Option<Target> {
         let [thing] = choice else { return None };
         let usual =
@@ -224,7 +245,7 @@ impl Reader<'_> {
         place.map(Target::To)
     }
 
-    /// Where a thing was before it was taken: by this request, or before.
+    /// Finds where a thing was before it was taken: by this request, or before.
     fn was_at(&self, thing: &SmolStr) -> Option<SmolStr> {
         let taken = format!("_{thing}");
         let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.clone());
@@ -296,18 +317,18 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Whether a thing is believed to be somewhere already, and no part of the request takes it there.
+    /// Checks whether a thing is believed to be somewhere already, and no part of the request takes it there.
     fn is_taken_to_be(&self, thing: &SmolStr, place: &SmolStr) -> bool {
         let support = self.vocabulary.thing(thing).and_then(|thing| thing.support.as_ref());
         support == Some(place) && self.situation.holding.as_ref() != Some(thing) && self.said.aims.is_empty()
     }
 
-    /// What a thing is called.
+    /// Reads what a thing is called.
     pub(super) fn called(&self, id: &SmolStr) -> String {
         self.vocabulary.thing(id).map_or_else(|| id.to_string(), |thing| thing.called())
     }
 
-    /// That something is where it was put.
+    /// States that something is where it was put.
     fn put(&self, id: &str, to: &str) -> Expr {
         let name = match self.vocabulary.thing(to).map(|thing| thing.role) {
             Some(Role::Container) => "in",
@@ -317,13 +338,13 @@ impl Reader<'_> {
         fact(name, &[id, to])
     }
 
-    /// Where rubbish can go.
+    /// Finds where rubbish can go.
     pub(super) fn bins(&self) -> Vec<SmolStr> {
         let bins = self.vocabulary.meant(&["trash".to_owned()], &[Role::Container, Role::Surface]);
         bins.into_iter().map(|thing| thing.id.clone()).collect()
     }
 
-    /// Where rubbish goes.
+    /// Finds where rubbish goes.
     fn bin(&self) -> Result<SmolStr, RequestError> {
         let bins = self.bins();
         match bins.as_slice() {
@@ -334,7 +355,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a noun is of several things.
+/// Checks whether a noun is of several things.
 fn is_several(noun: &Noun) -> bool {
     matches!(noun, Noun::Phrase(phrase) if phrase.is_plural || phrase.which == Which::All)
 }

@@ -1,4 +1,5 @@
-//! Goals that cannot hold together. One that is only on the way to another need hold only once; else the clash is named.
+//! Goals that cannot hold together. One that is only on the way to another need hold only once; else the
+//! clash is named.
 
 use motet_compiler::plan::Persistence;
 use motet_syntax::ast::{Expr, ExprKind};
@@ -41,8 +42,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `take it and put it there` asks for one thing: that it is held on the way goes without saying, unless it is believed to
-    /// be there already.
+    /// `take it and put it there` asks for one thing: that it is held on the way goes without saying, unless
+    /// it is believed to be there already.
     pub(super) fn join(&mut self) {
         let aims = &self.said.aims;
         let is_implied = |(index, aim): (usize, &Aim)| {
@@ -65,7 +66,7 @@ impl Reader<'_> {
         if id == "user" { "you".to_owned() } else { format!("the {}", self.called(id)) }
     }
 
-    /// Whether the first cannot hold any more when the second does, and can be undone for it.
+    /// Checks whether the first cannot hold any more when the second does, and can be undone for it.
     fn clash(&self, first: &Simple, second: &Simple) -> Result<bool, RequestError> {
         let unfit = |why: String| Err(RequestError::Unfit { why });
         match (first, second) {

@@ -12,17 +12,12 @@ use crate::english::{GOES_ON_AT_HITHER, GOES_ON_DO_NOT, PART_FOLLOWS_OVER, PREDI
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Command {
     pub(super) act: Act,
-    /// What it is about.
     pub(super) items: Vec<Noun>,
-    /// Who gets it.
     pub(super) to_whom: Option<Noun>,
-    /// Where to: behind `to`, `into`, `on`, `in`, `at`. Some of these also say where the thing is.
     pub(super) to: Option<Spot>,
-    /// Where the thing is now.
     pub(super) from: Option<Noun>,
     /// `away`, `down`, `up`, `back`, `over`: what the verb goes with.
     pub(super) with: Vec<String>,
-    /// Where the last thing that was named ends, as a position among the tokens.
     pub(super) thing_end: usize,
 }
 
@@ -82,7 +77,8 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
                 if !is_another_place(&now, tokens, after) {
                     break;
                 }
-                // `put it on the table and then on the shelf`: first there, then there. Without `then` it is in no two places.
+                // `put it on the table and then on the shelf`: first there, then there. Without `then` it is
+                // in no two places.
                 if !tokens
                     .get(at..after)
                     .is_some_and(|joint| joint.iter().any(|token| token.word() == "then"))
@@ -109,7 +105,8 @@ pub(super) fn command(tokens: &[Token], begin: usize, commands: &mut Vec<Command
     Ok(at)
 }
 
-/// `take the mug and put in the drawer`, `I want it! Give me!`: of what it is not said, it is that of which it was said just before.
+/// `take the mug and put in the drawer`, `I want it! Give me!`: of what it is not said, it is that of which
+/// it was said just before.
 fn left_out(now: &mut Command, commands: &[Command]) {
     let carries = |act: Act| !matches!(act, Act::Go | Act::Come | Act::Open | Act::Close | Act::Find);
     let says_more = now.to.is_some()
@@ -121,7 +118,7 @@ fn left_out(now: &mut Command, commands: &[Command]) {
     }
 }
 
-/// Whether another place follows for a thing that has one already.
+/// Checks whether another place follows for a thing that has one already.
 fn is_another_place(now: &Command, tokens: &[Token], at: usize) -> bool {
     let place = spot(tokens, at).or_else(|| way(tokens, at));
     let Some((place, end)) = place else { return false };
@@ -138,7 +135,8 @@ fn skip_and(tokens: &[Token], mut at: usize) -> usize {
     at
 }
 
-/// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a command of its own.
+/// Behind an `and` or a comma another thing follows for the same verb. What had its place already is a
+/// command of its own.
 fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at: usize) -> bool {
     // `… and do not let go`, `…, it is hot`: a clause of its own.
     let is = |after: usize| tokens.get(after).is_some_and(|token| PREDICATES.has(token.word()));
@@ -182,12 +180,12 @@ fn goes_on(now: &mut Command, commands: &mut Vec<Command>, tokens: &[Token], at:
     true
 }
 
-/// Whether what follows a thing says where it goes or for whom.
+/// Checks whether what follows a thing says where it goes or for whom.
 fn part_follows(tokens: &[Token], at: usize) -> bool {
     spot(tokens, at).is_some() || is_way(tokens, at) || PART_FOLLOWS_OVER.longest(tokens, at).is_some()
 }
 
-/// Whether a place follows for what is taken, hidden or put, of which it was not said before where to.
+/// Checks whether a place follows for what is taken, hidden or put, of which it was not said before where to.
 fn is_place_for_it(now: &Command, tokens: &[Token], at: usize) -> bool {
     let takes = matches!(
         now.act,
@@ -269,7 +267,8 @@ impl Command {
         Self { act, items, to_whom: None, to: None, from: None, with, thing_end: 0 }
     }
 
-    /// Takes in a place. `put the mug on the table in the drawer`: the last is where to, the others say which.
+    /// Takes in a place. `put the mug on the table in the drawer`: the last is where to, the others say
+    /// which.
     pub(super) fn put_at(&mut self, place: Spot) {
         // `over there on the table`
         if self.to.as_ref().is_some_and(|to| to.noun == Noun::There) {

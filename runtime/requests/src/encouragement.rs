@@ -1,4 +1,4 @@
-//! Whether somebody who was asked whether to try again says so, in whatever words: `give it another shot`, `it cannot hurt`.
+//! Consent to another try, in whatever words: `give it another shot`, `it cannot hurt`.
 
 use super::inflection::{Form, base};
 use super::lead::skip_leads;
@@ -9,8 +9,8 @@ use crate::english::{
     NEGATES_NO, PLAIN_WORDS, REPORT_WORDS, RETRY_WORDS, SKIP_SOFT_SOFT, SOUNDS, TRIES_AGAIN,
 };
 
-/// Whether an answer agrees to another try, and says nothing else that would have to be done or heeded: what it says beside
-/// that, in words; none where it does not agree.
+/// Checks whether an answer agrees to another try, and says nothing else that would have to be done or
+/// heeded: what it says beside that, in words; none where it does not agree.
 #[must_use]
 pub fn encourages(answer: &str) -> Option<String> {
     let mut said = tokens(answer);
@@ -69,7 +69,7 @@ fn is_tag(clause: &[Token]) -> bool {
     matches!(clause, [ask, _] if IS_TAG_ASKS.has(ask.word()))
 }
 
-/// Whether it takes back or bounds something, in words that are no part of what only sounds so.
+/// Checks whether it takes back or bounds something, in words that are no part of what only sounds so.
 fn negates(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {
@@ -84,8 +84,8 @@ fn negates(clause: &[Token]) -> bool {
     false
 }
 
-/// Whether a clause that asks for another try says nothing else that would have to be heeded: words that deny or bound it, or
-/// another thing to do. What it says beside that, in words.
+/// Checks whether a clause that asks for another try says nothing else that would have to be heeded: words
+/// that deny or bound it, or another thing to do. What it says beside that, in words.
 fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
     // Who asks something, or tells what somebody did, asks for nothing.
     let (mut at, mut tries, mut left) = (0, false, Vec::new());
@@ -116,7 +116,7 @@ fn asks_again(clause: &[Token]) -> Option<Vec<&str>> {
     tries.then_some(left)
 }
 
-/// Whether a clause has no other words than those that agree.
+/// Checks whether a clause has no other words than those that agree.
 fn is_plain(clause: &[Token]) -> bool {
     let mut at = 0;
     while let Some(token) = clause.get(at) {

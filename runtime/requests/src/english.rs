@@ -28,6 +28,7 @@ macro_rules! lists {
 }
 
 lists! {
+    MODAL_CAN "modal_can"
     BESIDE_WHO "beside_who"
     PERSON_DOES "person_does"
     ADVICE "advice"

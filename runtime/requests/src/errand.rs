@@ -58,7 +58,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Where to go: places, then things.
+    /// Finds where to go: places, then things.
     fn destination(&mut self, noun: &Noun) -> Result<Vec<SmolStr>, RequestError> {
         if let Noun::Phrase(phrase) = noun
             && phrase.which == Which::All
@@ -73,8 +73,13 @@ impl Reader<'_> {
             let known = known.map(|thing| thing.id.clone()).collect();
             return Ok(if self.places.is_empty() { known } else { self.places.clone() });
         }
-        self.things(noun, ANYWHERE, None)
-            .or_else(|puzzle| self.things(noun, OBJECTS, None).map_err(|_| puzzle))
+        self.things(noun, ANYWHERE, None).or_else(|error| {
+            // Of several things it is asked which.
+            self.things(noun, OBJECTS, None).map_err(|other| match other {
+                RequestError::AmbiguousReference { .. } => other,
+                _ => error,
+            })
+        })
     }
 
     fn doors(&mut self, command: &Command, act: Act, later: &[Command]) -> Result<(), RequestError> {
@@ -127,7 +132,8 @@ impl Reader<'_> {
         has_door.then(|| last.clone())
     }
 
-    /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it too.
+    /// `find the mug`: it shall be seen; where something else follows that is done with it, that finds it
+    /// too.
     fn find(&mut self, command: &Command, later: &[Command]) -> Result<(), RequestError> {
         let Some(item) = command.items.first() else { return Err(self.ask(question(Act::Find), OBJECTS)) };
         let from = match (&command.to, &command.from) {
@@ -217,8 +223,8 @@ impl Command {
     }
 }
 
-/// Whether something has to stay in the hand: not where it is put somewhere later.
-pub(super) fn hold_on(later: &[Command]) -> Persistence {
+/// Checks whether something has to stay in the hand: not where it is put somewhere later.
+pub(super) fn hold_on(later: &[Command]) -> Lasts {
     let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
     if later.iter().all(goes) { Persistence::ToTheEnd } else { Persistence::Once }
 }
@@ -241,7 +247,7 @@ pub(super) fn question(act: Act) -> &'static str {
     }
 }
 
-fn not(condition: Expr) -> Expr {
+pub(super) fn not(condition: Expr) -> Expr {
     Expr { kind: ExprKind::Not(Box::new(condition)), span: Span::default() }
 }
 

@@ -1,4 +1,4 @@
-//! What is forbidden beside a request: `do not drop it`, `do not bring it to me, just put it on the table`.
+//! Prohibitions beside a request: `do not drop it`, `do not bring it to me, just put it on the table`.
 
 use super::command::{Command, command};
 use super::lead::skip_leads;
@@ -31,8 +31,8 @@ pub(super) fn caution(tokens: &[Token], begin: usize, before: Option<Act>) -> Op
     ((is_minded || is_held) && !says_more).then_some(end)
 }
 
-/// A request not to do something, which takes nothing from what is asked for, since that is something else: where it ends, and
-/// whether it stands before what is asked for.
+/// A request not to do something, which takes nothing from what is asked for, since that is something else:
+/// where it ends, and whether it stands before what is asked for.
 pub(super) fn forbidden(tokens: &[Token], begin: usize, asked: &[Command]) -> Option<(usize, When)> {
     let at = begin + FORBIDDEN_NOT.longest(tokens, begin)?;
     let (found, end) = one(tokens, at)?;
@@ -58,7 +58,7 @@ pub(super) fn forbidden(tokens: &[Token], begin: usize, asked: &[Command]) -> Op
     (is_turned && differs && is_other(&found, &then)).then_some((end, When::Before))
 }
 
-/// Where something forbidden stands.
+/// The position of a prohibition, before or behind the request.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum When {
     Before,
@@ -76,7 +76,7 @@ fn one(tokens: &[Token], at: usize) -> Option<(Command, usize)> {
     }
 }
 
-/// Whether what is forbidden is no part of what is asked for.
+/// Checks whether what is forbidden is no part of what is asked for.
 fn is_other(forbidden: &Command, asked: &Command) -> bool {
     let puts = |act: Act| matches!(act, Act::Put | Act::Stow | Act::Store | Act::Release | Act::Move);
     let clears = |act: Act| matches!(act, Act::Discard | Act::Throw);

@@ -1,4 +1,4 @@
-//! How sure somebody is of what they say, and when they last knew: `I am fairly sure that`, `chances are`, `last I checked`.
+//! Degrees of certainty: `I am fairly sure that`, `chances are`, `last I checked`.
 
 use super::token::{Token, stands};
 use crate::english::{HEDGE, MAY_BE, TOLD_SUBJECTS};

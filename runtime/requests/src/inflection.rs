@@ -2,14 +2,11 @@
 
 use crate::english::{PARTICIPLES, PASTS, VERB};
 
-/// How a verb is inflected.
+/// An inflection of a verb.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Form {
-    /// `put`
     Base,
-    /// `putting`
     Gerund,
-    /// `brought`
     Participle,
 }
 
@@ -38,7 +35,8 @@ pub(super) fn base(word: &str) -> Option<(String, Form)> {
     gerund.or_else(|| participle().map(|verb| (verb, Form::Participle)))
 }
 
-/// The verb of which a word without its ending is the stem: itself, with an `e`, or with its last letter once.
+/// The verb of which a word without its ending is the stem: itself, with an `e`, or with its last letter
+/// once.
 fn stem(stem: &str) -> Option<String> {
     let doubled = || {
         let mut letters = stem.chars();

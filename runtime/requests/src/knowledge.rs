@@ -1,10 +1,12 @@
-//! What a household knows: what things are, what they are good for, and what belongs to what someone says they want. Short
-//! on purpose: common nouns of a kitchen and a living room, no wordings. A scene's own categories count beside it.
+//! Household knowledge: categories of things, their uses, and other words for them. Short
+//! on purpose: common nouns of a kitchen and a living room, no wordings. A scene's own categories count
+//! beside it.
 
 use crate::english::{HOLDS_CAN, ORDINARY_WORDS, PACKAGES, SAME, THINGS, USES};
+use crate::phrases;
 
-/// What a thing with a name is, beside what it is called: `coke` is a `drink`. The longest ending of the name counts: an
-/// `energy bar` is not any bar, and a `lime soda` is no lime.
+/// Reads what a thing with a name is, beside what it is called: `coke` is a `drink`. The longest ending of
+/// the name counts: an `energy bar` is not any bar, and a `lime soda` is no lime.
 pub(super) fn is(name: &[String]) -> Vec<&'static str> {
     for start in 0..name.len() {
         let ending = name.get(start..).unwrap_or_default().join(" ");
@@ -19,24 +21,26 @@ pub(super) fn is(name: &[String]) -> Vec<&'static str> {
     }
 }
 
-/// What a thing is that someone eats, drinks, cleans with.
+/// Reads what a thing is that someone eats, drinks, cleans with.
 pub(super) fn good_for(verb: &str) -> Option<&'static str> {
     USES.value(verb)
 }
 
-/// Whether a word says how a thing is packed.
+/// Checks whether a word says how a thing is packed.
 pub(super) fn is_package(word: &str) -> bool {
     PACKAGES.has(word)
 }
 
-/// Whether something that is called so has in it what the words before say: a `water bottle`, but not a `water glass`.
+/// Checks whether something that is called so has in it what the words before say: a `water bottle`, but not
+/// a `water glass`.
 pub(super) fn holds(word: &str) -> bool {
     HOLDS_CAN.has(word)
 }
 
-/// Whether a word is an ordinary one.
+/// Checks whether a word is an ordinary one, and so no slip for the name of a thing: `look` is no misspelt
+/// `book`.
 pub(super) fn is_ordinary(word: &str) -> bool {
-    ORDINARY_WORDS.has(word)
+    ORDINARY_WORDS.has(word) || phrases::is_word_of_lists(word)
 }
 
 /// A category by its usual word.

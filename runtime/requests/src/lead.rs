@@ -1,11 +1,11 @@
-//! What stands before a verb out of politeness, and what someone says who wants to have something.
+//! Words before a verb that politeness puts there.
 
 use super::asking::asking;
 use super::token::{Token, stands};
 use super::wish::wish;
 use crate::english::{ASKS_SOMEBODY, CONTRASTS, FAVOUR, LEADS, NO_LEADS, THANKS, VERB};
 
-/// Where the request itself begins.
+/// Finds where the request itself begins.
 pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
     loop {
         if contrasts(tokens, at) {
@@ -34,7 +34,7 @@ pub(super) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
     }
 }
 
-/// How many words of thanks and the like stand at a place.
+/// Counts how many words of thanks and the like stand at a place.
 pub(super) fn thanks(tokens: &[Token], at: usize) -> Option<usize> {
     if contrasts(tokens, at) {
         return None;

@@ -1,6 +1,4 @@
-//! A small grammar of household requests: what is asked for in words becomes goals, or a reason why not.
-//!
-//! It knows verbs, nouns and a scene's names, not sentences. What it does not understand as a whole it does not guess.
+#![doc = include_str!("../README.md")]
 
 mod aim;
 mod asking;
@@ -10,6 +8,7 @@ mod command;
 mod encouragement;
 mod english;
 mod errand;
+mod error;
 mod forbidden;
 mod frame;
 mod hedge;
@@ -18,14 +17,13 @@ mod knowledge;
 mod lead;
 mod meaning;
 mod noun;
+mod parse;
 mod part;
 mod phrases;
 mod pick;
-mod puzzle;
 mod reference;
 mod remark;
 mod side;
-mod spoken;
 mod spot;
 mod statement;
 mod staying;
@@ -41,35 +39,33 @@ use smol_str::SmolStr;
 
 pub use aim::Aim;
 pub use encouragement::encourages;
+pub use error::RequestError;
 pub use meaning::Intent;
 pub use pick::{called, choose, named, pick};
-pub use puzzle::RequestError;
 
-/// What is known where a request is made.
+/// The context of a request: the scene, and what changed or was said since. Plain data; `Send` and `Sync`.
 #[derive(Clone, Debug)]
 pub struct RequestContext<'a> {
-    /// What there is and what it is called.
+    /// The things of the scene, with their names and where they were at the start.
     pub scene: &'a Scene,
-    /// What the hand holds.
+    /// The thing in the hand.
     pub holding: Option<SmolStr>,
-    /// Where things are now, where that is not where the scene has them; none for nowhere.
+    /// Things that are elsewhere than in the scene, each with its support; `None` for nowhere.
     pub supports: Vec<(SmolStr, Option<SmolStr>)>,
-    /// What was spoken of before, the latest last.
+    /// Things that were spoken of before, the latest last: the referents of pronouns.
     pub spoken_of: Vec<SmolStr>,
-    /// Where things were before they were last taken from there, the latest last.
+    /// Things with the places that they were last taken from, the latest last.
     pub came_from: Vec<(SmolStr, SmolStr)>,
-    /// What was found out that words mean.
+    /// Phrases with the things that they mean, as answers to questions told.
     pub meant: Vec<(String, SmolStr)>,
 }
 
-/// Where somebody said that a thing is.
+/// A location of a thing, as a person reported it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ReportedLocation {
-    /// The thing.
     pub thing: SmolStr,
     /// `on` or `in`.
     pub relation: &'static str,
-    /// Where.
     pub place: SmolStr,
 }
 
@@ -89,8 +85,8 @@ impl<'a> RequestContext<'a> {
     }
 }
 
-/// Where an answer says that things are: "it should be in the cupboard" tells a place to whom asked for one, where in a
-/// request it says what shall be done. Empty where it says nothing of the kind.
+/// Reads reported locations from an answer: "it should be in the cupboard" tells a place to whom asked for
+/// one, where in a request it says what shall be done. Empty where it says nothing of the kind.
 #[must_use]
 pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     if answer.len() > MAX_REQUEST {
@@ -99,7 +95,8 @@ pub fn told(answer: &str, situation: &RequestContext<'_>) -> Vec<ReportedLocatio
     meaning::told(&frame::without_courtesy(&token::tokens(answer)), situation)
 }
 
-/// Whether an answer is a bare noun or place, such as completes a request: "the cupboard", "on the table, please".
+/// Checks whether an answer is a bare noun or place, such as completes a request: "the cupboard", "on the
+/// table, please".
 #[must_use]
 pub fn is_bare(answer: &str) -> bool {
     let mut tokens = token::tokens(answer);
@@ -115,13 +112,13 @@ pub const MAX_REQUEST: usize = 4096;
 ///
 /// # Errors
 ///
-/// What is not understood, not there, or not clear.
+/// The part that is not understood, not there, or not clear.
 pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Intent, RequestError> {
     if request.len() > MAX_REQUEST {
         let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
         return Err(RequestError::Unfit { why });
     }
     let tokens = frame::plain(&token::tokens(request));
-    let spoken = spoken::spoken(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
+    let spoken = parse::parse(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
     meaning::understood(&spoken, request, situation)
 }

@@ -1,4 +1,4 @@
-//! What a request as a whole means: what is said beside it first, then its commands in order.
+//! The reader of a whole request: its statements first, then its commands in order.
 
 use motet_compiler::plan::{Goal, Persistence};
 use motet_syntax::ast::Expr;
@@ -6,31 +6,31 @@ use smol_str::SmolStr;
 
 use super::command::Command;
 use super::noun::{Noun, Phrase};
-use super::spoken::Spoken;
+use super::parse::Spoken;
 use super::token::Token;
 use super::verb::Act;
 use super::vocabulary::{Role, Vocabulary};
 use super::{ReportedLocation, RequestContext, RequestError};
 use crate::Aim;
 
-/// What can be carried.
+/// Roles of the things that can be carried.
 pub(super) const OBJECTS: &[Role] = &[Role::Object];
-/// What one can go to.
+/// Roles of the things that a robot can go to.
 pub(super) const ANYWHERE: &[Role] = &[Role::Surface, Role::Container, Role::Place, Role::Person];
-/// What things can be put on, in or with.
+/// Roles of the things that others are put on, in or with.
 pub(super) const HOLDERS: &[Role] =
     &[Role::Surface, Role::Container, Role::Person, Role::Place, Role::Object];
 
-/// What a request means.
+/// The intent of a request: goals in order, and what was told beside them.
 #[derive(Clone, Debug, Default)]
 pub struct Intent {
-    /// What shall come about, in order.
+    /// Goals, in the order in which they are to be reached.
     pub aims: Vec<Aim>,
-    /// Where things were said to be.
+    /// Locations that the person told beside the request.
     pub located: Vec<ReportedLocation>,
-    /// What was read differently from how it was written.
+    /// Corrections of misspelt words, to be told to the person: a request is never corrected silently.
     pub notes: Vec<String>,
-    /// What was spoken of, the latest last.
+    /// Things that were spoken of, the latest last.
     pub spoken_of: Vec<SmolStr>,
 }
 
@@ -90,13 +90,13 @@ pub(super) fn understood(
     Ok(reader.said)
 }
 
-/// Where somebody says that things are, in words that would otherwise ask for something.
+/// Finds where somebody says that things are, in words that would otherwise ask for something.
 pub(super) fn told(tokens: &[Token], situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     Reader::new(situation).told(tokens)
 }
 
 impl Command {
-    /// Whether it says what becomes of a thing that was spoken of just before.
+    /// Checks whether it says what becomes of a thing that was spoken of just before.
     fn takes_it(&self) -> bool {
         let carries = matches!(
             self.act(),
@@ -125,13 +125,13 @@ impl Command {
         }
     }
 
-    /// Whether it says nothing of what it is about, though its verb asks for it.
+    /// Checks whether it says nothing of what it is about, though its verb asks for it.
     fn needs_items(&self) -> bool {
         self.items.is_empty() && matches!(self.act, Act::Pick | Act::Lift | Act::Take | Act::Fetch)
     }
 }
 
-/// What becomes of a request while it is read.
+/// State of the reader of one request.
 pub(super) struct Reader<'a> {
     pub(super) vocabulary: Vocabulary,
     pub(super) situation: &'a RequestContext<'a>,
@@ -142,7 +142,6 @@ pub(super) struct Reader<'a> {
     pub(super) liked: Vec<Vec<String>>,
     /// Places that were spoken of.
     pub(super) places: Vec<SmolStr>,
-    /// Where things are kept, as somebody says.
     pub(super) usual: Vec<(SmolStr, SmolStr)>,
 }
 
@@ -192,7 +191,8 @@ impl Reader<'_> {
     }
 }
 
-/// Whether two conditions read the same: `the coke belongs in the fridge, please put it there` asks once.
+/// Checks whether two conditions read the same: `the coke belongs in the fridge, please put it there` asks
+/// once.
 fn same(one: &Expr, other: &Expr) -> bool {
     motet_syntax::print::expression(one) == motet_syntax::print::expression(other)
 }

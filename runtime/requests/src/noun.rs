@@ -1,4 +1,4 @@
-//! What a request speaks of: a noun with its article, count, and what narrows it down.
+//! Noun phrases: a noun with its article, count, and what narrows it down.
 
 use super::knowledge;
 use super::spot::{Spot, is_way, spot};
@@ -7,31 +7,26 @@ use crate::english::{
     KIN, NARROWED_IS, NARROWED_LIKED, NOUN_ENDS, NOUN_OLD, NOUN_PLACE, PHRASE_SOMETHING, PRONOUNS,
 };
 
-/// Which of several things are meant.
+/// The determiner of a noun phrase: the one, any, a count, all.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Which {
     /// `the mug`: the one.
     The,
     /// `a mug`, `some chips`, `mug`: any.
     Any,
-    /// `two sodas`
     Count(usize),
     /// `all mugs`, `every mug`, `both mugs`
     All,
 }
 
-/// What is spoken of.
+/// A noun phrase or a pronoun.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Noun {
-    /// `me`, `us`
     Speaker,
     /// `it`, `them`, `that`
     Before(&'static str),
-    /// `here`
     Here,
-    /// `there`
     There,
-    /// Anything else.
     Phrase(Phrase),
 }
 
@@ -42,16 +37,11 @@ pub(super) struct Phrase {
     pub(super) said: String,
     /// Its words in the singular; none for `something`.
     pub(super) words: Vec<String>,
-    /// What is in it: the words behind the `of` of `a bottle of water`.
     pub(super) content: Vec<String>,
     pub(super) which: Which,
-    /// Whether the noun was in the plural.
     pub(super) is_plural: bool,
-    /// What it shall be good for.
     pub(super) good_for: Option<&'static str>,
-    /// What it shall not be, or what it is.
     pub(super) is: Vec<(bool, Vec<String>)>,
-    /// Where it is.
     pub(super) place: Option<Box<Spot>>,
     /// `something that I would like`
     pub(super) is_liked: bool,
@@ -165,7 +155,8 @@ fn phrase(tokens: &[Token], begin: usize) -> Option<(Noun, usize)> {
     Some((Noun::Phrase(phrase), at))
 }
 
-/// What comes behind a noun and narrows it down: `to eat`, `that is not a fruit`, `I would like`, `that is on the table`.
+/// Reads what comes behind a noun and narrows it down: `to eat`, `that is not a fruit`, `I would like`, `that
+/// is on the table`.
 fn narrowed(tokens: &[Token], mut at: usize, phrase: &mut Phrase) -> usize {
     loop {
         let word = tokens.get(at).map_or("", Token::word);

@@ -197,13 +197,13 @@ fn there(preposition: &str, relation: Relation, noun: Noun) -> Spot {
     Spot { relation, preposition: preposition.to_owned(), noun, is_behind_thing: false }
 }
 
-/// Whether an article or the like stands at a place.
+/// Checks whether an article or the like stands at a place.
 fn is_determined(tokens: &[Token], at: usize) -> bool {
     let word = tokens.get(at).map_or("", Token::word);
     IS_DETERMINED_THE.has(word)
 }
 
-/// Whether it is the robot's own hand.
+/// Checks whether it is the robot's own hand.
 fn is_hand(noun: &Noun) -> bool {
     let Noun::Phrase(phrase) = noun else { return false };
     matches!(phrase.words.as_slice(), [.., last] if matches!(last.as_str(), "hand" | "gripper" | "arm" | "claw"))

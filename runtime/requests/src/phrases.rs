@@ -1,9 +1,10 @@
 //! Lists of phrases, compiled: the longest phrase of a list that stands at a place among the tokens.
 //!
-//! The files under `english/` are parsed once, at first use. Each list becomes a deterministic automaton over words at its first
-//! use, by subset construction; matching then takes one look-up a word, whatever the size of the list.
+//! The files under `english/` are parsed once, at first use. Each list becomes a deterministic automaton over
+//! words at its first use, by subset construction; matching then takes one look-up a word, whatever the size
+//! of the list.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
 use super::template::{self, Lists, Part};
@@ -60,7 +61,7 @@ impl Phrases {
         self.automaton().end(state).map(Option::unwrap_or_default)
     }
 
-    /// Whether a phrase, such as a single word, is one of the list.
+    /// Checks whether a phrase, such as a single word, is one of the list.
     pub(crate) fn has(&self, phrase: &str) -> bool {
         self.value(phrase).is_some()
     }
@@ -77,7 +78,7 @@ impl Phrases {
         (0..end).find(|at| self.longest(here, *at) == Some(end - at)).map(|at| end - at)
     }
 
-    /// Whether a phrase begins with this word.
+    /// Checks whether a phrase begins with this word.
     pub(crate) fn begins_with(&self, word: &str) -> bool {
         self.automaton().step(0, word).is_some()
     }
@@ -129,6 +130,27 @@ impl Automaton {
 
     fn end(&self, state: u32) -> Option<Option<&'static str>> {
         *self.ends.get(usize::try_from(state).ok()?)?
+    }
+}
+
+/// Checks whether a word stands in a template of any list.
+pub(crate) fn is_word_of_lists(word: &str) -> bool {
+    static WORDS: LazyLock<HashSet<&'static str>> = LazyLock::new(|| {
+        let mut words = HashSet::new();
+        ENGLISH.values().flatten().for_each(|template| add_words(&template.part, &mut words));
+        words
+    });
+    WORDS.contains(word)
+}
+
+fn add_words(part: &Part, words: &mut HashSet<&'static str>) {
+    match part {
+        Part::Word(word) => {
+            words.insert(word);
+        }
+        Part::List(_) => {}
+        Part::Sequence(parts) | Part::Choice(parts) => parts.iter().for_each(|part| add_words(part, words)),
+        Part::Repeat(part) => add_words(part, words),
     }
 }
 

@@ -1,6 +1,7 @@
-//! Single things in words: which of some options an answer means, what a request names, what a thing is called.
+//! Single things in words: which of some options an answer means, what a request names, what a thing is
+//! called.
 
-use crate::english::{ALL_OF_THEM, ANY_OF_THEM, NUMBERED_THE};
+use crate::english::{ALL_OF_THEM, ANY_OF_THEM, MODAL_CAN, NUMBERED_THE};
 use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
@@ -13,8 +14,9 @@ use super::vocabulary::{Role, Vocabulary};
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
 
-/// The one of some options, or of everything where there are none, that an answer means: by name, by what tells it apart
-/// ("the red one", "the one on the table"), or by its number ("the second"). None where none or several fit.
+/// The one of some options, or of everything where there are none, that an answer means: by name, by what
+/// tells it apart ("the red one", "the one on the table"), or by its number ("the second"). None where none
+/// or several fit.
 #[must_use]
 pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Option<SmolStr> {
     if let Some(id) = options.iter().find(|id| id.as_str() == answer.trim()) {
@@ -73,8 +75,8 @@ pub fn pick(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -
     }
 }
 
-/// Which of the options the answer to "Which one?" means, or what else it names: `both`, `any`, `not the red one`, `2`,
-/// `the last one`. Empty where that is not clear.
+/// Resolves the answer to "Which one?" among some options, or to what else it names: `both`, `any`, `not the
+/// red one`, `2`, `the last one`. Empty where that is not clear.
 #[must_use]
 pub fn choose(answer: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let mut words: Vec<String> = tokens(answer).iter().map(|token| token.word().to_owned()).collect();
@@ -166,8 +168,16 @@ fn other(said: &str, options: &[SmolStr], situation: &RequestContext<'_>) -> Opt
             _ => None,
         };
     }
-    // By a name, not by what would only tell it from others: `the green one` is no apple.
+    // By a name, not by what would only tell it from others: `the healthy one` is no apple.
     let named = <[SmolStr; 1]>::try_from(named(said, situation)).ok().map(|[named]| named)?;
+    let is_named = |id: &SmolStr| {
+        let vocabulary = Vocabulary::new(situation.scene, &situation.supports);
+        let words: Vec<String> = tokens(said).iter().map(|token| singular(token.word())).collect();
+        vocabulary.thing(id).is_some_and(|thing| thing.is_named_in(&words))
+    };
+    if !is_named(&named) {
+        return None;
+    }
     let kind = |id: &SmolStr| situation.scene.entities.get(id).map(|entity| entity.kind.clone());
     (kind(&named) == kind(options.first()?)).then_some(named)
 }
@@ -180,14 +190,21 @@ fn without_lead(words: &[Token]) -> &[Token] {
     words.get(count..).unwrap_or_default()
 }
 
-/// The things of the scene that a request names, in the order of the scene: what an extractor of objects gives.
+/// The things of the scene that a request names, in the order of the scene: what an extractor of objects
+/// gives.
 #[must_use]
 pub fn named(request: &str, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     let vocabulary = Vocabulary::new(situation.scene, &situation.supports);
-    let words: Vec<String> = tokens(request).iter().map(|token| singular(token.word())).collect();
+    let spoken = tokens(request);
+    let words: Vec<String> = spoken.iter().map(|token| singular(token.word())).collect();
     let mut found: Vec<SmolStr> = Vec::new();
     let mut at = 0;
     while at < words.len() {
+        // `can you get it` names no can.
+        if MODAL_CAN.longest(&spoken, at).is_some() {
+            at += 1;
+            continue;
+        }
         // The longest run of words that is a name counts.
         let named = (1..=4.min(words.len() - at)).rev().find_map(|count| {
             let run = words.get(at..at + count)?;
@@ -208,7 +225,7 @@ pub fn named(request: &str, situation: &RequestContext<'_>) -> Vec<SmolStr> {
     order.filter(|id| found.contains(id)).cloned().collect()
 }
 
-/// What people call a thing: its first other name, else its class, else its id in words.
+/// The usual name of a thing: its first other name, else its class, else its id in words.
 #[must_use]
 pub fn called(entity: &Entity) -> String {
     match (entity.names.first(), entity.class.as_str()) {

@@ -1,4 +1,4 @@
-//! What nouns mean: the things of the scene that words, pronouns and places single out.
+//! Reference resolution: the things of the scene that noun phrases, pronouns and places mean.
 
 use crate::english::CANDIDATES_OPEN;
 use smol_str::SmolStr;
@@ -31,7 +31,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether it was asked and said what these words mean.
+    /// Checks whether it was asked and said what these words mean.
     fn is_settled(&self, phrase: &Phrase) -> bool {
         self.situation.meant.iter().any(|(said, _)| *said == phrase.said)
     }
@@ -91,7 +91,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What `it` is.
+    /// Reads what `it` is.
     fn before(&mut self, pronoun: &str, roles: &[Role]) -> Result<Vec<SmolStr>, RequestError> {
         if let Some(left) = self.left.clone()
             && roles.contains(&Role::Object)
@@ -215,7 +215,7 @@ impl Reader<'_> {
         Ok(found)
     }
 
-    /// Where a thing is, which is not where it was said to be.
+    /// Finds where a thing is, which is not where it was said to be.
     fn elsewhere(&self, id: &SmolStr) -> RequestError {
         let thing = self.vocabulary.thing(id);
         let support = thing.and_then(|thing| self.vocabulary.thing(thing.support.as_ref()?));
@@ -246,7 +246,7 @@ pub(super) fn ambiguous(phrase: &Phrase, options: Vec<SmolStr>) -> RequestError 
 
 const ALL: &[Role] = &[Role::Object, Role::Surface, Role::Container, Role::Place, Role::Person];
 
-/// Why something that is known by its name is not what is asked for.
+/// Explains why something that is known by its name is not what is asked for.
 fn unfit(called: &str, role: Role, asked: &[Role]) -> String {
     match asked {
         [Role::Object] => format!("I cannot carry the {called}"),

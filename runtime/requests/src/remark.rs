@@ -1,4 +1,4 @@
-//! What is said beside a request and asks for nothing: how things are, why, what somebody wonders, and what to mind.
+//! Remarks beside a request, which ask for nothing: facts, reasons, questions, cautions.
 
 use super::inflection::{Form, base};
 use super::token::{Token, stands};
@@ -25,8 +25,8 @@ pub(super) fn remark_end(tokens: &[Token], begin: usize) -> usize {
     at
 }
 
-/// Whether words are a remark: with a subject before a verb, a question, or a reason. Anything else that is no command is
-/// not understood, nor what forbids something or quotes somebody.
+/// Checks whether words are a remark: with a subject before a verb, a question, or a reason. Anything else
+/// that is no command is not understood, nor what forbids something or quotes somebody.
 pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
     let here = tokens.get(..end).unwrap_or_default();
     let of = |list: &Phrases| list.longest(here, begin).is_some();
@@ -55,7 +55,7 @@ pub(super) fn is_remark(tokens: &[Token], begin: usize, end: usize) -> bool {
         || (is_told && is_name)
 }
 
-/// What is said of something that is done.
+/// Reads what is said of something that is done.
 fn is_telling(word: &str) -> bool {
     IS_TELLING_IS.has(word)
 }
@@ -70,7 +70,8 @@ pub(super) fn is_question(tokens: &[Token], begin: usize) -> bool {
                 || (stands(tokens, begin + 1, "not").is_some() && is(begin + 2, &IS_QUESTION_WHOSE)))
 }
 
-/// `would it not look nice on the shelf?`, `should it not be shut?`: what is thought to be so, and asks for nothing by itself.
+/// `would it not look nice on the shelf?`, `should it not be shut?`: what is thought to be so, and asks for
+/// nothing by itself.
 fn is_rhetorical(tokens: &[Token], begin: usize) -> bool {
     let at = begin + IS_RHETORICAL_ASKS.longest(tokens, begin).unwrap_or(0);
     let not = usize::from(stands(tokens, at, "not").is_some());
@@ -87,7 +88,8 @@ fn reason(tokens: &[Token], begin: usize, end: usize) -> bool {
     is_subject && tokens.get(end) == Some(&Token::Comma)
 }
 
-/// `for safety, …`, `to keep it cool, …`, `so that it does not get lost, …`: what for, behind which something is asked for.
+/// `for safety, …`, `to keep it cool, …`, `so that it does not get lost, …`: what for, behind which something
+/// is asked for.
 fn purpose(tokens: &[Token], begin: usize, end: usize) -> bool {
     let for_what = stands(tokens, begin, "for").is_some();
     let to_what = PURPOSE_IN_ORDER_TO
@@ -114,17 +116,18 @@ fn quotes(tokens: &[Token], here: &[Token]) -> bool {
     is_quoted && (says(word(1)) || (says(word(2)) && QUOTES_ME.has(word(1))))
 }
 
-/// What is said beside a request in its own clause: why, and how long something is held. Where it ends.
+/// Reads what is said beside a request in its own clause: why, and how long something is held. Where it ends.
 pub(super) fn beside(tokens: &[Token], at: usize, act: Act) -> Option<usize> {
     let is_clause = |at: usize| tokens.get(at).is_some_and(|token| BESIDE_WHO.has(token.word()));
     let holds = matches!(act, Act::Pick | Act::Lift | Act::Take | Act::Go);
     let of = |list: &Phrases| list.longest(tokens, at).filter(|count| is_clause(at + count));
-    // What somebody else does meanwhile bounds nothing of what is done now: `while` and `whilst` stand among the reasons.
+    // What somebody else does meanwhile bounds nothing of what is done now: `while` and `whilst` stand among
+    // the reasons.
     let found = of(&BESIDE_REASON).or_else(|| of(&BESIDE_LASTS).filter(|_| holds));
     found.map(|_| remark_end(tokens, at))
 }
 
-/// Whether a phrase ends at a place.
+/// Checks whether a phrase ends at a place.
 pub(super) fn is_boundary(tokens: &[Token], at: usize) -> bool {
     matches!(tokens.get(at), None | Some(Token::Comma | Token::Stop))
         || tokens.get(at).is_some_and(|token| IS_BOUNDARY_AND.has(token.word()))

@@ -1,4 +1,5 @@
-//! `the left one`: which of several things is farther to a side, where that is so for the person and for the robot.
+//! `the left one`: which of several things is farther to a side, where that is so for the person and for the
+//! robot.
 
 use crate::english::SIDE_THE;
 use motet_robots::scene::Scene;
@@ -21,8 +22,9 @@ pub(super) fn side(words: &[&str]) -> Option<Side> {
     }
 }
 
-/// The option that is farthest to a side, seen from where the person and from where the robot was at the start: whose left is
-/// meant nobody says. None where they see it differently, or it is not known where everything is.
+/// The option that is farthest to a side, seen from where the person and from where the robot was at the
+/// start: whose left is meant nobody says. None where they see it differently, or it is not known where
+/// everything is.
 pub(super) fn farthest(side: Side, options: &[SmolStr], scene: &Scene) -> Option<SmolStr> {
     let place = |id: &str| scene.entities.get(id)?.pose.map(|pose| [pose.xyz[0], pose.xyz[1]]);
     let places: Option<Vec<[f64; 2]>> = options.iter().map(|id| place(id)).collect();

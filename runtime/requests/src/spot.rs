@@ -6,7 +6,7 @@ use super::vocabulary::Role;
 use crate::english::{PREPOSITIONS_OF_PLACE, PREPOSITIONS_OF_WAY};
 use crate::phrases::Phrases;
 
-/// How something shall be, or is, to a place.
+/// A spatial relation of a thing to a place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Relation {
     On,
@@ -25,12 +25,11 @@ pub(super) struct Spot {
     /// The preposition as it was said.
     pub(super) preposition: String,
     pub(super) noun: Noun,
-    /// Whether it follows the thing without a word between them: `the can on the table`.
     pub(super) is_behind_thing: bool,
 }
 
 impl Spot {
-    /// Whether it can only say where to: `onto`, `into`, `to`.
+    /// Checks whether it can only say where to: `onto`, `into`, `to`.
     pub(super) fn moves(&self) -> bool {
         !PREPOSITIONS_OF_PLACE.has(&self.preposition)
     }
@@ -61,8 +60,8 @@ impl Relation {
         })
     }
 
-    /// Whether something can be so to a thing of this role: on a shelf, in a drawer. A sink and a shelf have things in
-    /// them as well as on them; what lies in a mug is not known.
+    /// Checks whether something can be so to a thing of this role: on a shelf, in a drawer. A sink and a
+    /// shelf have things in them as well as on them; what lies in a mug is not known.
     pub(super) const fn fits(self, role: Role) -> bool {
         match self {
             Self::On => matches!(role, Role::Surface | Role::Object | Role::Place),
@@ -89,7 +88,7 @@ pub(super) fn way(tokens: &[Token], at: usize) -> Option<(Spot, usize)> {
     placed(tokens, at, &PREPOSITIONS_OF_WAY)
 }
 
-/// Whether a preposition of where to, or of near by, stands here.
+/// Checks whether a preposition of where to, or of near by, stands here.
 pub(super) fn is_way(tokens: &[Token], at: usize) -> bool {
     PREPOSITIONS_OF_WAY.longest(tokens, at) > PREPOSITIONS_OF_PLACE.longest(tokens, at)
 }

@@ -1,18 +1,19 @@
-//! What is said beside a request: what is mentioned, liked, left somewhere, and where things are.
+//! Statements beside a request: what is mentioned, liked, left somewhere, and where things are.
 
 use smol_str::SmolStr;
 
 use super::ReportedLocation;
 use super::meaning::{ANYWHERE, OBJECTS, Reader};
 use super::noun::{Noun, Phrase, Which, noun};
-use super::spoken::{Spoken, Statement};
+use super::parse::{Spoken, Statement};
 use super::spot::spot;
 use super::token::{Token, stands};
 use super::vocabulary::Role;
 use super::whereabouts::{Clause, is_habit};
 
 impl Reader<'_> {
-    /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things are.
+    /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things
+    /// are.
     pub(super) fn state(&mut self, statement: &Statement) {
         let tokens = &statement.tokens;
         // `we always keep the coke in the fridge` says where it goes, and not that it is there.
@@ -66,7 +67,18 @@ impl Reader<'_> {
                 at = after.max(at + 1);
                 continue;
             }
-            // `the can is rubbish` says what it is, and speaks of nothing else; `there is a can` does speak of it.
+            // `there is a mug on the table`: of several mugs the one there is meant by what follows.
+            if stands(tokens, at.saturating_sub(2), "there is").is_some()
+                && self.vocabulary.meant(&phrase.words, OBJECTS).len() > 1
+                && let Some((place, end)) = spot(tokens, after)
+            {
+                phrase.place = Some(Box::new(place));
+                self.left = Some(phrase);
+                at = end;
+                continue;
+            }
+            // `the can is rubbish` says what it is, and speaks of nothing else; `there is a can` does speak
+            // of it.
             let word =
                 |back: usize| at.checked_sub(back).and_then(|at| tokens.get(at)).map_or("", Token::word);
             let is_told = matches!(word(1), "is" | "are" | "was" | "were") && word(2) != "there";
@@ -78,8 +90,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Keeps in mind what a noun of a statement means. The noun may stand between a verb and an adjective: of its runs of
-    /// words the longest that is a name counts.
+    /// Keeps in mind what a noun of a statement means. The noun may stand between a verb and an adjective: of
+    /// its runs of words the longest that is a name counts.
     fn mention(&mut self, phrase: &Phrase) {
         let count = phrase.words.len();
         let runs = (1..=count).rev().flat_map(|len| (0..=count - len).map(move |start| start..start + len));
@@ -111,7 +123,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What somebody may want who only says how they are.
+    /// Reads what somebody may want who only says how they are.
     pub(super) fn wished(&self, spoken: &Spoken) -> Option<String> {
         let says = |word: &str| {
             let mut words = spoken.statements.iter().flat_map(|statement| &statement.tokens);

@@ -1,4 +1,4 @@
-//! Where the robot stays once it has done what it was asked for: `and wait there`.
+//! Orders to stay in place once the request is done: `and wait there`.
 
 use super::remark::is_boundary;
 use super::token::Token;

@@ -1,10 +1,11 @@
 //! The notation of the files under `english/`: named lists of templates, and their parser.
 //!
-//! A list is a name in the first column with a colon, and templates on the indented lines below it. A template is a row of words
-//! with `(a|b)` for alternatives, `[a]` for an optional part, `a*` and `a+` for repetition, and `<name>` for another list. Several
-//! templates may share a line, divided by `|`. `=> value` behind a template gives what it stands for. A line in quotes is an
-//! example that the list must read; the tests hold it. `#` begins a comment.
-//! The notation is that of JSGF with the layout of hassil's sentence files. [`crate::phrases`] compiles what is read here.
+//! A list is a name in the first column with a colon, and templates on the indented lines below it. A
+//! template is a row of words with `(a|b)` for alternatives, `[a]` for an optional part, `a*` and `a+` for
+//! repetition, and `<name>` for another list. Several templates may share a line, divided by `|`. `=> value`
+//! behind a template gives what it stands for. A line in quotes is an example that the list must read; the
+//! tests hold it. `#` begins a comment. The notation is that of JSGF with the layout of hassil's sentence
+//! files. [`crate::phrases`] compiles what is read here.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -107,7 +108,7 @@ pub(crate) fn examples(text: &'static str) -> Vec<(&'static str, &'static str)> 
 ///
 /// # Errors
 ///
-/// What is wrong with it.
+/// A description of the fault.
 pub(crate) fn parse(text: &'static str) -> Result<Part, String> {
     let mut parser = Parser { rest: text };
     let part = parser.choice()?;

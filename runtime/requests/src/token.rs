@@ -7,7 +7,6 @@ use crate::english::{CONTRACTIONS, PLURALS};
 pub enum Token {
     /// A word in lower case.
     Word(String),
-    /// `,`
     Comma,
     /// The end of a sentence: `.`, `!`, `?`, `;`, a line break.
     Stop,
@@ -23,8 +22,8 @@ impl Token {
     }
 }
 
-/// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe belongs to its
-/// word. O(bytes).
+/// Splits a request. Anything that is neither a letter, a digit nor a mark separates words; an apostrophe
+/// belongs to its word. O(bytes).
 pub(super) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut begin = 0;
@@ -98,8 +97,8 @@ fn push(pieces: &mut Vec<(Token, usize)>, word: &mut String, end: usize) {
     }
 }
 
-/// A noun in the singular, by the common rules: `cookies` → `cookie`, `glasses` → `glass`, `berries` → `berry`,
-/// `knives` → `knife`. What does not look like a plural stays.
+/// A noun in the singular, by the common rules: `cookies` → `cookie`, `glasses` → `glass`, `berries` →
+/// `berry`, `knives` → `knife`. What does not look like a plural stays.
 pub(super) fn singular(word: &str) -> String {
     if let Some(one) = PLURALS.value(word) {
         return one.to_owned();
@@ -119,7 +118,7 @@ pub(super) fn singular(word: &str) -> String {
     }
 }
 
-/// How many tokens words take at a place; none where they do not stand there.
+/// Counts how many tokens words take at a place; none where they do not stand there.
 pub(super) fn stands(tokens: &[Token], at: usize, words: &str) -> Option<usize> {
     // Most of a table begins with another word.
     if !words.starts_with(tokens.get(at)?.word()) {

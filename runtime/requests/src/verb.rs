@@ -8,10 +8,9 @@ use crate::english::{
     WANTED_LATER,
 };
 
-/// What is asked for.
+/// The act that a verb asks for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Act {
-    /// Go somewhere.
     Go,
     /// Come to the person.
     Come,
@@ -21,7 +20,6 @@ pub(super) enum Act {
     Pick,
     /// Raise in the hand.
     Lift,
-    /// Put somewhere.
     Put,
     /// Take: to a place, or into the hand.
     Take,
@@ -29,15 +27,12 @@ pub(super) enum Act {
     Stow,
     /// Put into something in which things are kept.
     Store,
-    /// Throw away.
     Discard,
     /// Throw: to a place, to someone, or away.
     Throw,
     /// Let go of.
     Release,
-    /// Open.
     Open,
-    /// Close.
     Close,
     /// Move: something to a place, or oneself.
     Move,
@@ -88,7 +83,7 @@ pub(super) fn verb(tokens: &[Token], at: usize) -> Option<(Act, usize)> {
     verb.into_iter().chain(wants).chain(holds).max_by_key(|(_, after)| *after)
 }
 
-/// Where what somebody wants to have begins, where they want it now.
+/// Finds where what somebody wants to have begins, where they want it now.
 fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     let after = at + wish(tokens, at)?;
     // `I will need it later` tells of another time.
@@ -101,7 +96,8 @@ fn wanted(tokens: &[Token], at: usize) -> Option<usize> {
     (!is_later && !is_no_thing(tokens, after)).then_some(after)
 }
 
-/// What somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your help`.
+/// Reads what somebody wants to do, or wants of somebody, and does not want to have: `to open it`, `your
+/// help`.
 fn is_no_thing(tokens: &[Token], at: usize) -> bool {
     let whose = IS_NO_THING_YOUR.has(tokens.get(at).map_or("", Token::word));
     let what = tokens.get(at + usize::from(whose)).map_or("", Token::word);
@@ -115,12 +111,12 @@ fn is_no_thing(tokens: &[Token], at: usize) -> bool {
         || IS_NO_THING_HELP.has(what)
 }
 
-/// Whether it is a wish that stands here, and no verb.
+/// Checks whether it is a wish that stands here, and no verb.
 pub(super) fn is_want(tokens: &[Token], at: usize) -> bool {
     wanted(tokens, at).is_some()
 }
 
-/// Whether a request begins here, after what politeness puts before it.
+/// Checks whether a request begins here, after what politeness puts before it.
 pub(super) fn begins(tokens: &[Token], at: usize) -> bool {
     verb(tokens, skip_leads(tokens, at)).is_some()
 }

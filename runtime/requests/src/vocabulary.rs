@@ -1,4 +1,4 @@
-//! What a scene's things are called, and which of them some words mean.
+//! Names of a scene's things, and the search for the things that some words mean.
 
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 use super::knowledge;
 use super::token::singular;
 
-/// What a thing is to a request.
+/// The role of a thing in requests.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Role {
     /// It can be carried.
@@ -17,7 +17,6 @@ pub(super) enum Role {
     Container,
     /// A spot on the floor.
     Place,
-    /// Someone.
     Person,
 }
 
@@ -26,11 +25,9 @@ pub(super) enum Role {
 pub(super) struct Thing {
     pub(super) id: SmolStr,
     pub(super) role: Role,
-    /// Where it stands or lies.
     pub(super) support: Option<SmolStr>,
     /// Its id, class and names, as words in the singular.
     names: Vec<Vec<String>>,
-    /// What it is beside its names.
     tags: Vec<String>,
 }
 
@@ -41,7 +38,8 @@ pub(super) struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Collects the names. `supports` says where things are now, where that is known better than by the scene.
+    /// Collects the names. `supports` says where things are now, where that is known better than by the
+    /// scene.
     pub(super) fn new(scene: &Scene, supports: &[(SmolStr, Option<SmolStr>)]) -> Self {
         let things = scene.entities.values().map(|entity| {
             let mut names: Vec<Vec<String>> = Vec::new();
@@ -89,8 +87,8 @@ impl Vocabulary {
         }
     }
 
-    /// The things of some roles that words mean, by the closest way in which any is meant: by a whole name, by what it
-    /// is, or by words of its name and of what it is together. Words are in the singular.
+    /// The things of some roles that words mean, by the closest way in which any is meant: by a whole name,
+    /// by what it is, or by words of its name and of what it is together. Words are in the singular.
     pub(super) fn meant(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = || self.things.iter().filter(|thing| roles.contains(&thing.role));
         let phrase = words.join(" ");
@@ -110,14 +108,15 @@ impl Vocabulary {
         if exactly.is_empty() { told } else { exactly }
     }
 
-    /// The things of some roles of which every word tells something, be it that they only tell it apart: `the red one`.
+    /// The things of some roles of which every word tells something, be it that they only tell it apart: `the
+    /// red one`.
     pub(super) fn told_by(&self, words: &[String], roles: &[Role]) -> Vec<&Thing> {
         let all = self.things.iter().filter(|thing| roles.contains(&thing.role));
         all.filter(|thing| thing.are_its(words)).collect()
     }
 
-    /// Words with those that nothing is called replaced by the one name that they are a slip away from. None where one
-    /// has no such name.
+    /// Words with those that nothing is called replaced by the one name that they are a slip away from. None
+    /// where one has no such name.
     pub(super) fn respelt(&self, words: &[String]) -> Option<Vec<String>> {
         let own = self.things.iter().flat_map(|thing| thing.names.iter().flatten());
         let tags = self.things.iter().flat_map(|thing| &thing.tags).flat_map(|tag| tag.split(' '));
@@ -160,7 +159,7 @@ impl Vocabulary {
 }
 
 impl Thing {
-    /// What it is called: its first name that is no id, else the id in words.
+    /// Reads what it is called: its first name that is no id, else the id in words.
     pub(super) fn called(&self) -> String {
         self.names
             .iter()
@@ -168,18 +167,24 @@ impl Thing {
             .map_or_else(|| self.id.to_string(), |name| name.join(" "))
     }
 
-    /// Whether it is something, by category.
+    /// Checks whether some words hold all those of one of its names.
+    pub(super) fn is_named_in(&self, words: &[String]) -> bool {
+        self.names.iter().any(|name| name.iter().all(|word| words.contains(word)))
+    }
+
+    /// Checks whether it is something, by category.
     pub(super) fn is(&self, what: &str) -> bool {
         self.tags.iter().any(|tag| tag == what)
     }
 
-    /// Whether every word is one of its names' or says what it is; that it is packed says nothing by itself. A word that
-    /// only tells it apart, the `red` of a `red mug`, does not name it: there is a `can` of what is in it, but no `red can`.
+    /// Checks whether every word is one of its names' or says what it is; that it is packed says nothing by
+    /// itself. A word that only tells it apart, the `red` of a `red mug`, does not name it: there is a `can`
+    /// of what is in it, but no `red can`.
     fn is_told_by(&self, words: &[String]) -> bool {
         self.are_its(words) && words.iter().any(|word| self.is_content(word))
     }
 
-    /// Whether every word is one of its names' or says what it is, adjectives alone too.
+    /// Checks whether every word is one of its names' or says what it is, adjectives alone too.
     fn are_its(&self, words: &[String]) -> bool {
         let is_named = words.iter().any(|word| self.is_content(word));
         let is_its = |word: &String| self.is_one_of_its(word) || (is_named && knowledge::is_package(word));
@@ -190,14 +195,14 @@ impl Thing {
         self.names.iter().flatten().any(|known| known == word) || self.is_content(word)
     }
 
-    /// Whether a word says what it is or what is in it: the noun of one of its names, or a category.
+    /// Checks whether a word says what it is or what is in it: the noun of one of its names, or a category.
     pub(super) fn is_content(&self, word: &str) -> bool {
         self.names.iter().any(|name| name.last().is_some_and(|last| last == word))
             || self.is(knowledge::usual(word).unwrap_or(word))
     }
 }
 
-/// How many slips of the keyboard lie between a word and a name in either number.
+/// Counts how many slips of the keyboard lie between a word and a name in either number.
 fn slips(word: &str, name: &str) -> usize {
     strsim::osa_distance(word, name).min(strsim::osa_distance(word, &format!("{name}s")))
 }

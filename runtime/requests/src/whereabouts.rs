@@ -1,4 +1,4 @@
-//! Where somebody says that things are: `the coke is in the fridge`, `I left it in the cupboard yesterday`, `try the drawer`.
+//! Reported locations: `the coke is in the fridge`, `I left it in the cupboard yesterday`, `try the drawer`.
 //!
 //! A clause is such a fact as a whole or not at all: who sits at a table says nothing of what is on it.
 
@@ -18,7 +18,7 @@ use super::spot::{Relation, Spot, spot, way};
 use super::token::{Token, stands};
 use super::vocabulary::Role;
 
-/// Whether a clause answers the question where something is, so that a bare place is one.
+/// The kind of a clause: in an answer a bare place is a location.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Clause {
     Answer,
@@ -26,7 +26,8 @@ pub(super) enum Clause {
 }
 
 impl Reader<'_> {
-    /// What an answer says of where things are. Of the same thing more than one place is where to look first, then next.
+    /// Reads what an answer says of where things are. Of the same thing more than one place is where to look
+    /// first, then next.
     pub(super) fn told(&mut self, tokens: &[Token]) -> Vec<ReportedLocation> {
         let mut told = Vec::new();
         for sentence in tokens.split(|token| *token == Token::Stop) {
@@ -43,7 +44,7 @@ impl Reader<'_> {
         told
     }
 
-    /// What one clause says of where something is; nothing where it says something else.
+    /// Reads what one clause says of where something is; nothing where it says something else.
     pub(super) fn whereabouts(&mut self, tokens: &[Token], clause: Clause) -> Vec<ReportedLocation> {
         let begin = reported(tokens, leading(tokens, 0, clause), clause);
         // `is it not in the fridge?` proposes it.
@@ -71,7 +72,7 @@ impl Reader<'_> {
         located
     }
 
-    /// Where something is kept, as a clause says that tells a rule.
+    /// Finds where something is kept, as a clause says that tells a rule.
     pub(super) fn whereabouts_of_habit(&mut self, tokens: &[Token]) -> Option<ReportedLocation> {
         if denies(tokens) {
             return None;
@@ -99,12 +100,12 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a clause tells what is so as a rule.
+/// Checks whether a clause tells what is so as a rule.
 pub(super) fn is_habit(tokens: &[Token]) -> bool {
     tokens.iter().any(|token| IS_HABIT_ALWAYS.has(token.word()))
 }
 
-/// Which thing a clause places, and where.
+/// Chooses which thing a clause places, and where.
 fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)> {
     let it = || Noun::Before("it");
     let is_answer = clause == Clause::Answer;
@@ -195,7 +196,8 @@ fn said(tokens: &[Token], at: usize, clause: Clause) -> Option<(Noun, Vec<Spot>)
 fn spots(tokens: &[Token], mut at: usize, may_be_bare: bool) -> Option<Vec<Spot>> {
     let mut spots: Vec<Spot> = Vec::new();
     loop {
-        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first drawer` does not.
+        // `the cupboard yesterday`, `the fridge first and then …`: a place ends before such words, `the first
+        // drawer` does not.
         let whole = tokens;
         let is_end = |end: &usize| {
             let after = skip(whole, *end, &BEHIND_REPORT);

@@ -1,10 +1,10 @@
-//! What somebody says who wants to have something: `I could do with`, `I'd quite fancy having`, `any chance I might get`.
+//! Wishes to have something: `I could do with`, `I'd quite fancy having`, `any chance I might get`.
 
 use super::asking::before_speaker;
 use super::token::Token;
 use crate::english::{BEFORE_CURT, CURT_WISHES, MAY_HAVE, WISH, WISH_HAVE};
 
-/// How many words a wish takes at a place, behind which stands what somebody wants to have.
+/// Counts how many words a wish takes at a place, behind which stands what somebody wants to have.
 pub(super) fn wish(tokens: &[Token], at: usize) -> Option<usize> {
     // `would it be possible to have the coke`, `any chance of the coke`
     let chance = WISH_HAVE.longest(tokens, at).filter(|count| {

@@ -1,5 +1,6 @@
-//! Requests that say who shall do it, as people do who speak the language little, and children: `you bring it to me`, `the
-//! fridge, you close`. What is told of the one that is spoken to, `you always close it`, stays as it is.
+//! Requests that say who shall do it, as people do who speak the language little, and children: `you bring it
+//! to me`, `the fridge, you close`. What is told of the one that is spoken to, `you always close it`, stays
+//! as it is.
 
 use super::clause::cause;
 use super::state::words;

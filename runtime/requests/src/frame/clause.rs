@@ -213,7 +213,7 @@ fn unless_so(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>
     (is_same && is_it).then(|| ([said, words(ONLY_IF_SO)].concat(), then + 2))
 }
 
-/// Whether a clause follows that says what is done with what was named just before.
+/// Checks whether a clause follows that says what is done with what was named just before.
 fn is_spoken_of(tokens: &[Token], mut at: usize) -> bool {
     while matches!(tokens.get(at), Some(Token::Comma))
         || tokens.get(at).is_some_and(|token| token.word() == "and")
@@ -286,7 +286,7 @@ fn bare(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usi
     None
 }
 
-/// Whether nothing was said before.
+/// Checks whether nothing was said before.
 fn begins_first(tokens: &[Token], begin: usize) -> bool {
     tokens.get(..begin).is_none_or(|before| !before.contains(&Token::Stop))
 }

@@ -1,4 +1,4 @@
-//! What is said to whom is asked and asks for nothing: `um`, `, love`, `, would you?`, `no hurry`.
+//! Courtesy, which asks for nothing and is left out: `um`, `, love`, `, would you?`, `no hurry`.
 
 use crate::english::{
     APART_TAGS, ASIDE_LIKE, ASIDES, CALLED_HONEY, CALLED_I, CALLS, ENDEARMENTS, HASTE, INNER_WORDS,
@@ -53,7 +53,7 @@ pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     kept
 }
 
-/// Whether courtesy follows a bare noun.
+/// Checks whether courtesy follows a bare noun.
 fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
     let begs = |token: &Token| IS_WANTED_PLEASE.has(token.word());
     let sentence = kept.rsplit(|token| *token == Token::Stop).next().unwrap_or_default();
@@ -63,7 +63,8 @@ fn is_wanted(courtesy: &[Token], kept: &[Token]) -> bool {
         && matches!(noun(sentence, begin), Some((Noun::Phrase(_), end)) if end == sentence.len())
 }
 
-/// `could I, er, have`, `the, uh, coke`: a comma behind a word that does not end a clause was put around what was left out.
+/// `could I, er, have`, `the, uh, coke`: a comma behind a word that does not end a clause was put around what
+/// was left out.
 fn unbroken(kept: &mut Vec<Token>, next: Option<&Token>) {
     if let [.., word, Token::Comma] = kept.as_slice()
         && INNER_WORDS.has(word.word())

@@ -1,5 +1,5 @@
-//! What somebody says that they have to do, cannot do or forgot, and then asks for: `I forgot to close the fridge, could you
-//! do that for me?`
+//! Tasks that somebody has to do, cannot do or forgot, and then asks for: `I forgot to close the fridge,
+//! could you do that for me?`
 
 use crate::english::{
     ANOTHER_WANTS, ASKED_FOR_SHOW_ME, ASKED_FOR_WILL_NOT, ASKED_FOR_WITH_THIS, BEHIND_DO_IT, DO_IT,
@@ -27,7 +27,8 @@ pub(super) fn delegated(tokens: &[Token]) -> Vec<Token> {
     tokens
 }
 
-/// `I cannot get it open. Could you?`: the verb that is left out, where it was said before what has to be done.
+/// `I cannot get it open. Could you?`: the verb that is left out, where it was said before what has to be
+/// done.
 pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
     let mut said: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;
@@ -39,7 +40,8 @@ pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
         };
         if let Some(count) = asks.filter(|count| is_alone(*count) && is_joint(said.last())) {
             let begin = before(&said, said.len());
-            // Only what somebody cannot do or forgot asks for it so: `I want to close it, would you?` may only chat.
+            // Only what somebody cannot do or forgot asks for it so: `I want to close it, would you?` may
+            // only chat.
             let sentence = said.get(begin..).unwrap_or_default();
             if (0..sentence.len()).any(|at| ELLIPTIC_CANNOT.longest(sentence, at).is_some()) {
                 said.extend_from_slice(tokens.get(at..at + count).unwrap_or_default());
@@ -54,7 +56,7 @@ pub(super) fn elliptic(tokens: &[Token]) -> Vec<Token> {
     said
 }
 
-/// Whether a clause asks for what was spoken of; where it ends.
+/// Checks whether a clause asks for what was spoken of; where it ends.
 pub(crate) fn asks_for_it(tokens: &[Token], at: usize) -> Option<usize> {
     let end = clause_end(tokens, at);
     let here = tokens.get(..end)?;
@@ -74,7 +76,7 @@ fn clause_end(tokens: &[Token], at: usize) -> usize {
     (at..tokens.len()).find(is_end).unwrap_or(tokens.len())
 }
 
-/// Where the clause before a place begins that may say what has to be done: with its sentence.
+/// Finds where the clause before a place begins that may say what has to be done: with its sentence.
 fn before(tokens: &[Token], at: usize) -> usize {
     let mut begin = at.saturating_sub(1);
     while begin > 0 && tokens.get(begin - 1) != Some(&Token::Stop) {
@@ -163,7 +165,8 @@ fn wished_for(said: &[Token], begin: usize) -> Option<Vec<Token>> {
     Some(wanted)
 }
 
-/// `my wife wants the coke on the counter, could you see to that?`, `Mum asked for it to be put away. Would you?`
+/// `my wife wants the coke on the counter, could you see to that?`, `Mum asked for it to be put away. Would
+/// you?`
 fn of_another(said: &[Token], begin: usize) -> Option<Vec<Token>> {
     let at = (begin + 1..said.len()).find_map(|at| Some(at + ANOTHER_WANTS.longest(said, at)?))?;
     let mut wanted = vec![Token::Word("i".to_owned()), Token::Word("want".to_owned())];

@@ -1,5 +1,5 @@
-//! What would be nice, asked for in a clause with `if`: `I would be ever so grateful if you brought me the coke`, `it would
-//! help if the drawer were shut`.
+//! Favours asked for in a clause with `if`: `I would be ever so grateful if you brought me the coke`, `it
+//! would help if the drawer were shut`.
 
 use crate::english::{
     FAVOUR_BEGINS, FAVOUR_I, FAVOUR_WHO, FAVOUR_WORDS, FAVOUR_WOULD, TOLD_WHEN_DONE_DONE,
@@ -35,7 +35,8 @@ pub(super) fn favour(tokens: &[Token], begin: usize) -> Option<(usize, Vec<Token
     Some((at + 1, vec![Token::Word(verb)]))
 }
 
-/// `… if you took it and brought it to me`: the verbs that follow the first of such a clause, in the form of requests.
+/// `… if you took it and brought it to me`: the verbs that follow the first of such a clause, in the form of
+/// requests.
 pub(super) fn in_series(tokens: &mut [Token], mut at: usize) {
     while let Some(token) = tokens.get(at) {
         if *token == Token::Stop {

@@ -85,8 +85,8 @@ fn at_speaker(tokens: &[Token], at: usize) -> Option<(usize, &'static str)> {
     matches!(tokens.get(at + count), None | Some(Token::Comma | Token::Stop)).then_some((count, "me"))
 }
 
-/// `so I can see it`, `before the kids see it`, `where I can reach it`, `until I say so`: what for, which changes nothing of
-/// what is done now. How many words it takes.
+/// `so I can see it`, `before the kids see it`, `where I can reach it`, `until I say so`: what for, which
+/// changes nothing of what is done now. How many words it takes.
 fn aim(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     let other = |at: usize| OTHERS.longest(tokens, at);
     let can = |at: usize| AIM_CAN.longest(tokens, at);
@@ -171,7 +171,8 @@ fn then_negated(tokens: &[Token], who: usize) -> bool {
     is_other && (who + 1..=who + 4).any(|at| NEGATIONS.longest(tokens, at).is_some())
 }
 
-/// `so nobody trips over it`, `so that we all know where it is`: somebody else does or does not do something then.
+/// `so nobody trips over it`, `so that we all know where it is`: somebody else does or does not do something
+/// then.
 fn purpose(tokens: &[Token], who: usize) -> bool {
     let is_told = |at: usize| {
         tokens.get(at).is_some_and(|token| !token.word().is_empty() && !PURPOSE_DOES.has(token.word()))
@@ -193,7 +194,7 @@ fn deadline(tokens: &[Token], at: usize, kept: &[Token]) -> Option<usize> {
     (is_unit && DEADLINE_NEEDS.longest(clause, 0).is_some()).then_some(count + 1)
 }
 
-/// Whether a clause says what the one who is spoken to does.
+/// Checks whether a clause says what the one who is spoken to does.
 fn orders(tokens: &[Token], at: usize) -> bool {
     let is_end = |token: &&Token| matches!(token, Token::Comma | Token::Stop);
     tokens

@@ -1,8 +1,10 @@
-//! Sentences that ask without an imperative, said as imperatives: `I need the fridge open` is `open the fridge`, `could the
-//! coke be brought to me` is `bring the coke to me`. What is framed otherwise stays as it is.
+//! Sentences that ask without an imperative, said as imperatives: `I need the fridge open` is `open the
+//! fridge`, `could the coke be brought to me` is `bring the coke to me`. What is framed otherwise stays as it
+//! is.
 //!
-//! The frames are constructions with places for nouns, after Goldberg, Constructions (1995): a predicate of place or state
-//! (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and what politeness puts before them.
+//! The frames are constructions with places for nouns, after Goldberg, Constructions (1995): a predicate of
+//! place or state (`X belongs in Y`, `I want X shut`), a passive, a causative (`get X open`), a wish, and
+//! what politeness puts before them.
 
 mod addressed;
 mod clause;
@@ -43,7 +45,8 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
     tokens = delegated(&tokens);
     let mut said = Vec::with_capacity(tokens.len());
     let (mut at, mut starts, mut begins_sentence) = (0, true, true);
-    // Every rewriting takes words away or goes on behind what it wrote: the bound only guards against a slip of that.
+    // Every rewriting takes words away or goes on behind what it wrote: the bound only guards against a slip
+    // of that.
     let mut left = tokens.len() * 4 + 16;
     while at < tokens.len() && left > 0 {
         left -= 1;
@@ -84,7 +87,7 @@ pub(super) fn plain(tokens: &[Token]) -> Vec<Token> {
     said
 }
 
-/// Whether something begins here that politeness puts before a request.
+/// Checks whether something begins here that politeness puts before a request.
 fn is_lead(tokens: &[Token], at: usize) -> bool {
     skip_leads(tokens, at) > at
 }

@@ -1,4 +1,5 @@
-//! Requests that begin with the place, or have no verb: `into the bin with it`, `off to the sink with you`, `next stop is the door`.
+//! Requests that begin with the place, or have no verb: `into the bin with it`, `off to the sink with you`,
+//! `next stop is the door`.
 
 use super::state::{is_place, words};
 use crate::english::{
@@ -119,7 +120,8 @@ fn destination(tokens: &[Token], begin: usize) -> Option<usize> {
     }
 }
 
-/// `to the sink, please`, `over to the sink, please`: who is spoken to goes there. `next destination: the sink`.
+/// `to the sink, please`, `over to the sink, please`: who is spoken to goes there. `next destination: the
+/// sink`.
 pub(super) fn headed(tokens: &[Token], begin: usize, limit: usize) -> Option<(Vec<Token>, usize)> {
     if let Some(count) = destination(tokens, begin) {
         let (place, _) = noun(tokens, begin + count)?;
@@ -198,7 +200,8 @@ pub(super) fn wanted_there(tokens: &[Token], begin: usize) -> Option<(usize, Vec
     })
 }
 
-/// `I want the coke`, `I want you to put the coke`, `the coke belongs`: what shall have the place that is spoken of, with its verb.
+/// `I want the coke`, `I want you to put the coke`, `the coke belongs`: what shall have the place that is
+/// spoken of, with its verb.
 fn wanted(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize, &'static str)> {
     let noun_at = |at: usize| {
         let (thing, end) = noun(tokens, at)?;
@@ -224,7 +227,8 @@ fn wanted(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize, &'static st
     })
 }
 
-/// `on the table is where I want the coke`, `the drawer is where the coke lives`, `the drawer is the place for the coke`
+/// `on the table is where I want the coke`, `the drawer is where the coke lives`, `the drawer is the place
+/// for the coke`
 pub(super) fn fronted(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     let spot = spot(tokens, begin);
     let (is_bare, after) = match spot {

@@ -1,5 +1,5 @@
-//! What would be nice, with what is wanted as its subject: `the coke would hit the spot`, `the fridge closed would be lovely`,
-//! `opening it would be a big help`; and what is only called for: `the coke, over here!`
+//! Wishes with the wanted thing as their subject: `the coke would hit the spot`, `the fridge closed would be
+//! lovely`, `opening it would be a big help`; and what is only called for: `the coke, over here!`
 
 use super::state::{State, state, words};
 use crate::english::{
@@ -12,7 +12,7 @@ use crate::spot::spot;
 use crate::token::{Token, stands};
 use crate::verb::{begins, verb};
 
-/// What would be nice, as an imperative, and where its clause ends.
+/// Reads what would be nice, as an imperative, and where its clause ends.
 pub(super) fn pleasant(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, usize)> {
     (begin + 1..tokens.len()).find_map(|at| {
         let end = at + nice(tokens, at)?;
@@ -36,7 +36,7 @@ fn nice(tokens: &[Token], at: usize) -> Option<usize> {
     (count > 0).then_some(be + count - at)
 }
 
-/// What somebody names as nice, as what they ask for.
+/// Reads what somebody names as nice, as what they ask for.
 fn said(named: &[Token]) -> Option<Vec<Token>> {
     let first = named.first()?.word();
     // `opening it`, `you opening it`

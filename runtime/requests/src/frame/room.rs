@@ -35,8 +35,8 @@ pub(super) fn room_for(tokens: &[Token], begin: usize) -> Option<(Vec<Token>, us
     Some((said, end))
 }
 
-/// `(make room) on the table for the coke and put it there`, `… and put the coke there`: room is made by putting it there, where there
-/// is any. Alone it says nothing of what shall give way.
+/// `(make room) on the table for the coke and put it there`, `… and put the coke there`: room is made by
+/// putting it there, where there is any. Alone it says nothing of what shall give way.
 pub(super) fn made_room(tokens: &[Token], at: usize) -> Option<(Vec<Token>, usize)> {
     let (_, after) = spot(tokens, at)?;
     let named =

@@ -1,4 +1,4 @@
-//! What is wanted of a thing: that it is open, closed, somewhere, or that something is done with it.
+//! States that are wanted of a thing: open, closed, somewhere, or done something with.
 
 use crate::english::{STATE_AND, STATE_POSED, STATE_RUBBISH, STATE_SKIPPED, WHERETO};
 use crate::inflection::{Form, base};
@@ -6,13 +6,12 @@ use crate::noun::{Noun, noun};
 use crate::spot::{Relation, located, way};
 use crate::token::Token;
 
-/// What is wanted of something.
+/// A wanted state.
 pub(super) enum State {
     Open,
     Closed,
     /// It is somewhere: the words for it begin here.
     At,
-    /// What is done with it, as the verb's base.
     Done(String),
 }
 
@@ -41,7 +40,7 @@ pub(super) fn thing_before(
     })
 }
 
-/// What is wanted, and where the words for it that are still to be read begin.
+/// Reads what is wanted, and where the words for it that are still to be read begin.
 pub(super) fn state(tokens: &[Token], at: usize, form: Form) -> Option<(State, usize)> {
     let word = tokens.get(at)?.word();
     // `standing open`
@@ -86,13 +85,13 @@ fn base_is_participle(word: &str) -> bool {
     matches!(word, "put" | "set" | "shut")
 }
 
-/// Whether words for a place begin here.
+/// Checks whether words for a place begin here.
 pub(super) fn is_place(tokens: &[Token], at: usize) -> bool {
     let is_way = || way(tokens, at).is_some_and(|(spot, _)| spot.relation != Relation::To);
     located(tokens, at).is_some() || WHERETO.longest(tokens, at).is_some() || is_way()
 }
 
-/// What is wanted of a thing of which this is not wanted; none where nothing is the opposite.
+/// Reads what is wanted of a thing of which this is not wanted; none where nothing is the opposite.
 pub(super) fn opposite(state: State) -> Option<State> {
     match opposite_name(&state)? {
         "open" => Some(State::Open),

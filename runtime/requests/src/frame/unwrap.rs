@@ -131,7 +131,7 @@ pub(super) fn unwrapped(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token
     is_verb.then(|| (at + set_out, Vec::new()))
 }
 
-/// What somebody else wants of the one who is spoken to, as the speaker says: how many words it takes.
+/// Reads what somebody else wants of the one who is spoken to, as the speaker says: how many words it takes.
 pub(super) fn relayed(tokens: &[Token], at: usize) -> Option<usize> {
     let is_who = |token: &Token| {
         let word = token.word();
@@ -149,7 +149,8 @@ pub(super) fn relayed(tokens: &[Token], at: usize) -> Option<usize> {
     })
 }
 
-/// `lock it away`, `track it down`: the verb with its small word, and up to where the thing stands that it takes in.
+/// `lock it away`, `track it down`: the verb with its small word, and up to where the thing stands that it
+/// takes in.
 pub(super) fn apart(tokens: &[Token], at: usize) -> Option<(usize, Vec<Token>)> {
     let word = tokens.get(at)?.word();
     let (_, after) = noun(tokens, at + 1).filter(|_| APART_VERBS.begins_with(word))?;
