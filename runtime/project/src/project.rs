@@ -235,7 +235,7 @@ impl Project {
         };
         let (files, robot) = robot.unzip();
         let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
-        let options = Options { max_duration_secs: self.inputs.max_duration_secs };
+        let options = CheckOptions { max_duration_secs: self.inputs.max_duration_secs };
         let mut session = Session::builder()
             .robot(robot.as_ref())
             .domains(&self.domains)

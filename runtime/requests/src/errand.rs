@@ -224,7 +224,7 @@ impl Command {
 }
 
 /// Checks whether something has to stay in the hand: not where it is put somewhere later.
-pub(super) fn hold_on(later: &[Command]) -> Lasts {
+pub(super) fn hold_on(later: &[Command]) -> Persistence {
     let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
     if later.iter().all(goes) { Persistence::ToTheEnd } else { Persistence::Once }
 }
