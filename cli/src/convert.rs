@@ -1,7 +1,7 @@
 //! Conversion of a document between text and JSON. Types are filled in first where one syntax leaves them
 //! open.
 
-use motet_compiler::{Library, settle};
+use motet_compiler::{Library, make_explicit};
 use motet_syntax::ast::{Item, Policy};
 use motet_syntax::{Parsed, Syntax, print};
 
@@ -25,7 +25,7 @@ pub(crate) fn write(
     }
     for item in &mut file.items {
         if let Item::Policy(policy) = item {
-            settle(policy, library, syntax);
+            make_explicit(policy, library, syntax);
         }
     }
     match syntax {

@@ -1,24 +1,24 @@
-//! The pages behind `motet explain`: one a code, with a failing example and the mended one, both run as tests.
+//! Pages of `motet explain`: one per code, with an example that raises it and a corrected one. Tests run
+//! both.
 
 use motet_syntax::Code;
 
-/// A code's page.
+/// Page of one diagnostic code.
 #[derive(Clone, Copy, Debug)]
-pub struct Page {
-    /// The code.
+pub struct CodePage {
     pub code: &'static str,
-    /// Markdown: what it means, an example that raises it, and one that does not.
+    /// Markdown: the meaning, an example that raises the code, and one that does not.
     pub text: &'static str,
 }
 
 macro_rules! pages {
     ($($code:literal)*) => {
-        &[$(Page { code: $code, text: include_str!(concat!("../codes/", $code, ".md")) }),*]
+        &[$(CodePage { code: $code, text: include_str!(concat!("../codes/", $code, ".md")) }),*]
     };
 }
 
-/// All pages, in the order of their codes.
-pub const PAGES: &[Page] = pages! {
+/// All pages, sorted by code.
+pub const PAGES: &[CodePage] = pages! {
     "M0101" "M0102" "M0103" "M0104" "M0105" "M0106" "M0107" "M0108" "M0109" "M0110" "M0111" "M0112"
     "M0113" "M0114" "M0115" "M0116" "M0117" "M0118" "M0119" "M0120" "M0121" "M0131" "M0132" "M0133"
     "M0201" "M0202" "M0203" "M0204" "M0205" "M0206" "M0207" "M0208" "M0209" "M0210" "M0211" "M0212"
@@ -33,28 +33,29 @@ pub const PAGES: &[Page] = pages! {
     "M0904" "M0905" "M0906" "M0907" "M0908" "M0909" "M0910" "M0911"
 };
 
-/// The page of a code; letter case does not matter.
+/// Page of a code; the case of letters does not matter. O(pages).
 #[must_use]
-pub fn page(code: &str) -> Option<&'static Page> {
+pub fn page(code: &str) -> Option<&'static CodePage> {
     PAGES.iter().find(|page| page.code.eq_ignore_ascii_case(code))
 }
 
-/// Every code that the front end, the cards, the scenes and the compiler can raise.
+/// All codes that the front ends, the readers of cards and scenes, and the compiler can raise, sorted.
 #[must_use]
 pub fn all() -> Vec<Code> {
     let stages = [
         motet_pddl::CODES,
+        crate::declare::errors::CODES,
         crate::resolve::errors::CODES,
-        crate::world::CODES,
-        crate::library::errors::CODES,
+        crate::environment::CODES,
+        crate::declare::CARD_CODES,
         motet_robots::card::CODES,
         motet_robots::mesh::CODES,
         motet_robots::scene::CODES,
         motet_robots::urdf::CODES,
         motet_robots::srdf::CODES,
-        crate::check::errors::CODES,
+        crate::limits::errors::CODES,
         crate::prove::errors::CODES,
-        crate::place::errors::CODES,
+        crate::feasibility::errors::CODES,
     ];
     let front_end = motet_syntax::errors::CODES;
     let mut codes: Vec<_> = front_end.into_iter().chain(stages).flatten().copied().collect();

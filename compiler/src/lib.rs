@@ -4,27 +4,33 @@
 //! `prove` (state), `place` (geometry), `lower` (the graph). A stage returns what it could make and its diagnostics; no
 //! stage reads a file, a clock or the environment, and none panics on any input.
 
-mod check;
 pub mod codes;
-pub mod draft;
+mod declare;
+mod document;
+mod environment;
+mod explicit;
+mod facts;
+mod feasibility;
 pub mod fix;
+pub mod incremental;
 mod ir;
-mod library;
+mod limits;
 mod lower;
-mod place;
 pub mod plan;
 mod prove;
+mod repair;
 mod resolve;
 mod session;
-mod settle;
 pub mod signature;
-mod world;
 
-pub use library::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
-pub use place::{Access, Course, Geometry, Prospect};
+pub use declare::{Library, LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES};
+pub use declare::{MAX_COUNT, MAX_SECONDS};
+pub use document::{Compiled, DocumentCheck, PolicyOutcome};
+pub use environment::{Environment, InitialState};
+pub use explicit::make_explicit;
+pub use feasibility::{Access, Forecast, Geometry, WorldTracker};
+pub use ir::MAX_ENTITIES;
 pub use prove::MAX_FIXPOINTS;
-pub use resolve::{MAX_COUNT, MAX_NODES, MAX_SECONDS};
-pub use session::{Compiled, Given, Options, Session};
-pub use settle::settle;
+pub use resolve::MAX_NODES;
+pub use session::{CheckOptions, InitialFact, Session, SessionBuilder};
 pub use signature::Signatures;
-pub use world::{MAX_ENTITIES, State, World};

@@ -1,6 +1,7 @@
-//! What a policy can be made of, as plain data: the callables, fluents, measures and fields of a library and the entities
-//! of a world, with their types. What is generated for language models is generated from this, so it offers exactly what
-//! the stages take. Made once from a library and a world, then only read.
+//! Signatures: the callables, fluents, measures, fields and entities that a policy may use, as plain data.
+//!
+//! Grammars and prompts for language models derive from them, so they offer exactly what the stages accept.
+//! Built once from a library and an environment, then only read.
 
 use motet_syntax::Severity;
 use motet_syntax::Syntax;
@@ -9,140 +10,116 @@ use motet_syntax::unit::Dimension;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
+use crate::declare::Library;
+use crate::environment::Environment;
 use crate::ir::{Base, Kind, Ty};
-use crate::library::Library;
-use crate::world::World;
 
-/// The declarations and entities in force.
+/// Declarations and entities in force.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
-    /// The robot's name; empty without one.
+    /// Name of the robot; empty without one.
     pub robot: SmolStr,
-    /// The kinds of entities; the first is the root `Entity`.
+    /// Kinds of entities; the first is the root `Entity`.
     pub kinds: Vec<KindSignature>,
-    /// The enumerations, those of the robot's card among them.
+    /// Enumerations, with those of the robot's card.
     pub enums: Vec<EnumSignature>,
-    /// What a step may call: the primitives that the robot provides, then the policies that it can carry out.
+    /// Primitives that the robot provides, then policies that it can carry out.
     pub callables: Vec<Callable>,
-    /// The fluents.
     pub fluents: Vec<FluentSignature>,
-    /// The measures.
     pub measures: Vec<MeasureSignature>,
-    /// The fields of entities.
     pub fields: Vec<FieldSignature>,
-    /// The kinds of failure, `timeout` among them.
+    /// Names of the failures, with `timeout`.
     pub failures: Vec<SmolStr>,
-    /// The entities of the world, in its order, with the indices of their kinds.
+    /// Entities of the environment, in order, with the indices of their kinds.
     pub entities: Vec<(SmolStr, usize)>,
 }
 
-/// A type.
+/// Type of a value.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Type {
-    /// `Bool`
     Bool,
-    /// `Int`
     Int,
-    /// `Number`
     Number,
-    /// `Length`, `Ratio`, …
     Quantity(Dimension),
-    /// `Text`
     Text,
-    /// `Pose`
     Pose,
-    /// An entity of the kind with this index, or of one below it.
+    /// Entity of the kind with this index, or of a descendant.
     Entity(usize),
-    /// A case of the enumeration with this index.
+    /// Case of the enumeration with this index.
     Enum(usize),
-    /// A list.
     List(Box<Type>),
 }
 
-/// A kind of entities.
+/// Signature of a kind of entities.
 #[derive(Clone, Debug)]
 pub struct KindSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// The index of its parent; only the root has none.
+    /// Index of the parent; `None` for the root.
     pub parent: Option<usize>,
 }
 
-/// An enumeration.
+/// Signature of an enumeration.
 #[derive(Clone, Debug)]
 pub struct EnumSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// Its cases, in order.
     pub cases: Vec<SmolStr>,
 }
 
-/// What a step may call.
+/// Signature of a primitive or policy.
 #[derive(Clone, Debug)]
 pub struct Callable {
-    /// Its name.
     pub name: SmolStr,
-    /// Its parameters, in order.
     pub params: Vec<ParamSignature>,
-    /// What it binds.
+    /// Type of the result.
     pub result: Option<Type>,
-    /// Whether it is a policy, which takes neither a deadline nor retries.
+    /// True for a policy, which takes neither a deadline nor retries.
     pub is_policy: bool,
 }
 
-/// A parameter of a callable.
+/// Signature of a parameter.
 #[derive(Clone, Debug)]
 pub struct ParamSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// Its type.
     pub ty: Type,
-    /// What stands in for a missing argument, as written.
+    /// Default argument, as written.
     pub default: Option<Expr>,
-    /// Least and greatest value, from the robot's card, in SI units.
+    /// Least and greatest value from the robot's card, in SI units.
     pub range: Option<(f64, f64)>,
 }
 
-/// A fluent.
+/// Signature of a fluent.
 #[derive(Clone, Debug)]
 pub struct FluentSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// Its parameters, in order.
     pub params: Vec<(SmolStr, Type)>,
-    /// Whether the robot can observe it, so that a step may ask for it.
+    /// True if the robot can observe the fluent, so that a step may test it.
     pub is_observable: bool,
 }
 
-/// A measure.
+/// Signature of a measure.
 #[derive(Clone, Debug)]
 pub struct MeasureSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// Its parameters, in order.
     pub params: Vec<(SmolStr, Type)>,
-    /// What it gives.
     pub result: Type,
-    /// Whether the robot can observe it, so that a step may ask for it.
+    /// True if the robot can observe the measure, so that a step may test it.
     pub is_observable: bool,
 }
 
-/// A field of the entities of a kind.
+/// Signature of a field of a kind.
 #[derive(Clone, Debug)]
 pub struct FieldSignature {
-    /// Its name.
     pub name: SmolStr,
-    /// The kind that declares it.
+    /// Index of the kind that declares it.
     pub kind: usize,
-    /// What it holds.
     pub ty: Type,
 }
 
 impl Signatures {
-    /// The signatures of a library and a world. O(declarations × entities) for the policies, which are checked by
-    /// themselves: one that the robot cannot carry out is left out.
+    /// Collects the signatures of a library and an environment. O(declarations × entities), since each policy
+    /// is checked alone: one that the robot cannot carry out is left out.
     #[must_use]
-    pub fn new(library: &Library, world: &World) -> Self {
+    pub fn new(library: &Library, environment: &Environment) -> Self {
         let mut signatures = Self {
             robot: library.robot.clone(),
             kinds: library
@@ -156,17 +133,22 @@ impl Signatures {
                 .map(|def| EnumSignature { name: def.name.clone(), cases: def.cases.clone() })
                 .collect(),
             failures: library.failures.iter().map(|(name, _)| name.clone()).collect(),
-            entities: world.entities().iter().map(|(_, name, kind)| (name.clone(), kind.index())).collect(),
+            entities: environment
+                .entities()
+                .iter()
+                .map(|(_, name, kind)| (name.clone(), kind.index()))
+                .collect(),
             ..Self::default()
         };
         signatures.callables = primitives(library);
-        let policies = library.policies.iter().filter(|policy| can_be_carried_out(policy, library, world));
+        let policies =
+            library.policies.iter().filter(|policy| can_be_carried_out(policy, library, environment));
         signatures.callables.extend(policies.filter_map(|policy| of_policy(policy, library)));
         observed(&mut signatures, library);
         signatures
     }
 
-    /// Whether the kind with an index is another one or below it.
+    /// Returns whether a kind is another one or a descendant of it.
     #[must_use]
     pub fn is_kind(&self, kind: usize, ancestor: usize) -> bool {
         let mut at = Some(kind);
@@ -179,7 +161,7 @@ impl Signatures {
         false
     }
 
-    /// Whether a value of type `actual` may stand where `expected` is asked for.
+    /// Returns whether a value of type `actual` is allowed where `expected` is.
     #[must_use]
     pub fn fits(&self, expected: &Type, actual: &Type) -> bool {
         match (expected, actual) {
@@ -190,13 +172,13 @@ impl Signatures {
         }
     }
 
-    /// The entities of a kind and of those below it, in the order of the world. O(entities).
+    /// Entities of a kind and its descendants, in order. O(entities).
     pub fn entities_of(&self, kind: usize) -> impl Iterator<Item = &SmolStr> {
         self.entities.iter().filter(move |(_, of)| self.is_kind(*of, kind)).map(|(name, _)| name)
     }
 
-    /// The types that a name of a policy can have: what callables give, the elements of lists of that, and the kinds of the
-    /// entities that a loop can list.
+    /// Types that a name in a policy can have: results of callables, elements of lists of them, and kinds of
+    /// entities in lists.
     #[must_use]
     pub fn bindable(&self) -> Vec<Type> {
         let mut found: Vec<Type> = Vec::new();
@@ -221,25 +203,25 @@ impl Signatures {
         found
     }
 
-    /// The callable with a name.
+    /// Finds a callable by name. O(callables).
     #[must_use]
     pub fn callable(&self, name: &str) -> Option<&Callable> {
         self.callables.iter().find(|callable| callable.name == name)
     }
 
-    /// The fluent with a name.
+    /// Finds a fluent by name. O(fluents).
     #[must_use]
     pub fn fluent(&self, name: &str) -> Option<&FluentSignature> {
         self.fluents.iter().find(|fluent| fluent.name == name)
     }
 
-    /// The measure with a name.
+    /// Finds a measure by name. O(measures).
     #[must_use]
     pub fn measure(&self, name: &str) -> Option<&MeasureSignature> {
         self.measures.iter().find(|measure| measure.name == name)
     }
 
-    /// The name of a type as the language writes it.
+    /// Spelling of a type in the language.
     #[must_use]
     pub fn type_name(&self, ty: &Type) -> String {
         match ty {
@@ -256,7 +238,7 @@ impl Signatures {
     }
 }
 
-/// A type; none where an error has left it unknown.
+/// Type of a signature; `None` after an error.
 fn of_type(ty: Ty) -> Option<Type> {
     let base = match ty.base {
         Base::Bool => Type::Bool,
@@ -278,7 +260,7 @@ fn of_params(params: &[(SmolStr, Ty)]) -> Option<Vec<(SmolStr, Type)>> {
 
 fn primitives(library: &Library) -> Vec<Callable> {
     let provided = library.primitives.iter().filter(|def| def.provided);
-    let signature = |def: &crate::library::PrimitiveDef| {
+    let signature = |def: &crate::declare::PrimitiveDef| {
         let written: FxHashMap<&str, &Expr> = def
             .source
             .params
@@ -320,10 +302,10 @@ fn of_policy(policy: &Policy, library: &Library) -> Option<Callable> {
     Some(Callable { name: policy.name.text.clone(), params, result: None, is_policy: true })
 }
 
-/// Whether nothing is wrong with a policy beside what its state decides.
-fn can_be_carried_out(policy: &Policy, library: &Library, world: &World) -> bool {
-    let (mut program, mut said) = crate::resolve::resolve(policy, Syntax::Text, library, world);
-    said.extend(crate::check::check(&mut program, library, world, None));
+/// Returns whether a policy has no errors but those that depend on its state.
+fn can_be_carried_out(policy: &Policy, library: &Library, environment: &Environment) -> bool {
+    let (program, mut said) = crate::resolve::resolve(policy, Syntax::Text, library, environment);
+    said.extend(crate::limits::check(program, library, environment, None).1);
     said.iter().all(|said| said.severity != Severity::Error)
 }
 

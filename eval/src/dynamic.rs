@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::Builtin;
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator, Outcome};
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome as Ending, RunEnd, Time};

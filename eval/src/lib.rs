@@ -11,7 +11,7 @@ pub mod setup;
 use std::time::Duration;
 
 use indexmap::IndexMap;
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
 
@@ -149,7 +149,8 @@ pub fn check_in_domain(domain: &str, policy: &str) -> (Vec<Diagnostic>, Duration
     let id = sources.add(source.clone());
     let parsed = motet_syntax::read(&source, id);
     let mut said = parsed.diagnostics;
-    let (session, wrong) = Session::new(None, &[parsed.file], None, None, Options::default(), &mut sources);
+    let session = Session::builder().domains(&[parsed.file]).build(&mut sources);
+    let wrong = session.input_diagnostics().to_vec();
     said.extend(wrong);
     let source = Source::new("policy.json", policy);
     let id = sources.add(source.clone());

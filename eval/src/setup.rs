@@ -1,6 +1,6 @@
 //! Robots, scenes and sessions by name, for tests.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::{Diagnostic, Source, Sources};
@@ -48,5 +48,7 @@ pub fn session(
     scene: Option<&Scene>,
     sources: &mut Sources,
 ) -> (Session, Vec<Diagnostic>) {
-    Session::new(robot, &[], scene, None, Options::default(), sources)
+    let session = Session::builder().robot(robot).scene(scene).build(sources);
+    let said = session.input_diagnostics().to_vec();
+    (session, said)
 }

@@ -5,11 +5,11 @@
 use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{FileId, Source, Sources};
 
 static SESSION: LazyLock<Session> =
-    LazyLock::new(|| Session::new(None, &[], None, None, Options::default(), &mut Sources::default()).0);
+    LazyLock::new(|| Session::builder().build(&mut Sources::default()));
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = motet_syntax::decode(bytes, FileId(u16::MAX)) else { return };

@@ -203,7 +203,7 @@ impl Motet {
         driver: &mut dyn Driver,
         observer: &mut dyn Observer,
     ) -> Result<RunEnd, Error> {
-        let guard = self.opened.session.course().map(|course| Guard::new(course, CheckMode::AtOnce));
+        let guard = self.opened.session.world_tracker().map(|course| Guard::new(course, CheckMode::AtOnce));
         let start = run::start_state(self.opened.scene.as_ref());
         let capabilities = driver.capabilities();
         let graph = policy.graph.clone();

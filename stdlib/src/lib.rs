@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+pub mod lang;
+
 /// Files of the library in reading order: name and text of each.
 pub const FILES: &[(&str, &str)] = &[
     ("stdlib/world.motet", include_str!("../motet/world.motet")),

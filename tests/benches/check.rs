@@ -65,8 +65,8 @@ fn depot(c: &mut Criterion) {
     let source = Source::new("depot.motet", depot::domain(BOXES));
     let file = sources.add(source.clone());
     let declared = motet_syntax::read(&source, file).file;
-    let (session, said) =
-        Session::new(None, &[declared], None, None, motet_compiler::Options::default(), &mut sources);
+    let session = Session::builder().domains(&[declared]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "the domain has no findings: {said:?}");
     let mut group = c.benchmark_group("symbolic domain of 1,000 entities");
     let right = depot::plan(BOXES, 10_000, None);

@@ -146,13 +146,13 @@ impl Tally {
         // Compiling checks too, and counts the motions. A document with one policy is only compiled.
         let diagnostics = if parsed.file.items.len() == 1 && parsed.file.runnable().count() == 1 {
             let compiled = opened.session.compile(&parsed, None);
-            self.unseen += compiled.unseen;
+            self.unseen += compiled.skipped_motions;
             self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
             compiled.diagnostics
         } else {
             for policy in runnable {
                 let compiled = opened.session.compile(&parsed, Some(&policy.name.text));
-                self.unseen += compiled.unseen;
+                self.unseen += compiled.skipped_motions;
                 self.motions += compiled.graph.as_ref().map_or(0, deferred_motions);
             }
             opened.session.check(&parsed)

@@ -12,7 +12,6 @@ use std::rc::Rc;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
-use motet_compiler::Options;
 use motet_planner::Planner;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
 use motet_project::read_scene;
@@ -175,7 +174,7 @@ fn plan_and_run(args: &DoArgs, colors: Colors, report: &mut Report) -> Result<Ex
         scene,
         domains,
         geometry,
-        options: Options { max_duration_secs: args.session.max_duration },
+        options: motet_compiler::CheckOptions { max_duration_secs: args.session.max_duration },
     };
     let mut planner = planner::planner(args, colors, record.clone())?;
     catch_interrupts()?;

@@ -62,7 +62,7 @@ fn check_and_drive(args: &DriveArgs, colors: Colors, report: &mut Report) -> Res
     };
     let start = start_state(opened.scene.as_ref());
     let mut driver = connect(&args.driver, Hello::of(&graph), Time::ZERO)?;
-    let guard = opened.session.course().map(|course| Guard::new(course, CheckMode::Beside));
+    let guard = opened.session.world_tracker().map(|course| Guard::new(course, CheckMode::Beside));
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings())?;
     let journal = match &args.record {
         Some(folder) => {

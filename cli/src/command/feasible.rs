@@ -6,7 +6,7 @@ mod wire;
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_geometry::planning::{
     InfeasibleReason, MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
     UnknownReason,
@@ -81,8 +81,8 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     } else {
         parse_motions(&args.motions, &machine, &scene)?
     };
-    let (session, diagnostics) =
-        Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources);
+    let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
+    let diagnostics = session.input_diagnostics().to_vec();
     require("robot or scene", &diagnostics, &sources, report)?;
     let diagnostics: Vec<Diagnostic> =
         args.motions.iter().flat_map(|motion| check_kinds(motion, &session, &mut sources)).collect();

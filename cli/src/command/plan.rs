@@ -1,7 +1,7 @@
 //! `motet plan`: a policy for a request or a goal, by the built-in planner.
 
 use clap::Args;
-use motet_compiler::plan::{Goal, Lasts, NoPlan};
+use motet_compiler::plan::{Goal, NoPlan, Persistence};
 use motet_planner::builtin::{self, PlanError};
 use motet_requests::{Aim, RequestContext};
 use motet_robots::scene::Scene;
@@ -83,7 +83,7 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
 
 fn goals(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
     let aim = |(index, text): (usize, &String)| {
-        let goal = Goal::read(text, Lasts::ToTheEnd)?;
+        let goal = Goal::read(text, Persistence::ToTheEnd)?;
         Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None })
     };
     texts.iter().enumerate().map(aim).collect()

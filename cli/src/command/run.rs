@@ -99,7 +99,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let start = start_state(opened.scene.as_ref());
     let scene = opened.scene.clone().unwrap_or_default();
     let mut simulator = Sim::new(robot, &scene, options.clone());
-    let guard = opened.session.course().map(|course| Guard::new(course, simulation.speed.verifies()));
+    let guard = opened.session.world_tracker().map(|course| Guard::new(course, simulation.speed.verifies()));
     let engine = engine(graph, &start, simulator.capabilities(), guard.as_ref(), EngineSettings::default())?;
     let journal = match &args.record {
         Some(folder) => {
@@ -177,7 +177,7 @@ pub(super) fn simulator(
 ) -> Result<Sim, CliError> {
     let inputs = SimulationInputs::read(args.seed, args.faults.as_deref(), None, report)?;
     if args.faults.is_some() {
-        let (there, _) = session.elsewhere(Some(scene), None);
+        let there = session.with_scene(Some(scene), None);
         inputs.check_names(&there.signatures())?;
     }
     Ok(Sim::new(robot, scene, inputs.without_policy(eye)))

@@ -1,8 +1,8 @@
-//! Applying edits to a text.
+//! Application of edits to a text.
 
 use motet_syntax::{FileId, Fix};
 
-/// The text with all edits of a fix made. `None` where one is about another file, lies outside the text or within a
+/// Applies all edits of a fix. `None` if an edit is about another file, lies outside the text or within a
 /// character, or overlaps another. O(text + edits).
 #[must_use]
 pub fn apply(text: &str, file: FileId, fix: &Fix) -> Option<String> {

@@ -1,53 +1,62 @@
-//! Edits that mend findings, and the loop that makes them: each is tried in memory, and kept only where the document then
-//! checks better.
+//! Automatic fixes: each is tried in memory, and kept only if the document then checks better.
 //!
-//! Beside the stages, not one of them: it reads what they found and checks again. Pure, like they are.
+//! Above the stages: it reads their findings, edits the document and checks it again. Guarded by
+//! `tests/tests/fix.rs`.
 
 mod edit;
-mod write;
 
-use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
+use motet_syntax::{Code, Diagnostic, FileId, Parsed, Severity, Source};
 
-use crate::ir::Program;
-use crate::library::Library;
-use crate::prove::mend::Offer;
+use crate::repair::Finding;
 use crate::session::Session;
-use crate::world::World;
 
 pub use edit::apply;
-pub(crate) use write::spelled;
 
-/// The most documents that are checked to mend one.
+/// Maximal number of documents that are checked to fix one.
 const MAX_TRIES: usize = 500;
-/// How many edits may be needed together before the document checks better: a mended name can uncover what lies behind.
+/// Maximal number of fixes that are combined before the document checks better: a corrected name can uncover
+/// an error behind it.
 const MAX_DEPTH: usize = 3;
 
-/// What came of mending a document.
+/// A document after its fixes.
 #[derive(Clone, Debug)]
-pub struct Fixed {
-    /// The document.
+pub struct FixedDocument {
     pub text: String,
-    /// What was done to it, in order.
-    pub applied: Vec<Applied>,
-    /// What is left to say of it.
+    /// Applied fixes, in order.
+    pub applied: Vec<AppliedFix>,
+    /// The same document, read.
+    pub parsed: Parsed,
+    /// Remaining diagnostics, without geometry.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// One fix that was made.
+/// A fix that was applied.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Applied {
-    /// Of which finding.
+pub struct AppliedFix {
+    /// Code of its diagnostic.
     pub code: Code,
-    /// What it did: "write `pick`".
+    /// Description of the change: "write `pick`".
     pub title: String,
 }
 
-/// Mends a document by at most so many fixes. Each leaves it with fewer errors and no new kind of error, or with as many
-/// errors, fewer warnings and no new code; at most 500 documents are checked on the way.
+/// Applies at most `most` fixes to a document. Each leaves it with fewer errors and no new kind of error, or
+/// with as many errors, fewer warnings and no new code. At most 500 documents are checked on the way.
 #[must_use]
-pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fixed {
+pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> FixedDocument {
+    fix_parsed(session, source, motet_syntax::read(source, file), file, most)
+}
+
+/// As [`fix`], for a document that was already read.
+#[must_use]
+pub fn fix_parsed(
+    session: &Session,
+    source: &Source,
+    parsed: Parsed,
+    file: FileId,
+    most: usize,
+) -> FixedDocument {
     let mut tries = MAX_TRIES;
-    let mut at = State::of(session, source.text.to_string(), source, file);
+    let mut at = Candidate::new(session, source.text.to_string(), parsed);
     let mut applied = Vec::new();
     while applied.len() < most {
         let depth = MAX_DEPTH.min(most - applied.len() - 1);
@@ -56,68 +65,32 @@ pub fn fix(session: &Session, source: &Source, file: FileId, most: usize) -> Fix
         at = next;
     }
     let diagnostics = at.findings.into_iter().map(|found| found.diagnostic).collect();
-    Fixed { text: at.text, applied, diagnostics }
+    FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
 
-/// A finding and the ways to mend it, the best first.
-#[derive(Clone, Debug)]
-pub(crate) struct Finding {
-    pub(crate) diagnostic: Diagnostic,
-    pub(crate) others: Vec<Fix>,
-}
-
-impl From<Diagnostic> for Finding {
-    fn from(diagnostic: Diagnostic) -> Self {
-        Self { diagnostic, others: Vec::new() }
-    }
-}
-
-/// Joins what was found with what the prover offers, as edits of the document.
-pub(crate) fn findings(
-    diagnostics: Vec<Diagnostic>,
-    offers: &[Offer],
-    parsed: &Parsed,
-    program: &Program,
-    library: &Library,
-    world: &World,
-) -> Vec<Finding> {
-    let writer = write::Writer { parsed, program, library, world };
-    let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
-    for found in &mut findings {
-        let said = &mut found.diagnostic;
-        if let Some(fix) = &mut said.fix {
-            writer.in_form(said.code, fix);
-        }
-        let offer = offers.iter().find(|offer| {
-            offer.code == said.code && offer.span == said.span && offer.message == said.message
-        });
-        let mut fixes = offer.map(|offer| writer.fixes(offer)).unwrap_or_default().into_iter();
-        if said.fix.is_none() {
-            said.fix = fixes.next().or_else(|| writer.leaving_out(said)).or_else(|| writer.only_one(said));
-        }
-        found.others = fixes.collect();
-    }
-    findings
-}
-
-/// A document and what is found in it.
-struct State {
+/// A version of the document with its findings.
+struct Candidate {
     text: String,
+    parsed: Parsed,
     findings: Vec<Finding>,
 }
 
-impl State {
+impl Candidate {
     fn of(session: &Session, text: String, source: &Source, file: FileId) -> Self {
         let parsed = motet_syntax::read(&Source::new(source.name.clone(), text.as_str()), file);
-        Self { findings: session.findings(&parsed, None), text }
+        Self::new(session, text, parsed)
+    }
+
+    fn new(session: &Session, text: String, parsed: Parsed) -> Self {
+        Self { findings: session.findings(&parsed, None), text, parsed }
     }
 
     fn count(&self, severity: Severity) -> usize {
         self.findings.iter().filter(|found| found.diagnostic.severity == severity).count()
     }
 
-    /// Whether it checks better than another: fewer errors and no new code of an error, or as many errors, fewer
-    /// warnings, and no new code. A step that mends an error may be one that a lint has a word on.
+    /// Returns whether this version checks better than another: fewer errors and no new code of an error, or
+    /// as many errors, fewer warnings, and no new code. A step that repairs an error may raise a lint.
     fn is_better_than(&self, other: &Self) -> bool {
         let counts = |state: &Self| (state.count(Severity::Error), state.count(Severity::Warning));
         let fewer_errors = counts(self).0 < counts(other).0;
@@ -129,26 +102,27 @@ impl State {
     }
 }
 
-/// The first document that is better than `base` by mending `at`, with what was done. Errors are tried before warnings.
+/// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to it.
+/// Tries errors before warnings.
 fn better(
     session: &Session,
     source: &Source,
     file: FileId,
-    base: &State,
-    at: &State,
+    base: &Candidate,
+    at: &Candidate,
     depth: usize,
     tries: &mut usize,
-) -> Option<(State, Vec<Applied>)> {
+) -> Option<(Candidate, Vec<AppliedFix>)> {
     let mut order: Vec<_> = at.findings.iter().collect();
     order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
     let mut promising = Vec::new();
     for found in order {
         let said = &found.diagnostic;
-        for fix in said.fix.iter().chain(&found.others) {
+        for fix in said.fix.iter().chain(&found.alternatives) {
             *tries = tries.checked_sub(1)?;
             let Some(text) = apply(&at.text, file, fix) else { continue };
-            let next = State::of(session, text, source, file);
-            let done = Applied { code: said.code, title: fix.title.clone() };
+            let next = Candidate::of(session, text, source, file);
+            let done = AppliedFix { code: said.code, title: fix.title.clone() };
             if next.is_better_than(base) {
                 return Some((next, vec![done]));
             }

@@ -1,13 +1,21 @@
-//! The resolved form of a policy: every name is an index, every argument is in its place, sub-policies are inlined.
+//! Intermediate representation of a policy: every name is an id, every argument has its place, sub-policies
+//! are inlined.
 //!
-//! Made by `resolve`, read by `check`, `prove`, `place` and `lower`. Steps live in one arena in document order, so a
-//! [`StepId`] also says who caused a fact.
+//! `resolve` produces it; the later stages read it. Steps live in one arena in document order, so a
+//! [`StepId`] also identifies the cause of a fact.
 
+mod entities;
+mod motion;
 mod program;
 mod term;
 mod ty;
 
-pub(crate) use program::{Binding, Block, Call, Catch, Place, Program, Reaction, Slot, Step, StepKind, When};
+pub(crate) use entities::Entities;
+pub use entities::MAX_ENTITIES;
+pub(crate) use motion::MotionKind;
+pub(crate) use program::{
+    Binding, Block, BlockSlot, Call, Catch, Program, Reaction, Step, StepKind, StepPosition, When,
+};
 pub(crate) use term::{Condition, Fact, Term};
 pub(crate) use ty::{Base, Ty};
 
@@ -17,7 +25,7 @@ macro_rules! ids {
         #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
         pub(crate) struct $name(pub(crate) $int);
         impl $name {
-            /// The index into its table.
+            /// Index into the table of this id.
             #[must_use]
             pub(crate) fn index(self) -> usize {
                 self.0 as usize
@@ -27,31 +35,36 @@ macro_rules! ids {
 }
 
 ids! {
-    /// An entity kind of the library.
+    /// Id of an entity kind of the library.
     Kind: u16
-    /// An enumeration of the library.
+    /// Id of an enumeration of the library.
     EnumId: u16
-    /// A fluent of the library.
+    /// Id of a fluent of the library.
     Fluent: u16
-    /// A measure of the library.
+    /// Id of a measure of the library.
     Measure: u16
-    /// A failure kind of the library.
+    /// Id of a failure of the library.
     Failure: u16
-    /// A primitive of the library.
+    /// Id of a primitive of the library.
     Primitive: u16
-    /// An entity of the world; above the world's own, a symbol of the prover.
+    /// Id of an entity of the environment; higher ids are symbols of the prover.
     Entity: u16
-    /// A step of the program.
+    /// Id of a step of the program.
     StepId: u32
-    /// A binding of the program.
+    /// Id of a binding of the program.
     BindingId: u32
 }
 
-/// Always there, at these indices.
+/// The robot; always at this index.
 pub(crate) const ROBOT: Entity = Entity(0);
 /// The person who gives the instructions.
 pub(crate) const USER: Entity = Entity(1);
-/// Where the robot stood when the policy began.
+/// The place where the robot stood when the policy began.
 pub(crate) const START: Entity = Entity(2);
 /// The failure that every primitive can end in.
 pub(crate) const TIMEOUT: Failure = Failure(0);
+
+impl Kind {
+    /// The root `Entity` of all kinds.
+    pub(crate) const ROOT: Self = Self(0);
+}

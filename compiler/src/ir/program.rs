@@ -1,4 +1,4 @@
-//! The program and its steps.
+//! The program: a policy after name resolution and typing.
 
 use motet_syntax::Span;
 use motet_syntax::ast::EndKind;
@@ -8,22 +8,17 @@ use smol_str::SmolStr;
 
 use super::{BindingId, Condition, Failure, Primitive, StepId, Term, Ty};
 
-/// A policy, resolved.
+/// A policy after name resolution and typing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Program {
-    /// Its name.
     pub(crate) name: SmolStr,
-    /// The robot's name; empty without one.
+    /// Name of the robot; empty without one.
     pub(crate) robot: SmolStr,
-    /// Where it stands.
     pub(crate) span: Span,
     /// All steps, parents before children, in document order.
     pub(crate) steps: Vec<Step>,
-    /// The body.
     pub(crate) body: Block,
-    /// The bindings.
     pub(crate) bindings: Vec<Binding>,
-    /// Its goal.
     pub(crate) achieves: Option<(Condition, Span)>,
 }
 
@@ -33,10 +28,10 @@ impl Program {
         self.steps.get(id.index())
     }
 
-    /// The steps in which a step lies, innermost first.
+    /// Ancestors of a step, innermost first.
     pub(crate) fn around(&self, id: StepId) -> impl Iterator<Item = (StepId, &Step)> {
         let outer = |id: StepId| {
-            let id = self.step(id)?.place.parent?;
+            let id = self.step(id)?.position.parent?;
             Some((id, self.step(id)?))
         };
         std::iter::successors(outer(id), move |(id, _)| outer(*id))
@@ -46,161 +41,117 @@ impl Program {
 /// Steps that run one after the other.
 pub(crate) type Block = Vec<StepId>;
 
-/// A binding.
+/// A name for the result of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Binding {
-    /// Its name; `_` for a result that is not named.
+    /// `_` for a result without a name.
     pub(crate) name: SmolStr,
-    /// Its type.
     pub(crate) ty: Ty,
-    /// Where it is bound.
     pub(crate) span: Span,
-    /// The description that it was found by, where it is a literal.
+    /// Literal description in the perception that found it.
     pub(crate) description: Option<SmolStr>,
-    /// Whether it stands for the parameter of a sub-policy that is checked by itself.
+    /// True for a parameter of a sub-policy that is checked alone.
     pub(crate) is_param: bool,
-    /// How often it is used.
+    /// Number of uses.
     pub(crate) uses: u32,
 }
 
-/// A step, resolved.
+/// A step with its position.
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
-    /// What it does.
     pub(crate) kind: StepKind,
-    /// Where it is written.
     pub(crate) span: Span,
-    /// The step that it lies in, and in which of its blocks.
-    pub(crate) place: Place,
-    /// Least and greatest duration in seconds; filled in by `check`.
+    pub(crate) position: StepPosition,
+    /// Least and greatest duration in seconds; `limits` fills it in.
     pub(crate) bounds: (f64, f64),
 }
 
-/// Where a step lies.
+/// Position of a step in the tree.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Place {
-    /// The step around it; none for the policy's own body.
+pub(crate) struct StepPosition {
+    /// The step around it; `None` in the body of the policy.
     pub(crate) parent: Option<StepId>,
-    /// Which block of it.
-    pub(crate) slot: Slot,
-    /// The position in that block, from 0.
+    pub(crate) slot: BlockSlot,
+    /// Index in that block, from 0.
     pub(crate) index: u32,
 }
 
-/// The blocks that a step can have.
+/// Blocks of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Slot {
+pub(crate) enum BlockSlot {
     /// `steps`: of a policy, a sequence, a loop.
     Steps,
-    /// `then`
     Then,
-    /// `else`
     Else,
-    /// `try`
     Try,
-    /// `catch/N/steps`
     Catch(u16),
-    /// `during`
     During,
-    /// `monitor/N/then/steps`
     Reaction(u16),
-    /// `parallel/N`
     Branch(u16),
-    /// The body of an inlined policy.
+    /// Body of an inlined policy.
     Inlined,
 }
 
-/// What a step does.
+/// Kinds of steps.
 #[derive(Clone, Debug)]
 pub(crate) enum StepKind {
-    /// Runs a primitive.
     Call(Call),
-    /// A named group.
     Sequence {
-        /// Its name.
         name: SmolStr,
-        /// Its steps.
         body: Block,
     },
-    /// A sub-policy.
     Inline {
-        /// Its name.
         policy: SmolStr,
-        /// Its steps.
         body: Block,
     },
-    /// A branch.
     If {
-        /// The condition.
         condition: Condition,
-        /// Where it stands.
         span: Span,
-        /// Where it holds.
         then: Block,
-        /// Where it does not.
         otherwise: Option<Block>,
     },
     /// Blocks until a condition holds.
     Wait {
-        /// The condition.
         condition: Condition,
-        /// The deadline.
         within_secs: f64,
     },
-    /// Watches conditions.
     Monitor {
-        /// What is watched.
         whens: Vec<When>,
-        /// What runs.
         body: Block,
     },
-    /// Handles failures.
     Try {
-        /// What may fail.
         body: Block,
-        /// The handlers.
         catches: Vec<Catch>,
     },
-    /// A bounded loop.
     Repeat {
-        /// How often at most.
+        /// Maximal number of rounds.
         times: u32,
-        /// The body.
         body: Block,
-        /// The test.
         until: Option<(Condition, Span)>,
     },
     /// A loop over a list.
     Each {
-        /// The loop's binding.
         item: BindingId,
-        /// The list.
         list: Term,
-        /// The longest list.
+        /// Maximal length of the list.
         at_most: u32,
-        /// The body.
         body: Block,
     },
-    /// Branches at once.
     Parallel {
-        /// The branches.
         branches: Vec<Block>,
     },
     /// Ends the policy or the inlined policy `of`.
     End {
-        /// How.
         kind: EndKind,
-        /// Which inlined policy.
         of: Option<StepId>,
-        /// The reason.
         why: Option<Term>,
     },
-    /// After an error: it may do anything.
+    /// A step with an error: it may change any fact.
     Unknown,
 }
 
 impl StepKind {
-    /// The conditions that stand in the step itself, in document order.
+    /// Conditions of the step itself, in document order.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = &Condition> {
         let (one, whens): (_, &[When]) = match self {
             Self::If { condition, .. } | Self::Wait { condition, .. } => (Some(condition), &[]),
@@ -219,76 +170,55 @@ impl StepKind {
     }
 }
 
-/// A call of a primitive.
+/// A call of a primitive with its arguments.
 #[derive(Clone, Debug)]
 pub(crate) struct Call {
-    /// Which.
     pub(crate) primitive: Primitive,
-    /// An argument for each parameter.
+    /// One argument for each parameter.
     pub(crate) args: SmallVec<[Term; 2]>,
-    /// Where each argument stands; of a default, the call.
+    /// Span of each argument; for a default, of the call.
     pub(crate) spans: SmallVec<[Span; 2]>,
-    /// In which unit each argument is written, where it is a quantity.
+    /// Unit of each argument as written, if it is a quantity.
     pub(crate) units: SmallVec<[Option<Unit>; 4]>,
-    /// Where the result goes.
     pub(crate) binds: Option<BindingId>,
-    /// The deadline where one is written.
+    /// Deadline in seconds, if one is written.
     pub(crate) within_secs: Option<f64>,
-    /// How often it is tried again.
+    /// Number of further attempts after a failure.
     pub(crate) retries: u32,
 }
 
-/// A watched condition.
+/// A watched condition of a monitor.
 #[derive(Clone, Debug)]
 pub(crate) struct When {
-    /// The condition.
     pub(crate) condition: Condition,
-    /// Where it stands.
     pub(crate) span: Span,
-    /// Seconds for which it must hold.
+    /// Time in seconds for which the condition must hold.
     pub(crate) hold_secs: f64,
-    /// What then happens.
     pub(crate) reaction: Reaction,
 }
 
-/// What a monitor does.
+/// Reaction of a monitor that fires.
 #[derive(Clone, Debug)]
 pub(crate) enum Reaction {
-    /// Holds the body.
+    /// Pauses the body.
     Pause {
-        /// The longest pause.
+        /// Maximal duration of the pause in seconds.
         within_secs: f64,
     },
-    /// Starts the body again.
-    Restart {
-        /// How often.
-        at_most: u32,
-    },
-    /// Interrupts for a block.
-    Resume {
-        /// How often.
-        at_most: u32,
-        /// The block.
-        body: Block,
-    },
+    /// Restarts the body.
+    Restart { at_most: u32 },
+    /// Runs a block, then resumes the body.
+    Resume { at_most: u32, body: Block },
     /// Ends the policy or the inlined policy `of`.
-    End {
-        /// How.
-        kind: EndKind,
-        /// Which inlined policy.
-        of: Option<StepId>,
-        /// The reason.
-        why: Option<Term>,
-    },
+    End { kind: EndKind, of: Option<StepId>, why: Option<Term> },
 }
 
-/// A handler.
+/// A handler of failures.
 #[derive(Clone, Debug)]
 pub(crate) struct Catch {
-    /// The failures with their places; none for `any`.
+    /// Failures with their spans; `None` for `any`.
     pub(crate) on: Option<Vec<(Failure, Span)>>,
-    /// Where it says which failures it takes, or as a whole.
+    /// Span of the failures, or of the whole handler.
     pub(crate) span: Span,
-    /// What then runs.
     pub(crate) body: Block,
 }

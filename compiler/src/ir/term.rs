@@ -1,79 +1,62 @@
-//! Values and conditions.
+//! Terms and conditions.
 
 use motet_syntax::ast::{ArithOp, CompareOp};
 use smol_str::SmolStr;
 
 use super::{BindingId, Entity, EnumId, Fluent, Measure};
 
-/// Something that has a value.
+/// A value, or an expression for one.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Term {
-    /// `true`
     Bool(bool),
-    /// A whole number.
     Int(i64),
-    /// A number in SI units.
+    /// Number in SI units.
     Number(f64),
-    /// A text.
     Text(SmolStr),
-    /// A case of an enumeration.
     Case(EnumId, u16),
-    /// An entity.
     Entity(Entity),
-    /// A list.
     List(Vec<Term>),
-    /// A binding.
     Binding(BindingId),
-    /// A parameter of the contract it stands in.
+    /// Parameter of the enclosing contract.
     Param(u16),
-    /// The result of the contract it stands in.
+    /// Result of the enclosing contract.
     Result,
-    /// The variable of a quantified entry of a contract.
+    /// Variable of a quantified entry of a contract.
     Each,
-    /// A field of an entity.
     Field(Box<Term>, SmolStr),
-    /// A measure.
     Measure(Measure, Vec<Term>),
-    /// Arithmetic.
     Arith(ArithOp, Box<Term>, Box<Term>),
-    /// After an error.
+    /// Term with an error.
     Unknown,
 }
 
-/// A condition.
+/// A condition on facts and values.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Condition {
-    /// `true`
     Literal(bool),
-    /// A fluent.
     Fact(Fact),
-    /// A comparison.
     Compare(CompareOp, Term, Term),
-    /// An enclosing monitor watches this measure.
+    /// Holds if an enclosing monitor watches this measure.
     MonitoredMeasure(Measure),
-    /// An enclosing monitor watches this fluent.
+    /// Holds if an enclosing monitor watches this fluent.
     MonitoredFluent(Fluent),
-    /// Negation.
     Not(Box<Condition>),
-    /// All of them.
     All(Vec<Condition>),
-    /// At least one of them.
     AnyOf(Vec<Condition>),
-    /// After an error: nothing is known of it and nothing is said about it.
+    /// Condition with an error: unknown, and never reported again.
     Unknown,
 }
 
 /// A fluent applied to arguments.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Fact {
-    /// The fluent.
     pub(crate) fluent: Fluent,
-    /// Its arguments; none stands for `any`.
+    /// Arguments; `None` stands for `any`.
     pub(crate) args: Vec<Option<Term>>,
 }
 
 impl Term {
-    /// The terms that it is made of, one level down.
+    /// Direct subterms.
     fn parts(&self) -> impl Iterator<Item = &Self> {
         let (one, other, rest): (_, _, &[Self]) = match self {
             Self::Field(of, _) => (Some(&**of), None, &[]),
@@ -94,12 +77,12 @@ impl Term {
         one.into_iter().chain(other).chain(rest)
     }
 
-    /// Whether it, or a term within it, is one of these.
+    /// Returns whether the term or a subterm satisfies a predicate.
     pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
         is_one(self) || self.parts().any(|part| part.any(is_one))
     }
 
-    /// The last parameter of its contract that it speaks of.
+    /// Highest index of a parameter of the contract in the term.
     pub(crate) fn last_param(&self) -> Option<u16> {
         match self {
             Self::Param(index) => Some(*index),
@@ -109,7 +92,7 @@ impl Term {
 }
 
 impl Condition {
-    /// The conditions that it is made of, one level down.
+    /// Direct subconditions.
     pub(crate) fn parts(&self) -> &[Self] {
         match self {
             Self::Not(inner) => std::slice::from_ref(inner),
@@ -123,7 +106,7 @@ impl Condition {
         }
     }
 
-    /// The terms that stand in it itself.
+    /// Terms of the condition itself.
     fn terms(&self) -> impl Iterator<Item = &Term> {
         let (args, sides): (&[Option<Term>], _) = match self {
             Self::Fact(fact) => (&fact.args, [None, None]),
@@ -133,17 +116,17 @@ impl Condition {
         args.iter().flatten().chain(sides.into_iter().flatten())
     }
 
-    /// Whether it, or a condition within it, is one of these.
+    /// Returns whether the condition or a subcondition satisfies a predicate.
     pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
         is_one(self) || self.parts().iter().any(|part| part.any(is_one))
     }
 
-    /// Whether any term in it is one of these; terms within others are looked at, too.
+    /// Returns whether any term in the condition, or a subterm, satisfies a predicate.
     pub(crate) fn any_term(&self, is_one: &impl Fn(&Term) -> bool) -> bool {
         self.any(&|part| part.terms().any(|term| term.any(is_one)))
     }
 
-    /// The last parameter of its contract that it speaks of.
+    /// Highest index of a parameter of the contract in the condition.
     pub(crate) fn last_param(&self) -> Option<u16> {
         let within = self.parts().iter().filter_map(Self::last_param);
         self.terms().filter_map(Term::last_param).chain(within).max()

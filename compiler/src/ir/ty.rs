@@ -1,73 +1,68 @@
-//! Types.
+//! Types of terms.
 
 use motet_syntax::unit::Dimension;
 
 use super::{EnumId, Kind};
 
-/// A type: a base and how many lists are around it.
+/// A type: a base type inside a number of lists.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Ty {
-    /// What is inside.
     pub(crate) base: Base,
-    /// How many `List<…>` are around it.
+    /// Number of enclosing `List<…>`.
     pub(crate) lists: u8,
 }
 
 /// A type that is no list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Base {
-    /// `Bool`
+    /// The type `Bool`.
     Bool,
-    /// `Int`
+    /// The type `Int`.
     Int,
-    /// `Number`
     Number,
     /// `Length`, `Ratio`, …: a number with a dimension.
     Quantity(Dimension),
-    /// `Text`
+    /// The type `Text`.
     Text,
-    /// `Pose`
     Pose,
-    /// An entity of a kind.
     Entity(Kind),
-    /// A case of an enumeration.
     Enum(EnumId),
-    /// Not known because of an error that was already reported: fits everything.
+    /// Unknown because of an error that was reported; compatible with every type.
     Unknown,
 }
 
 impl Ty {
-    /// A type that fits everything, after an error.
+    /// Type after an error; compatible with every type.
     pub(crate) const UNKNOWN: Self = Self::plain(Base::Unknown);
-    /// `Bool`
+    /// The type `Bool`.
     pub(crate) const BOOL: Self = Self::plain(Base::Bool);
-    /// `Text`
+    /// The type `Text`.
     pub(crate) const TEXT: Self = Self::plain(Base::Text);
-    /// `Int`
+    /// The type `Int`.
     pub(crate) const INT: Self = Self::plain(Base::Int);
-    /// `Duration`
+    /// The type `Ratio`.
     pub(crate) const RATIO: Self = Self::plain(Base::Quantity(Dimension::NONE));
     pub(crate) const DURATION: Self = Self::plain(Base::Quantity(Dimension::DURATION));
 
-    /// A type that is no list.
+    /// Type without a list.
     #[must_use]
     pub(crate) const fn plain(base: Base) -> Self {
         Self { base, lists: 0 }
     }
 
-    /// A list of it.
+    /// Type of lists of this type.
     #[must_use]
     pub(crate) const fn list(self) -> Self {
         Self { base: self.base, lists: self.lists.saturating_add(1) }
     }
 
-    /// The type of an element; none where it is no list.
+    /// Type of the elements; `None` if the type is no list.
     #[must_use]
     pub(crate) fn element(self) -> Option<Self> {
         (self.lists > 0).then(|| Self { base: self.base, lists: self.lists - 1 })
     }
 
-    /// The kind, of an entity that is in no list.
+    /// Kind of a single entity; `None` for other types.
     #[must_use]
     pub(crate) fn kind(self) -> Option<Kind> {
         match self {

@@ -1,4 +1,7 @@
-//! Stage 5: from a proved program to an execution graph. What is proven is noted, what is deferred becomes a guard.
+//! Stage 5, lowering: from a proved program to an execution graph. Proven needs are noted, deferred needs
+//! become guards.
+//!
+//! Guarded by the graph snapshots of `tests/tests` and the validation in `motet_graph`.
 
 mod path;
 mod table;
@@ -9,33 +12,33 @@ use motet_graph::{NodeId, RegionId};
 use motet_syntax::ast::EndKind;
 
 use self::table::Tables;
-use crate::check::bounds_of;
-use crate::ir::{Block, Call, Program, Reaction, StepId, StepKind};
-use crate::library::{EffectDef, Library, NeedDef};
-use crate::place::{self, Placed};
-use crate::prove::{Proof, Verdict};
-use crate::world::World;
+use crate::declare::{EffectDef, Library, NeedDef};
+use crate::environment::Environment;
+use crate::feasibility::{MotionVerdict, MotionVerdicts};
+use crate::ir::{Block, Call, MotionKind, Program, Reaction, StepId, StepKind};
+use crate::limits::bounds_of;
+use crate::prove::{NeedVerdict, Proof};
 
 /// Lowers a program that has no errors.
 pub(crate) fn lower(
     program: &Program,
     proof: &Proof,
-    placed: Placed,
+    placed: MotionVerdicts,
     library: &Library,
-    world: &World,
+    environment: &Environment,
 ) -> graph::Graph {
     let mut lowering = Lowering {
         program,
         proof,
         placed,
         library,
-        tables: Tables::new(program, library, world),
+        tables: Tables::new(program, library, environment),
         nodes: Vec::with_capacity(program.steps.len()),
         regions: Vec::new(),
         ids: vec![None; program.steps.len()],
     };
     lowering.region(&program.body, None);
-    let initial = world.given.iter().filter_map(|(fact, value)| {
+    let initial = environment.given.iter().filter_map(|(fact, value)| {
         Some((lowering.tables.fact(fact, &[], None)?, *value)).filter(|(fact, _)| !has_any(fact))
     });
     let initial = initial.collect();
@@ -66,17 +69,17 @@ fn has_any(fact: &graph::Fact) -> bool {
 struct Lowering<'a> {
     program: &'a Program,
     proof: &'a Proof,
-    placed: Placed,
+    placed: MotionVerdicts,
     library: &'a Library,
     tables: Tables<'a>,
     nodes: Vec<graph::Node>,
     regions: Vec<graph::Region>,
-    /// The node of each step; a step that is never reached has none.
+    /// Node of each step; `None` for a step that is never reached.
     ids: Vec<Option<NodeId>>,
 }
 
 impl Lowering<'_> {
-    /// A block as a region: its reached steps, chained.
+    /// Lowers a block to a region: its reachable steps in a chain.
     fn region(&mut self, block: &Block, owner: Option<NodeId>) -> RegionId {
         let id = RegionId(u32::try_from(self.regions.len()).unwrap_or(u32::MAX));
         self.regions.push(graph::Region { owner, entry: None });
@@ -236,10 +239,11 @@ impl Lowering<'_> {
             self.proof.needs.get(step.index()).map(|verdicts| verdicts.as_slice()).unwrap_or_default();
         let mut needs = Vec::with_capacity(def.needs.len());
         let placed = self.placed.get_mut(step.index()).and_then(Option::take);
-        let is_placed = matches!(placed, Some(place::Verdict::Feasible(_)));
+        let is_placed = matches!(placed, Some(MotionVerdict::Feasible(_)));
         for (need, verdict) in def.needs.iter().zip(verdicts) {
             // What is derived from the motion is proven with it.
-            let verdict = if is_placed && self.is_of_motion(need, def) { Verdict::Proven } else { *verdict };
+            let verdict =
+                if is_placed && self.is_of_motion(need, def) { NeedVerdict::Proven } else { *verdict };
             needs.push(self.need(need, verdict, call, &def.fails));
         }
         graph::CallNode {
@@ -251,26 +255,27 @@ impl Lowering<'_> {
             needs,
             motion: def.motion.as_ref().map(|(query, args)| {
                 let (verdict, witness, why) = match placed {
-                    Some(place::Verdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
-                    Some(place::Verdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
+                    Some(MotionVerdict::Feasible(witness)) => (graph::Verdict::Proven, Some(witness), None),
+                    Some(MotionVerdict::Deferred(why)) => (graph::Verdict::Deferred, None, why),
                     None => (graph::Verdict::Deferred, None, None),
                 };
                 let args = args.iter().map(|arg| self.tables.term(arg, &call.args, binds)).collect();
-                graph::Motion { query: query.clone(), args, verdict, witness, why }
+                graph::Motion { query: query.name().into(), args, verdict, witness, why }
             }),
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
         }
     }
 
-    /// Whether a need is the verdict of the primitive's own motion, such as `reachable(object)` of `reach(object)`.
-    fn is_of_motion(&self, need: &NeedDef, def: &crate::library::PrimitiveDef) -> bool {
+    /// Returns whether a need is the verdict of the primitive's own motion, such as `reachable(object)` with
+    /// `reach(object)`.
+    fn is_of_motion(&self, need: &NeedDef, def: &crate::declare::PrimitiveDef) -> bool {
         let (crate::ir::Condition::Fact(fact), Some((motion, args))) = (&need.condition, &def.motion) else {
             return false;
         };
         let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
         is_derived
-            && motion == "reach"
+            && *motion == MotionKind::Reach
             && need.when.is_none()
             && need.each.is_none()
             && fact.args.len() == args.len()
@@ -280,7 +285,7 @@ impl Lowering<'_> {
     fn need(
         &mut self,
         need: &NeedDef,
-        verdict: Verdict,
+        verdict: NeedVerdict,
         call: &Call,
         fails: &[crate::ir::Failure],
     ) -> graph::Need {
@@ -290,9 +295,9 @@ impl Lowering<'_> {
             when: need.when.as_ref().map(|when| self.tables.condition(when, &call.args, binds)),
             each: need.each.map(|kind| graph::KindId(u32::from(kind.0))),
             verdict: match verdict {
-                Verdict::Proven => graph::Verdict::Proven,
+                NeedVerdict::Proven => graph::Verdict::Proven,
                 // A graph is made of policies without errors only, so nothing here was refuted.
-                Verdict::Deferred | Verdict::Refuted => graph::Verdict::Deferred,
+                NeedVerdict::Deferred | NeedVerdict::Refuted => graph::Verdict::Deferred,
             },
             failure: self.tables.guard_failure(&need.condition, fails),
         }

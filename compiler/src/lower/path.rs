@@ -1,16 +1,17 @@
-//! The JSON Pointer of a step, from its place in the program.
+//! Paths of steps as JSON Pointers.
 
 use std::fmt::Write as _;
 
 use smol_str::SmolStr;
 
-use crate::ir::{Program, Slot, StepId};
+use crate::ir::{BlockSlot, Program, StepId};
 
-/// `/steps/2/try/0`; in an inlined policy the call's path, `:`, and the path in that policy.
+/// Path of a step: `/steps/2/try/0`; in an inlined policy the path of the call, `:`, and the path in that
+/// policy.
 pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
     let mut places = Vec::new();
     let mut at = Some(step);
-    while let Some(place) = at.and_then(|id| program.step(id)).map(|step| step.place) {
+    while let Some(place) = at.and_then(|id| program.step(id)).map(|step| step.position) {
         places.push(place);
         at = place.parent;
     }
@@ -19,15 +20,15 @@ pub(crate) fn pointer(program: &Program, step: StepId) -> SmolStr {
         let index = place.index;
         // Writing to a string cannot fail.
         let _ = match place.slot {
-            Slot::Steps => write!(path, "/steps/{index}"),
-            Slot::Then => write!(path, "/then/{index}"),
-            Slot::Else => write!(path, "/else/{index}"),
-            Slot::Try => write!(path, "/try/{index}"),
-            Slot::Catch(handler) => write!(path, "/catch/{handler}/steps/{index}"),
-            Slot::During => write!(path, "/during/{index}"),
-            Slot::Reaction(watch) => write!(path, "/monitor/{watch}/then/steps/{index}"),
-            Slot::Branch(branch) => write!(path, "/parallel/{branch}/{index}"),
-            Slot::Inlined => write!(path, ":/steps/{index}"),
+            BlockSlot::Steps => write!(path, "/steps/{index}"),
+            BlockSlot::Then => write!(path, "/then/{index}"),
+            BlockSlot::Else => write!(path, "/else/{index}"),
+            BlockSlot::Try => write!(path, "/try/{index}"),
+            BlockSlot::Catch(handler) => write!(path, "/catch/{handler}/steps/{index}"),
+            BlockSlot::During => write!(path, "/during/{index}"),
+            BlockSlot::Reaction(watch) => write!(path, "/monitor/{watch}/then/steps/{index}"),
+            BlockSlot::Branch(branch) => write!(path, "/parallel/{branch}/{index}"),
+            BlockSlot::Inlined => write!(path, ":/steps/{index}"),
         };
     }
     path.into()

@@ -1,30 +1,17 @@
-//! The graph's tables: only what the policy speaks of, in the order in which it does.
+//! Tables of the graph: only names that the policy uses, in the order of use.
 
 use motet_graph as graph;
+use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
-use crate::ir::{Base, Condition, Failure, Fluent, Measure, Primitive, Program, Ty};
-use crate::library::Library;
-use crate::world::World;
-
-/// Which failure a guard ends in, by the fluent or field that it asks about.
-const GUARDS: &[(&str, &str)] = &[
-    ("reachable", "unreachable"),
-    ("at", "unreachable"),
-    ("near", "unreachable"),
-    ("visible", "not_found"),
-    ("located", "not_found"),
-    ("clear", "blocked"),
-    ("open", "blocked"),
-    ("locked", "blocked"),
-    ("mass", "too_heavy"),
-    ("width", "unreachable"),
-];
+use crate::declare::Library;
+use crate::environment::Environment;
+use crate::ir::{Base, Condition, Failure, Fluent, Measure, Primitive, Program, Term, Ty};
 
 pub(super) struct Tables<'a> {
     pub(super) library: &'a Library,
-    pub(super) world: &'a World,
+    pub(super) environment: &'a Environment,
     pub(super) fluents: Vec<graph::Fluent>,
     pub(super) measures: Vec<graph::Measure>,
     pub(super) primitives: Vec<graph::Primitive>,
@@ -42,10 +29,10 @@ fn next<T>(table: &[T]) -> u32 {
 }
 
 impl<'a> Tables<'a> {
-    pub(super) fn new(program: &Program, library: &'a Library, world: &'a World) -> Self {
+    pub(super) fn new(program: &Program, library: &'a Library, environment: &'a Environment) -> Self {
         let mut tables = Self {
             library,
-            world,
+            environment,
             fluents: Vec::new(),
             measures: Vec::new(),
             primitives: Vec::new(),
@@ -71,7 +58,7 @@ impl<'a> Tables<'a> {
         tables
     }
 
-    /// Bindings with names that are unique: inlining a policy twice repeats those inside it.
+    /// Adds the bindings with unique names: inlining a policy twice repeats its names.
     fn bind(&mut self, program: &Program) {
         let mut seen: FxHashMap<&SmolStr, u32> = FxHashMap::default();
         for binding in &program.bindings {
@@ -86,11 +73,11 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// All kinds of the library, in its order: parents before children.
+    /// All kinds of the library in its order, parents before children.
     pub(super) fn kinds(&self) -> Vec<graph::Kind> {
         let kinds = self.library.kinds.iter();
         let parent =
-            |def: &crate::library::model::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
+            |def: &crate::declare::library::KindDef| def.parent.map(|kind| graph::KindId(u32::from(kind.0)));
         kinds.map(|def| graph::Kind { name: def.name.clone(), parent: parent(def) }).collect()
     }
 
@@ -173,24 +160,24 @@ impl<'a> Tables<'a> {
         new
     }
 
-    /// The failure of a refuted guard: what the need is about, where the primitive can fail so, else `failed`.
+    /// Failure of a refuted guard: from the fluent or field of the need if the primitive lists it, else `failed`.
     pub(super) fn guard_failure(&mut self, condition: &Condition, fails: &[Failure]) -> graph::FailureId {
-        let about = self.about(condition);
-        let named =
-            GUARDS.iter().find(|(word, _)| Some(*word) == about.as_deref()).map(|(_, failure)| *failure);
-        let names = &self.library.names.failures;
-        let kind = named.and_then(|name| names.get(name)).filter(|kind| fails.contains(kind));
-        let kind = kind.or_else(|| names.get("failed")).copied();
-        self.failure(kind.unwrap_or(crate::ir::TIMEOUT))
+        let kind = self.specific_failure(condition).filter(|kind| fails.contains(kind));
+        self.failure(kind.or(self.library.lang_items.failed).unwrap_or(crate::ir::TIMEOUT))
     }
 
-    fn about(&self, condition: &Condition) -> Option<SmolStr> {
+    fn specific_failure(&self, condition: &Condition) -> Option<Failure> {
+        let items = &self.library.lang_items;
         match condition {
-            Condition::Fact(fact) => self.library.fluent(fact.fluent).map(|def| def.name.clone()),
-            Condition::Compare(_, crate::ir::Term::Field(_, name), _) => Some(name.clone()),
-            Condition::Not(inner) => self.about(inner),
+            Condition::Fact(fact) => items.guard_failure(fact.fluent),
+            Condition::Compare(_, Term::Field(_, name), _) => match name.as_str() {
+                lang::fields::MASS => items.too_heavy,
+                lang::fields::WIDTH => items.unreachable,
+                _ => None,
+            },
+            Condition::Not(inner) => self.specific_failure(inner),
             Condition::All(parts) | Condition::AnyOf(parts) => {
-                parts.first().and_then(|part| self.about(part))
+                parts.first().and_then(|part| self.specific_failure(part))
             }
             Condition::Compare(..)
             | Condition::Literal(_)

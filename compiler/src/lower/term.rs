@@ -1,4 +1,4 @@
-//! Terms and conditions, with the words of a contract replaced by the arguments of the call.
+//! Lowering of terms and conditions, with the parameters of a contract replaced by the arguments of the call.
 
 use motet_graph as graph;
 use motet_syntax::ast::{ArithOp, CompareOp};
@@ -21,7 +21,7 @@ impl Tables<'_> {
             Term::Number(value) => literal(Value::Number(*value)),
             Term::Text(text) => literal(Value::Text(text.clone())),
             Term::Case(id, case) => literal(Value::Case(self.library.case_name(*id, *case).into())),
-            Term::Entity(entity) => literal(Value::Entity(self.world.name(*entity))),
+            Term::Entity(entity) => literal(Value::Entity(self.environment.name(*entity))),
             Term::List(items) => self.list(items, args, result),
             Term::Binding(id) => graph::Term::Binding(graph::BindingId(id.0)),
             Term::Param(index) => match args.get(usize::from(*index)) {
@@ -51,7 +51,7 @@ impl Tables<'_> {
         }
     }
 
-    /// A list of literals is a literal; any other is put together when it is needed.
+    /// Lowers a list: to a literal if all items are, else to a list that the engine evaluates.
     fn list(&mut self, items: &[Term], args: &[Term], result: Option<graph::BindingId>) -> graph::Term {
         let terms: Vec<_> = items.iter().map(|item| self.term(item, args, result)).collect();
         let values: Option<Vec<_>> = terms

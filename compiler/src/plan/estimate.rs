@@ -1,41 +1,40 @@
-//! What is still missing, and what can be done about it now: additive costs over the calls that make what a goal lacks
-//! (Bonet and Geffner 2001), worked out backwards from the goal, with the facts as they are. The calls at the ends of these
-//! chains, whose needs are met, are those that are worth trying (Hoffmann and Nebel 2001, helpful actions).
+//! Heuristic of the planner: additive costs (Bonet and Geffner 2001) over the calls that achieve what a goal
+//! lacks, computed backwards from the goal in the present state. The applicable calls at the ends of these
+//! chains are the helpful actions (Hoffmann and Nebel 2001) that the search tries.
 
 use rustc_hash::FxHashMap;
 
+use crate::declare::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
+use crate::facts::FactKey;
+use crate::facts::TruthSet;
 use crate::ir::{Condition, Fact, Fluent, Kind, Term};
-use crate::library::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
+use crate::plan::achievers::{Achiever, CandidateCall};
 use crate::prove::Prover;
-use crate::prove::eval::Frame;
-use crate::prove::facts::Key;
-use crate::prove::mend::{Maker, Proposed};
-use crate::prove::value::Value;
+use crate::prove::evaluation::CallFrame;
 
-/// A call.
+/// Cost of a call.
 const STEP: u32 = 100;
-/// For each kind between that of an argument and the one that a parameter asks for: what is declared for a person suits a
-/// person better than what is declared for anything.
+/// Cost for each kind between that of an argument and that of its parameter: a primitive for persons suits a
+/// person better than one for any entity.
 const GENERAL: u32 = 10;
-/// A thing that is found by a description, where what it is is known.
+/// Cost of finding an entity that is already known.
 const RESULT: u32 = 150;
-/// An argument that neither a need nor an effect speaks of: nothing says which is right.
+/// Cost of an argument that neither a need nor an effect mentions, so that the choice is a guess.
 const GUESS: u32 = 300;
-/// A person whom nothing that is wanted speaks of: who wants a free hand gives nobody what it holds.
+/// Cost of a person whom no subgoal mentions: a free hand alone is no reason to give somebody what it holds.
 const BOTHER: u32 = 250;
-/// A need that is left to a guard.
+/// Cost of a need that is left to a guard.
 const GUARD: u32 = 300;
-/// The same, where a perception could tell.
+/// Cost of a guard if a perception could decide.
 const UNSEEN: u32 = 1_000;
-/// The most calls that are looked at for one state.
+/// Maximal number of calls that are estimated for one state.
 const EFFORT: u32 = 1_000;
-/// How deep needs of needs are followed.
+/// Maximal depth of needs of needs.
 const DEPTH: usize = 14;
 
-/// A fact that is asked for.
-type Want = (Fluent, Key, bool);
+type Subgoal = (Fluent, FactKey, bool);
 
-/// What something costs: calls to make, and needs left to guards.
+/// Cost of a goal: calls to make, and needs left to guards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Cost {
     calls: u32,
@@ -55,24 +54,24 @@ impl Cost {
     }
 }
 
-/// A call whose needs are met.
+/// An applicable call.
 #[derive(Clone, Debug)]
 pub(super) struct Ready {
-    pub(super) call: Proposed,
-    /// What it costs, with what it leaves to guards.
+    pub(super) call: CandidateCall,
+    /// Cost of the call, with its guards.
     pub(super) cost: u32,
 }
 
-/// The estimate of one state.
+/// Estimate of one state.
 pub(super) struct Estimate<'p, 'a> {
     prover: &'p Prover<'a>,
-    known: FxHashMap<Want, Cost>,
-    /// Facts that are being looked at: what needs itself cannot be made.
-    asked: Vec<Want>,
+    known: FxHashMap<Subgoal, Cost>,
+    /// Subgoals on the present chain: a fact that needs itself cannot be achieved.
+    asked: Vec<Subgoal>,
     effort: u32,
-    /// The calls that can be made now, in the order in which they were found.
+    /// Applicable calls, in the order of discovery.
     pub(super) ready: Vec<Ready>,
-    /// What cannot be met, and how far from the goal it was found: the nearest says most.
+    /// A need that cannot be met, with its distance from the goal: the nearest is the best explanation.
     pub(super) dead: Option<String>,
     dead_at: usize,
 }
@@ -90,12 +89,12 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    /// What it would cost to reach a goal; none where nothing reaches it.
+    /// Cost of reaching a goal; `None` if no call reaches it.
     pub(super) fn goal(&mut self, goal: &Condition) -> Option<u32> {
-        self.condition(goal, true, Frame::default()).map(Cost::sum)
+        self.condition(goal, true, CallFrame::default()).map(Cost::sum)
     }
 
-    fn condition(&mut self, condition: &Condition, truth: bool, frame: Frame<'_>) -> Option<Cost> {
+    fn condition(&mut self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.evaluate(condition, frame);
         let value = if truth { value } else { value.not() };
         if !value.no.is_some() && !value.open.is_some() {
@@ -129,22 +128,22 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    fn compares_entities(&self, condition: &Condition, frame: Frame<'_>) -> bool {
+    fn compares_entities(&self, condition: &Condition, frame: CallFrame<'_>) -> bool {
         let Condition::Compare(_, left, right) = condition else { return false };
         let is_entity = |term: &Term| self.prover.argument(term, frame).is_some();
         is_entity(left) && is_entity(right)
     }
 
-    fn fact(&mut self, fact: &Fact, truth: bool, frame: Frame<'_>, value: Value) -> Option<Cost> {
+    fn fact(&mut self, fact: &Fact, truth: bool, frame: CallFrame<'_>, value: TruthSet) -> Option<Cost> {
         let prover = self.prover;
         let is_derived = prover.library.fluent(fact.fluent).is_none_or(|def| def.derived);
         let Some(key) = prover.key(fact, frame).filter(|_| !is_derived) else { return Some(Cost::default()) };
         if truth || !key.is_pattern() {
-            return self.want((fact.fluent, key, truth), value);
+            return self.subgoal((fact.fluent, key, truth), value);
         }
         // That none holds: each that may hold has to go.
         let mut held = Vec::new();
-        prover.facts.entries(fact.fluent, key, |key, value| {
+        prover.state.facts.entries(fact.fluent, key, |key, value| {
             if value.yes.is_some() {
                 held.push((key, value));
             }
@@ -154,32 +153,32 @@ impl<'p, 'a> Estimate<'p, 'a> {
             return Some(Cost { calls: 0, guards: GUARD });
         }
         held.into_iter().try_fold(Cost::default(), |all, (key, value)| {
-            Some(all.and(self.want((fact.fluent, key, false), value.not())?))
+            Some(all.and(self.subgoal((fact.fluent, key, false), value.not())?))
         })
     }
 
-    fn want(&mut self, want: Want, value: Value) -> Option<Cost> {
-        if let Some(known) = self.known.get(&want) {
+    fn subgoal(&mut self, subgoal: Subgoal, value: TruthSet) -> Option<Cost> {
+        if let Some(known) = self.known.get(&subgoal) {
             return Some(*known);
         }
-        if self.asked.contains(&want) || self.asked.len() >= DEPTH {
+        if self.asked.contains(&subgoal) || self.asked.len() >= DEPTH {
             return None;
         }
-        self.asked.push(want);
-        let makers = self.prover.makers(want);
-        let costs: Vec<_> = makers.iter().map(|maker| self.maker(maker)).collect();
+        self.asked.push(subgoal);
+        let achievers = self.prover.achievers(subgoal);
+        let costs: Vec<_> = achievers.iter().map(|achiever| self.achiever(achiever)).collect();
         let guard = (!value.no.is_some()).then(|| {
-            let is_seen = self.prover.library.perceived.contains(&want.0);
+            let is_seen = self.prover.library.perceived.contains(&subgoal.0);
             Cost { calls: 0, guards: if is_seen { UNSEEN } else { GUARD } }
         });
         let best = costs.into_iter().chain([guard]).flatten().min_by_key(|cost| cost.sum());
         self.asked.pop();
         match best {
             Some(best) => {
-                self.known.insert(want, best);
+                self.known.insert(subgoal, best);
             }
-            None if makers.is_empty() => {
-                let (fluent, key, truth) = want;
+            None if achievers.is_empty() => {
+                let (fluent, key, truth) = subgoal;
                 self.bury(|prover| {
                     let name = prover.library.fluent(fluent).map_or("?", |def| def.name.as_str());
                     let count = prover.library.fluent(fluent).map_or(0, |def| def.params.len());
@@ -194,16 +193,16 @@ impl<'p, 'a> Estimate<'p, 'a> {
         best
     }
 
-    fn maker(&mut self, maker: &Maker<'_>) -> Option<Cost> {
+    fn achiever(&mut self, achiever: &Achiever<'_>) -> Option<Cost> {
         self.effort = self.effort.checked_sub(1)?;
-        let Maker { call, when, want } = maker;
+        let Achiever { call, when, subgoal } = achiever;
         let def = self.prover.library.primitive(call.primitive)?;
-        let frame = Frame { args: &call.args, result: call.result, each: None };
+        let frame = CallFrame { args: &call.args, result: call.result, each: None };
         let mut before = Cost::default();
         if let Some((when, each)) = when {
             // That an effect does not come about by the way is no reason: there are others.
             let dead = (self.dead.clone(), self.dead_at);
-            let cost = self.condition(when, true, Frame { each: *each, ..frame });
+            let cost = self.condition(when, true, CallFrame { each: *each, ..frame });
             (self.dead, self.dead_at) = dead;
             before = before.and(cost?);
         }
@@ -214,7 +213,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         let own = STEP
             .saturating_add(self.general(def, call))
             .saturating_add(guesses(def, call))
-            .saturating_add(self.bothers(call, *want))
+            .saturating_add(self.bothers(call, *subgoal))
             .saturating_add(found);
         if before.calls == 0 && !self.ready.iter().any(|ready| ready.call == *call) {
             self.ready.push(Ready { call: call.clone(), cost: own.saturating_add(before.guards) });
@@ -222,7 +221,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         Some(before.and(Cost { calls: own, guards: 0 }))
     }
 
-    fn need(&mut self, need: &NeedDef, frame: Frame<'_>) -> Option<Cost> {
+    fn need(&mut self, need: &NeedDef, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.need(need, frame).0;
         if !value.no.is_some() && !value.open.is_some() {
             return Some(Cost::default());
@@ -233,19 +232,20 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    /// A quantified need: for each entity for which it is asked.
-    fn each(&mut self, need: &NeedDef, kind: Kind, frame: Frame<'_>) -> Option<Cost> {
+    /// Cost of a quantified need: the sum over the entities for which it is asked.
+    fn each(&mut self, need: &NeedDef, kind: Kind, frame: CallFrame<'_>) -> Option<Cost> {
         let (candidates, others) = self.prover.asked(need.when.as_ref(), kind, frame);
         let mut all = if others { self.whatever_else(&need.condition, frame) } else { Cost::default() };
         for candidate in candidates {
-            let frame = Frame { each: Some(candidate), ..frame };
+            let frame = CallFrame { each: Some(candidate), ..frame };
             all = all.and(self.condition(&need.condition, true, frame)?);
         }
         Some(all)
     }
 
-    /// A quantified need where it is not known for which entities it is asked: what settles it for all of them, or a guard.
-    fn whatever_else(&mut self, condition: &Condition, frame: Frame<'_>) -> Cost {
+    /// Cost of a quantified need whose entities are unknown: of what settles it for all of them, or of a
+    /// guard.
+    fn whatever_else(&mut self, condition: &Condition, frame: CallFrame<'_>) -> Cost {
         let guard = Cost { calls: 0, guards: GUARD };
         let parts = match condition {
             Condition::AnyOf(parts) => parts.as_slice(),
@@ -256,12 +256,12 @@ impl<'p, 'a> Estimate<'p, 'a> {
         costs.chain([guard]).min_by_key(|cost| cost.sum()).unwrap_or(guard)
     }
 
-    /// How much more general the parameters of a call are than its arguments.
-    fn general(&self, def: &PrimitiveDef, call: &Proposed) -> u32 {
+    /// Cost of parameters that are more general than their arguments.
+    fn general(&self, def: &PrimitiveDef, call: &CandidateCall) -> u32 {
         let library = self.prover.library;
         let args = call.args.iter().zip(&def.params).filter_map(|(arg, param)| match arg {
             Term::Entity(entity) => {
-                let kind = self.prover.world.entities().kind(*entity)?;
+                let kind = self.prover.environment.entities().kind(*entity)?;
                 let wanted = param.ty.kind()?;
                 let above = std::iter::successors(Some(kind), |kind| library.kinds.get(kind.index())?.parent);
                 u32::try_from(above.take_while(|kind| *kind != wanted).count()).ok()
@@ -271,10 +271,10 @@ impl<'p, 'a> Estimate<'p, 'a> {
         args.sum::<u32>().saturating_mul(GENERAL)
     }
 
-    /// What it costs to trouble people.
-    fn bothers(&self, call: &Proposed, (_, key, _): Want) -> u32 {
-        let (library, entities) = (self.prover.library, self.prover.world.entities());
-        let Some(person) = library.names.kinds.get("Person").copied() else { return 0 };
+    /// Cost of involving people.
+    fn bothers(&self, call: &CandidateCall, (_, key, _): Subgoal) -> u32 {
+        let (library, entities) = (self.prover.library, self.prover.environment.entities());
+        let Some(person) = library.lang_items.person else { return 0 };
         let troubled = call.args.iter().filter(|arg| match arg {
             Term::Entity(entity) => {
                 let is_person = entities.kind(*entity).is_some_and(|kind| library.is_kind(kind, person));
@@ -293,8 +293,8 @@ impl<'p, 'a> Estimate<'p, 'a> {
     }
 }
 
-/// What the arguments cost of which nothing says which is right.
-fn guesses(def: &PrimitiveDef, call: &Proposed) -> u32 {
+/// Cost of arguments that are guesses.
+fn guesses(def: &PrimitiveDef, call: &CandidateCall) -> u32 {
     let args = call.args.iter().zip(&def.params).enumerate();
     let guessed = args.filter(|(index, (arg, param))| {
         let own = Term::Param(u16::try_from(*index).unwrap_or(u16::MAX));
@@ -309,7 +309,7 @@ fn guesses(def: &PrimitiveDef, call: &Proposed) -> u32 {
     u32::try_from(guessed.count()).unwrap_or(u32::MAX).saturating_mul(GUESS)
 }
 
-/// Whether a condition speaks of a term.
+/// Returns whether a condition mentions a term.
 fn speaks(condition: &Condition, term: &Term) -> bool {
     match condition {
         Condition::Fact(fact) => fact.args.iter().flatten().any(|arg| arg == term),

@@ -1,63 +1,64 @@
-//! From a goal to calls that reach it: the contracts of the primitives are a planning domain, and the prover's facts are
-//! its states. Goals are taken up one after the other, each together with those that shall still hold (Koehler and
-//! Hoffmann 2000, goal agendas); for each a weighted best-first search looks for calls (`search`), led by what is still
-//! missing (`estimate`).
+//! The planner: calls that reach a goal. The contracts of the primitives are the planning domain, and the
+//! prover's facts are its states.
 //!
-//! A plan is a proposal: who uses it writes a policy from it and has that checked like any other.
+//! Goals are taken up in order, each together with those that must still hold (goal agendas, Koehler and
+//! Hoffmann 2000). For each, a weighted best-first search (`search`) looks for calls, guided by a heuristic
+//! (`estimate`).
+//!
+//! A plan is a proposal: its user writes a policy from it and has that checked like any other. Guarded by
+//! `tests/tests/planning.rs` and `tests/tests/planbench.rs`.
 
+pub(crate) mod achievers;
+mod error;
 mod estimate;
-mod failure;
 mod search;
-mod write;
+pub(crate) mod write;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::SmolStr;
 
-pub use failure::NoPlan;
+pub use error::NoPlan;
 
-use crate::ir::{Condition, Entity, Program};
-use crate::library::{Library, PrimitiveDef};
+use crate::declare::elaborator::Elaborator;
+use crate::declare::{Library, PrimitiveDef};
+use crate::environment::Environment;
+use crate::facts::FactKey;
+use crate::ir::{Condition, Entity, Kind, MotionKind, Program};
+use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
-use crate::prove::eval::Frame;
-use crate::prove::facts::Key;
-use crate::prove::mend::Proposed;
-use crate::resolve::expr::Resolver;
+use crate::prove::evaluation::CallFrame;
 use crate::session::Session;
-use crate::world::World;
 
-/// The most states that a search looks at where nothing else is said.
+/// Default budget of a search, in states.
 pub const PLAN_BUDGET: usize = 600;
-/// The most calls of a plan.
+/// Maximal number of calls of a plan.
 pub const MAX_PLAN: usize = 200;
 
-/// What shall come about.
+/// Condition to achieve.
 #[derive(Clone, Debug)]
 pub struct Goal {
-    /// The condition.
     pub condition: Expr,
-    /// Whether it shall still hold when later goals are reached.
-    pub lasts: Lasts,
+    pub persistence: Persistence,
 }
 
-/// Whether a goal has to hold at the end.
+/// Persistence of a goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Lasts {
-    /// It does.
+pub enum Persistence {
     ToTheEnd,
-    /// It has to hold once, on the way: the robot goes there and then elsewhere.
+    /// The goal must hold once, on the way: the robot goes there and then elsewhere.
     Once,
 }
 
 impl Goal {
-    /// A goal in the text form of conditions.
+    /// Parses a goal in text syntax.
     ///
     /// # Errors
     ///
-    /// What is wrong with it.
-    pub fn read(text: &str, lasts: Lasts) -> Result<Self, NoPlan> {
+    /// [`NoPlan::NoCondition`] if the text is no condition.
+    pub fn read(text: &str, persistence: Persistence) -> Result<Self, NoPlan> {
         match motet_syntax::text::parse_condition(text) {
-            Ok(condition) => Ok(Self { condition, lasts }),
+            Ok(condition) => Ok(Self { condition, persistence }),
             Err(why) => Err(NoPlan::NoCondition { text: text.to_owned(), why }),
         }
     }
@@ -66,69 +67,68 @@ impl Goal {
 /// Calls that reach the goals.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// The calls in order.
     pub steps: Vec<PlannedStep>,
-    /// How many states were looked at.
-    pub looked_at: usize,
+    /// Number of expanded states.
+    pub expanded_states: usize,
 }
 
-/// One call of a plan, with what a policy may want to watch meanwhile.
+/// One call of a plan, with facts that a policy may want to watch meanwhile.
 #[derive(Clone, Debug)]
 pub struct PlannedStep {
     /// The call, ready to be printed.
     pub call: Do,
-    /// The person to whom the base moves.
+    /// Person to whom the base moves.
     pub approaches: Option<SmolStr>,
-    /// What the hand holds before and after, while the base moves.
+    /// Thing in the hand before and after, while the base moves.
     pub carries: Option<SmolStr>,
-    /// For which goal it is, from 0; what puts things back comes after the last.
+    /// Index of the goal it serves; one past the last for calls that tidy up.
     pub goal: usize,
 }
 
 impl Session {
-    /// Looks for calls that reach goals, one after the other, from the state at the start. The same session and goals give
-    /// the same plan. `budget` bounds the states that are looked at, over all goals.
+    /// Searches calls that reach goals, one after the other, from the state at the start. The same session
+    /// and goals give the same plan. `budget` bounds the number of expanded states over all goals.
     ///
     /// # Errors
     ///
-    /// Why there is no plan: a goal that is not understood, one that no call can bring about, or the budget.
+    /// A goal that is not understood, one that no call can achieve, or an exhausted budget.
     pub fn plan(&self, goals: &[Goal], budget: usize) -> Result<Plan, NoPlan> {
-        let (library, world) = (self.library(), self.world());
-        let conditions = goals.iter().map(|goal| resolve(&goal.condition, library, world));
+        let (library, environment) = (self.library(), self.environment());
+        let conditions = goals.iter().map(|goal| resolve(&goal.condition, library, environment));
         let conditions = conditions.collect::<Result<Vec<_>, _>>()?;
         let program = Program::default();
-        let mut prover = Prover::new(&program, library, world);
+        let mut prover = Prover::new(&program, library, environment);
         let mut agenda = Agenda { calls: Vec::new(), of: Vec::new(), left: budget };
         let mut kept: Vec<Condition> = Vec::new();
         for (index, (condition, goal)) in conditions.iter().zip(goals).enumerate() {
-            for part in parts(condition, goal.lasts) {
+            for part in parts(condition, goal.persistence) {
                 let mut all = kept.clone();
                 all.push(part.clone());
                 agenda.reach(&mut prover, &Condition::All(all), index)?;
-                if goal.lasts == Lasts::ToTheEnd {
+                if goal.persistence == Persistence::ToTheEnd {
                     kept.push(part.clone());
                 }
             }
         }
         agenda.tidy(&mut prover, kept, goals.len());
-        let looked_at = budget.saturating_sub(agenda.left);
+        let expanded_states = budget.saturating_sub(agenda.left);
         let steps = agenda.write(&mut prover)?;
-        Ok(Plan { steps, looked_at })
+        Ok(Plan { steps, expanded_states })
     }
 }
 
-/// What is reached one after the other: the parts of a conjunction that shall hold at the end.
-fn parts(condition: &Condition, lasts: Lasts) -> &[Condition] {
-    match (condition, lasts) {
-        (Condition::All(parts), Lasts::ToTheEnd) => parts,
+/// Goals that are reached one after the other: the parts of a conjunction that must hold at the end.
+fn parts(condition: &Condition, persistence: Persistence) -> &[Condition] {
+    match (condition, persistence) {
+        (Condition::All(parts), Persistence::ToTheEnd) => parts,
         _ => std::slice::from_ref(condition),
     }
 }
 
-/// The calls found so far.
+/// The calls so far.
 struct Agenda {
-    calls: Vec<Proposed>,
-    /// For which goal each is.
+    calls: Vec<CandidateCall>,
+    /// Goal of each call.
     of: Vec<usize>,
     left: usize,
 }
@@ -139,18 +139,18 @@ impl Agenda {
         self.of.resize(self.of.len() + found.len(), index);
         self.calls.extend(found);
         if self.calls.len() > MAX_PLAN {
-            Err(NoPlan::Budget { goal: prover.show(goal, true, Frame::default()) })
+            Err(NoPlan::Budget { goal: prover.show(goal, true, CallFrame::default()) })
         } else {
             Ok(())
         }
     }
 
-    /// Closes what the plan opened, where the goals do not speak of it and nothing they ask for is lost by it.
+    /// Closes containers that the plan opened, unless a goal mentions them or would be lost.
     fn tidy(&mut self, prover: &mut Prover<'_>, mut kept: Vec<Condition>, index: usize) {
-        let Some(open) = prover.library.names.fluents.get("open").copied() else { return };
+        let Some(open) = prover.library.lang_items.open else { return };
         search::replay(prover, &self.calls);
         let mut opened = Vec::new();
-        prover.facts.entries(open, Key::ALL, |key, value| {
+        prover.state.facts.entries(open, FactKey::ALL, |key, value| {
             if value.is_true() && value.yes.as_step().is_some() {
                 opened.push(key);
             }
@@ -179,9 +179,9 @@ impl Agenda {
             let before = held(prover);
             let approaches = approaches(prover, def, call);
             search::apply(prover, index, call);
-            let moves = def.motion.as_ref().is_some_and(|(query, _)| query == "go_to");
+            let moves = def.motion.as_ref().is_some_and(|(query, _)| *query == MotionKind::GoTo);
             let carries = before.filter(|held_before| moves && held(prover).as_ref() == Some(held_before));
-            let written = write::call(call, prover.library, prover.world)
+            let written = write::call(call, prover.library, prover.environment)
                 .ok_or_else(|| NoPlan::Unwritable { primitive: def.name.clone() })?;
             steps.push(PlannedStep { call: written, approaches, carries, goal: *goal });
         }
@@ -189,36 +189,37 @@ impl Agenda {
     }
 }
 
-/// What is held for sure.
+/// Thing that is certainly in the hand.
 fn held(prover: &Prover<'_>) -> Option<SmolStr> {
-    let holding = *prover.library.names.fluents.get("holding")?;
+    let holding = prover.library.lang_items.holding?;
     let mut found = None;
-    prover.facts.entries(holding, Key::ALL, |key, value| {
+    prover.state.facts.entries(holding, FactKey::ALL, |key, value| {
         if value.is_true() {
             found = Some(Entity(key.arg(0)));
         }
     });
-    prover.world.entities().name(found?).cloned()
+    prover.environment.entities().name(found?).cloned()
 }
 
-/// The person to whom a call moves the base.
-fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &Proposed) -> Option<SmolStr> {
+/// Person to whom a call moves the base.
+fn approaches(prover: &Prover<'_>, def: &PrimitiveDef, call: &CandidateCall) -> Option<SmolStr> {
     let (query, args) = def.motion.as_ref()?;
-    let frame = Frame { args: &call.args, result: call.result, each: None };
-    let target = Entity(prover.argument(args.first().filter(|_| query == "go_to")?, frame)?);
-    let kind = prover.world.entities().kind(target)?;
-    let is_person = prover.library.is_kind(kind, prover.library.kind_named("Person"));
-    prover.world.entities().name(target).filter(|_| is_person).cloned()
+    let frame = CallFrame { args: &call.args, result: call.result, each: None };
+    let target = Entity(prover.argument(args.first().filter(|_| *query == MotionKind::GoTo)?, frame)?);
+    let kind = prover.environment.entities().kind(target)?;
+    let is_person = prover.library.is_kind(kind, prover.library.lang_items.person.unwrap_or(Kind::ROOT));
+    prover.environment.entities().name(target).filter(|_| is_person).cloned()
 }
 
-fn resolve(goal: &Expr, library: &Library, world: &World) -> Result<Condition, NoPlan> {
-    let mut resolver = Resolver::new(library, world.entities(), world.has_scene(), Syntax::Text);
-    let condition = resolver.condition(goal);
-    let wrong: Vec<Diagnostic> = resolver.diagnostics;
+fn resolve(goal: &Expr, library: &Library, environment: &Environment) -> Result<Condition, NoPlan> {
+    let mut elaborator =
+        Elaborator::new(library, environment.entities(), environment.has_scene(), Syntax::Text);
+    let condition = elaborator.condition(goal);
+    let wrong: Vec<Diagnostic> = elaborator.diagnostics;
     if wrong.is_empty() { Ok(condition) } else { Err(NoPlan::Wrong { diagnostics: wrong }) }
 }
 
-/// A fluent of entities as a condition: `at(mug_1, shelf)`.
+/// Condition of a fluent with entities: `at(mug_1, shelf)`.
 #[must_use]
 pub fn fact(fluent: &str, args: &[&str]) -> Expr {
     let span = Span::default();

@@ -1,5 +1,6 @@
-//! Weighted best-first search (Pohl 1970) over calls. A state is what is known after the calls that lead to it; it is made
-//! again from them where it is needed, since a plan is short and facts are cheap to write and to take back.
+//! Weighted best-first search (Pohl 1970) over calls. A state consists of the facts after the calls that lead
+//! to it; it is recomputed from them when needed, since plans are short and facts are cheap to write and to
+//! roll back.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -9,32 +10,32 @@ use rustc_hash::{FxHashSet, FxHasher};
 
 use super::NoPlan;
 use super::estimate::{Estimate, Ready};
+use crate::facts::Cause;
 use crate::ir::{Condition, StepId};
+use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
-use crate::prove::apply::{Change, Lasting};
-use crate::prove::eval::Frame;
-use crate::prove::mend::Proposed;
-use crate::prove::value::Cause;
+use crate::prove::effects::{FactChange, PerceptionLifetime};
+use crate::prove::evaluation::CallFrame;
 
-/// How much what is still missing counts beside what was spent: above 1 the search hurries.
+/// Weight of the heuristic against the cost so far: above 1 the search is greedier.
 const WEIGHT: u64 = 2;
 
-/// A state on the way.
+/// Node of the search tree.
 struct Node {
     parent: Option<usize>,
-    call: Option<Proposed>,
+    call: Option<CandidateCall>,
     spent: u64,
     depth: usize,
 }
 
-/// Finds calls that reach a goal after `before`. `left` is the budget of states.
+/// Finds calls that reach a goal after the calls `before`. `left` is the remaining budget of states.
 pub(super) fn search(
     prover: &mut Prover<'_>,
-    before: &[Proposed],
+    before: &[CandidateCall],
     goal: &Condition,
     left: &mut usize,
-) -> Result<Vec<Proposed>, NoPlan> {
-    let shown = |prover: &Prover<'_>| prover.show(goal, true, Frame::default());
+) -> Result<Vec<CandidateCall>, NoPlan> {
+    let shown = |prover: &Prover<'_>| prover.show(goal, true, CallFrame::default());
     replay(prover, before);
     let mut nodes = vec![Node { parent: None, call: None, spent: 0, depth: 0 }];
     let mut seen: FxHashSet<u64> = FxHashSet::default();
@@ -50,7 +51,7 @@ pub(super) fn search(
         for (offset, call) in way.iter().enumerate() {
             apply(prover, before.len() + offset, call);
         }
-        if prover.evaluate(goal, Frame::default()).is_true() {
+        if prover.evaluate(goal, CallFrame::default()).is_true() {
             return Ok(way);
         }
         let mut estimate = Estimate::new(prover);
@@ -66,8 +67,8 @@ pub(super) fn search(
         }
         let (spent, depth) = nodes.get(index).map_or((0, 0), |node| (node.spent, node.depth));
         for Ready { call, cost } in ready {
-            let mark = prover.facts.mark();
-            let lasting = prover.lasting.clone();
+            let mark = prover.state.facts.mark();
+            let lasting = prover.state.lasting.clone();
             apply(prover, before.len() + depth, &call);
             if seen.insert(fingerprint(prover)) {
                 let missing = Estimate::new(prover).goal(goal);
@@ -79,14 +80,14 @@ pub(super) fn search(
                 }
             }
             prover.back_to(mark);
-            prover.lasting = lasting;
+            prover.state.lasting = lasting;
         }
     }
     Err(NoPlan::Unreachable { goal: shown(prover), blocker })
 }
 
-/// The calls that lead to a node.
-fn way(nodes: &[Node], index: usize) -> Vec<Proposed> {
+/// Calls that lead to a node.
+fn way(nodes: &[Node], index: usize) -> Vec<CandidateCall> {
     let mut calls = Vec::new();
     let mut at = Some(index);
     while let Some(node) = at.and_then(|at| nodes.get(at)) {
@@ -97,23 +98,23 @@ fn way(nodes: &[Node], index: usize) -> Vec<Proposed> {
     calls
 }
 
-/// Takes everything back and makes calls from the start.
-pub(super) fn replay(prover: &mut Prover<'_>, calls: &[Proposed]) {
+/// Rolls everything back and applies calls from the start.
+pub(super) fn replay(prover: &mut Prover<'_>, calls: &[CandidateCall]) {
     prover.back_to(0);
-    prover.lasting.clear();
+    prover.state.lasting.clear();
     for (index, call) in calls.iter().enumerate() {
         apply(prover, index, call);
     }
 }
 
-/// What is known after a call that succeeds.
-pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &Proposed) {
+/// Applies a call that succeeds.
+pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall) {
     let library = prover.library;
     let Some(def) = library.primitive(call.primitive) else { return };
     let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
     let cause = Cause::step(id);
-    let frame = Frame { args: &call.args, result: call.result, each: None };
-    let (mut makes, mut unsettles): (Vec<Change>, Vec<Change>) = Default::default();
+    let frame = CallFrame { args: &call.args, result: call.result, each: None };
+    let (mut makes, mut unsettles): (Vec<FactChange>, Vec<FactChange>) = Default::default();
     prover.changes(&def.makes, frame, &mut makes);
     prover.changes(&def.unsettles, frame, &mut unsettles);
     prover.make_stale(id, def, frame);
@@ -122,16 +123,16 @@ pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &Proposed) {
     if let Some(lasts) = &def.lasts {
         let entities = lasts.entities.iter().filter_map(|term| prover.argument(term, frame));
         let entities = entities.map(crate::ir::Entity).collect();
-        prover.lasting.insert(id, Lasting { resources: lasts.resources, entities });
+        prover.state.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
     }
 }
 
-/// What is known, beside what was known at the start, as a number.
+/// Hash of the facts that differ from the start.
 fn fingerprint(prover: &Prover<'_>) -> u64 {
     let mut hasher = FxHasher::default();
-    for (fluent, key) in prover.facts.touched(0) {
-        let now = prover.facts.get(fluent, key);
-        if !now.same_set(prover.world.facts.get(fluent, key)) {
+    for (fluent, key) in prover.state.facts.touched(0) {
+        let now = prover.state.facts.get(fluent, key);
+        if !now.same_set(prover.environment.facts.get(fluent, key)) {
             (fluent, key, now.yes.is_some(), now.no.is_some(), now.open.is_some()).hash(&mut hasher);
         }
     }

@@ -1,48 +1,49 @@
-//! Narrowing: what is known once a condition was seen to hold, or not to.
+//! Narrowing: the facts after a condition was observed to hold, or not to.
 
 use smallvec::SmallVec;
 
 use super::Prover;
-use super::eval::Frame;
-use super::facts::Split;
-use super::value::{Cause, Value};
+use super::evaluation::CallFrame;
+use crate::facts::PathPartition;
+use crate::facts::{Cause, TruthSet};
 use crate::ir::{Condition, Fluent};
 
-/// How many meetings of ways are remembered.
-const MAX_SPLITS: usize = 8;
-/// How many ways that met are kept apart.
+/// Maximal number of joins that are remembered.
+const MAX_PARTITIONS: usize = 8;
+/// Maximal number of paths of a join that are kept apart.
 const MAX_WAYS: usize = 8;
-/// After how many writes a meeting is forgotten.
+/// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 
 impl Prover<'_> {
-    /// Remembers ways that have just met.
-    pub(crate) fn remember(&mut self, split: Split) {
-        if (2..=MAX_WAYS).contains(&split.ways().count()) {
-            if self.splits.len() >= MAX_SPLITS {
-                self.splits.remove(0);
+    /// Remembers the paths of a join.
+    pub(crate) fn remember(&mut self, partition: PathPartition) {
+        if (2..=MAX_WAYS).contains(&partition.ways().count()) {
+            if self.state.partitions.len() >= MAX_PARTITIONS {
+                self.state.partitions.remove(0);
             }
-            self.splits.push(split);
+            self.state.partitions.push(partition);
         }
     }
 
-    /// Narrows the facts to those in which `condition` is `truth`; false where there are none, so that the way is dead.
+    /// Narrows the facts to those in which `condition` is `truth`; returns false if there are none, so that
+    /// the path is dead.
     ///
-    /// Of the ways that met before, those on which it cannot be so are left out again: what was learnt or done on one way
-    /// only is known once a test tells that it was this way.
+    /// Paths of earlier joins on which the condition cannot hold are ruled out: facts of one path alone are
+    /// known again once a test shows that it was taken.
     pub(crate) fn assume(
         &mut self,
         condition: &Condition,
         truth: bool,
         cause: Cause,
-        frame: Frame<'_>,
+        frame: CallFrame<'_>,
     ) -> bool {
-        for index in (0..self.splits.len()).rev() {
-            let Some(slot) = self.splits.get_mut(index) else { break };
-            let split = std::mem::take(slot);
-            let passes = self.retrace(&split, condition, truth, cause, frame);
-            if let Some(slot) = self.splits.get_mut(index) {
-                *slot = split;
+        for index in (0..self.state.partitions.len()).rev() {
+            let Some(slot) = self.state.partitions.get_mut(index) else { break };
+            let partition = std::mem::take(slot);
+            let passes = self.retrace(&partition, condition, truth, cause, frame);
+            if let Some(slot) = self.state.partitions.get_mut(index) {
+                *slot = partition;
             }
             if !passes {
                 return false;
@@ -51,40 +52,41 @@ impl Prover<'_> {
         self.narrow(condition, truth, cause, frame)
     }
 
-    /// Leaves out the ways of a meeting on which `condition` cannot be `truth`; false where that is all of them.
+    /// Rules out the paths of a join on which `condition` cannot be `truth`; returns false if that is all of
+    /// them.
     fn retrace(
         &mut self,
-        split: &Split,
+        partition: &PathPartition,
         condition: &Condition,
         truth: bool,
         cause: Cause,
-        frame: Frame<'_>,
+        frame: CallFrame<'_>,
     ) -> bool {
-        let here = self.facts.mark();
-        if here > split.since + MAX_AGE || !split.differs(|fluent| mentions(condition, fluent)) {
+        let here = self.state.facts.mark();
+        if here > partition.since + MAX_AGE || !partition.differs(|fluent| mentions(condition, fluent)) {
             return true;
         }
         // What was written since holds on every way.
-        let later = self.facts.delta(split.since);
+        let later = self.state.facts.delta(partition.since);
         let (mut open, mut all) = (Vec::new(), 0_usize);
-        for way in split.ways() {
+        for way in partition.ways() {
             all += 1;
             for ((fluent, key), value) in way {
-                self.facts.set(fluent, key, value);
+                self.state.facts.set(fluent, key, value);
             }
-            self.facts.replay(&later);
+            self.state.facts.replay(&later);
             if self.narrow(condition, truth, cause, frame) {
-                open.push(self.facts.delta(here));
+                open.push(self.state.facts.delta(here));
             }
-            self.facts.back_to(here);
+            self.state.facts.back_to(here);
         }
         if open.len() < all {
-            self.facts.join(&open);
+            self.state.facts.join(&open);
         }
         !open.is_empty()
     }
 
-    fn narrow(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow(&mut self, condition: &Condition, truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         match condition {
             Condition::Literal(value) => *value == truth,
             Condition::Unknown | Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => true,
@@ -100,14 +102,14 @@ impl Prover<'_> {
                 if key.is_pattern() {
                     // Some entity has it, but which is not known; none has it, and that is known of all.
                     if !truth && !known.is_false() {
-                        self.facts.set(fact.fluent, key, Value::no(cause));
+                        self.state.facts.set(fact.fluent, key, TruthSet::no(cause));
                     }
                     return true;
                 }
                 match known.narrow(truth, cause) {
                     Some(narrowed) => {
                         if narrowed != known {
-                            self.facts.set(fact.fluent, key, narrowed);
+                            self.state.facts.set(fact.fluent, key, narrowed);
                         }
                         true
                     }
@@ -119,7 +121,7 @@ impl Prover<'_> {
         }
     }
 
-    fn narrow_all(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow_all(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         if truth {
             return parts.iter().all(|part| self.narrow(part, true, cause, frame));
         }
@@ -132,7 +134,7 @@ impl Prover<'_> {
         }
     }
 
-    fn narrow_any(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: Frame<'_>) -> bool {
+    fn narrow_any(&mut self, parts: &[Condition], truth: bool, cause: Cause, frame: CallFrame<'_>) -> bool {
         if !truth {
             return parts.iter().all(|part| self.narrow(part, false, cause, frame));
         }
@@ -145,13 +147,13 @@ impl Prover<'_> {
     }
 }
 
-/// Whether a condition with these values can be `truth`.
-fn possible(value: Value, truth: bool) -> bool {
+/// Returns whether a condition with these values can be `truth`.
+fn possible(value: TruthSet, truth: bool) -> bool {
     let known = if truth { value.yes } else { value.no };
     known.is_some() || value.open.is_some()
 }
 
-/// Whether a condition speaks of a fluent.
+/// Returns whether a condition mentions a fluent.
 pub(crate) fn mentions(condition: &Condition, fluent: Fluent) -> bool {
     let mut open: SmallVec<[&Condition; 8]> = SmallVec::new();
     open.push(condition);

@@ -1,40 +1,40 @@
-//! One call of a primitive: its needs, then what it does, and what is known where it fails.
+//! Transfer function of a call: its needs, its effects, and the facts after a failure.
 
 use motet_syntax::{Diagnostic, Mistake, Span};
 use smallvec::SmallVec;
 
-use super::apply::{Change, Lasting};
+use super::effects::{FactChange, PerceptionLifetime};
 use super::errors::{Refuted, Stale};
-use super::eval::Frame;
-use super::facts::Key;
-use super::value::{Cause, Value};
-use super::{Certain, Mood, Prover, Verdict, Verdicts};
+use super::evaluation::CallFrame;
+use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
+use crate::declare::{NeedDef, PrimitiveDef};
+use crate::facts::FactKey;
+use crate::facts::{Cause, TruthSet};
 use crate::ir::{Base, BindingId, Call, Entity, Fluent, StepId, Term, Ty};
-use crate::library::{NeedDef, PrimitiveDef};
 
 impl Prover<'_> {
     pub(crate) fn call(&mut self, id: StepId, call: &Call, span: Span) {
         let library = self.library;
         let Some(def) = library.primitive(call.primitive) else { return };
         let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
-        let frame = Frame { args: &call.args, result, each: None };
+        let frame = CallFrame { args: &call.args, result, each: None };
         let cause = Cause::step(id);
-        self.here = Some(id);
+        self.control.here = Some(id);
         self.erode();
 
         self.check_fresh(id, call, def);
         let mut verdicts = self.needs(id, def, def.needs.len(), frame, span);
-        if self.mood == Mood::Tell {
+        if self.mode == Mode::Explain {
             self.note_certain(id, def);
         }
         let (mut makes, mut unsettles) = std::mem::take(&mut self.buffers);
         self.changes(&def.makes, frame, &mut makes);
         self.changes(&def.unsettles, frame, &mut unsettles);
-        if self.mood == Mood::Tell {
+        if self.mode == Mode::Explain {
             self.check_watched(def, frame, span);
             self.check_redundant(def, &makes, frame, &verdicts, span);
         }
-        if verdicts.contains(&Verdict::Deferred) || def.motion.is_some() {
+        if verdicts.contains(&NeedVerdict::Deferred) || def.motion.is_some() {
             // A guard that refuses changes nothing.
             self.throw_all(def);
         }
@@ -52,19 +52,19 @@ impl Prover<'_> {
         }
     }
 
-    /// Keeps what is certain of open containers and of the hand for geometry, which walks the policy with worlds and leaves out
-    /// those that cannot be.
+    /// Records the certain facts about open containers and the hand before a motion, which rule out possible
+    /// worlds.
     fn note_certain(&mut self, id: StepId, def: &PrimitiveDef) {
-        if def.motion.is_none() || !self.world.has_scene() {
+        if def.motion.is_none() || !self.environment.has_scene() {
             return;
         }
         let mut certain = Vec::new();
-        let known = &self.library.known;
+        let known = &self.library.lang_items;
         for fluent in [known.open, known.holding].into_iter().flatten() {
-            self.facts.written(fluent, |key, value| {
+            self.state.facts.written(fluent, |key, value| {
                 if value.is_true() || value.is_false() {
                     let (entity, value) = (Entity(key.arg(0)), value.is_true());
-                    certain.push(Certain { fluent, entity, value });
+                    certain.push(CertainFact { fluent, entity, value });
                 }
             });
         }
@@ -75,39 +75,39 @@ impl Prover<'_> {
         }
     }
 
-    /// What is known where the step fails, and whether its needs still hold when it is tried again.
+    /// Propagates the facts after a failure of the step, and rechecks its needs for a retry.
     fn fail(
         &mut self,
         id: StepId,
         call: &Call,
         def: &PrimitiveDef,
-        frame: Frame<'_>,
-        makes: &[Change],
-        verdicts: &mut [Verdict],
+        frame: CallFrame<'_>,
+        makes: &[FactChange],
+        verdicts: &mut [NeedVerdict],
     ) {
         let retried = call.retries > 0;
-        if self.enclosing.is_empty() && !retried {
+        if self.control.enclosing.is_empty() && !retried {
             return;
         }
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         self.unsettle(makes, Cause::step(id));
         self.erode();
         self.see_states();
         self.throw_all(def);
         if retried {
-            if self.mood == Mood::Tell && !verdicts.contains(&Verdict::Refuted) {
+            if self.mode == Mode::Explain && !verdicts.contains(&NeedVerdict::Refuted) {
                 self.check_retry(id, call, def, frame);
             }
             for (need, verdict) in def.needs.iter().zip(verdicts) {
-                if *verdict == Verdict::Proven && !self.need(need, frame).0.is_true() {
-                    *verdict = Verdict::Deferred;
+                if *verdict == NeedVerdict::Proven && !self.need(need, frame).0.is_true() {
+                    *verdict = NeedVerdict::Deferred;
                 }
             }
         }
         self.back_to(mark);
     }
 
-    /// A pose that was perceived before something moved is stale, and using it an error.
+    /// Reports the use of a pose that was perceived before something moved.
     fn check_fresh(&mut self, id: StepId, call: &Call, def: &PrimitiveDef) {
         for (arg, span) in call.args.iter().zip(&call.spans) {
             let Term::Binding(binding) = arg else { continue };
@@ -116,7 +116,7 @@ impl Prover<'_> {
                 continue;
             }
             let fresh = self.freshness(*binding);
-            if fresh.no.is_some() && self.mood == Mood::Judge {
+            if fresh.no.is_some() && self.mode == Mode::Decide {
                 self.count(Stale::CODE);
             } else if fresh.no.is_some() {
                 let mistake = Stale {
@@ -128,81 +128,85 @@ impl Prover<'_> {
                     mover: self.cause_name(fresh.no),
                 };
                 let (bound, mistake) = (bound.span, Diagnostic::from(mistake));
-                self.offer_again(id, bound, &mistake);
+                self.notify(Problem::StaleBinding { step: id, bound }, &mistake);
                 self.diagnostics.push(mistake);
             }
         }
     }
 
-    fn freshness(&self, binding: BindingId) -> Value {
-        self.facts.get(self.fresh, binding_key(binding.0))
+    fn freshness(&self, binding: BindingId) -> TruthSet {
+        self.state.facts.get(self.fresh, binding_key(binding.0))
     }
 
-    /// Whether a binding is a pose that is no longer right.
+    /// Returns whether a binding is a stale pose.
     pub(crate) fn is_stale(&self, id: BindingId) -> bool {
         let binding = self.program.bindings.get(id.index());
         binding.is_some_and(|binding| binding.ty == Ty::plain(Base::Pose)) && self.freshness(id).no.is_some()
     }
 
-    /// The verdicts on the first `count` needs.
+    /// Verdicts on the first `count` needs.
     pub(crate) fn needs(
         &mut self,
         id: StepId,
         def: &PrimitiveDef,
         count: usize,
-        frame: Frame<'_>,
+        frame: CallFrame<'_>,
         span: Span,
-    ) -> Verdicts {
-        let mut verdicts = Verdicts::new();
+    ) -> NeedVerdicts {
+        let mut verdicts = NeedVerdicts::new();
         // What it needs of a thing that it cannot be given at all is beside the point.
         let mut is_misgiven = false;
         for need in def.needs.iter().take(count) {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
-                let frame = Frame { each: culprit, ..frame };
+                let frame = CallFrame { each: culprit, ..frame };
                 if !is_misgiven {
                     self.refuted(id, def, need, frame, span);
                 }
                 is_misgiven |= self.is_misgiven(&need.condition, frame);
-                Verdict::Refuted
+                NeedVerdict::Refuted
             } else if value.open.is_some() {
-                Verdict::Deferred
+                NeedVerdict::Deferred
             } else {
-                Verdict::Proven
+                NeedVerdict::Proven
             };
             verdicts.push(verdict);
-            if verdict == Verdict::Deferred && !self.volatile.is_empty() && self.mood == Mood::Tell {
+            if verdict == NeedVerdict::Deferred
+                && !self.state.volatile.is_empty()
+                && self.mode == Mode::Explain
+            {
                 self.check_reactions(def, need, value, frame, span);
             }
-            if verdict != Verdict::Proven {
+            if verdict != NeedVerdict::Proven {
                 self.grant(id, need, frame);
             }
         }
         verdicts
     }
 
-    fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: Frame<'_>, span: Span) {
-        if self.mood == Mood::Judge {
+    fn refuted(&mut self, id: StepId, def: &PrimitiveDef, need: &NeedDef, frame: CallFrame<'_>, span: Span) {
+        if self.mode == Mode::Decide {
             return self.count(Refuted::CODE);
         }
-        let blame = self.blame(&need.condition, true, frame);
+        let explanation = self.explain(&need.condition, true, frame);
         let mistake = Refuted {
             span,
             callee: def.name.clone(),
-            needs: blame.wanted.clone(),
-            story: blame.story(),
-            culprit: self.cause_span(blame.cause),
+            needs: explanation.wanted.clone(),
+            story: explanation.story(),
+            culprit: self.cause_span(explanation.cause),
             declared: need.span,
-            remedy: self.remedy(&blame),
-            subject: blame.subject,
+            remedy: self.remedy(&explanation),
+            subject: explanation.subject,
         };
         let mistake = Diagnostic::from(mistake);
-        self.offer_before(id, def, Frame { each: None, ..frame }, &mistake);
+        let frame = CallFrame { each: None, ..frame };
+        self.notify(Problem::RefutedNeed { step: id, def, frame }, &mistake);
         self.diagnostics.push(mistake);
     }
 
-    /// The values that a need can have, and the entity for which it can be false.
-    pub(crate) fn need(&self, need: &NeedDef, frame: Frame<'_>) -> (Value, Option<Entity>) {
+    /// Possible values of a need, and the entity for which it can be false.
+    pub(crate) fn need(&self, need: &NeedDef, frame: CallFrame<'_>) -> (TruthSet, Option<Entity>) {
         let Some(kind) = need.each else {
             let asked = self.evaluate(&need.condition, frame);
             let value = match &need.when {
@@ -212,12 +216,12 @@ impl Prover<'_> {
             return (value, None);
         };
         let (candidates, others) = self.asked(need.when.as_ref(), kind, frame);
-        let mut all = Value::yes(Cause::NOTHING);
+        let mut all = TruthSet::yes(Cause::NOTHING);
         let mut culprit = None;
         for candidate in candidates {
-            let frame = Frame { each: Some(candidate), ..frame };
+            let frame = CallFrame { each: Some(candidate), ..frame };
             let when =
-                need.when.as_ref().map_or(Value::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
+                need.when.as_ref().map_or(TruthSet::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
             let value = when.not().or(self.evaluate(&need.condition, frame));
             if value.no.is_some() && culprit.is_none() {
                 culprit = Some(candidate);
@@ -225,37 +229,37 @@ impl Prover<'_> {
             all = all.and(value);
         }
         if others {
-            all = all.and(Value::NOTHING_KNOWN.or(Value::NOTHING_KNOWN));
+            all = all.and(TruthSet::NOTHING_KNOWN.or(TruthSet::NOTHING_KNOWN));
         }
         (all, culprit)
     }
 
-    /// Takes a need as given: the guard has seen it hold, or it was reported and is not to be reported again.
-    pub(crate) fn grant(&mut self, id: StepId, need: &NeedDef, frame: Frame<'_>) {
+    /// Assumes a need: its guard has observed it, or its refutation was reported once.
+    pub(crate) fn grant(&mut self, id: StepId, need: &NeedDef, frame: CallFrame<'_>) {
         let cause = Cause::step(id);
         if need.each.is_none() && need.when.is_none() {
             self.assume(&need.condition, true, cause, frame);
         }
     }
 
-    /// A new result: its pose is fresh, its facts last as the contract says.
-    fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: Frame<'_>) {
+    /// Binds a new result: a fresh pose, and facts with the lifetime of the contract.
+    fn bind(&mut self, id: StepId, call: &Call, def: &PrimitiveDef, frame: CallFrame<'_>) {
         let Some(lasts) = &def.lasts else { return };
         let entities =
             lasts.entities.iter().filter_map(|term| self.argument(term, frame)).map(Entity).collect();
-        self.lasting.insert(id, Lasting { resources: lasts.resources, entities });
+        self.state.lasting.insert(id, PerceptionLifetime { resources: lasts.resources, entities });
         if let Some(binding) = call.binds.filter(|_| def.result == Some(Ty::plain(Base::Pose))) {
-            self.facts.set(self.fresh, binding_key(binding.0), Value::yes(Cause::step(id)));
+            self.state.facts.set(self.fresh, binding_key(binding.0), TruthSet::yes(Cause::step(id)));
         }
     }
 
-    /// Forgets what was known of a symbol: its name is bound anew.
+    /// Forgets the facts of a symbol whose name is bound anew.
     pub(crate) fn forget(&mut self, symbol: Option<Entity>) {
         let Some(symbol) = symbol else { return };
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for (index, def) in self.library.fluents.iter().enumerate() {
             let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
-            self.facts.written(fluent, |key, _| {
+            self.state.facts.written(fluent, |key, _| {
                 let mut params = def.params.iter().enumerate();
                 if params.any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0) {
                     stale.push((fluent, key));
@@ -264,14 +268,14 @@ impl Prover<'_> {
         }
         stale.sort_unstable();
         for (fluent, key) in stale {
-            self.facts.forget(fluent, key);
+            self.state.facts.forget(fluent, key);
         }
     }
 }
 
-/// The key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
-fn binding_key(binding: u32) -> Key {
+/// Key of a binding in the table of fresh values. Bindings beyond 2^32 do not occur.
+fn binding_key(binding: u32) -> FactKey {
     // Kept below the pattern value in every part.
     let (low, high) = (binding & 0x7fff, (binding >> 15) & 0x7fff);
-    Key(u64::from(low) | (u64::from(high) << 16))
+    FactKey(u64::from(low) | (u64::from(high) << 16))
 }

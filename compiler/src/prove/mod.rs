@@ -1,26 +1,28 @@
-//! Stage 3: the prover. It runs a policy abstractly over sets of {true, false, unobserved}, joins where ways meet, runs
-//! loops to a fixed point, and says of each need whether it is proven, refuted or left to observation.
+//! Stage 3, the prover: an abstract interpretation on sets of {true, false, unobserved}, with joins where
+//! paths meet and fixed points of loops. Each need is proven, refuted or deferred to an observation at run
+//! time.
 //!
-//! It costs what the policy changes, not what the world holds: facts are written on a trail and taken back at forks.
+//! Its cost depends on the facts that a policy changes, and not on the size of the environment: facts are
+//! written on a trail and rolled back at forks.
+//!
+//! Guarded by `tests/spec/prover.md`, the oracle in `tests/tests/oracle.rs` and `tests/tests/promises.rs`.
 
-pub(crate) mod apply;
 mod assume;
 mod call;
-mod collect;
-pub(crate) mod draft;
+mod collector;
+mod display;
+pub(crate) mod effects;
 pub(crate) mod errors;
-pub(crate) mod eval;
-pub(crate) mod facts;
-mod flow;
-mod intent;
-mod looped;
-pub(crate) mod mend;
+pub(crate) mod evaluation;
+mod explanation;
+mod failure;
+mod lints;
+mod loops;
 mod monitor;
 mod parallel;
-mod show;
-mod story;
+pub(crate) mod state;
+pub(crate) mod suspended;
 pub(crate) mod symbols;
-pub(crate) mod value;
 mod walk;
 
 use motet_syntax::{Diagnostic, Span};
@@ -29,177 +31,205 @@ use smallvec::SmallVec;
 
 pub(crate) use self::assume::mentions;
 
-use self::apply::{Change, Lasting};
-use self::collect::Enclosing;
-use self::draft::{Place, Stand};
-use self::facts::{Facts, Key, Split};
-use self::mend::{End, Offer};
+use self::effects::FactChange;
+use self::evaluation::CallFrame;
+use self::state::{AbstractState, Control};
+use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
-use self::value::Value;
-use crate::ir::{Entity, Fluent, Measure, Program, StepId};
-use crate::library::Library;
-use crate::world::World;
+use crate::declare::{Library, PrimitiveDef};
+use crate::environment::Environment;
+use crate::facts::{FactKey, TruthSet};
+use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
-/// How deep loops and parallel branches may nest: each level is proved at least twice.
+/// Maximal nesting of loops and parallel branches: each level is proved at least twice.
 pub const MAX_FIXPOINTS: usize = 8;
 
-/// What the prover found of one need of a step.
+/// Verdict on one need of a step.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum Verdict {
+pub(crate) enum NeedVerdict {
     /// Holds on every path.
     Proven,
-    /// Only observation can tell.
+    /// Left to an observation.
     Deferred,
     /// Fails on some path.
     Refuted,
 }
 
-/// What the prover found of each need of a step.
-pub(crate) type Verdicts = SmallVec<[Verdict; 16]>;
+/// Verdicts on the needs of a step.
+pub(crate) type NeedVerdicts = SmallVec<[NeedVerdict; 16]>;
 
-/// What the prover found.
+/// Result of a proof.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Proof {
-    /// By step: a verdict for each need of its primitive; empty for other steps and for steps that are never reached.
-    pub(crate) needs: Vec<Verdicts>,
-    /// By step: whether it can be reached.
+    /// By step, a verdict for each need of its primitive; empty for other steps and for unreachable steps.
+    pub(crate) needs: Vec<NeedVerdicts>,
+    /// By step, whether it is reachable.
     pub(crate) reached: Vec<bool>,
-    /// What is certain just before a step with a motion, for geometry.
-    pub(crate) certain: FxHashMap<StepId, Vec<Certain>>,
+    /// Certain facts just before a step with a motion.
+    pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
 }
 
-/// A fact that is certain at some step: one of the few that change where things are.
+/// A fact about poses that is certain at some step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Certain {
+pub(crate) struct CertainFact {
     pub(crate) fluent: Fluent,
     pub(crate) entity: Entity,
     pub(crate) value: bool,
 }
 
-/// The state of a proof.
+/// State of a proof.
 pub(crate) struct Prover<'a> {
     pub(crate) library: &'a Library,
-    pub(crate) world: &'a World,
+    pub(crate) environment: &'a Environment,
     pub(crate) program: &'a Program,
     pub(crate) symbols: Symbols,
-    pub(crate) facts: Facts<'a>,
-    /// The table of bindings whose value is still right, by binding.
-    pub(crate) fresh: Fluent,
-    pub(crate) lasting: FxHashMap<StepId, Lasting>,
-    pub(crate) watched: Vec<Watched>,
-    /// Facts that something beside the step being proved may change at any moment, and to what.
-    pub(crate) volatile: Vec<Volatile>,
-    pub(crate) enclosing: Vec<Enclosing>,
-    /// The call that is being proved.
-    pub(crate) here: Option<StepId>,
-    /// The ways that met on the way here, the latest last.
-    pub(crate) splits: Vec<Split>,
-    /// Whether control gets here at all.
-    pub(crate) live: bool,
-    pub(crate) fixpoints: usize,
-    /// How many runs around this one only look at what a reaction may do.
-    pub(crate) rehearsals: usize,
-    /// Where the round began of the innermost loop around, as a mark of the facts.
-    pub(crate) head: Option<usize>,
-    /// By fluent: whether a symbol has an entry.
-    pub(crate) aliased: Vec<bool>,
-    /// Room for the changes of a step, kept so that no step asks for new.
-    pub(crate) buffers: (Vec<Change>, Vec<Change>),
-    pub(crate) diagnostics: Vec<Diagnostic>,
-    pub(crate) proof: Proof,
-    /// What would mend the findings.
-    pub(crate) offers: Vec<Offer>,
-    pub(crate) mood: Mood,
-    /// What a draft looks for.
-    pub(crate) place: Place,
-    /// The states in which control gets to the hole in it.
-    pub(crate) stands: Vec<Stand>,
+    /// Table of bindings that are not stale.
+    fresh: Fluent,
+    /// By fluent, whether a symbol has an entry.
+    aliased: Vec<bool>,
+    pub(crate) state: AbstractState<'a>,
+    pub(crate) control: Control,
+    mode: Mode,
+    /// Step of interest of an incremental check.
+    target: ProofTarget,
+    /// Listener to all problems; `None` if no repairs are wanted.
+    observer: Option<&'a mut dyn Observer>,
+    diagnostics: Vec<Diagnostic>,
+    proof: Proof,
+    /// States in which control reaches the program point of the target.
+    states_at_point: Vec<AbstractState<'static>>,
+    /// Buffers for the changes of a step, reused between steps.
+    buffers: (Vec<FactChange>, Vec<FactChange>),
 }
 
-/// What a proof is for.
+/// Purpose of a proof.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(crate) enum Mood {
-    /// To tell people what is wrong, why, and what would mend it.
+pub(crate) enum Mode {
+    /// Explain every problem.
     #[default]
-    Tell,
-    /// To know whether anything is refuted, and nothing else.
-    Judge,
+    Explain,
+    /// Only decide whether any need is refuted.
+    Decide,
 }
 
 /// A fact that a monitor's reaction may change at any moment of the body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Volatile {
     pub(crate) fluent: Fluent,
-    pub(crate) key: Key,
-    /// What it may be then.
-    pub(crate) value: Value,
-    /// The monitor's condition.
+    pub(crate) key: FactKey,
+    /// Value that the reaction leaves.
+    pub(crate) value: TruthSet,
+    /// Span of the monitor's condition.
     pub(crate) when: Span,
 }
 
-/// What an enclosing monitor watches.
+/// Fluents and measures that an enclosing monitor watches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watched {
     pub(crate) measures: Vec<Measure>,
     pub(crate) fluents: Vec<Fluent>,
-    /// What the distance to is watched.
+    /// Entities whose distance is watched.
     pub(crate) near: Vec<Entity>,
 }
 
-/// Proves a program from the facts that the world gives at the start.
+/// The end of a policy, where steps may still be added.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum PolicyEnd {
+    /// Before a `done`.
+    Before(StepId),
+    /// Behind the last step.
+    After(StepId),
+}
+
+/// A problem in the state in which the prover finds it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Problem<'p> {
+    /// A call with a need that some path refutes.
+    RefutedNeed { step: StepId, def: &'p PrimitiveDef, frame: CallFrame<'p> },
+    /// A step that uses a stale pose, which was bound at a span.
+    StaleBinding { step: StepId, bound: Span },
+    /// A goal that is refuted where the policy is done.
+    RefutedGoal { goal: &'p Condition, end: PolicyEnd },
+    /// A fact in which the policy ends, with the truth value that is probably meant.
+    UnintendedFact { fact: (Fluent, FactKey, bool), end: PolicyEnd },
+    /// The step that is being proved changes nothing.
+    RedundantStep,
+}
+
+/// A listener to the diagnostics of the prover, called while the facts before the step are still at hand.
+///
+/// It may try calls on the facts, and must take them back.
+pub(crate) trait Observer: std::fmt::Debug {
+    /// Takes in a problem and the diagnostic about it.
+    fn observe(&mut self, prover: &mut Prover<'_>, problem: Problem<'_>, diagnostic: &Diagnostic);
+}
+
+/// Proves a program from the facts that hold at the start.
 pub(crate) fn prove(
     program: &Program,
     library: &Library,
-    world: &World,
-) -> (Proof, Vec<Diagnostic>, Vec<Offer>) {
-    let mut prover = Prover::new(program, library, world);
+    environment: &Environment,
+    observer: &mut dyn Observer,
+) -> (Proof, Vec<Diagnostic>) {
+    let mut prover = Prover::new(program, library, environment);
+    prover.observer = Some(observer);
     prover.block(&program.body);
-    if prover.live {
+    if prover.control.live {
         let last = program.body.last().copied();
-        let end = last.map(End::After);
+        let end = last.map(PolicyEnd::After);
         prover.check_goal(end);
         let last = last.and_then(|id| program.step(id));
         prover.check_end(end, last.map_or(program.span, |step| step.span));
     }
     prover.report_unreached();
-    (prover.proof, prover.diagnostics, prover.offers)
+    (prover.proof, prover.diagnostics)
 }
 
 impl<'a> Prover<'a> {
     /// The state before the first step.
-    pub(crate) fn new(program: &'a Program, library: &'a Library, world: &'a World) -> Self {
-        let mut facts = Facts::above(&world.facts);
-        let fresh = facts.add_table(Value::yes(value::Cause::NOTHING));
+    pub(crate) fn new(program: &'a Program, library: &'a Library, environment: &'a Environment) -> Self {
+        let (state, fresh) = AbstractState::at_start(environment);
+        let symbols = Symbols::new(program, library, environment);
         let steps = program.steps.len();
+        let proof = Proof {
+            needs: vec![NeedVerdicts::new(); steps],
+            reached: vec![false; steps],
+            certain: FxHashMap::default(),
+        };
+        let names = (symbols, fresh, vec![false; library.fluents.len()]);
+        Self { proof, ..Self::resume((program, library, environment), state, names) }
+    }
+
+    /// A proof that continues from a state.
+    fn resume(
+        (program, library, environment): ProofInput<'a>,
+        state: AbstractState<'a>,
+        (symbols, fresh, aliased): (Symbols, Fluent, Vec<bool>),
+    ) -> Self {
         Self {
             library,
-            world,
+            environment,
             program,
-            symbols: Symbols::new(program, library, world),
-            facts,
+            symbols,
             fresh,
-            lasting: FxHashMap::default(),
-            watched: Vec::new(),
-            volatile: Vec::new(),
-            enclosing: Vec::new(),
-            here: None,
-            splits: Vec::new(),
-            live: true,
-            fixpoints: 0,
-            rehearsals: 0,
-            head: None,
-            aliased: vec![false; library.fluents.len()],
-            buffers: Default::default(),
+            aliased,
+            state,
+            control: Control { live: true, ..Control::default() },
+            mode: Mode::Explain,
+            target: ProofTarget::default(),
+            observer: None,
             diagnostics: Vec::new(),
-            proof: Proof {
-                needs: vec![Verdicts::new(); steps],
-                reached: vec![false; steps],
-                certain: FxHashMap::default(),
-            },
-            offers: Vec::new(),
-            mood: Mood::Tell,
-            place: Place::default(),
-            stands: Vec::new(),
+            proof: Proof::default(),
+            states_at_point: Vec::new(),
+            buffers: Default::default(),
+        }
+    }
+
+    /// Notifies the observer of a problem.
+    pub(crate) fn notify(&mut self, problem: Problem<'_>, diagnostic: &Diagnostic) {
+        if let Some(observer) = self.observer.take() {
+            observer.observe(self, problem, diagnostic);
+            self.observer = Some(observer);
         }
     }
 }

@@ -1,13 +1,13 @@
-//! Monitors: the body under watch, and what their reactions start from.
+//! Monitors: their body under watch, and the states from which reactions start.
 
 use motet_syntax::ast::EndKind;
 
-use super::collect::{Collector, Enclosing};
+use super::collector::{Collector, Enclosing};
 use super::errors::NeverFires;
-use super::eval::Frame;
-use super::facts::{Delta, Key};
-use super::value::Cause;
+use super::evaluation::CallFrame;
 use super::{Prover, Volatile, Watched};
+use crate::facts::Cause;
+use crate::facts::{Delta, FactKey};
 use crate::ir::{Condition, Entity, Reaction, StepId, TIMEOUT, Term, When};
 
 impl Prover<'_> {
@@ -18,35 +18,36 @@ impl Prover<'_> {
         if !self.enter_fixpoint(id) {
             return;
         }
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         let said = self.said();
-        let volatile = self.volatile.len();
+        let volatile = self.state.volatile.len();
         self.disturb(id, whens, &Delta::default(), mark, volatile);
         let watched = self.watched_by(whens);
-        self.watched.push(watched);
+        self.state.watched.push(watched);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
         let mut head = Delta::default();
         // The body may begin again from any of its states, where a restart asks for it.
         let (end, states) = loop {
             self.unsay(said);
-            self.live = true;
-            self.facts.replay(&head);
-            self.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
+            self.control.live = true;
+            self.state.facts.replay(&head);
+            self.control.enclosing.push(Enclosing::Monitor { states: Collector::new(mark) });
             self.erode();
             self.see_states();
             for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-                self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+                self.control.live &=
+                    self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
             }
-            if self.live {
+            if self.control.live {
                 self.block(body);
                 self.erode();
             } else {
                 // It fires at once: the body never runs.
-                self.live = false;
+                self.control.live = false;
             }
-            let end = self.live.then(|| self.facts.delta(mark));
-            let states = match self.enclosing.pop() {
+            let end = self.control.live.then(|| self.state.facts.delta(mark));
+            let states = match self.control.enclosing.pop() {
                 Some(Enclosing::Monitor { states }) => states.delta(),
                 _ => Delta::default(),
             };
@@ -55,41 +56,42 @@ impl Prover<'_> {
             let grown = self.disturb(id, whens, &states, mark, volatile);
             let mut next = head.clone();
             for when in &restarts {
-                self.facts.replay(&states);
-                if self.assume(&when.condition, true, Cause::step(id), Frame::default()) {
-                    let way = self.facts.delta(mark);
+                self.state.facts.replay(&states);
+                if self.assume(&when.condition, true, Cause::step(id), CallFrame::default()) {
+                    let way = self.state.facts.delta(mark);
                     self.back_to(mark);
-                    next = next.or(&way, &self.facts);
+                    next = next.or(&way, &self.state.facts);
                 } else {
                     self.back_to(mark);
                 }
             }
-            if !grown && next.same_sets(&head, &self.facts) {
+            if !grown && next.same_sets(&head, &self.state.facts) {
                 break (end, states);
             }
             head = next;
         };
-        self.watched.pop();
-        self.volatile.truncate(volatile);
+        self.state.watched.pop();
+        self.state.volatile.truncate(volatile);
         for when in whens {
             self.react(id, when, &states, mark);
         }
-        self.fixpoints -= 1;
+        self.control.fixpoints -= 1;
         self.meet(mark, end.as_slice());
     }
 
-    /// What the conditions of a monitor speak of.
+    /// Fluents, measures and entities in the conditions of a monitor.
     fn watched_by(&self, whens: &[When]) -> Watched {
         let mut watched = Watched::default();
         for when in whens {
-            visit(&when.condition, &mut watched, &mut |term| self.argument(term, Frame::default()));
+            visit(&when.condition, &mut watched, &mut |term| self.argument(term, CallFrame::default()));
         }
         watched
     }
 
-    /// Whether a reaction leaves the policy, or only waits, so that there is nothing to prove of it.
+    /// Returns whether a reaction leaves the policy, or only waits, so that it needs no proof.
     fn is_outside(&self, when: &When) -> bool {
-        let caught = self.enclosing.iter().any(|enclosing| matches!(enclosing, Enclosing::Try { .. }));
+        let caught =
+            self.control.enclosing.iter().any(|enclosing| matches!(enclosing, Enclosing::Try { .. }));
         let outside = match &when.reaction {
             Reaction::Pause { .. } => !caught,
             Reaction::End { kind: EndKind::Fail | EndKind::Replan, of: None, .. } => true,
@@ -99,35 +101,35 @@ impl Prover<'_> {
         outside && !constant(&when.condition)
     }
 
-    /// A monitor whose reactions need no proof: its body, under watch.
+    /// Proves the body of a monitor whose reactions need no proof.
     fn watch(&mut self, id: StepId, whens: &[When], body: &[StepId]) {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
-            self.live &= self.assume(&when.condition, false, Cause::step(id), Frame::default());
+            self.control.live &= self.assume(&when.condition, false, Cause::step(id), CallFrame::default());
         }
         let watched = self.watched_by(whens);
-        self.watched.push(watched);
-        if self.live {
+        self.state.watched.push(watched);
+        if self.control.live {
             self.block(body);
         }
-        self.watched.pop();
+        self.state.watched.pop();
     }
 
-    /// What the blocks of `resume` reactions change, from any of these states, may change at any moment of the body. Whether
-    /// that is more than was known of it; rows from `first` are those of this monitor.
+    /// Records the facts that `resume` reactions change from any of these states as volatile in the body;
+    /// returns whether that adds to the rows from `first` on, which belong to this monitor.
     fn disturb(&mut self, id: StepId, whens: &[When], states: &Delta, mark: usize, first: usize) -> bool {
         let mut grown = false;
         for when in whens {
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
             let said = self.said();
-            self.live = true;
-            self.facts.replay(states);
-            self.assume(&when.condition, true, Cause::step(id), Frame::default());
-            let seen = self.facts.mark();
-            self.rehearsals += 1;
+            self.control.live = true;
+            self.state.facts.replay(states);
+            self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
+            let seen = self.state.facts.mark();
+            self.control.rehearsals += 1;
             self.block(body);
-            for (fluent, key) in self.facts.touched(seen) {
-                let value = self.facts.get(fluent, key);
-                let mut rows = self.volatile.iter_mut().skip(first);
+            for (fluent, key) in self.state.facts.touched(seen) {
+                let value = self.state.facts.get(fluent, key);
+                let mut rows = self.state.volatile.iter_mut().skip(first);
                 match rows.find(|row| row.fluent == fluent && row.key == key && row.when == when.span) {
                     Some(row) => {
                         let joined = row.value.join(value);
@@ -135,31 +137,31 @@ impl Prover<'_> {
                         row.value = joined;
                     }
                     None => {
-                        self.volatile.push(Volatile { fluent, key, value, when: when.span });
+                        self.state.volatile.push(Volatile { fluent, key, value, when: when.span });
                         grown = true;
                     }
                 }
             }
             self.back_to(mark);
             self.unsay(said);
-            self.rehearsals -= 1;
-            self.live = true;
+            self.control.rehearsals -= 1;
+            self.control.live = true;
         }
         grown
     }
 
-    /// Reactions may have run just now: what they change may be so, or as it was.
+    /// Weakens the facts that a reaction may just have changed.
     pub(crate) fn erode(&mut self) {
-        if self.volatile.is_empty() {
+        if self.state.volatile.is_empty() {
             return;
         }
-        let rows = std::mem::take(&mut self.volatile);
+        let rows = std::mem::take(&mut self.state.volatile);
         let single = rows.iter().filter(|row| !row.key.is_pattern());
         let single = single.map(|row| (row, self.read(row.fluent, row.key).join(row.value)));
         let single: Vec<_> = single.collect();
         for row in rows.iter().filter(|row| row.key.is_pattern()) {
             // A narrower row of the same reaction says more of what it covers.
-            let is_told = |key: Key| {
+            let is_told = |key: FactKey| {
                 rows.iter().any(|other| {
                     (other.fluent, other.when) == (row.fluent, row.when)
                         && other.key != row.key
@@ -167,32 +169,28 @@ impl Prover<'_> {
                         && other.key.covers(key)
                 })
             };
-            self.facts.change(
-                row.fluent,
-                row.key,
-                |key, known| {
-                    if is_told(key) { known } else { known.join(row.value) }
-                },
-            );
+            self.state.facts.change(row.fluent, row.key, |key, known| {
+                if is_told(key) { known } else { known.join(row.value) }
+            });
         }
         for (row, value) in single {
-            if self.facts.get(row.fluent, row.key) != value {
-                self.facts.set(row.fluent, row.key, value);
+            if self.state.facts.get(row.fluent, row.key) != value {
+                self.state.facts.set(row.fluent, row.key, value);
             }
         }
-        self.volatile = rows;
+        self.state.volatile = rows;
     }
 
     /// Proves a reaction from the states in which it can start.
     fn react(&mut self, id: StepId, when: &When, states: &Delta, mark: usize) {
-        self.facts.replay(states);
-        self.live = self.assume(&when.condition, true, Cause::step(id), Frame::default());
-        if !self.live && constant(&when.condition) {
+        self.state.facts.replay(states);
+        self.control.live = self.assume(&when.condition, true, Cause::step(id), CallFrame::default());
+        if !self.control.live && constant(&when.condition) {
             self.diagnostics.push(NeverFires { span: when.span }.into());
         }
-        if self.live {
-            let depth = self.enclosing.len();
-            let exhausted = self.library.known.exhausted;
+        if self.control.live {
+            let depth = self.control.enclosing.len();
+            let exhausted = self.library.lang_items.exhausted;
             match &when.reaction {
                 Reaction::Pause { .. } => self.throw(TIMEOUT, depth),
                 Reaction::Restart { .. } => {
@@ -209,16 +207,16 @@ impl Prover<'_> {
                 Reaction::End { kind, of, .. } => self.end(None, *kind, *of, when.span),
             }
         } else if let Reaction::Resume { body, .. } = &when.reaction {
-            // A condition that only the world can bring about still needs its block proved.
-            self.live = true;
+            // A condition that only the environment can bring about still needs its block proved.
+            self.control.live = true;
             self.block(body);
         }
         self.back_to(mark);
-        self.live = true;
+        self.control.live = true;
     }
 }
 
-/// Whether a condition is the same whatever happens.
+/// Returns whether a condition is constant.
 fn constant(condition: &Condition) -> bool {
     match condition {
         Condition::Literal(_) => true,
@@ -246,7 +244,7 @@ fn fixed(term: &Term) -> bool {
     }
 }
 
-/// Looks up an entity.
+/// Callback that finds the entity of a term.
 type Lookup<'l> = &'l mut dyn FnMut(&Term) -> Option<u16>;
 
 fn visit(condition: &Condition, watched: &mut Watched, lookup: Lookup<'_>) {

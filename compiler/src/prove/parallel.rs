@@ -1,11 +1,12 @@
-//! Branches that run at once: each is proved with what the others may change unknown, and their effects must agree.
+//! Parallel branches: each is proved while the facts that the others may change are unknown, and their
+//! effects must agree.
 
 use rustc_hash::FxHashMap;
 
 use super::Prover;
 use super::errors::Conflict;
-use super::facts::{Atom, Delta, show};
-use super::value::{Cause, Value};
+use crate::facts::{Atom, Delta, show};
+use crate::facts::{Cause, TruthSet};
 use crate::ir::StepId;
 
 impl Prover<'_> {
@@ -13,15 +14,15 @@ impl Prover<'_> {
         if !self.enter_fixpoint(id) {
             return;
         }
-        let mark = self.facts.mark();
+        let mark = self.state.facts.mark();
         let said = self.said();
         // What each branch may change, found by proving it alone.
         let mut changed = Vec::with_capacity(branches.len());
         for branch in branches {
             self.block(branch);
-            changed.push(self.facts.touched(mark));
+            changed.push(self.state.facts.touched(mark));
             self.back_to(mark);
-            self.live = true;
+            self.control.live = true;
         }
         self.unsay(said);
         let mut deltas = Vec::with_capacity(branches.len());
@@ -32,37 +33,37 @@ impl Prover<'_> {
                 self.disturb_by_branch(id, (*fluent, *key));
             }
             self.block(branch);
-            live &= self.live;
-            deltas.push(self.facts.delta(mark));
+            live &= self.control.live;
+            deltas.push(self.state.facts.delta(mark));
             self.back_to(mark);
-            self.live = true;
+            self.control.live = true;
         }
         let joined = self.compose(id, &changed, &deltas);
-        self.fixpoints -= 1;
-        self.facts.replay(&joined);
-        self.live = live;
+        self.control.fixpoints -= 1;
+        self.state.facts.replay(&joined);
+        self.control.live = live;
     }
 
-    /// Another branch may change a fact at any moment.
+    /// Weakens a fact that another branch may change at any moment.
     fn disturb_by_branch(&mut self, id: StepId, (fluent, key): Atom) {
-        let open = Value::open(Cause::step(id));
+        let open = TruthSet::open(Cause::step(id));
         // Of a choice only one step is there: where it is another, what was known is still so.
-        if self.place.choice.is_none() {
-            self.facts.set(fluent, key, open);
+        if self.target.choice.is_none() {
+            self.state.facts.set(fluent, key, open);
         } else if key.is_pattern() {
-            self.facts.change(fluent, key, |_, known| known.join(open));
+            self.state.facts.change(fluent, key, |_, known| known.join(open));
         } else {
             let value = self.read(fluent, key).join(open);
-            self.facts.set(fluent, key, value);
+            self.state.facts.set(fluent, key, value);
         }
     }
 
-    /// The effects of all branches together. Two branches that leave one fact with different values are an error.
+    /// Joins the effects of all branches. Branches that leave different values in a fact are an error.
     fn compose(&mut self, id: StepId, changed: &[Vec<Atom>], deltas: &[Delta]) -> Delta {
-        let mut written: FxHashMap<Atom, Value> = FxHashMap::default();
+        let mut written: FxHashMap<Atom, TruthSet> = FxHashMap::default();
         for (touched, delta) in changed.iter().zip(deltas) {
             for atom in touched.iter().copied() {
-                let value = delta.get(&self.facts, atom);
+                let value = delta.get(&self.state.facts, atom);
                 match written.get(&atom).copied() {
                     None => {
                         written.insert(atom, value);
@@ -72,7 +73,7 @@ impl Prover<'_> {
                         if self.is_conflict(first, value) || self.is_conflict(value, first) {
                             self.conflict(id, atom, first, value);
                         }
-                        written.insert(atom, Value::open(Cause::step(id)));
+                        written.insert(atom, TruthSet::open(Cause::step(id)));
                     }
                 }
             }
@@ -80,19 +81,20 @@ impl Prover<'_> {
         Delta::new(written.into_iter())
     }
 
-    /// Whether one branch leaves a fact true that the other leaves false. Where a step is any of several, whether it may.
-    fn is_conflict(&self, first: Value, second: Value) -> bool {
-        if self.place.choice.is_some() {
+    /// Returns whether one branch leaves a fact true that another leaves false; with a choice, whether it
+    /// may.
+    fn is_conflict(&self, first: TruthSet, second: TruthSet) -> bool {
+        if self.target.choice.is_some() {
             return first.yes.is_some() && second.no.is_some();
         }
         first.is_true() && second.is_false()
     }
 
-    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: Value, second: Value) {
+    fn conflict(&mut self, id: StepId, (fluent, key): Atom, first: TruthSet, second: TruthSet) {
         let Some(def) = self.library.fluent(fluent) else { return };
         let fact =
             show(&def.name, key, def.params.len(), |index, arg| self.argument_name(fluent, index, arg));
-        let cause = |value: Value| if value.yes.is_some() { value.yes } else { value.no };
+        let cause = |value: TruthSet| if value.yes.is_some() { value.yes } else { value.no };
         let span = self.program.step(id).map_or(self.program.span, |step| step.span);
         let (first, second) = (self.cause_span(cause(first)), self.cause_span(cause(second)));
         self.diagnostics.push(Conflict { span, fact, first, second }.into());

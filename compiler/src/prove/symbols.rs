@@ -1,44 +1,44 @@
-//! What a binding may be. One that a description finds exactly once in the scene is that entity; any other is a symbol:
-//! an entity of its own that may be one of those it fits, or any of its kind.
+//! Symbols: entities behind bindings. A description that fits exactly one entity of the scene denotes it; any
+//! other binding is a symbol, an entity of its own that may be one of several.
 
+use crate::declare::Library;
+use crate::environment::Environment;
 use crate::ir::{Base, Entity, Kind, Program, Ty};
-use crate::library::Library;
-use crate::world::World;
 
-/// What stands behind a binding.
+/// Entities and symbols of the bindings.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
-    /// By binding: the entity that stands for it in facts; none where it is no entity.
+    /// By binding, the entity or symbol for facts; `None` for other types.
     bindings: Vec<Option<Entity>>,
     symbols: Vec<Symbol>,
     first: u16,
 }
 
-/// An entity of which it is not known which it is.
+/// An unknown entity.
 #[derive(Clone, Debug)]
 pub(crate) struct Symbol {
     pub(crate) kind: Kind,
-    /// Those it may be; none where it may be any of its kind.
+    /// Entities that it may be; `None` for any of its kind.
     pub(crate) may_be: Option<Vec<Entity>>,
 }
 
 impl Symbols {
-    pub(crate) fn new(program: &Program, library: &Library, world: &World) -> Self {
-        let first = u16::try_from(world.entities().len()).unwrap_or(u16::MAX);
+    pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
+        let first = u16::try_from(environment.entities().len()).unwrap_or(u16::MAX);
         let mut table =
             Self { bindings: Vec::with_capacity(program.bindings.len()), symbols: Vec::new(), first };
-        table.extend(program, library, world);
+        table.extend(program, library, environment);
         table
     }
 
-    /// Takes in the bindings that the program has beyond those seen before.
-    pub(crate) fn extend(&mut self, program: &Program, library: &Library, world: &World) {
+    /// Adds the bindings that the program has gained.
+    pub(crate) fn extend(&mut self, program: &Program, library: &Library, environment: &Environment) {
         for binding in program.bindings.iter().skip(self.bindings.len()) {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
                 self.bindings.push(None);
                 continue;
             };
-            let found = binding.description.as_ref().map(|text| world.described(library, text, kind));
+            let found = binding.description.as_ref().map(|text| environment.described(library, text, kind));
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
                 Some([]) | None => self.add(kind, None),
@@ -48,12 +48,12 @@ impl Symbols {
         }
     }
 
-    /// How many bindings and symbols there are.
+    /// Numbers of bindings and symbols.
     pub(crate) fn len(&self) -> (usize, usize) {
         (self.bindings.len(), self.symbols.len())
     }
 
-    /// Goes back to so many bindings and symbols.
+    /// Restores earlier numbers of bindings and symbols.
     pub(crate) fn truncate(&mut self, (bindings, symbols): (usize, usize)) {
         self.bindings.truncate(bindings);
         self.symbols.truncate(symbols);
@@ -75,7 +75,7 @@ impl Symbols {
         self.symbols.get(usize::from(entity.0.checked_sub(self.first)?))
     }
 
-    /// The binding that a symbol stands for.
+    /// The binding of a symbol.
     pub(crate) fn binding_of(&self, entity: Entity) -> Option<usize> {
         self.get(entity)?;
         self.bindings.iter().position(|bound| *bound == Some(entity))
@@ -90,31 +90,41 @@ impl Symbols {
         self.symbols.is_empty()
     }
 
-    pub(crate) fn kind(&self, world: &World, entity: Entity) -> Option<Kind> {
-        world.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
+    pub(crate) fn kind(&self, environment: &Environment, entity: Entity) -> Option<Kind> {
+        environment.entities().kind(entity).or_else(|| self.get(entity).map(|symbol| symbol.kind))
     }
 
-    /// Whether two entities may be the same.
-    pub(crate) fn may_equal(&self, library: &Library, world: &World, a: Entity, b: Entity) -> bool {
+    /// Returns whether two entities may be the same.
+    pub(crate) fn may_equal(
+        &self,
+        library: &Library,
+        environment: &Environment,
+        a: Entity,
+        b: Entity,
+    ) -> bool {
         if a == b {
             return true;
         }
         match (self.get(a), self.get(b)) {
             (None, None) => false,
-            (Some(symbol), None) => Self::may_be(library, world, symbol, b),
-            (None, Some(symbol)) => Self::may_be(library, world, symbol, a),
+            (Some(symbol), None) => Self::may_be(library, environment, symbol, b),
+            (None, Some(symbol)) => Self::may_be(library, environment, symbol, a),
             (Some(one), Some(two)) => match (&one.may_be, &two.may_be) {
-                (Some(list), _) => list.iter().any(|entity| Self::may_be(library, world, two, *entity)),
-                (None, Some(list)) => list.iter().any(|entity| Self::may_be(library, world, one, *entity)),
+                (Some(list), _) => list.iter().any(|entity| Self::may_be(library, environment, two, *entity)),
+                (None, Some(list)) => {
+                    list.iter().any(|entity| Self::may_be(library, environment, one, *entity))
+                }
                 (None, None) => library.is_kind(one.kind, two.kind) || library.is_kind(two.kind, one.kind),
             },
         }
     }
 
-    fn may_be(library: &Library, world: &World, symbol: &Symbol, entity: Entity) -> bool {
+    fn may_be(library: &Library, environment: &Environment, symbol: &Symbol, entity: Entity) -> bool {
         match &symbol.may_be {
             Some(list) => list.contains(&entity),
-            None => world.entities().kind(entity).is_some_and(|kind| library.is_kind(kind, symbol.kind)),
+            None => {
+                environment.entities().kind(entity).is_some_and(|kind| library.is_kind(kind, symbol.kind))
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ mod tables;
 
 use std::time::{Duration, Instant};
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_planner::{Builtin, PlanRequest, Planner};

@@ -14,7 +14,7 @@ mod world;
 
 use std::time::Instant;
 
-use motet_compiler::{Options, Session};
+use motet_compiler::{CheckOptions, Session};
 use motet_robots::card::Robot;
 use motet_syntax::ast::Item;
 use motet_syntax::{FileId, Severity, Source, Sources};
@@ -143,9 +143,15 @@ fn session(
     let parsed = motet_syntax::read(&source, file);
     let scene = world::scene(row, names, sources)?;
     let state = world::state(row, names, &robot);
-    let options = Options::default();
-    let (session, mut said) =
-        Session::new(Some(&robot), &[parsed.file], Some(&scene), Some(&state), options, sources);
+    let options = CheckOptions::default();
+    let session = Session::builder()
+        .robot(&robot)
+        .domains(&[parsed.file])
+        .scene(&scene)
+        .state(&state)
+        .options(options)
+        .build(sources);
+    let mut said = session.input_diagnostics().to_vec();
     said.extend(parsed.diagnostics);
     match said.iter().find(|said| said.severity == Severity::Error) {
         Some(wrong) => Err(format!("the world of the row: {} {}", wrong.code, wrong.message)),

@@ -1,7 +1,7 @@
 //! What a row says of the world: the entities as an ordinary scene, and the facts at the start.
 
 use indexmap::IndexMap;
-use motet_compiler::State;
+use motet_compiler::InitialState;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::{Severity, Source, Sources, Span};
@@ -167,7 +167,7 @@ impl Facts {
 }
 
 /// The facts at the start that no scene tells.
-pub(super) fn state(row: &Row, names: &Names, robot: &Robot) -> State {
+pub(super) fn state(row: &Row, names: &Names, robot: &Robot) -> InitialState {
     let mut facts = Facts::default();
     let scene = &row.scene;
     let word = |key: &str| scene.get(key).and_then(Value::as_str);
@@ -204,7 +204,7 @@ pub(super) fn state(row: &Row, names: &Names, robot: &Robot) -> State {
     for rule in scene.get("rules").and_then(Value::as_array).into_iter().flatten() {
         forbid(rule, names, &mut facts);
     }
-    State { facts: facts.0 }
+    InitialState { facts: facts.0 }
 }
 
 /// Where everything is, what lies under what, and where there is no room.

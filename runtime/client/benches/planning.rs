@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use common::server::{Act, Server};
 use common::world::{Heard, brisk, geometry, right, setting};
 use motet_client::{Client, ClientSettings};
-use motet_compiler::{Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_decode::export::{Dialect, request_constraint};
 use motet_decode::{AcceptorFactory as Acceptors, Grammar, Subset};
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator};
@@ -117,7 +117,7 @@ impl Kept {
 
 fn session(setting: &DialogueSetup) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
-    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+    Session::builder().robot(robot).scene(scene).options(setting.options).build(&mut Sources::default())
 }
 
 /// Everything between a request and the new policy, with its times.
@@ -129,7 +129,7 @@ fn once(setting: &DialogueSetup, kept: &Kept, request: &str, reply: &str) -> Vec
         laps.push((name, now - from));
         from = Instant::now();
     };
-    let (session, _) = kept.session.elsewhere(Some(&setting.scene), Some(&State::default()));
+    let session = kept.session.with_scene(Some(&setting.scene), Some(&InitialState::default()));
     let session = session.with_geometry(Arc::clone(setting.geometry.as_ref().unwrap()));
     lap("session: scene and state");
     let situation = RequestContext::new(&setting.scene);

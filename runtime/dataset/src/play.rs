@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_runtime::Time;
 use motet_sim::{Sim, SimOptions};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motet_compiler::{Geometry, Options as CheckOptions, Session};
+use motet_compiler::{Geometry, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_graph::NodeKind;
 use motet_robots::card::Robot;
@@ -41,14 +41,8 @@ impl Stage {
     /// What keeps the robot from being in that room.
     pub fn new(body: &Body, scene: &Scene, effort: Option<SearchBudget>) -> Result<Self, String> {
         let robot = &body.robot;
-        let (mut session, said) = Session::new(
-            Some(robot),
-            &[],
-            Some(scene),
-            None,
-            CheckOptions::default(),
-            &mut Sources::default(),
-        );
+        let mut session = Session::builder().robot(robot).scene(scene).build(&mut Sources::default());
+        let said = session.input_diagnostics().to_vec();
         if let Some(error) = said.iter().find(|said| said.severity == Severity::Error) {
             return Err(format!("{}: {}", error.code, error.message));
         }

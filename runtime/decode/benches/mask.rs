@@ -19,7 +19,7 @@ mod common;
 use std::time::{Duration, Instant};
 
 use common::peer::Peer;
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_decode::{AcceptorFactory, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Sources, Syntax};
 
@@ -201,7 +201,8 @@ fn many_entities(subset: Subset) {
     let source = Source::new("many.motet", domain.as_str());
     let id = sources.add(source.clone());
     let domain = motet_syntax::read(&source, id).file;
-    let (session, said) = Session::new(None, &[domain], None, None, Options::default(), &mut sources);
+    let session = Session::builder().domains(&[domain]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     let mut taken: Vec<Duration> =
         (0..21).map(|_| time(|| AcceptorFactory::new(&session, subset)).1).collect();

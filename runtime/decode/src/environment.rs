@@ -1,7 +1,7 @@
 //! Environments from names and texts, for hosts in other languages.
 
 use indexmap::IndexMap;
-use motet_compiler::{Options, Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_robots::card::{self, Robot};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::ast::File;
@@ -70,14 +70,13 @@ impl Environment<'_> {
         let domain = self.domain.map(|text| domain(text, &mut sources)).transpose()?;
         let state = self.state.map(|text| state(text, &mut sources)).transpose()?;
         let domains: Vec<File> = domain.into_iter().collect();
-        let (session, diagnostics) = Session::new(
-            robot.as_ref(),
-            &domains,
-            scene.as_ref(),
-            state.as_ref(),
-            Options::default(),
-            &mut sources,
-        );
+        let session = Session::builder()
+            .robot(robot.as_ref())
+            .domains(&domains)
+            .scene(scene.as_ref())
+            .state(state.as_ref())
+            .build(&mut sources);
+        let diagnostics = session.input_diagnostics().to_vec();
         right("robot, scene, state or domain", Some(session), &diagnostics, &sources)
     }
 }
@@ -112,11 +111,13 @@ fn domain(text: &str, sources: &mut Sources) -> Result<File, EnvironmentError> {
     right("domain", Some(parsed.file), &parsed.diagnostics, sources)
 }
 
-fn state(text: &str, sources: &mut Sources) -> Result<State, EnvironmentError> {
+fn state(text: &str, sources: &mut Sources) -> Result<InitialState, EnvironmentError> {
     let (source, file) = add("state.json", text, sources);
     let (facts, diagnostics) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
     let facts = right("state", facts, &diagnostics, sources)?;
-    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+    Ok(InitialState {
+        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+    })
 }
 
 fn add(name: &str, text: &str, sources: &mut Sources) -> (Source, FileId) {

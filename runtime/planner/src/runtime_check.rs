@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 
-use motet_compiler::{Course, Prospect};
+use motet_compiler::{Forecast, WorldTracker};
 use motet_graph::Value;
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
@@ -48,7 +48,7 @@ enum GuardMessage {
 impl Guard {
     /// For a run that begins where a course does.
     #[must_use]
-    pub fn new(course: Course, verifies: CheckMode) -> Self {
+    pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
             CheckMode::AtOnce => {
                 let way = SearchPath { course, live: BTreeMap::new() };
@@ -58,7 +58,7 @@ impl Guard {
         }
     }
 
-    fn beside(course: Course) -> Self {
+    fn beside(course: WorldTracker) -> Self {
         let (thread, told) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
@@ -129,7 +129,7 @@ impl Verifier for Guard {
 /// The way of a run, followed from what is told of it.
 #[derive(Debug)]
 struct SearchPath {
-    course: Course,
+    course: WorldTracker,
     live: BTreeMap<GoalId, Arc<Command>>,
 }
 
@@ -189,9 +189,9 @@ impl SearchPath {
     fn motion(&self, motion: &DeferredMotion) -> Verification {
         let Command { primitive, args, .. } = &*motion.command;
         match self.course.motion(primitive, args, &motion.query, &motion.args) {
-            Prospect::Feasible => Verification::Feasible,
-            Prospect::Infeasible { failure, why } => Verification::Infeasible { failure, why: why.into() },
-            Prospect::Unknown { why } => Verification::Unknown { why: why.into() },
+            Forecast::Feasible => Verification::Feasible,
+            Forecast::Infeasible { failure, why } => Verification::Infeasible { failure, why: why.into() },
+            Forecast::Unknown { why } => Verification::Unknown { why: why.into() },
         }
     }
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{hsr, kitchen, session, walled};
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_planner::prompt::{self, Reachability};
 use motet_robots::scene::{EntityShape, Scene};
 use motet_syntax::Sources;
@@ -58,8 +58,7 @@ fn what_is_shut_in_is_not_known() {
 fn without_motions_or_time_for_them_only_the_numbers_tell() {
     let scene = walled();
     assert_eq!(feasible(&session(&scene), &scene, "mug_1", Duration::ZERO), Reachability::AsFarAsNumbersTell);
-    let plain =
-        Session::new(Some(&hsr()), &[], Some(&scene), None, Options::default(), &mut Sources::default()).0;
+    let plain = Session::builder().robot(&hsr()).scene(&scene).build(&mut Sources::default());
     assert_eq!(feasible(&plain, &scene, "mug_1", LONG), Reachability::AsFarAsNumbersTell);
     let heavy = with_mug(|mug| mug.mass_kg = Some(5.0));
     assert!(matches!(feasible(&plain, &heavy, "mug_1", Duration::ZERO), Reachability::No(_)));

@@ -116,7 +116,7 @@ fn play_with(scene: &Scene, policy: &str, verifies: CheckMode) -> (RunEnd, Vec<S
         capabilities: (&sim.capabilities()).into(),
         ..JournalHead::new(&graph)
     };
-    let guard = Guard::new(session.course().unwrap(), verifies);
+    let guard = Guard::new(session.world_tracker().unwrap(), verifies);
     let mut host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let end = run(&mut engine, &mut sim, &mut host, Time::ZERO);
     let mut replay = EngineReplay::new(&head).unwrap();
@@ -219,7 +219,7 @@ fn the_loop_goes_on_while_a_verdict_is_awaited() {
     let entities = kitchen().entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
     let start = StartState { entities, ..StartState::default() };
     let mut engine = Engine::new(compile(&session, CHOSEN), &start).unwrap().with_settings(settings);
-    let guard = Guard::new(session.course().unwrap(), CheckMode::AtOnce);
+    let guard = Guard::new(session.world_tracker().unwrap(), CheckMode::AtOnce);
     let host = Host { guard: Waiting(guard), event: None, entries: Vec::new(), told: Vec::new() };
     let mut patient = Patient { host, is_asked: false, glances: 0 };
     let end = run(&mut engine, &mut sim, &mut patient, Time::ZERO);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_compiler::{Geometry, Options, Session, State};
+use motet_compiler::{CheckOptions, Geometry, InitialState, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::card::Robot;
 use motet_robots::scene::{self, Scene};
@@ -152,7 +152,7 @@ pub struct Project {
     domains: Vec<File>,
     scene: Option<Scene>,
     scene_text: Option<String>,
-    state: Option<State>,
+    state: Option<InitialState>,
     /// An empty place for the document, then the files of the project.
     sources: Sources,
     /// By name of the robot; the empty name is no robot.
@@ -235,9 +235,15 @@ impl Project {
         };
         let (files, robot) = robot.unzip();
         let (scene, state) = (self.scene.as_ref(), self.state.as_ref());
-        let options = Options { max_duration_secs: self.inputs.max_duration_secs };
-        let (mut session, found) =
-            Session::new(robot.as_ref(), &self.domains, scene, state, options, &mut sources);
+        let options = CheckOptions { max_duration_secs: self.inputs.max_duration_secs };
+        let mut session = Session::builder()
+            .robot(robot.as_ref())
+            .domains(&self.domains)
+            .scene(scene)
+            .state(state)
+            .options(options)
+            .build(&mut sources);
+        let found = session.input_diagnostics().to_vec();
         require("robot, scene, state or domain", &found, &sources, sink)?;
         let mut geometry = None;
         if let (Some(effort), Some(files), Some(robot), Some(scene)) =
@@ -375,7 +381,7 @@ fn read_state(
     path: &Path,
     sources: &mut Sources,
     sink: &mut dyn DiagnosticSink,
-) -> Result<State, ProjectError> {
+) -> Result<InitialState, ProjectError> {
     let inline = path.to_str().filter(|text| text.trim_start().starts_with('{'));
     let (name, bytes) = match inline {
         Some(text) => ("--state".to_owned(), text.as_bytes().to_vec()),
@@ -386,5 +392,7 @@ fn read_state(
     diagnostics.extend(more);
     require("state", &diagnostics, sources, sink)?;
     let facts = facts.ok_or_else(|| invalid("state", diagnostics, sources))?;
-    Ok(State { facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect() })
+    Ok(InitialState {
+        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
+    })
 }

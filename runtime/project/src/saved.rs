@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use indexmap::IndexMap;
-use motet_compiler::Course;
+use motet_compiler::WorldTracker;
 use motet_host::remote::DriverAddress;
 use motet_robots::{card, scene};
 use motet_sim::{Faults, PersonScript, Sim, SimOptions};
@@ -220,7 +220,7 @@ impl SavedProject {
     /// # Errors
     ///
     /// A file is gone, or has errors now.
-    pub fn open(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<Course>, ProjectError> {
+    pub fn open(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<WorldTracker>, ProjectError> {
         let inputs = ProjectBuilder {
             robot: Some(self.robot.clone()),
             scene: Some(self.scene.clone()),
@@ -231,6 +231,6 @@ impl SavedProject {
         };
         let mut project: Project = inputs.open_with(sink)?;
         let opened = project.session(sink)?;
-        Ok(opened.session.course().filter(|_| opened.scene_text == self.scene_text))
+        Ok(opened.session.world_tracker().filter(|_| opened.scene_text == self.scene_text))
     }
 }

@@ -1,6 +1,6 @@
 //! Commands that take a thing into the hand, as goals: which thing, and where to.
 
-use motet_compiler::plan::{Lasts, fact};
+use motet_compiler::plan::{Persistence, fact};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
@@ -56,9 +56,11 @@ impl Reader<'_> {
                 let own = if is_placed { None } else { self.own_place(command, &choice) };
                 self.carry_one(act, &choice, own.as_ref().unwrap_or(&target), later)?;
                 // What is taken out and let go of for the door is not put back.
-                if let (Some(place), [thing], Lasts::Once) = (&out_of, choice.as_slice(), hold_on(later)) {
+                if let (Some(place), [thing], Persistence::Once) =
+                    (&out_of, choice.as_slice(), hold_on(later))
+                {
                     let goal = not(fact("in", &[thing, place]));
-                    self.aim(format!("take_out_{thing}"), goal, Lasts::ToTheEnd);
+                    self.aim(format!("take_out_{thing}"), goal, Persistence::ToTheEnd);
                 }
                 if let Some(aim) =
                     self.said.aims.last_mut().filter(|aim| command.has(KEPT) && aim.name.starts_with("put_"))
@@ -288,14 +290,14 @@ impl Reader<'_> {
                     Target::To(bin) => bin.clone(),
                     Target::Where(_) | Target::None => self.bin()?,
                 };
-                ("throw_away", any(&|id| self.put(id, &bin)), Lasts::ToTheEnd)
+                ("throw_away", any(&|id| self.put(id, &bin)), Persistence::ToTheEnd)
             }
-            (Act::Fetch, Target::To(to)) => ("bring", any(&|id| self.put(id, to)), Lasts::ToTheEnd),
+            (Act::Fetch, Target::To(to)) => ("bring", any(&|id| self.put(id, to)), Persistence::ToTheEnd),
             (Act::Fetch, Target::Where(_) | Target::None) => {
-                ("bring", any(&|id| self.put(id, &user)), Lasts::ToTheEnd)
+                ("bring", any(&|id| self.put(id, &user)), Persistence::ToTheEnd)
             }
             (Act::Put | Act::Take | Act::Stow | Act::Store | Act::Throw, Target::To(to)) => {
-                ("put", any(&|id| self.put(id, to)), Lasts::ToTheEnd)
+                ("put", any(&|id| self.put(id, to)), Persistence::ToTheEnd)
             }
             (Act::Put | Act::Stow | Act::Store, Target::Where(_) | Target::None) => {
                 let question = format!("Where shall I put the {}?", self.called(&name));

@@ -1,7 +1,7 @@
 //! Goals that cannot hold together. One that is only on the way to another need hold only once; else the
 //! clash is named.
 
-use motet_compiler::plan::Lasts;
+use motet_compiler::plan::Persistence;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
@@ -26,14 +26,16 @@ impl Reader<'_> {
     pub(super) fn settle(&mut self) -> Result<(), RequestError> {
         for later in 1..self.said.aims.len() {
             for earlier in 0..later {
-                let goal = |at: usize| self.said.aims.get(at).filter(|aim| aim.goal.lasts == Lasts::ToTheEnd);
+                let goal = |at: usize| {
+                    self.said.aims.get(at).filter(|aim| aim.goal.persistence == Persistence::ToTheEnd)
+                };
                 let (Some(first), Some(second)) = (goal(earlier), goal(later)) else { continue };
                 let (first, second) = (simple(&first.goal.condition), simple(&second.goal.condition));
                 let (Some(first), Some(second)) = (first, second) else { continue };
                 if self.clash(&first, &second)?
                     && let Some(aim) = self.said.aims.get_mut(earlier)
                 {
-                    aim.goal.lasts = Lasts::Once;
+                    aim.goal.persistence = Persistence::Once;
                 }
             }
         }
@@ -45,7 +47,8 @@ impl Reader<'_> {
     pub(super) fn join(&mut self) {
         let aims = &self.said.aims;
         let is_implied = |(index, aim): (usize, &Aim)| {
-            let held = (aim.goal.lasts == Lasts::Once).then(|| simple(&aim.goal.condition)).flatten();
+            let held =
+                (aim.goal.persistence == Persistence::Once).then(|| simple(&aim.goal.condition)).flatten();
             let next = aims.get(index + 1).and_then(|next| simple(&next.goal.condition));
             let (Some(Simple::Held(one)), Some(Simple::Placed(other, place))) = (held, next) else {
                 return false;

@@ -1,7 +1,7 @@
 //! Commands as goals: what shall be true when somebody goes, opens, closes, lets go, takes and puts.
 
 use crate::english::ONTO;
-use motet_compiler::plan::{Lasts, fact};
+use motet_compiler::plan::{Persistence, fact};
 use motet_syntax::Span;
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
@@ -51,7 +51,7 @@ impl Reader<'_> {
         }
         let last = targets.len() - 1;
         for (index, target) in targets.into_iter().enumerate() {
-            let lasts = if is_last && index == last { Lasts::ToTheEnd } else { Lasts::Once };
+            let lasts = if is_last && index == last { Persistence::ToTheEnd } else { Persistence::Once };
             self.aim(format!("go_to_{target}"), fact("at", &["robot", &target]), lasts);
             self.said.spoken_of.push(target);
         }
@@ -101,14 +101,14 @@ impl Reader<'_> {
                 let is_open = fact("open", &[&what]);
                 let closed_later = later.iter().any(|later| later.act == Act::Close);
                 let (name, goal, lasts) = match act {
-                    Act::Open if closed_later => (format!("open_{what}"), is_open, Lasts::Once),
-                    Act::Open => (format!("open_{what}"), is_open, Lasts::ToTheEnd),
-                    _ => (format!("close_{what}"), not(is_open), Lasts::ToTheEnd),
+                    Act::Open if closed_later => (format!("open_{what}"), is_open, Persistence::Once),
+                    Act::Open => (format!("open_{what}"), is_open, Persistence::ToTheEnd),
+                    _ => (format!("close_{what}"), not(is_open), Persistence::ToTheEnd),
                 };
                 if command.has(ONLY_IF) {
                     // How it is has to be seen when it is its turn: somebody may have been there before.
-                    self.aim(format!("look_at_{what}"), fact("at", &["robot", &what]), Lasts::Once);
-                    self.aim(format!("look_at_{what}"), fact("visible", &[&what]), Lasts::Once);
+                    self.aim(format!("look_at_{what}"), fact("at", &["robot", &what]), Persistence::Once);
+                    self.aim(format!("look_at_{what}"), fact("visible", &[&what]), Persistence::Once);
                 }
                 let is_open = fact("open", &[&what]);
                 let only_if = if act == Act::Open { not(is_open) } else { is_open };
@@ -154,7 +154,7 @@ impl Reader<'_> {
     /// A thing is looked for where it is taken to be, until it is seen.
     pub(super) fn look_at(&mut self, thing: &SmolStr) {
         self.go_and_look(thing);
-        self.aim(format!("find_{thing}"), fact("visible", &[thing]), Lasts::Once);
+        self.aim(format!("find_{thing}"), fact("visible", &[thing]), Persistence::Once);
     }
 
     /// To find a thing is to go to where it is taken to be, and to open what it is shut in.
@@ -164,11 +164,11 @@ impl Reader<'_> {
         let (place, role) = (place.id.clone(), place.role);
         let name = format!("find_{thing}");
         if matches!(role, Role::Surface | Role::Container) {
-            self.aim(name.clone(), fact("at", &["robot", &place]), Lasts::Once);
+            self.aim(name.clone(), fact("at", &["robot", &place]), Persistence::Once);
         }
         let has_door = self.situation.scene.entities.get(&place).is_some_and(|entity| entity.open.is_some());
         if role == Role::Container && has_door {
-            self.aim(name, fact("open", &[&place]), Lasts::Once);
+            self.aim(name, fact("open", &[&place]), Persistence::Once);
         }
     }
 
@@ -186,7 +186,7 @@ impl Reader<'_> {
             },
         };
         for item in items {
-            self.aim(format!("put_down_{item}"), not(fact("holding", &[&item])), Lasts::ToTheEnd);
+            self.aim(format!("put_down_{item}"), not(fact("holding", &[&item])), Persistence::ToTheEnd);
         }
         Ok(())
     }
@@ -224,9 +224,9 @@ impl Command {
 }
 
 /// Checks whether something has to stay in the hand: not where it is put somewhere later.
-pub(super) fn hold_on(later: &[Command]) -> Lasts {
+pub(super) fn hold_on(later: &[Command]) -> Persistence {
     let goes = |later: &Command| matches!(later.act, Act::Go | Act::Come | Act::Pick | Act::Lift);
-    if later.iter().all(goes) { Lasts::ToTheEnd } else { Lasts::Once }
+    if later.iter().all(goes) { Persistence::ToTheEnd } else { Persistence::Once }
 }
 
 pub(super) fn question(act: Act) -> &'static str {

@@ -1,6 +1,6 @@
 //! The reader of a whole request: its statements first, then its commands in order.
 
-use motet_compiler::plan::{Goal, Lasts};
+use motet_compiler::plan::{Goal, Persistence};
 use motet_syntax::ast::Expr;
 use smol_str::SmolStr;
 
@@ -170,15 +170,18 @@ impl Reader<'_> {
             command.to_whom = Some(command.items.remove(0));
         }
     }
-    pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Lasts) {
+    pub(super) fn aim(&mut self, name: String, condition: Expr, lasts: Persistence) {
         let name =
             name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-        let is_known =
-            self.said.aims.iter().any(|aim| aim.goal.lasts == lasts && same(&aim.goal.condition, &condition));
+        let is_known = self
+            .said
+            .aims
+            .iter()
+            .any(|aim| aim.goal.persistence == lasts && same(&aim.goal.condition, &condition));
         if is_known {
             return;
         }
-        self.said.aims.push(Aim { goal: Goal { condition, lasts }, name, only_if: None });
+        self.said.aims.push(Aim { goal: Goal { condition, persistence: lasts }, name, only_if: None });
     }
 
     pub(super) fn ask(&self, question: &str, roles: &[Role]) -> RequestError {

@@ -1,7 +1,7 @@
 //! What the compiler says of common mistakes: one finding each, with the words that help. The front end's own are in
 //! `grammar/syntax/tests/syntax/messages.rs`.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{Severity, Source, Sources, render};
 use motet_tests::setup;
 
@@ -69,27 +69,27 @@ fn a_forgotten_sign_is_mended() {
 fn ratios_lie_between_nothing_and_all() {
     text(
         "if battery() < 20 { say(\"x\") }",
-        &["M0302: `20` needs a unit: a `Ratio` is asked for; write `20 %`; the units are `%`"],
+        &["M0302: `20` needs a unit: a `Ratio` is expected; write `20 %`; the units are `%`"],
     );
     text(
         "if battery() < 0.2 { say(\"x\") }",
-        &["M0302: `0.2` needs a unit: a `Ratio` is asked for; write `20 %`; the units are `%`"],
+        &["M0302: `0.2` needs a unit: a `Ratio` is expected; write `20 %`; the units are `%`"],
     );
-    let meant = "M0310: a ratio is 20, and must be from 0 to 1; did you mean `20 %`? write `0.2`";
+    let meant = "M0310: a ratio is 20, but must be from 0 to 1; did you mean `20 %`? write `0.2`";
     json(r#"{"if": {"less": [{"get": "battery"}, 20]}, "then": [{"do": "say", "text": "x"}]}"#, &[meant]);
     json(r#"{"if": "battery() < 20", "then": [{"do": "say", "text": "x"}]}"#, &[meant]);
     json(r#"{"if": {"less": [{"get": "battery"}, 0.2]}, "then": [{"do": "say", "text": "x"}]}"#, &[]);
     text(
         "if battery() < 2000 % { say(\"x\") }",
-        &["M0310: a ratio is 2000 %, and must be from 0 % to 100 %; write a number from 0 % to 100 %"],
+        &["M0310: a ratio is 2000 %, but must be from 0 % to 100 %; write a number from 0 % to 100 %"],
     );
     text("if distance(user) / distance(counter) > 1.5 { say(\"x\") }", &[]);
 }
 
 #[test]
 fn a_binding_hides_no_entity() {
-    let said = "M0206: `kitchen_table` is an entity, which a binding may not hide; a name means one thing: choose another \
-                than `kitchen_table`";
+    let said = "M0206: `kitchen_table` is an entity, which a binding must not hide; choose another name than \
+                `kitchen_table`";
     json(
         r#"{"do": "detect", "what": "red mug", "as": "kitchen_table"}, {"do": "go", "to": "kitchen_table"}"#,
         &[said],
@@ -97,15 +97,13 @@ fn a_binding_hides_no_entity() {
     text("let kitchen_table = detect(\"red mug\") go(kitchen_table)", &[said]);
     text(
         "let user = detect(\"red mug\") go(user)",
-        &[
-            "M0206: `user` is an entity, which a binding may not hide; a name means one thing: choose another than `user`",
-        ],
+        &["M0206: `user` is an entity, which a binding must not hide; choose another name than `user`"],
     );
 }
 
 #[test]
 fn an_unknown_robot_is_an_error() {
-    let (session, _) = Session::new(None, &[], None, None, Options::default(), &mut Sources::default());
+    let session = Session::builder().build(&mut Sources::default());
     let said = |text: &str| {
         let parsed = motet_syntax::read(&Source::new("p", text), Default::default());
         let said = session.check(&parsed);
@@ -125,8 +123,8 @@ fn a_domain_is_checked_beside_a_robot() {
     let file = sources.add(source.clone());
     let parsed = motet_syntax::read(&source, file);
     let robot = setup::robot("hsr");
-    let (session, said) =
-        Session::new(Some(&robot), &[parsed.file], None, None, Options::default(), &mut sources);
+    let session = Session::builder().robot(&robot).domains(&[parsed.file]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     let codes = |said: &[motet_syntax::Diagnostic]| said.iter().map(|said| said.code.0).collect::<Vec<_>>();
     assert_eq!(codes(&said), ["M0215"]);
     let policy =
@@ -139,24 +137,24 @@ fn quantities_are_told_in_their_own_units() {
     text(
         "turn(720 deg)",
         &[
-            "M0404: `by` of `turn` is 720 deg; `hsr` takes -360 deg to 360 deg; write a value from -360 deg to 360 deg",
+            "M0404: `by` of `turn` is 720 deg, but `hsr` allows -360 deg to 360 deg; write a value from -360 deg to 360 deg",
         ],
     );
     json(
         r#"{"do": "turn", "by": 90}"#,
         &[
-            "M0404: `by` of `turn` is 90 rad; `hsr` takes -6.28318531 rad to 6.28318531 rad; a number alone is in radians: \
+            "M0404: `by` of `turn` is 90 rad, but `hsr` allows -6.28318531 rad to 6.28318531 rad; a number without a unit is in radians: \
            did you mean `\"90 deg\"`?",
         ],
     );
     text(
         "go(user) within 1000 h",
-        &["M0310: a deadline is 1000 h, and must be from 0 h to 168 h; write a number from 0 h to 168 h"],
+        &["M0310: a deadline is 1000 h, but must be from 0 h to 168 h; write a number from 0 h to 168 h"],
     );
     text(
         "repeat 99999999999999999999 { say(\"x\") }",
         &[
-            "M0310: the count of a `repeat` is 100000000000000000000, and must be from 1 to 1000000; write a number from 1 to \
+            "M0310: the count of a `repeat` is 100000000000000000000, but must be from 1 to 1000000; write a number from 1 to \
            1000000",
         ],
     );
@@ -193,19 +191,19 @@ fn help_says_what_to_write() {
     text(
         "handover(mug_1, kitchen_table)",
         &[
-            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; `pick` or `grasp` makes it so: call it before",
+            "M0501: `handover` needs `holding(mug_1)`, which does not hold at the start; call `pick` or `grasp` first",
             "M0301: `to` of `handover` takes a `Person`, not `kitchen_table`, which is a `Surface`; write `user`",
         ],
     );
-    text("if holding { say(\"x\") }", &["M0202: nothing here is called `holding`; write `holding(object)`"]);
-    text("if battery < 20 % { say(\"x\") }", &["M0202: nothing here is called `battery`; write `battery()`"]);
+    text("if holding { say(\"x\") }", &["M0202: unknown name `holding`; write `holding(object)`"]);
+    text("if battery < 20 % { say(\"x\") }", &["M0202: unknown name `battery`; write `battery()`"]);
     text(
         "if mug_1.colour < 1 m { say(\"x\") }",
         &["M0211: `Object` has no field `colour`; its fields are `width` and `mass`"],
     );
     text(
         "if counter.mass < 1 kg { say(\"x\") }",
-        &["M0211: `Surface` has no field `mass`; it is a field of `Object`; `Surface` has none"],
+        &["M0211: `Surface` has no field `mass`; `Object` has it; `Surface` has none"],
     );
     let found = errors(
         r#"{"motet": 1, "policy": "p", "robot": "hsr", "steps": [{"do": "turn", "by": "90 degrees"}]}"#,

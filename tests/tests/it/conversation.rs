@@ -1,5 +1,5 @@
 //! The loop around the planner: questions and their answers, tries after a failure, and requests that come in between.
-use motet_compiler::Options as CheckOptions;
+use motet_compiler::CheckOptions;
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, Outcome, Person, Problem,

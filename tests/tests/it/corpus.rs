@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{FileId, Source, Sources, print};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus");
 
 #[test]
 fn every_seed_is_survived() {
-    let (session, _) = Session::new(None, &[], None, None, Options::default(), &mut Sources::default());
+    let session = Session::builder().build(&mut Sources::default());
     let mut seeds = 0;
     let mut waiting = vec![PathBuf::from(CORPUS)];
     while let Some(path) = waiting.pop() {

@@ -1,6 +1,6 @@
 //! The world changes while a policy runs: the six scenarios of `examples/`, in simulation from end to end.
 
-use motet_compiler::{Options, Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -31,15 +31,11 @@ impl Stage {
             Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples")).join(format!("{name}.motet"));
         let mut sources = Sources::default();
         let facts = engine.map(|engine| engine.snapshot().state()).unwrap_or_default().into_iter();
-        let state = State { facts: facts.map(|(fact, holds)| (fact, (holds, Span::default()))).collect() };
-        let (session, said) = Session::new(
-            Some(&self.robot),
-            &[],
-            Some(&self.scene),
-            Some(&state),
-            Options::default(),
-            &mut sources,
-        );
+        let state =
+            InitialState { facts: facts.map(|(fact, holds)| (fact, (holds, Span::default()))).collect() };
+        let session =
+            Session::builder().robot(&self.robot).scene(&self.scene).state(&state).build(&mut sources);
+        let said = session.input_diagnostics().to_vec();
         assert!(said.is_empty(), "{said:?}");
         let source = Source::new(name, examples::read(&path));
         let id = sources.add(source.clone());

@@ -1,7 +1,7 @@
 //! `motet check --fix`: single repairs in both forms, and that a mended document never checks worse.
 
 use motet_compiler::Session;
-use motet_compiler::fix::{Fixed, fix};
+use motet_compiler::fix::{FixedDocument, fix};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
 use motet_tests::generate::policy_of;
 use motet_tests::setup;
@@ -17,7 +17,7 @@ fn session() -> Session {
 /// The document's own; those of the library come after it.
 const FILE: FileId = FileId(0);
 
-fn mend(session: &Session, text: &str) -> Fixed {
+fn mend(session: &Session, text: &str) -> FixedDocument {
     fix(session, &Source::new("policy", text), FILE, 100)
 }
 

@@ -1,6 +1,6 @@
 //! Both forms of every example say the same: they give the same graph, and each can be turned into the other and back.
 
-use motet_compiler::{Session, settle};
+use motet_compiler::{Session, make_explicit};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Source, Sources, Syntax, print};
 use motet_tests::examples::{examples, read};
@@ -24,7 +24,7 @@ fn turned(session: &Session, text: &str, form: Syntax) -> String {
     let File { mut items } = motet_syntax::read(&source, id).file;
     for item in &mut items {
         if let Item::Policy(policy) = item {
-            settle(policy, session.library(), form);
+            make_explicit(policy, session.library(), form);
         }
     }
     let file = File { items };

@@ -62,15 +62,15 @@ fn a_session_elsewhere_is_a_new_one() {
     let (robot, kitchen, lab) = (setup::robot("hsr"), setup::scene("kitchen"), setup::scene("lab"));
     let (base, _) = setup::session(Some(&robot), Some(&kitchen), &mut Sources::default());
     for scene in [&kitchen, &lab] {
-        let (elsewhere, _) = base.elsewhere(Some(scene), None);
+        let elsewhere = base.with_scene(Some(scene), None);
         let (new, _) = setup::session(Some(&robot), Some(scene), &mut Sources::default());
         assert_eq!(format!("{:?}", elsewhere.signatures()), format!("{:?}", new.signatures()));
-        assert!(elsewhere.given().eq(new.given()));
+        assert!(elsewhere.initial_facts().eq(new.initial_facts()));
         let same = std::sync::Arc::ptr_eq(&elsewhere.signatures(), &base.signatures());
         assert_eq!(same, std::ptr::eq(scene, &kitchen), "made once for the same things");
     }
-    let mug = |given: &motet_compiler::Given| {
+    let mug = |given: &motet_compiler::InitialFact| {
         given.fluent == "on" && given.args == [Some(Value::Entity("mug_1".into())), None]
     };
-    assert!(base.given().any(|given| mug(&given) && !given.holds), "it is on nothing else");
+    assert!(base.initial_facts().any(|given| mug(&given) && !given.holds), "it is on nothing else");
 }

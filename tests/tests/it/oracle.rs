@@ -1,7 +1,7 @@
 //! The prover beside an interpreter that walks every path: what it accepts without a guard never breaks a need, what it
 //! refutes does break one, and what it defers is unobserved on some path.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_graph::{NodeKind, Verdict};
 use motet_syntax::{Severity, Source, Sources};
 use motet_tests::oracle::{self, Dice, Domain, Policy, Step};
@@ -31,8 +31,8 @@ impl Lab {
         let id = sources.add(source.clone());
         let parsed = motet_syntax::read(&source, id);
         assert!(parsed.diagnostics.is_empty(), "{:?}\n{}", parsed.diagnostics, source.text);
-        let (session, said) =
-            Session::new(None, &[parsed.file], None, None, Options::default(), &mut sources);
+        let session = Session::builder().domains(&[parsed.file]).build(&mut sources);
+        let said = session.input_diagnostics().to_vec();
         assert!(said.is_empty(), "{said:?}\n{}", source.text);
         Self { domain, session, sources }
     }

@@ -1,6 +1,6 @@
 //! Import of PDDL: domains with a plan that is valid and one that is not, what is refused, and hostile text.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_pddl::{PddlSource, Translation, import};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, read};
 use proptest::prelude::*;
@@ -28,7 +28,8 @@ fn judge(name: &str, plan: &str) -> Vec<(String, String)> {
     assert_eq!(domain.diagnostics, [], "{name}");
     let policy = Source::new("plan.motet", imported.policy_text());
     let id = sources.add(policy.clone());
-    let (session, said) = Session::new(None, &[domain.file], None, None, Options::default(), &mut sources);
+    let session = Session::builder().domains(&[domain.file]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert_eq!(said, [], "{name}");
     let errors =
         session.check(&read(&policy, id)).into_iter().filter(|said| said.severity == Severity::Error);

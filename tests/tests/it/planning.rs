@@ -1,5 +1,5 @@
 //! Plans by search: what is asked for is reached in simulation, on either robot, and what cannot be is said.
-use motet_compiler::plan::{Goal, Lasts, NoPlan};
+use motet_compiler::plan::{Goal, NoPlan, Persistence};
 use motet_planner::builtin::{self, PlanError, Planned};
 use motet_requests::Aim;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
@@ -14,7 +14,7 @@ fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, PlanError> 
         .iter()
         .enumerate()
         .map(|(index, goal)| Aim {
-            goal: Goal::read(goal, Lasts::ToTheEnd).unwrap(),
+            goal: Goal::read(goal, Persistence::ToTheEnd).unwrap(),
             name: format!("goal_{index}"),
             only_if: None,
         })
@@ -89,7 +89,7 @@ fn what_cannot_be_reached_is_said_with_the_reason() {
 
 #[test]
 fn wrong_goals_are_told_apart() {
-    assert!(matches!(Goal::read("on(", Lasts::ToTheEnd), Err(NoPlan::NoCondition { .. })));
+    assert!(matches!(Goal::read("on(", Persistence::ToTheEnd), Err(NoPlan::NoCondition { .. })));
     let wrong = plan("hsr", "kitchen", &["on(mug_9, shelf)"]);
     assert!(matches!(wrong, Err(PlanError::NoPlan(NoPlan::Wrong { .. }))));
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{Source, Sources};
 
 /// A fenced block: the words behind its opening fence, its text, and its line.
@@ -48,7 +48,8 @@ fn check(spec: &str, counts: impl Fn(&str) -> bool) {
     let id = sources.add(domain.clone());
     let domain = motet_syntax::read(&domain, id);
     assert!(domain.diagnostics.is_empty(), "{:?}", domain.diagnostics);
-    let (session, said) = Session::new(None, &[domain.file], None, None, Options::default(), &mut sources);
+    let session = Session::builder().domains(&[domain.file]).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     let mut wrong = Vec::new();
     for fence in named(&fences, "motet") {

@@ -1,7 +1,7 @@
 //! `motet robots check`: checks that a card, its declarations and its URDF are correct and fit each other,
 //! and describes the body.
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
 use motet_project::{ProjectError, RobotFiles, require};
@@ -24,7 +24,7 @@ pub(super) fn run(name: &str, report: &mut Report) -> Result<Exit, CliError> {
     let mut sources = Sources::default();
     let found = files.card(&mut sources, report).and_then(|robot| {
         // Both are checked, so that one run reports all errors.
-        let (_, diagnostics) = Session::new(Some(&robot), &[], None, None, Options::default(), &mut sources);
+        let diagnostics = Session::builder().robot(&robot).build(&mut sources).input_diagnostics().to_vec();
         let declared = require("robot card", &diagnostics, &sources, report);
         let urdf = files.body(&robot, &mut sources, report)?;
         declared.map(|()| (robot, urdf))

@@ -132,7 +132,7 @@ fn now(head: &JournalHead, saved: &SavedDriver, last: Time) -> Time {
 
 /// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or
 /// have changed.
-fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::Course> {
+fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::WorldTracker> {
     match saved.open(report) {
         Ok(Some(course)) => Some(course),
         Ok(None) => {

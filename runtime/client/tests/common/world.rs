@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use motet_client::{Client, ClientSettings, ServerUrl};
-use motet_compiler::{Geometry, Options as CheckOptions, Session};
+use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_decode::{Subset, canonical};
 use motet_geometry::planning::SearchBudget;
 use motet_planner::Planner;
@@ -38,7 +38,7 @@ pub(crate) fn setting() -> DialogueSetup {
 
 pub(crate) fn session(setting: &DialogueSetup) -> Session {
     let (robot, scene) = (Some(&setting.robot), Some(&setting.scene));
-    Session::new(robot, &[], scene, None, setting.options, &mut Sources::default()).0
+    Session::builder().robot(robot).scene(scene).options(setting.options).build(&mut Sources::default())
 }
 
 /// The robot's body in the scene of a setting.

@@ -5,7 +5,7 @@
 //! and judges calls; the other verifies whole steps, closed for the time being.
 
 use motet_compiler::Session;
-use motet_compiler::draft::{Draft, Test, Value};
+use motet_compiler::incremental::{ArgumentValue, IncrementalChecker, LoopTest};
 use motet_compiler::signature::Type;
 
 use super::event_log::{Event, Id, mix};
@@ -78,7 +78,7 @@ impl Machine {
     }
 
     /// The proof at the place of the next step, behind `event`.
-    fn place(&mut self, event: Id) -> Option<(&mut Draft, &Session)> {
+    fn place(&mut self, event: Id) -> Option<(&mut IncrementalChecker, &Session)> {
         let before = self.arenas.entry(event).map_or(0, |said| said.before);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
         let hash = transcript.arenas.hash(event);
@@ -100,21 +100,22 @@ impl Machine {
 
     /// Evaluates a loop test, a fluent with arguments, at the end of the loop's body, which is behind
     /// `event`.
-    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> Test {
+    pub(crate) fn test(&mut self, event: Id, fluent: u16, negated: bool, args: &[Event]) -> LoopTest {
         let values = args.iter().map(|event| match meaning(&self.context.automaton, *event) {
             Some(Meaning::Any) => Some(None),
             Some(meaning) => Some(Some(meaning.value())),
             None => None,
         });
         // A binding may stand for one of several entities.
-        let Some(values) = values.collect::<Option<Vec<_>>>() else { return Test::Open };
+        let Some(values) = values.collect::<Option<Vec<_>>>() else { return LoopTest::Open };
         let context = std::sync::Arc::clone(&self.context);
         let Some(name) =
             context.automaton.signatures.fluents.get(usize::from(fluent)).map(|fluent| &fluent.name)
         else {
-            return Test::Open;
+            return LoopTest::Open;
         };
-        self.place(event).map_or(Test::Open, |(draft, session)| draft.test(session, name, &values, negated))
+        self.place(event)
+            .map_or(LoopTest::Open, |(draft, session)| draft.test(session, name, &values, negated))
     }
 
     /// Lets a loop iterate, as far as its own steps tell; its body ends behind `event`. The test is a
@@ -212,11 +213,16 @@ impl Machine {
     }
 
     /// The arguments given so far as values of the checker; `None` if the call is refuted at its place.
-    fn permitted(&mut self, callable: u16, given: &[Argument], site: CallSite) -> Option<Vec<Option<Value>>> {
+    fn permitted(
+        &mut self,
+        callable: u16,
+        given: &[Argument],
+        site: CallSite,
+    ) -> Option<Vec<Option<ArgumentValue>>> {
         let context = std::sync::Arc::clone(&self.context);
         let made = context.automaton.callables.get(usize::from(callable))?;
         let signature = context.automaton.signatures.callables.get(usize::from(callable))?;
-        let mut args: Vec<Option<Value>> = Vec::with_capacity(signature.params.len());
+        let mut args: Vec<Option<ArgumentValue>> = Vec::with_capacity(signature.params.len());
         for given in given {
             args.push(Some(self.value_of(*given, site)?));
         }
@@ -325,9 +331,9 @@ impl Machine {
     }
 
     /// A candidate as a value of the checker.
-    fn value_of(&mut self, given: Argument, site: CallSite) -> Option<Value> {
+    fn value_of(&mut self, given: Argument, site: CallSite) -> Option<ArgumentValue> {
         let event = match given {
-            Argument::List(_) => return Some(Value::unknown()),
+            Argument::List(_) => return Some(ArgumentValue::unknown()),
             Argument::One(event) => event,
         };
         let text = |start: u32, len: u32| {
@@ -342,10 +348,10 @@ impl Machine {
                 let (draft, _) = self.place(site.event)?;
                 draft.binding(&name)?
             }
-            Event::Text(start, len) => Value::text(text(start, len)?),
-            Event::Constant(_) | Event::Number(..) | Event::AnyText => Value::unknown(),
+            Event::Text(start, len) => ArgumentValue::text(text(start, len)?),
+            Event::Constant(_) | Event::Number(..) | Event::AnyText => ArgumentValue::unknown(),
             Event::Open(_) | Event::Close | Event::Name(..) | Event::Joined(_) | Event::Hole => {
-                Value::unknown()
+                ArgumentValue::unknown()
             }
         })
     }

@@ -1,6 +1,6 @@
 //! Incremental proofs that follow the machine: events become steps, and the checker proves them one by one.
 
-use motet_compiler::draft::Draft;
+use motet_compiler::incremental::IncrementalChecker;
 use motet_syntax::ast::{self, Policy, Step};
 use motet_syntax::{Span, Syntax};
 
@@ -11,7 +11,7 @@ use super::step_builder::Builder;
 /// An incremental proof that follows a machine. Steps that the log shares with the last call are kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ProofCursor {
-    pub(super) draft: Option<Draft>,
+    pub(super) draft: Option<IncrementalChecker>,
     /// The hash of the log up to the first step.
     head: u64,
     /// The hash of the log up to the end of each proved step.
@@ -66,7 +66,11 @@ impl Transcript<'_> {
 
 impl ProofCursor {
     /// Advances the proof to the last whole step of the body; `last` is the event that ended it.
-    pub(super) fn follow(&mut self, transcript: &Transcript<'_>, last: Id) -> Option<&mut Draft> {
+    pub(super) fn follow(
+        &mut self,
+        transcript: &Transcript<'_>,
+        last: Id,
+    ) -> Option<&mut IncrementalChecker> {
         let hash = transcript.arenas.hash(last);
         let latest = self.steps.last().copied().unwrap_or(self.head);
         if self.draft.is_some() && latest == hash {
@@ -86,7 +90,7 @@ impl ProofCursor {
         ends.reverse();
         let (head, steps) = ends.split_first()?;
         if self.draft.is_none() || self.head != transcript.arenas.hash(*head) {
-            let (draft, _) = Draft::new(session, &transcript.head(*head), Syntax::Json);
+            let (draft, _) = IncrementalChecker::new(session, &transcript.head(*head), Syntax::Json);
             self.draft = Some(draft);
             self.head = transcript.arenas.hash(*head);
             self.steps.clear();

@@ -1,7 +1,7 @@
 //! Conditions that must refute nothing: the test of a loop whose back edge is refuted without one, and the
 //! condition of a `wait` beside concurrent steps.
 
-use motet_compiler::draft::Test;
+use motet_compiler::incremental::LoopTest;
 
 use super::event_log::{Event, Flags, Id, State, mix};
 use super::machine::Machine;
@@ -97,10 +97,10 @@ impl Machine {
             return self.verify_beside(event, more);
         };
         match self.test(body, fluent, negated, &args) {
-            Test::Holds if self.is_independent(event, more) => true,
+            LoopTest::Holds if self.is_independent(event, more) => true,
             // The body is right without a test, so the back edge was refuted.
-            Test::Idle if !self.may_iterate(body) => false,
-            Test::Holds | Test::Idle | Test::Open => {
+            LoopTest::Idle if !self.may_iterate(body) => false,
+            LoopTest::Holds | LoopTest::Idle | LoopTest::Open => {
                 let round = self.permits_round(body, Some((fluent, negated, &args)));
                 round.is_some_and(|facts| self.is_right_beside((body, facts), event, more))
             }

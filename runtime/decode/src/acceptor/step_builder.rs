@@ -3,7 +3,7 @@
 //! Open parts are closed in the way that refutes least: every open block ends with `fail`, so no path leads
 //! out of it.
 
-use motet_compiler::draft::{CHOICE, HOLE};
+use motet_compiler::incremental::{CHOICE, PROGRAM_POINT};
 use motet_compiler::signature::Type;
 use motet_syntax::Span;
 use motet_syntax::ast::{
@@ -49,7 +49,9 @@ impl Builder<'_> {
     /// Reads a step.
     pub(crate) fn step(&mut self) -> Option<Step> {
         let kind = match self.next()? {
-            Event::Hole if self.choice.is_empty() => return Some(Step { kind: fail().kind, span: HOLE }),
+            Event::Hole if self.choice.is_empty() => {
+                return Some(Step { kind: fail().kind, span: PROGRAM_POINT });
+            }
             Event::Hole => {
                 let body = Block { steps: self.choice.to_vec(), span: Span::default() };
                 let kind = StepKind::Sequence { name: named(SmolStr::new_static("_")), body };

@@ -1,7 +1,7 @@
 //! Callables as the automaton and the oracle need them.
 
 use motet_compiler::Session;
-use motet_compiler::draft::{Draft, Template};
+use motet_compiler::incremental::{IncrementalChecker, PolicyTemplate};
 use motet_syntax::ast::{Clause, ExprKind};
 
 use super::OpId;
@@ -16,7 +16,7 @@ pub(crate) struct Callable {
     /// The operation of the elements of each list argument, if they are words.
     pub(crate) elements: Vec<Option<OpId>>,
     /// The resolved body of a policy.
-    pub(crate) template: Option<Template>,
+    pub(crate) template: Option<PolicyTemplate>,
     /// The resources that it uses, as bits.
     pub(crate) uses: u64,
     /// The fluents that it mentions, as bits; several may share one.
@@ -29,13 +29,13 @@ impl Callable {
     /// A callable without the operations of its arguments, which lowering adds.
     pub(crate) fn new(session: &Session, signature: &motet_compiler::signature::Callable) -> Self {
         let name = &signature.name;
-        let template = if signature.is_policy { Template::new(session, name) } else { None };
+        let template = if signature.is_policy { PolicyTemplate::new(session, name) } else { None };
         Self {
-            primitive: if signature.is_policy { None } else { Draft::primitive(session, name) },
+            primitive: if signature.is_policy { None } else { IncrementalChecker::primitive(session, name) },
             words: Vec::with_capacity(signature.params.len()),
             elements: Vec::with_capacity(signature.params.len()),
-            uses: Draft::resources(session, name, template.as_ref()),
-            fluents: Draft::fluents(session, name, template.as_ref()),
+            uses: IncrementalChecker::resources(session, name, template.as_ref()),
+            fluents: IncrementalChecker::fluents(session, name, template.as_ref()),
             template,
             target: target(session, name),
         }

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use motet_compiler::Session;
-use motet_compiler::draft::Draft;
+use motet_compiler::incremental::IncrementalChecker;
 use motet_compiler::signature::{Signatures, Type};
 use motet_syntax::Syntax;
 use motet_syntax::print::identifier;
@@ -81,7 +81,7 @@ impl Automaton {
             fluent_bits: signatures
                 .fluents
                 .iter()
-                .map(|fluent| Draft::fluent(session, &fluent.name))
+                .map(|fluent| IncrementalChecker::fluent(session, &fluent.name))
                 .collect(),
             measures: grammar.atoms.iter().any(|atom| atom.is_decoded && is_comparison(atom.sort)),
             subset: grammar.subset,

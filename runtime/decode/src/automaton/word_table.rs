@@ -1,6 +1,6 @@
 //! WordList: names of the library and of the world with what they mean, in the order of their bytes.
 
-use motet_compiler::draft::Value;
+use motet_compiler::incremental::ArgumentValue;
 use motet_compiler::signature::Signatures;
 use smol_str::SmolStr;
 
@@ -52,11 +52,11 @@ impl Meaning {
     }
 
     /// The value of the checker; unknown if it is not a value.
-    pub(crate) fn value(self) -> Value {
+    pub(crate) fn value(self) -> ArgumentValue {
         match self {
-            Self::Entity(index) => Value::entity(index),
-            Self::Case(of, case) => Value::case(of, case),
-            Self::Any | Self::Named(_) => Value::unknown(),
+            Self::Entity(index) => ArgumentValue::entity(index),
+            Self::Case(of, case) => ArgumentValue::case(of, case),
+            Self::Any | Self::Named(_) => ArgumentValue::unknown(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The calls of a plan as a policy: a group for each aim, and monitors where a base that moves asks for them.
 
-use motet_compiler::plan::{Lasts, Plan, PlannedStep};
+use motet_compiler::plan::{Persistence, Plan, PlannedStep};
 use motet_requests::Aim;
 use motet_robots::card::Robot;
 use motet_syntax::ast::Expr;
@@ -16,7 +16,10 @@ pub(super) fn policy(name: &str, robot: Option<&Robot>, aims: &[Aim], plan: &Pla
     if let Some(robot) = robot {
         text.push_str(&format!(" for {}", print::identifier(&robot.name)));
     }
-    let kept = aims.iter().filter(|aim| aim.goal.lasts == Lasts::ToTheEnd).map(|aim| &aim.goal.condition);
+    let kept = aims
+        .iter()
+        .filter(|aim| aim.goal.persistence == Persistence::ToTheEnd)
+        .map(|aim| &aim.goal.condition);
     let kept: Vec<String> = kept.map(part).collect();
     if !kept.is_empty() {
         text.push_str(&format!(" achieves {}", kept.join(" and ")));

@@ -85,7 +85,7 @@ pub fn plan(
     if compiled.graph.is_none() {
         return Err(PlanError::Refused { text, diagnostics: compiled.diagnostics });
     }
-    Ok(Planned { text, parsed, compiled, looked_at: plan.looked_at })
+    Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states })
 }
 
 /// Understands a request and plans for it.

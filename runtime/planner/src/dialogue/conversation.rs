@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use motet_compiler::{Geometry, Options, Session};
+use motet_compiler::{CheckOptions, Geometry, Session};
 use motet_graph::Graph;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
@@ -35,7 +35,7 @@ pub struct DialogueSetup {
     /// The robot's body in the scene, where motions are checked beforehand: as long as all is as the scene says.
     pub geometry: Option<Arc<Geometry>>,
     /// Settings of the check.
-    pub options: Options,
+    pub options: CheckOptions,
 }
 
 /// Ending of a conversation about one request.
@@ -112,7 +112,7 @@ impl<'a> Conversation<'a> {
 
     /// A session in what is known; with motions where it is known where everything is.
     pub(super) fn session(&self, scene: &Scene, known: &Knowledge, base: Option<[f64; 3]>) -> Session {
-        let (session, _) = self.base().elsewhere(Some(scene), Some(&known.state()));
+        let session = self.base().with_scene(Some(scene), Some(&known.state()));
         let Some(geometry) = &self.setting.geometry else { return session };
         if known.is_empty() {
             return session.with_geometry(Arc::clone(geometry));
@@ -127,7 +127,12 @@ impl<'a> Conversation<'a> {
     pub(super) fn base(&self) -> &Session {
         let DialogueSetup { robot, domains, options, scene, .. } = self.setting;
         self.base.get_or_init(|| {
-            Session::new(Some(robot), domains, Some(scene), None, *options, &mut Sources::default()).0
+            Session::builder()
+                .robot(robot)
+                .domains(domains)
+                .scene(scene)
+                .options(*options)
+                .build(&mut Sources::default())
         })
     }
 

@@ -135,7 +135,7 @@ impl<'r, 'a> Live<'r, 'a> {
         let before = self.talk.known.places(scene);
         let session = self.talk.session(scene, &self.talk.known, driver.base());
         let verifies = self.watcher.verifies();
-        self.guard = session.course().map(|course| Guard::new(course, verifies));
+        self.guard = session.world_tracker().map(|course| Guard::new(course, verifies));
         let (mut engine, start) =
             self.talk.engine(graph, scene, driver.capabilities(), self.guard.is_some())?;
         self.talk.memory.policy(self.now, 0, shared);

@@ -2,7 +2,7 @@
 //! model.
 
 use motet_compiler::Session;
-use motet_compiler::plan::Lasts;
+use motet_compiler::plan::Persistence;
 use motet_syntax::ast::{Expr, ExprKind, File, Item};
 use motet_syntax::{Diagnostic, FileId, Source, Span, print};
 
@@ -16,7 +16,7 @@ pub(super) fn goal(request: &str, situation: &RequestContext<'_>) -> Option<Expr
     if understood.aims.iter().any(|aim| aim.only_if.is_some()) {
         return None;
     }
-    let lasting = understood.aims.into_iter().filter(|aim| aim.goal.lasts == Lasts::ToTheEnd);
+    let lasting = understood.aims.into_iter().filter(|aim| aim.goal.persistence == Persistence::ToTheEnd);
     let mut parts: Vec<Expr> = lasting.map(|aim| aim.goal.condition).collect();
     if parts.len() < 2 {
         return parts.pop();

@@ -1,7 +1,7 @@
 //! A whole reply: what it is as a policy, after the fixes that are known, or what is wrong with it.
 
-use motet_compiler::fix::Applied;
-use motet_compiler::{Session, fix, settle};
+use motet_compiler::fix::AppliedFix;
+use motet_compiler::{Session, fix, make_explicit};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Syntax};
 
@@ -51,7 +51,7 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
     let mut file = parsed.file.clone();
     for item in &mut file.items {
         if let Item::Policy(policy) = item {
-            settle(policy, session.library(), Syntax::Text);
+            make_explicit(policy, session.library(), Syntax::Text);
         }
     }
     let text = motet_syntax::print::text(&file);
@@ -69,12 +69,12 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
 }
 
 /// Returns `true` if a fix keeps the steps: fixes of syntax, names and types.
-fn is_spelling(fix: &Applied) -> bool {
+fn is_spelling(fix: &AppliedFix) -> bool {
     ["M01", "M02", "M03"].iter().any(|stage| fix.code.0.starts_with(stage))
 }
 
 /// A document after known fixes, and these; none where errors are left.
-pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<Applied>)> {
+pub(super) fn mend(session: &Session, document: &str) -> Option<(String, Vec<AppliedFix>)> {
     let source = Source::new(name(document), document);
     let fixed = fix::fix(session, &source, FileId(0), MOST_FIXES);
     if fixed.applied.is_empty() || !errors(fixed.diagnostics).is_empty() {

@@ -1,7 +1,7 @@
 //! Parts of a prompt about the robot alone, and two example requests with their policies: built once for all
 //! prompts of one robot in one room.
 
-use motet_compiler::{Session, settle};
+use motet_compiler::{Session, make_explicit};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::ast::{Clause, File, Item, PrimitiveDecl};
@@ -76,7 +76,7 @@ fn examples(session: &Session, robot: &Robot, scene: &Scene) -> Vec<String> {
     let written = requests.iter().filter_map(|request| {
         let answered = builtin::answer(session, Some(robot), request, &start).ok()?;
         let mut policy = answered.planned.parsed.file.policies().next()?.clone();
-        settle(&mut policy, session.library(), Syntax::Json);
+        make_explicit(&mut policy, session.library(), Syntax::Json);
         Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
     });
     written.collect()

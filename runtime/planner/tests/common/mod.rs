@@ -1,7 +1,7 @@
 //! The HSR in the kitchen, with and without walls about its table.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
-use motet_compiler::{Geometry, Options, Session};
+use motet_compiler::{Geometry, Session};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::card::Robot;
@@ -33,8 +33,8 @@ pub(crate) fn walled() -> Scene {
 
 pub(crate) fn session(scene: &Scene) -> Session {
     let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
-    let (session, said) =
-        Session::new(Some(&robot), &[], Some(scene), None, Options::default(), &mut Sources::default());
+    let session = Session::builder().robot(&robot).scene(scene).build(&mut Sources::default());
+    let said = session.input_diagnostics().to_vec();
     assert!(said.is_empty(), "{said:?}");
     session.with_geometry(Arc::new(Geometry::new(&robot, &urdf, scene, None, SearchBudget::default())))
 }

@@ -8,7 +8,7 @@ pub mod peer;
 pub mod tokens;
 pub mod walks;
 
-use motet_compiler::{Options, Session};
+use motet_compiler::Session;
 use motet_syntax::{FileId, Severity, Source, Sources};
 
 /// The session of an embedded robot in an embedded scene.
@@ -24,7 +24,7 @@ pub fn session(robot: &str, scene: &str) -> Session {
     let source = Source::new(*name, *json);
     let id = sources.add(source.clone());
     let scene = motet_robots::scene::read(&source, id).0.unwrap();
-    Session::new(Some(&robot), &[], Some(&scene), None, Options::default(), &mut sources).0
+    Session::builder().robot(&robot).scene(&scene).build(&mut sources)
 }
 
 /// What is wrong with a document.

@@ -1,7 +1,7 @@
 //! The world as it is known: as a scene, as a state, as the start of a run, and as requests are understood in it.
 
 use indexmap::IndexMap;
-use motet_compiler::{Session, State};
+use motet_compiler::{InitialState, Session};
 use motet_graph::Value;
 use motet_robots::scene::Scene;
 use motet_runtime::{Pattern, Query, StartState, Truth};
@@ -123,7 +123,7 @@ impl Knowledge {
 
     /// The facts as the compiler takes them; of what is no longer known it is told just that.
     #[must_use]
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> InitialState {
         let mut facts: IndexMap<String, (Option<bool>, Span)> = IndexMap::new();
         for (query, truth) in &self.facts {
             let Some(text) = text(query) else { continue };
@@ -136,7 +136,7 @@ impl Knowledge {
             };
             facts.insert(text, (known, Span::default()));
         }
-        State { facts }
+        InitialState { facts }
     }
 
     /// Start of the next run, whose policy was checked in `session`: the session's facts, of which a graph
@@ -144,7 +144,7 @@ impl Knowledge {
     #[must_use]
     pub fn start(&self, scene: &Scene, session: &Session) -> StartState {
         let entities = scene.entities.values().map(|entity| (entity.id.clone(), entity.kind.clone()));
-        let given = session.given().map(|given| {
+        let given = session.initial_facts().map(|given| {
             let truth = if given.holds { Truth::True } else { Truth::False };
             (query(given), truth)
         });

@@ -4,7 +4,7 @@
 mod locations;
 mod statements;
 
-use motet_compiler::{Given, Session};
+use motet_compiler::{InitialFact, Session};
 use motet_graph::Graph;
 use motet_runtime::{Engine, Pattern, Query, Snapshot, Truth};
 use smol_str::SmolStr;
@@ -45,7 +45,7 @@ impl Knowledge {
             Query::Measure { .. } | Query::Field { .. } => true,
         };
         self.facts.retain(|(query, _)| !speaks(query));
-        let said = given.given().map(|given| (query(given), Truth::Unknown));
+        let said = given.initial_facts().map(|given| (query(given), Truth::Unknown));
         self.facts.extend(said.filter(|(query, _)| speaks(query)));
         self.facts.extend(snapshot.facts);
         self.some.retain(|query| !speaks(query));
@@ -53,7 +53,7 @@ impl Knowledge {
     }
 }
 
-fn query(given: Given) -> Query {
+fn query(given: InitialFact) -> Query {
     let args = given.args.into_iter().map(|arg| arg.map_or(Pattern::Any, Pattern::Is));
     Query::Fact { fluent: given.fluent, args: args.collect() }
 }

@@ -1,0 +1,241 @@
+//! Diagnostics of unknown names (M02xx) and values of the wrong type (M03xx).
+
+use motet_syntax::ast::Name;
+use motet_syntax::{About, Edit, Fix, Related, Span};
+use smol_str::SmolStr;
+
+use super::suggestion::{article, list, near};
+
+pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
+    Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
+}
+
+pub(crate) fn did_you_mean(near: Option<&SmolStr>) -> Option<String> {
+    near.map(|near| format!("did you mean `{near}`?"))
+}
+
+motet_syntax::mistakes! {
+    pub(crate) const CODES;
+
+    /// Unknown binding, parameter, entity, case or resource.
+    UnknownName("M0202", Error) {
+        name: SmolStr, near: Option<SmolStr>, wanted: String, known: String, scene: bool, about: Option<About>,
+        call: Option<String>,
+    }
+    message(m) {
+        if m.wanted.is_empty() {
+            format!("unknown name `{}`", m.name)
+        } else {
+            format!("there is no {} `{}`", m.wanted, m.name)
+        }
+    }
+    help(m) {
+        let is_itself = m.near.as_ref().and_then(|near| near.strip_prefix('$')) == Some(m.name.as_str());
+        if is_itself {
+            return Some(format!("`{0}` is a binding: write `${0}`", m.name));
+        }
+        if let Some(call) = &m.call {
+            return Some(format!("write `{call}`"));
+        }
+        did_you_mean(m.near.as_ref()).or_else(|| {
+            if !m.scene {
+                Some("there is no scene: entities come from `--scene`, or from `entity` in a domain".to_owned())
+            } else {
+                (!m.known.is_empty()).then(|| format!("there is {}", m.known))
+            }
+        })
+    }
+    fix(m) { m.near.as_ref().filter(|_| m.call.is_none()).and_then(|near| replace(m.span, near)) }
+    about(m) { m.about.clone() }
+
+    /// Use of a name that is not bound.
+    UnknownBinding("M0203", Error) { name: SmolStr, near: Option<SmolStr>, is_text: bool }
+    message(m) { format!("nothing is bound to `{}` here", m.name) }
+    help(m) {
+        Some(match &m.near {
+            Some(near) if *near == m.name => format!("`{}` is an entity: write it without `$`", m.name),
+            Some(near) => format!("did you mean `${near}`?"),
+            None if m.is_text => format!("to start a text with `$`, write two: `$${}`", m.name),
+            None => "a binding is visible from its step to the end of the block".to_owned(),
+        })
+    }
+    fix(m) {
+        let near = m.near.as_ref()?;
+        let sigil = if *near == m.name { "" } else { "$" };
+        Some(Fix { title: format!("write `{sigil}{near}`"), edits: vec![Edit { span: m.span, text: near.to_string() }] })
+    }
+
+    /// Argument for an unknown parameter.
+    UnknownParameter("M0204", Error) { name: SmolStr, callee: SmolStr, near: Option<SmolStr>, known: String }
+    message(m) { format!("`{}` has no parameter `{}`", m.callee, m.name) }
+    help(m) {
+        did_you_mean(m.near.as_ref()).or_else(|| {
+            Some(if m.known.is_empty() {
+                format!("`{}` takes no arguments", m.callee)
+            } else {
+                format!("it takes {}", m.known)
+            })
+        })
+    }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Two declarations of one file with the same name.
+    Duplicate("M0205", Error) { name: SmolStr, what: &'static str, first: Span }
+    message(m) { format!("the {} `{}` is declared twice", m.what, m.name) }
+    help(m) { Some(format!("give one of them another name than `{}`", m.name)) }
+    related(m) { vec![Related::new("first declared here", m.first)] }
+
+    /// Unknown fluent in a condition.
+    UnknownFluent("M0208", Error) { name: SmolStr, near: Option<SmolStr>, wanted: &'static str, known: String }
+    message(m) { format!("there is no {} `{}`", m.wanted, m.name) }
+    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the known names are {}", m.known))) }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Unknown type.
+    UnknownType("M0209", Error) { name: SmolStr, near: Option<SmolStr> }
+    message(m) { format!("there is no type `{}`", m.name) }
+    help(m) { did_you_mean(m.near.as_ref()) }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Unknown failure.
+    UnknownFailure("M0210", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
+    message(m) { format!("there is no failure `{}`", m.name) }
+    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the failures are {}", m.known))) }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Unknown field of an entity's kind.
+    UnknownField("M0211", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String, owners: String }
+    message(m) { format!("{} has no field `{}`", m.of, m.name) }
+    help(m) {
+        did_you_mean(m.near.as_ref()).or_else(|| {
+            let own = if m.known.is_empty() { format!("{} has none", m.of) } else { format!("its fields are {}", m.known) };
+            Some(if m.owners.is_empty() { own } else { format!("{} has it; {own}", m.owners) })
+        })
+    }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Parameter whose name is a key of the JSON syntax.
+    ReservedName("M0213", Error) { name: SmolStr }
+    message(m) { format!("`{}` is a key of the JSON syntax, so no parameter can have this name", m.name) }
+    help(_m) { Some("choose another name".to_owned()) }
+
+    /// Unknown motion query.
+    UnknownMotion("M0214", Error) { name: SmolStr, near: Option<SmolStr> }
+    message(m) { format!("there is no motion `{}`", m.name) }
+    help(m) {
+        did_you_mean(m.near.as_ref()).or_else(|| {
+            Some("the motions are `go_to`, `reach`, `put`, `pull`, `push`, `offer`, `look` and `posture`".to_owned())
+        })
+    }
+
+    /// Unknown resource in `uses` or `lasts`.
+    UnknownResource("M0215", Error) { name: SmolStr, near: Option<SmolStr>, known: String }
+    message(m) { format!("there is no resource `{}`", m.name) }
+    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("the robot has {}", m.known))) }
+
+    /// Value of the wrong type.
+    WrongType("M0301", Error) {
+        expected: String, actual: String, place: String, example: Option<String>, instead: Option<String>,
+    }
+    message(m) { format!("{} takes {}, not {}", m.place, m.expected, m.actual) }
+    help(m) {
+        if let Some(instead) = &m.instead {
+            return Some(format!("write {instead}"));
+        }
+        let such = m.example.as_ref().map(|example| format!(", such as {example}")).unwrap_or_default();
+        Some(format!("write {} here{such}", m.expected))
+    }
+
+    /// Quantity without a unit, in text.
+    MissingUnit("M0302", Error) {
+        written: String, value: String, unit: &'static str, ty: String, others: String,
+    }
+    message(m) { format!("`{}` needs a unit: {} is expected", m.written, article(&m.ty)) }
+    help(m) { Some(format!("write `{} {}`; the units are {}", m.value, m.unit, m.others)) }
+    fix(m) { replace(m.span, &format!("{} {}", m.value, m.unit)) }
+
+    /// Parameter without default or argument.
+    MissingArgument("M0303", Error) { callee: SmolStr, param: SmolStr, ty: String }
+    message(m) { format!("`{}` needs an argument for `{}`", m.callee, m.param) }
+    help(m) { Some(format!("add `{}`: {}", m.param, m.ty)) }
+
+    /// More arguments than parameters, or two for one parameter.
+    TooManyArguments("M0304", Error) { callee: SmolStr, most: usize, twice: Option<SmolStr> }
+    message(m) {
+        match &m.twice {
+            Some(param) => format!("`{}` of `{}` has two arguments", param, m.callee),
+            None => format!("`{}` takes at most {} argument{}", m.callee, m.most, if m.most == 1 { "" } else { "s" }),
+        }
+    }
+    help(_m) { Some("remove this argument".to_owned()) }
+
+    /// Operands of different dimensions.
+    WrongDimension("M0306", Error) { left: String, right: String, operator: &'static str }
+    message(m) { format!("`{}` does not apply to {} and {}", m.operator, m.left, m.right) }
+    help(_m) { Some("use the same dimension on both sides".to_owned()) }
+
+    /// Unknown case of an enumeration.
+    UnknownCase("M0307", Error) { name: SmolStr, of: String, near: Option<SmolStr>, known: String }
+    message(m) { format!("{} has no case `{}`", m.of, m.name) }
+    help(m) { did_you_mean(m.near.as_ref()).or_else(|| Some(format!("its cases are {}", m.known))) }
+    fix(m) { m.near.as_ref().and_then(|near| replace(m.span, near)) }
+
+    /// Value in place of a condition, or the reverse.
+    NotACondition("M0308", Error) { found: &'static str, wanted: &'static str }
+    message(m) { format!("expected {}, found {}", m.wanted, m.found) }
+    help(m) { Some(if m.wanted == "a condition" {
+        "a condition is a fluent such as `holding(mug)`, or a comparison such as `distance(user) < 0.5 m`".to_owned()
+    } else {
+        "a value is a literal, a name, a measure or a field".to_owned()
+    }) }
+
+    /// Deadline or count that is not constant.
+    NotConstant("M0309", Error) { place: &'static str }
+    message(m) { format!("{} must be a constant", m.place) }
+    help(_m) { Some("write a number, so that the longest duration of the policy is known".to_owned()) }
+
+    /// Number outside of its valid range.
+    OutOfRange("M0310", Error) {
+        place: String, least: String, greatest: String, actual: String, meant: Option<(String, String)>,
+    }
+    message(m) { format!("{} is {}, but must be from {} to {}", m.place, m.actual, m.least, m.greatest) }
+    help(m) {
+        Some(match &m.meant {
+            None => format!("write a number from {} to {}", m.least, m.greatest),
+            Some((write, meant)) => format!("did you mean `{meant}`? write `{write}`"),
+        })
+    }
+    fix(m) { m.meant.as_ref().and_then(|(write, _)| replace(m.span, write)) }
+
+    /// `any` in place of one value.
+    MisplacedAny("M0311", Error) { }
+    message(_m) { "`any` is not allowed here".to_owned() }
+    help(_m) { Some("`any` is only allowed in the arguments of a fluent, where it stands for every entity".to_owned()) }
+
+    /// Parameter of a fluent that is neither an entity nor a case.
+    FluentParameter("M0312", Error) { name: SmolStr, ty: String }
+    message(m) { format!("a parameter of a fluent is an entity or a case, but `{}` is {}", m.name, m.ty) }
+    help(_m) { Some("declare a `measure` for numbers".to_owned()) }
+
+    /// Inconsistent declaration.
+    BadDeclaration("M0313", Error) { what: String, remedy: String }
+    message(m) { m.what.clone() }
+    help(m) { Some(m.remedy.clone()) }
+
+    /// Limit of the library that is exceeded, such as the parameters of a fluent.
+    LimitExceeded("M0314", Error) { what: &'static str, limit: usize }
+    message(m) { format!("more than {} {}", m.limit, m.what) }
+    help(m) { Some(format!("at most {} {} are allowed", m.limit, m.what)) }
+}
+
+impl UnknownFluent {
+    /// Diagnostic for a name that is none of the known ones; `wanted` says what they are.
+    pub(crate) fn new<'n>(
+        name: &Name,
+        wanted: &'static str,
+        known: impl Iterator<Item = &'n SmolStr> + Clone,
+    ) -> Self {
+        let near = near(&name.text, known.clone().map(SmolStr::as_str));
+        Self { span: name.span, name: name.text.clone(), near, wanted, known: list(known.cloned()) }
+    }
+}

@@ -1,0 +1,188 @@
+//! Resolution of names to bindings, entities and cases, and the diagnostics of unknown names.
+
+use motet_syntax::Span;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::elaborator::{Elaborator, Expected, parse_quantity};
+use super::errors::{UnknownBinding, UnknownCase, UnknownName};
+use super::suggestion::{list, near};
+use crate::ir::{Base, EnumId, Term, Ty};
+
+impl Elaborator<'_> {
+    pub(super) fn name(&mut self, name: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
+        if let Some(found) = self.in_scope(name) {
+            return found;
+        }
+        if let Some(Expected { ty: Ty { base: Base::Enum(id), .. }, .. }) = wanted
+            && let Some(case) = self.case_of(id, name)
+        {
+            return case;
+        }
+        if let Some((entity, kind)) = self.entities.find(name) {
+            return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
+        }
+        if let Some((id, case)) = self.library.names.cases.get(name) {
+            return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
+        }
+        self.unknown_name(name, span, wanted, NameNotation::Bare);
+        (Term::Unknown, Ty::UNKNOWN)
+    }
+
+    /// Elaborates a plain string of the JSON syntax.
+    pub(super) fn plain(&mut self, text: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
+        let Some(ty) = wanted.map(|wanted| wanted.ty) else {
+            if let Some((entity, kind)) = self.entities.find(text) {
+                return (Term::Entity(entity), Ty::plain(Base::Entity(kind)));
+            }
+            if let Some((id, case)) = self.library.names.cases.get(text) {
+                return (Term::Case(*id, *case), Ty::plain(Base::Enum(*id)));
+            }
+            return match parse_quantity(text) {
+                Some((value, unit)) => {
+                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
+                }
+                None => (Term::Text(text.clone()), Ty::TEXT),
+            };
+        };
+        match ty {
+            Ty { base: Base::Text | Base::Unknown, lists: 0 } => (Term::Text(text.clone()), Ty::TEXT),
+            Ty { base: Base::Entity(_), .. } => match self.entities.find(text) {
+                Some((entity, kind)) => (Term::Entity(entity), Ty::plain(Base::Entity(kind))),
+                None => {
+                    self.unknown_name(text, span, wanted, NameNotation::Quoted);
+                    (Term::Unknown, Ty::UNKNOWN)
+                }
+            },
+            Ty { base: Base::Enum(id), .. } => match self.case_of(id, text) {
+                Some(case) => case,
+                None => {
+                    self.unknown_name(text, span, wanted, NameNotation::Quoted);
+                    (Term::Unknown, Ty::UNKNOWN)
+                }
+            },
+            Ty { base: Base::Quantity(_), lists: 0 } => match parse_quantity(text) {
+                Some((value, unit)) => {
+                    (Term::Number(unit.to_si(value)), Ty::plain(Base::Quantity(unit.dimension())))
+                }
+                None => (Term::Text(text.clone()), Ty::TEXT),
+            },
+            Ty {
+                base: Base::Bool | Base::Int | Base::Number | Base::Pose | Base::Text | Base::Unknown,
+                ..
+            }
+            | Ty { base: Base::Quantity(_), .. } => (Term::Text(text.clone()), Ty::TEXT),
+        }
+    }
+
+    pub(super) fn in_scope(&mut self, name: &str) -> Option<(Term, Ty)> {
+        let entry = self.scope.find(name)?;
+        let found = (entry.term.clone(), entry.ty);
+        if let Term::Binding(id) = found.0
+            && let Some(binding) = self.bindings.get_mut(id.index())
+        {
+            binding.uses += 1;
+        }
+        Some(found)
+    }
+
+    pub(super) fn binding(&mut self, name: &SmolStr, span: Span, wanted: Option<Expected<'_>>) -> (Term, Ty) {
+        if let Some(found) = self.in_scope(name) {
+            return found;
+        }
+        let same = self.entities.find(name).map(|_| name.clone());
+        let near = same.or_else(|| near(name, self.scope.names().map(SmolStr::as_str)));
+        let is_text = wanted.is_some_and(|wanted| wanted.ty == Ty::TEXT);
+        self.report(UnknownBinding { span, name: name.clone(), near, is_text });
+        (Term::Unknown, Ty::UNKNOWN)
+    }
+
+    pub(super) fn case_of(&self, id: EnumId, name: &str) -> Option<(Term, Ty)> {
+        let def = self.library.enums.get(id.index())?;
+        let case = def.cases.iter().position(|case| case == name)?;
+        Some((Term::Case(id, u16::try_from(case).ok()?), Ty::plain(Base::Enum(id))))
+    }
+
+    fn unknown_name(
+        &mut self,
+        name: &SmolStr,
+        span: Span,
+        wanted: Option<Expected<'_>>,
+        written: NameNotation,
+    ) {
+        let name = name.clone();
+        let call = self.call_of(&name).filter(|_| written == NameNotation::Bare);
+        let library = self.library;
+        let about = wanted.and_then(|wanted| wanted.place.about());
+        match wanted.map(|wanted| wanted.ty.base) {
+            Some(Base::Enum(id)) => {
+                let cases = library.enums.get(id.index()).map(|def| def.cases.as_slice()).unwrap_or_default();
+                let mistake = UnknownCase {
+                    span,
+                    of: format!("`{}`", library.type_name(Ty::plain(Base::Enum(id)))),
+                    near: near(&name, cases.iter().map(SmolStr::as_str)),
+                    known: list(cases.iter().cloned()),
+                    name,
+                };
+                self.report(mistake);
+            }
+            Some(Base::Entity(kind)) => {
+                let fitting: Vec<_> =
+                    self.entities.iter().filter(|(_, _, other)| library.is_kind(*other, kind)).collect();
+                let names =
+                    self.scope.names().map(SmolStr::as_str).chain(fitting.iter().map(|row| row.1.as_str()));
+                let near = near(&name, names).map(|near| self.spelled(near, written));
+                let known = if fitting.len() <= 12 {
+                    list(fitting.iter().map(|row| row.1.clone()))
+                } else {
+                    String::new()
+                };
+                let wanted = format!("`{}`", library.type_name(Ty::plain(Base::Entity(kind))));
+                let scene = self.has_scene;
+                self.report(UnknownName { span, name, near, wanted, known, scene, about, call });
+            }
+            Some(_) | None => {
+                let names = self.scope.names().map(SmolStr::as_str);
+                let near = near(&name, names.chain(self.entities.iter().map(|row| row.1.as_str())))
+                    .map(|near| self.spelled(near, written));
+                let scene = self.has_scene;
+                self.report(UnknownName {
+                    span,
+                    name,
+                    near,
+                    wanted: String::new(),
+                    known: String::new(),
+                    scene,
+                    about,
+                    call,
+                });
+            }
+        }
+    }
+
+    /// Spelling of a known name in the document: a binding in a JSON string has a `$`.
+    fn spelled(&self, name: SmolStr, written: NameNotation) -> SmolStr {
+        match written {
+            NameNotation::Quoted if self.scope.find(&name).is_some() => format_smolstr!("${name}"),
+            NameNotation::Quoted | NameNotation::Bare => name,
+        }
+    }
+
+    /// Call of the fluent or measure with a name: `distance(to)`.
+    fn call_of(&self, name: &str) -> Option<String> {
+        let names = &self.library.names;
+        let fluent = names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| &def.params);
+        let measure =
+            || names.measures.get(name).and_then(|id| self.library.measure(*id)).map(|def| &def.params);
+        let params: Vec<&str> = fluent.or_else(measure)?.iter().map(|(param, _)| param.as_str()).collect();
+        Some(format!("{name}({})", params.join(", ")))
+    }
+}
+
+/// Notation of a name in the document.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum NameNotation {
+    /// Without quotes.
+    Bare,
+    /// In a string of the JSON syntax.
+    Quoted,
+}

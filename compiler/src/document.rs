@@ -1,0 +1,292 @@
+//! Checks of documents: the stages in order, for every policy of a document or for one.
+//!
+//! The only place that knows the order of the stages. Fed by `motet_syntax::read`; [`crate::fix`] applies the fixes.
+
+use motet_graph::Graph;
+use motet_syntax::ast::{Item, Policy};
+use motet_syntax::{Diagnostic, Parsed, Related, Severity, Span};
+use smol_str::SmolStr;
+
+use crate::declare::{Library, LibraryBuilder};
+use crate::environment::Environment;
+use crate::feasibility::{Geometry, MotionVerdicts};
+use crate::ir::{Program, StepKind};
+use crate::limits::errors::NoPolicy;
+use crate::prove::Proof;
+use crate::repair::{Finding, RepairFinder};
+use crate::session::Session;
+
+/// Result of compiling one policy of a document.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The execution graph; `None` after an error.
+    pub graph: Option<Graph>,
+    /// Diagnostics in the order of the document.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Number of motion checks skipped because of earlier errors; 0 when `graph` is `Some`.
+    pub skipped_motions: usize,
+}
+
+/// Result of checking a document: diagnostics, and what each policy compiles to.
+#[derive(Clone, Debug)]
+pub struct DocumentCheck {
+    /// Diagnostics of the document and of all its policies, in the order of the document.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Outcomes of the policies without parameters, in the order of the document.
+    pub policies: Vec<PolicyOutcome>,
+}
+
+/// Outcome of one policy of a document.
+#[derive(Clone, Debug)]
+pub struct PolicyOutcome {
+    /// Name of the policy.
+    pub name: SmolStr,
+    /// The execution graph; `None` if the policy, or the document around it, has errors.
+    pub graph: Option<Graph>,
+    /// Number of motion checks skipped because of earlier errors; 0 when `graph` is `Some`.
+    pub skipped_motions: usize,
+}
+
+impl Session {
+    /// Checks a document and all its policies, each once, and returns the diagnostics in the order of the document.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::{FileId, Source, Sources};
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let source = Source::new("greet.motet", "policy greet { sya(\"hello\") }");
+    /// let diagnostics = session.check(&motet_syntax::read(&source, FileId(99)));
+    /// assert_eq!(diagnostics[0].message, "there is no primitive or policy `sya`");
+    /// assert_eq!(diagnostics[0].help.as_deref(), Some("did you mean `say`?"));
+    /// ```
+    #[must_use]
+    pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
+        let findings = self.findings(parsed, self.geometry.as_deref());
+        findings.into_iter().map(|found| found.diagnostic).collect()
+    }
+
+    /// Checks a document and compiles each of its policies without parameters. Each policy is analysed once.
+    #[must_use]
+    pub fn check_document(&self, parsed: &Parsed) -> DocumentCheck {
+        let mut diagnostics = parsed.diagnostics.clone();
+        let (mut findings, mut policies) = (Vec::new(), Vec::new());
+        self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
+            let is_refused = diagnostics.iter().any(is_error);
+            for policy in parsed.file.policies() {
+                let mut analysis =
+                    self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
+                findings.append(&mut analysis.findings);
+                if policy.params.is_empty() {
+                    let (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
+                    policies.push(PolicyOutcome { name: policy.name.text.clone(), graph, skipped_motions });
+                }
+            }
+        });
+        findings.extend(diagnostics.into_iter().map(Finding::from));
+        let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
+        DocumentCheck { diagnostics, policies }
+    }
+
+    /// Checks names, types, durations and the robot's limits in a document of one policy, without following its state.
+    /// Cheaper than [`Self::check`], of whose diagnostics it returns a part.
+    #[must_use]
+    pub fn check_names(&self, parsed: &Parsed) -> Vec<Diagnostic> {
+        let mut diagnostics = parsed.diagnostics.clone();
+        for policy in parsed.file.policies() {
+            let (program, more) =
+                crate::resolve::resolve(policy, parsed.syntax, &self.library, &self.environment);
+            diagnostics.extend(more);
+            let limit = self.options.max_duration_secs;
+            let (_, more) = crate::limits::check(program, &self.library, &self.environment, limit);
+            diagnostics.extend(more);
+        }
+        diagnostics
+    }
+
+    /// As [`Self::check`], each diagnostic with all known fixes, and with geometry only where it is given.
+    pub(crate) fn findings(&self, parsed: &Parsed, geometry: Option<&Geometry>) -> Vec<Finding> {
+        let mut diagnostics = parsed.diagnostics.clone();
+        let mut findings = Vec::new();
+        self.within(parsed, &mut diagnostics, |library, environment, _| {
+            for policy in parsed.file.policies() {
+                findings.extend(self.analyse(policy, parsed, library, environment, geometry).findings);
+            }
+        });
+        findings.extend(diagnostics.into_iter().map(Finding::from));
+        in_order(findings)
+    }
+
+    /// Compiles the policy with a name, or the one policy without parameters.
+    ///
+    /// ```
+    /// use motet_compiler::Session;
+    /// use motet_syntax::{FileId, Source, Sources};
+    ///
+    /// let session = Session::builder().build(&mut Sources::default());
+    /// let source = Source::new("greet.motet", "policy greet { say(\"hello\") }");
+    /// let compiled = session.compile(&motet_syntax::read(&source, FileId(99)), None);
+    /// let graph = compiled.graph.expect("the policy has no errors");
+    /// assert_eq!(graph.nodes.len(), 1);
+    /// ```
+    #[must_use]
+    pub fn compile(&self, parsed: &Parsed, name: Option<&str>) -> Compiled {
+        let mut diagnostics = parsed.diagnostics.clone();
+        let mut findings = Vec::new();
+        let (mut graph, mut skipped_motions) = (None, 0);
+        self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
+            let runnable = || parsed.file.runnable();
+            let chosen = match name {
+                Some(name) => runnable().find(|policy| policy.name.text == name),
+                None => runnable().next().filter(|_| runnable().count() == 1),
+            };
+            let Some(policy) = chosen else {
+                let span = parsed.file.items.first().map_or_else(Span::default, Item::span);
+                let known = runnable().map(|policy| policy.name.text.clone()).collect();
+                if !diagnostics.iter().any(is_error) {
+                    diagnostics.push(NoPolicy { span, wanted: name.map(Into::into), known }.into());
+                }
+                return;
+            };
+            let is_refused = diagnostics.iter().any(is_error);
+            let mut analysis = self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
+            findings.append(&mut analysis.findings);
+            (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
+        });
+        findings.extend(diagnostics.into_iter().map(Finding::from));
+        let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
+        Compiled { graph, diagnostics, skipped_motions }
+    }
+
+    /// Runs with the library and the environment of a document: the session's own, unless the document declares something.
+    fn within(
+        &self,
+        parsed: &Parsed,
+        diagnostics: &mut Vec<Diagnostic>,
+        run: impl FnOnce(&Library, &Environment, &mut Vec<Diagnostic>),
+    ) {
+        if matches!(parsed.file.items.as_slice(), [Item::Policy(policy)] if policy.params.is_empty()) {
+            return run(&self.library, &self.environment, diagnostics);
+        }
+        let mut builder = LibraryBuilder::clone(&self.builder);
+        builder.layer(std::slice::from_ref(&parsed.file));
+        let (library, more) = builder.build();
+        let file = parsed.file.items.first().map(|item| item.span().file);
+        // Diagnostics about the layers below were reported when those were read.
+        diagnostics.extend(more.into_iter().filter(|found| Some(found.span.file) == file));
+        let (environment, _) = Environment::new(&library, self.environment.scene(), self.state.as_deref());
+        run(&library, &environment, diagnostics);
+    }
+
+    fn analyse(
+        &self,
+        policy: &Policy,
+        parsed: &Parsed,
+        library: &Library,
+        environment: &Environment,
+        geometry: Option<&Geometry>,
+    ) -> Analysis {
+        let (program, mut diagnostics) = crate::resolve::resolve(policy, parsed.syntax, library, environment);
+        diagnostics.extend(crate::limits::check_robot_name(policy, library));
+        let limit = self.options.max_duration_secs;
+        let (program, more) = crate::limits::check(program, library, environment, limit);
+        diagnostics.extend(more);
+        let mut repairs = RepairFinder::default();
+        let (proof, more) = crate::prove::prove(&program, library, environment, &mut repairs);
+        diagnostics.extend(more);
+        let mut findings = repairs.findings(diagnostics, parsed, &program, library, environment);
+        let mut motions = MotionVerdicts::new();
+        // Behind an error the worlds are not those that were meant, so their motions are not checked.
+        let geometry = geometry.filter(|_| !has_errors(&findings));
+        if let Some(geometry) = geometry {
+            let (verdicts, more) =
+                crate::feasibility::check(&program, &proof, library, environment, geometry);
+            motions = verdicts;
+            findings.extend(more.into_iter().map(Finding::from));
+        }
+        for finding in &mut findings {
+            locate(&mut finding.diagnostic, policy, &program, library);
+        }
+        let has_errors = has_errors(&findings);
+        Analysis { program, proof, motions, findings, has_errors, are_motions_checked: geometry.is_some() }
+    }
+}
+
+/// Results of the stages for one policy.
+struct Analysis {
+    program: Program,
+    proof: Proof,
+    motions: MotionVerdicts,
+    findings: Vec<Finding>,
+    has_errors: bool,
+    are_motions_checked: bool,
+}
+
+impl Analysis {
+    /// Lowers the program if neither it nor the document has an error; else counts the motions that were not checked.
+    fn lower(self, is_refused: bool, library: &Library, environment: &Environment) -> (Option<Graph>, usize) {
+        let Self { program, proof, motions, has_errors, are_motions_checked, .. } = self;
+        if is_refused || has_errors {
+            return (None, if are_motions_checked { 0 } else { count_motions(&program, library) });
+        }
+        (Some(crate::lower::lower(&program, &proof, motions, library, environment)), 0)
+    }
+}
+
+/// Number of calls in a program that have a motion.
+fn count_motions(program: &Program, library: &Library) -> usize {
+    let calls = program.steps.iter().filter_map(|step| {
+        let StepKind::Call(call) = &step.kind else { return None };
+        library.primitive(call.primitive)
+    });
+    calls.filter(|def| def.motion.is_some()).count()
+}
+
+fn is_error(diagnostic: &Diagnostic) -> bool {
+    diagnostic.severity == Severity::Error
+}
+
+fn has_errors(findings: &[Finding]) -> bool {
+    findings.iter().any(|found| is_error(&found.diagnostic))
+}
+
+/// Gives a diagnostic its path in the document, and moves one inside an inlined policy of another file to the call.
+fn locate(diagnostic: &mut Diagnostic, policy: &Policy, program: &Program, library: &Library) {
+    if diagnostic.span.file != policy.span.file
+        && let Some(call) = call_site(diagnostic.span, policy, program)
+    {
+        diagnostic.related.insert(0, Related::new("in this step of the policy", diagnostic.span));
+        diagnostic.span = call;
+        diagnostic.fix = None;
+    }
+    let parameter = |callee: &str, position: usize| library.parameter(callee, position);
+    let pointer = |span| motet_syntax::pointer::pointer_to(policy, span, &parameter);
+    diagnostic.path = pointer(diagnostic.span);
+    for related in &mut diagnostic.related {
+        if let Some(span) = related.span.filter(|span| span.file == policy.span.file) {
+            related.path = pointer(span);
+        }
+    }
+}
+
+/// The call in the document through which a step of another file was inlined.
+fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
+    let mut step = program.steps.iter().find(|step| step.span.contains(span))?;
+    while step.span.file != policy.span.file {
+        step = program.step(step.position.parent?)?;
+    }
+    matches!(step.kind, StepKind::Inline { .. }).then_some(step.span)
+}
+
+/// Findings in the order of the document, without duplicates.
+fn in_order(mut findings: Vec<Finding>) -> Vec<Finding> {
+    findings.sort_by_key(|found| {
+        let diagnostic = &found.diagnostic;
+        (diagnostic.span, std::cmp::Reverse(diagnostic.severity), diagnostic.code)
+    });
+    findings.dedup_by(|a, b| {
+        let (a, b) = (&a.diagnostic, &b.diagnostic);
+        a.code == b.code && a.span == b.span && a.message == b.message
+    });
+    findings
+}

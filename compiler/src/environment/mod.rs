@@ -1,0 +1,195 @@
+//! The environment: entities, and the facts at the start. Built once from a library, a scene and a state,
+//! then shared by all policies that are checked against it.
+
+mod errors;
+mod hands;
+mod initial_state;
+mod scene_facts;
+
+pub use initial_state::InitialState;
+
+use std::sync::Arc;
+
+use motet_robots::scene::{Scene, normal};
+use motet_stdlib::lang;
+use motet_syntax::Diagnostic;
+use rustc_hash::{FxHashMap, FxHashSet};
+use smol_str::SmolStr;
+
+use crate::declare::Library;
+use crate::facts::{ANY, FactKey, FactStore, arg};
+use crate::facts::{Cause, TruthSet};
+use crate::ir::{Entities, Entity, Fact, Kind, ROBOT, Term};
+
+pub(crate) use errors::CODES;
+
+/// Entities and facts at the start.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    entities: Entities,
+    /// The first scene that was given; its entities have the same names.
+    scene: Option<Arc<Scene>>,
+    /// Entities by description.
+    descriptions: FxHashMap<String, Vec<Entity>>,
+    /// Last two bytes of each description: a cheap test that rules out most texts.
+    endings: FxHashSet<(u8, u8)>,
+    pub(crate) facts: FactStore<'static>,
+    /// The facts at the start as they were given, in order, for the graph.
+    pub(crate) given: Vec<(Fact, bool)>,
+}
+
+impl Environment {
+    /// Builds the environment of a library, a scene and a state, and returns it with diagnostics about scene
+    /// and state.
+    #[must_use]
+    pub fn new(
+        library: &Library,
+        scene: Option<&Scene>,
+        state: Option<&InitialState>,
+    ) -> (Self, Vec<Diagnostic>) {
+        let mut diagnostics = Vec::new();
+        let mut entities = Entities::default();
+        for (name, kind) in library.standard_entities() {
+            entities.add(name.into(), kind);
+        }
+        for (name, kind, _) in &library.entities {
+            entities.add(name.clone(), *kind);
+        }
+        if let Some(scene) = scene {
+            scene_facts::entities(library, scene, &mut entities, &mut diagnostics);
+        }
+        let closed = TruthSet::no(Cause::NOTHING);
+        let default = if library.closed_world { closed } else { TruthSet::NOTHING_KNOWN };
+        let facts = FactStore::new(library.fluents.len(), default);
+        let descriptions = scene_facts::descriptions(scene, &entities);
+        let endings = descriptions.keys().flat_map(|key| match key.as_bytes() {
+            [.., first, last] => [(*first, *last), (*first, *last)],
+            // An article may stand before it.
+            [only] => [(0, *only), (b' ', *only)],
+            [] => [(0, 0), (0, 0)],
+        });
+        let endings = endings.collect();
+        let scene = scene.cloned().map(Arc::new);
+        let mut environment = Self { entities, scene, descriptions, endings, facts, given: Vec::new() };
+        scene_facts::facts(library, &mut environment);
+        for (fact, value, _) in &library.initially {
+            environment.assert_fact(fact.clone(), *value);
+        }
+        if let Some(state) = state {
+            diagnostics.extend(state.apply(library, &mut environment));
+        }
+        (environment, diagnostics)
+    }
+
+    pub(crate) fn entities(&self) -> &Entities {
+        &self.entities
+    }
+
+    /// The scene, if there is one.
+    pub(crate) fn scene(&self) -> Option<&Scene> {
+        self.scene.as_deref()
+    }
+
+    /// Returns whether another environment of the same library has the same names, kinds and descriptions.
+    /// Its policies may then use the same words, though other facts hold.
+    pub(crate) fn has_same_vocabulary(&self, other: &Self) -> bool {
+        self.has_scene() == other.has_scene()
+            && self.entities == other.entities
+            && self.descriptions == other.descriptions
+    }
+
+    /// Returns whether there is a scene.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    /// Records a fact at the start.
+    pub(crate) fn assert_fact(&mut self, fact: Fact, value: bool) {
+        self.facts.set(fact.fluent, key(&fact), TruthSet::of(value, Cause::START));
+        // One about every entity says it of those, too, of which something was said. Of a single one the later word counts
+        // by coming later.
+        if fact.args.iter().any(Option::is_none) {
+            self.forget_given(&fact);
+        }
+        self.given.push((fact, value));
+    }
+
+    /// Records that a fact is unknown at the start; a fact with `any` covers many.
+    pub(crate) fn forget(&mut self, fact: &Fact) {
+        self.facts.set(fact.fluent, key(fact), TruthSet::open(Cause::START));
+        self.forget_given(fact);
+    }
+
+    /// Drops earlier entries that a fact covers.
+    fn forget_given(&mut self, fact: &Fact) {
+        self.given.retain(|(given, _)| {
+            given.fluent != fact.fluent
+                || !fact.args.iter().zip(&given.args).all(|(of, given)| of.is_none() || of == given)
+        });
+    }
+
+    /// Entities of a kind that a description fits, in the order of the environment.
+    pub(crate) fn described(&self, library: &Library, description: &str, kind: Kind) -> Vec<Entity> {
+        let found = self.descriptions.get(&normal(description)).map(Vec::as_slice).unwrap_or_default();
+        let fits =
+            |entity: &Entity| self.entities.kind(*entity).is_some_and(|found| library.is_kind(found, kind));
+        found.iter().copied().filter(fits).collect()
+    }
+
+    /// A description that finds an entity and no other of its kind: its name, or else the shortest
+    /// description that does, the first of them in alphabetical order. O(descriptions).
+    pub(crate) fn description_of(
+        &self,
+        library: &Library,
+        name: &SmolStr,
+        (entity, kind): (Entity, Kind),
+    ) -> Option<SmolStr> {
+        let finds = |description: &str| self.described(library, description, kind) == [entity];
+        if finds(name) {
+            return Some(name.clone());
+        }
+        let others = self.descriptions.iter().filter(|(_, found)| found.contains(&entity));
+        let others = others.map(|(description, _)| description).filter(|description| finds(description));
+        others.min_by_key(|description| (description.len(), description.as_str())).map(SmolStr::from)
+    }
+
+    /// Returns whether a description fits any entity.
+    pub(crate) fn is_description(&self, description: &str) -> bool {
+        let is_gap = |byte: u8| matches!(byte, b' ' | b'_' | b'-');
+        let mut bytes = description.bytes().rev().skip_while(|byte| is_gap(*byte));
+        let last = bytes.next().unwrap_or(0);
+        let first = bytes.next().unwrap_or(0);
+        let first = if is_gap(first) { b' ' } else { first.to_ascii_lowercase() };
+        let may_be = self.endings.contains(&(first, last.to_ascii_lowercase()));
+        (may_be || !description.is_ascii()) && self.descriptions.contains_key(&normal(description))
+    }
+
+    /// A number of an entity of the scene, in SI units: `mass`, `width`, or a field of its own.
+    pub(crate) fn number(&self, entity: Entity, field: &str) -> Option<f64> {
+        if entity == ROBOT {
+            return None;
+        }
+        let found = self.scene.as_ref()?.entities.get(self.entities.name(entity)?)?;
+        match field {
+            lang::fields::MASS => found.mass_kg,
+            lang::fields::WIDTH => found.width(),
+            _ => None,
+        }
+        .or_else(|| found.fields.get(field).copied())
+    }
+
+    /// Name of an entity.
+    pub(crate) fn name(&self, entity: Entity) -> SmolStr {
+        self.entities.name(entity).cloned().unwrap_or_else(|| SmolStr::new_static("?"))
+    }
+}
+
+/// Key of a ground fact, or the pattern of one with `any`.
+fn key(fact: &Fact) -> FactKey {
+    FactKey::new(fact.args.iter().map(|term| match term {
+        Some(Term::Entity(entity)) => arg(*entity),
+        Some(Term::Case(_, case)) => *case,
+        _ => ANY,
+    }))
+}

@@ -1,0 +1,267 @@
+//! Makes a policy explicit: writes out what it leaves to the types, so that both syntaxes can express the
+//! same policy.
+//!
+//! A plain string of the JSON syntax becomes a name, a text or a quantity; a bare number becomes a quantity
+//! in the SI unit; arguments get names in JSON and positions in text. Where a name is unknown or a value does
+//! not fit, the policy stays as it is.
+
+use motet_syntax::Syntax;
+use motet_syntax::ast::{Arg, Block, Call, End, Expr, ExprKind, Name, Policy, Reaction, StepKind};
+use motet_syntax::unit::{Dimension, Unit};
+use smol_str::SmolStr;
+
+use crate::declare::Library;
+use crate::declare::elaborator::parse_quantity;
+use crate::ir::{Base, Ty};
+
+/// Makes a policy explicit, for printing it in a syntax.
+pub fn make_explicit(policy: &mut Policy, library: &Library, form: Syntax) {
+    let writer = Writer { library, form };
+    if let Some(goal) = &mut policy.achieves {
+        writer.condition(goal);
+    }
+    writer.block(&mut policy.body);
+}
+
+struct Writer<'a> {
+    library: &'a Library,
+    form: Syntax,
+}
+
+impl Writer<'_> {
+    fn block(&self, block: &mut Block) {
+        for step in &mut block.steps {
+            self.step(&mut step.kind);
+        }
+    }
+
+    fn step(&self, step: &mut StepKind) {
+        match step {
+            StepKind::Do(call) => {
+                let params = self.called(&call.call.name.text);
+                self.call(&mut call.call, params);
+                self.optional(call.within.as_mut(), Ty::DURATION);
+                self.optional(call.retry.as_mut(), Ty::INT);
+            }
+            StepKind::Sequence { body, .. } => self.block(body),
+            StepKind::If { condition, then, otherwise } => {
+                self.condition(condition);
+                self.block(then);
+                otherwise.iter_mut().for_each(|block| self.block(block));
+            }
+            StepKind::Wait { condition, within } => {
+                self.condition(condition);
+                self.optional(within.as_mut(), Ty::DURATION);
+            }
+            StepKind::Monitor { whens, body } => {
+                for when in whens {
+                    self.condition(&mut when.condition);
+                    self.optional(when.hold.as_mut(), Ty::DURATION);
+                    self.reaction(&mut when.reaction);
+                }
+                self.block(body);
+            }
+            StepKind::Try { body, catches } => {
+                self.block(body);
+                catches.iter_mut().for_each(|catch| self.block(&mut catch.body));
+            }
+            StepKind::Repeat { times, body, until } => {
+                self.term(times, Some(Ty::INT));
+                self.block(body);
+                until.iter_mut().for_each(|until| self.condition(until));
+            }
+            StepKind::Each { list, at_most, body, .. } => {
+                self.term(list, None);
+                self.term(at_most, Some(Ty::INT));
+                self.block(body);
+            }
+            StepKind::Parallel { branches } => branches.iter_mut().for_each(|branch| self.block(branch)),
+            StepKind::End(end) => self.end(end),
+        }
+    }
+
+    fn reaction(&self, reaction: &mut Reaction) {
+        match reaction {
+            Reaction::Pause { within, .. } => self.optional(within.as_mut(), Ty::DURATION),
+            Reaction::Restart { at_most, .. } => self.term(at_most, Some(Ty::INT)),
+            Reaction::Resume { at_most, body, .. } => {
+                self.term(at_most, Some(Ty::INT));
+                self.block(body);
+            }
+            Reaction::End(end) => self.end(end),
+        }
+    }
+
+    fn end(&self, end: &mut End) {
+        self.optional(end.why.as_mut(), Ty::TEXT);
+    }
+
+    fn optional(&self, expr: Option<&mut Expr>, ty: Ty) {
+        if let Some(expr) = expr {
+            self.term(expr, Some(ty));
+        }
+    }
+
+    /// Parameters of the primitive or policy with a name.
+    fn called(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
+        let names = &self.library.names;
+        if let Some(def) = names.primitives.get(name).and_then(|id| self.library.primitive(*id)) {
+            return Some(def.params.iter().map(|param| (param.name.clone(), param.ty)).collect());
+        }
+        if let Some(policy) = names.policies.get(name).and_then(|index| self.library.policies.get(*index)) {
+            let params = policy.params.iter();
+            return Some(
+                params.map(|param| (param.name.text.clone(), self.library.written_type(&param.ty))).collect(),
+            );
+        }
+        None
+    }
+
+    /// Parameters of the fluent or measure with a name.
+    fn observed(&self, name: &str) -> Option<Vec<(SmolStr, Ty)>> {
+        let names = &self.library.names;
+        let fluent =
+            names.fluents.get(name).and_then(|id| self.library.fluent(*id)).map(|def| def.params.clone());
+        fluent.or_else(|| {
+            names.measures.get(name).and_then(|id| self.library.measure(*id)).map(|def| def.params.clone())
+        })
+    }
+
+    /// Rewrites the arguments of a call. `open` is both a primitive and a fluent, so the caller gives the
+    /// parameters.
+    fn call(&self, call: &mut Call, params: Option<Vec<(SmolStr, Ty)>>) {
+        match params {
+            Some(params) => self.arguments(&mut call.args, &params),
+            None => call.args.iter_mut().for_each(|arg| self.term(&mut arg.value, None)),
+        }
+    }
+
+    fn arguments(&self, args: &mut [Arg], params: &[(SmolStr, Ty)]) {
+        for (position, arg) in args.iter_mut().enumerate() {
+            let param = match &arg.name {
+                Some(name) => params.iter().find(|(param, _)| *param == name.text),
+                None => params.get(position),
+            };
+            self.term(&mut arg.value, param.map(|(_, ty)| *ty));
+            if let (Syntax::Json, None, Some((param, _))) = (self.form, &arg.name, param) {
+                arg.name = Some(Name { text: param.clone(), span: arg.span });
+            }
+        }
+        if self.form == Syntax::Text {
+            // As long as the names only say what the places say, the places are enough.
+            for (arg, (param, _)) in args.iter_mut().zip(params) {
+                if arg.name.as_ref().is_some_and(|name| name.text != *param) {
+                    break;
+                }
+                arg.name = None;
+            }
+        }
+    }
+
+    fn condition(&self, expr: &mut Expr) {
+        match &mut expr.kind {
+            ExprKind::Not(inner) => self.condition(inner),
+            ExprKind::All(parts) | ExprKind::AnyOf(parts) => {
+                parts.iter_mut().for_each(|part| self.condition(part))
+            }
+            ExprKind::Compare(_, left, right) => {
+                let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));
+                self.term(left, right_ty);
+                self.term(right, left_ty);
+            }
+            ExprKind::Call(call) if call.name.text == "monitored" => {
+                for arg in &mut call.args {
+                    if let ExprKind::Plain(text) = &arg.value.kind {
+                        arg.value.kind = ExprKind::Name(text.clone());
+                    }
+                }
+            }
+            ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
+            ExprKind::Binding(name) => expr.kind = ExprKind::Name(name.clone()),
+            ExprKind::Bool(_)
+            | ExprKind::Number(_)
+            | ExprKind::Quantity(..)
+            | ExprKind::Text(_)
+            | ExprKind::Name(_)
+            | ExprKind::Plain(_)
+            | ExprKind::Wrong(_)
+            | ExprKind::Any
+            | ExprKind::List(_)
+            | ExprKind::Field(..)
+            | ExprKind::Arith(..) => {}
+        }
+    }
+
+    fn term(&self, expr: &mut Expr, ty: Option<Ty>) {
+        match &mut expr.kind {
+            ExprKind::Binding(name) => expr.kind = ExprKind::Name(name.clone()),
+            ExprKind::Plain(text) => expr.kind = plain(text, ty),
+            ExprKind::Number(value) => {
+                if let Some(Ty { base: Base::Quantity(dimension), lists: 0 }) = ty {
+                    expr.kind = quantity(*value, dimension);
+                }
+            }
+            ExprKind::List(items) => {
+                let element = ty.and_then(Ty::element);
+                items.iter_mut().for_each(|item| self.term(item, element));
+            }
+            ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
+            ExprKind::Field(of, _) => self.term(of, None),
+            ExprKind::Arith(_, left, right) => {
+                let (left_ty, right_ty) = (self.type_of(left), self.type_of(right));
+                self.term(left, right_ty);
+                self.term(right, left_ty);
+            }
+            ExprKind::Bool(_)
+            | ExprKind::Quantity(..)
+            | ExprKind::Text(_)
+            | ExprKind::Name(_)
+            | ExprKind::Wrong(_)
+            | ExprKind::Any => {}
+            ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
+                self.condition(expr)
+            }
+        }
+    }
+
+    /// Type of an expression that shows its own type: a measure, a field, a quantity.
+    fn type_of(&self, expr: &Expr) -> Option<Ty> {
+        match &expr.kind {
+            ExprKind::Call(call) => {
+                let id = self.library.names.measures.get(&call.name.text)?;
+                self.library.measure(*id).map(|def| def.result)
+            }
+            ExprKind::Field(_, name) => {
+                let own = self.library.kinds.iter().find_map(|def| def.fields.get(&name.text));
+                own.copied().or_else(|| self.library.numbers.get(&name.text).map(|(_, ty)| *ty))
+            }
+            ExprKind::Quantity(_, unit) => Some(Ty::plain(Base::Quantity(unit.dimension()))),
+            _ => None,
+        }
+    }
+}
+
+fn plain(text: &SmolStr, ty: Option<Ty>) -> ExprKind {
+    match ty.map(|ty| ty.base) {
+        Some(Base::Entity(_) | Base::Enum(_)) => ExprKind::Name(text.clone()),
+        Some(Base::Quantity(_)) => parse_quantity(text)
+            .map_or_else(|| ExprKind::Text(text.clone()), |(value, unit)| ExprKind::Quantity(value, unit)),
+        Some(Base::Bool | Base::Int | Base::Number | Base::Text | Base::Pose) => ExprKind::Text(text.clone()),
+        Some(Base::Unknown) | None => {
+            let mut letters = text.chars();
+            let head = letters.next().is_some_and(|first| first.is_alphabetic() || first == '_');
+            if head && letters.all(|letter| letter.is_alphanumeric() || letter == '_') {
+                ExprKind::Name(text.clone())
+            } else {
+                ExprKind::Text(text.clone())
+            }
+        }
+    }
+}
+
+fn quantity(value: f64, dimension: Dimension) -> ExprKind {
+    if dimension == Dimension::NONE {
+        return ExprKind::Quantity(value * 100.0, Unit::Percent);
+    }
+    Unit::si(dimension).map_or(ExprKind::Number(value), |unit| ExprKind::Quantity(value, unit))
+}

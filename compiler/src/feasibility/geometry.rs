@@ -1,0 +1,259 @@
+//! Geometry of a robot in a scene: motion queries with a cache of answers.
+
+use std::sync::{Arc, Mutex};
+
+use motet_geometry::planning::{
+    BaseMapCache, Configuration as Placed, Infeasible, MotionAnswer, MotionQuery, MotionWitness,
+    QueryContext, RobotModel, SceneState, SearchBudget,
+};
+use motet_robots::card::Robot;
+use motet_robots::scene::{Entity, Placement, Scene};
+use motet_robots::urdf::Urdf;
+use motet_stdlib::lang;
+use rustc_hash::FxHashMap;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::worlds::Fingerprinted;
+use crate::declare::Library;
+use crate::environment::InitialState;
+use crate::ir::Fluent;
+
+/// Maximal number of cached answers; beyond it the cache is cleared. A repeated query has the same answer.
+const MOST_ANSWERS: usize = 20_000;
+
+/// A robot's body in a scene, for motion queries. Shared by all sessions with this robot, scene and state.
+#[derive(Debug)]
+pub struct Geometry {
+    machine: RobotModel,
+    scene: Scene,
+    start: Result<Arc<Fingerprinted>, SmolStr>,
+    budget: SearchBudget,
+    memo: Mutex<Memo>,
+    maps: BaseMapCache,
+}
+
+#[derive(Debug, Default)]
+struct Memo {
+    answers: FxHashMap<(Box<[u8]>, MotionQuery), Arc<MotionAnswer>>,
+    after: FxHashMap<(Box<[u8]>, MotionQuery, SceneChange), Next>,
+    told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
+}
+
+/// SceneState after a motion; `None` if it is unknown.
+type Next = Option<Arc<Fingerprinted>>;
+
+/// Change of the scene by a motion, beside the robot's own pose.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum SceneChange {
+    /// The robot stands at the end of the path.
+    Gone,
+    /// The hand holds the thing, and the robot stands where it stood.
+    Taken,
+    /// The thing stands where it was put, and the robot stands where it stood.
+    Put,
+    /// A person has the thing, and the robot stands where it stood.
+    Given,
+    /// A container is open that was closed, or the reverse.
+    Travelled,
+}
+
+impl Geometry {
+    /// Builds the geometry of a robot in a scene and an initial state. O(parts² of the robot).
+    #[must_use]
+    pub fn new(
+        robot: &Robot,
+        urdf: &Urdf,
+        scene: &Scene,
+        state: Option<&InitialState>,
+        budget: SearchBudget,
+    ) -> Self {
+        let machine = RobotModel::new(robot, urdf);
+        let mut scene = scene.clone();
+        let start = begin(&machine, &mut scene, state);
+        Self { machine, scene, start, budget, memo: Mutex::default(), maps: BaseMapCache::default() }
+    }
+
+    /// The same robot in another scene, without an initial state.
+    #[must_use]
+    pub fn elsewhere(&self, scene: &Scene) -> Self {
+        let mut scene = scene.clone();
+        let start = begin(&self.machine, &mut scene, None);
+        Self {
+            machine: self.machine.clone(),
+            scene,
+            start,
+            budget: self.budget,
+            memo: Mutex::default(),
+            maps: BaseMapCache::default(),
+        }
+    }
+
+    /// Position of the first camera of the card, in metres in the frame of the base, with the robot in the
+    /// posture `start` if it has one. `None` if the card does not name the camera's link.
+    #[must_use]
+    pub fn eye(&self) -> Option<[f64; 3]> {
+        let machine = &self.machine;
+        let frame = machine.card().cameras.values().next()?.frame.as_ref()?;
+        let link = machine.tree().link(frame).ok()?;
+        let joints = machine.posture("start", machine.rest()).unwrap_or_else(|| machine.rest().to_vec());
+        let poses = machine.map_from_links(&Placed { base: [0.0; 3], joints });
+        Some(poses.get(link)?.translation.vector.into())
+    }
+
+    /// SceneState at the start, or the reason why it is unknown.
+    pub(super) fn start(&self) -> Result<Arc<Fingerprinted>, SmolStr> {
+        self.start.clone()
+    }
+
+    pub(super) fn machine(&self) -> &RobotModel {
+        &self.machine
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Returns whether a container is open in a world; `None` if it has no door.
+    pub(super) fn is_open(&self, world: &SceneState, id: &str) -> Option<bool> {
+        let entity = self.scene.entities.get(id)?;
+        entity.travel.as_ref()?;
+        Some(world.is_open(entity))
+    }
+
+    /// Truth of `holding` or `open` in a world; `None` for any other fluent.
+    pub(super) fn holds(
+        &self,
+        library: &Library,
+        world: &SceneState,
+        fluent: Fluent,
+        entity: &str,
+    ) -> Option<bool> {
+        let items = &library.lang_items;
+        if items.holding == Some(fluent) {
+            return Some(world.holds(entity));
+        }
+        self.is_open(world, entity).filter(|_| items.open == Some(fluent))
+    }
+
+    /// Answers a query in a world, from the cache if it is there.
+    pub(super) fn answer(&self, at: &Fingerprinted, query: &MotionQuery) -> Arc<MotionAnswer> {
+        let key = (at.key.clone(), query.clone());
+        if let Some(known) = self.memo().as_ref().and_then(|memo| memo.answers.get(&key).cloned()) {
+            return known;
+        }
+        let answer = Arc::new(self.room(&at.world).answer(query, self.budget));
+        if let Some(mut memo) = self.memo() {
+            if memo.answers.len() >= MOST_ANSWERS {
+                *memo = Memo::default();
+            }
+            memo.answers.insert(key, Arc::clone(&answer));
+        }
+        answer
+    }
+
+    /// Explanation of infeasibility in a world, with a proposed change.
+    pub(super) fn explained(&self, at: &Fingerprinted, query: &MotionQuery, why: &Infeasible) -> Infeasible {
+        let key = (at.key.clone(), query.clone());
+        if let Some(known) = self.memo().and_then(|memo| memo.told.get(&key).cloned()) {
+            return known;
+        }
+        let told = self.room(&at.world).explain(query, why, self.budget);
+        if let Some(mut memo) = self.memo() {
+            memo.told.insert(key, told.clone());
+        }
+        told
+    }
+
+    /// Returns whether the robot can grasp a thing from its pose; `None` if neither answer is proven.
+    pub(super) fn reaches(&self, at: &Fingerprinted, object: &str) -> Option<bool> {
+        match &*self.answer(at, &MotionQuery::Reach(object.into(), None)) {
+            MotionAnswer::Feasible(_) => Some(true),
+            MotionAnswer::Infeasible(why) => why.certified.then_some(false),
+            MotionAnswer::Unknown(_) => None,
+        }
+    }
+
+    /// SceneState after a motion that was found; `None` if it is unknown.
+    pub(super) fn after(
+        &self,
+        at: &Fingerprinted,
+        query: &MotionQuery,
+        change: SceneChange,
+        way: &MotionWitness,
+    ) -> Option<Arc<Fingerprinted>> {
+        let key = (at.key.clone(), query.clone(), change);
+        if let Some(known) = self.memo().and_then(|memo| memo.after.get(&key).cloned()) {
+            return known;
+        }
+        let room = self.room(&at.world);
+        let world = match change {
+            SceneChange::Gone => Some(room.after_move(way)),
+            SceneChange::Taken => room.after_reach(way),
+            SceneChange::Put => room.after_put(way),
+            SceneChange::Travelled => room.after_pull(way),
+            SceneChange::Given => match query {
+                MotionQuery::Offer(_, to) => room.after_offer(to),
+                _ => None,
+            },
+        };
+        let world = world.map(|world| Arc::new(fingerprinted(world)));
+        if let Some(mut memo) = self.memo() {
+            memo.after.insert(key, world.clone());
+        }
+        world
+    }
+
+    fn room<'w>(&'w self, world: &'w SceneState) -> QueryContext<'w> {
+        QueryContext::new(&self.machine, &self.scene, world).with_base_maps(&self.maps)
+    }
+
+    /// Cache of answers; `None` after a panic of another thread, which only loses the cache.
+    fn memo(&self) -> Option<std::sync::MutexGuard<'_, Memo>> {
+        self.memo.lock().ok()
+    }
+}
+
+/// SceneState at the start of a scene and a state. Adds `start` to the places of the scene.
+fn begin(
+    machine: &RobotModel,
+    scene: &mut Scene,
+    state: Option<&InitialState>,
+) -> Result<Arc<Fingerprinted>, SmolStr> {
+    for (fact, (holds, _)) in state.into_iter().flat_map(|state| &state.facts) {
+        let Some((fluent, args)) = fact.split_once('(') else { continue };
+        let arg = args.trim_end_matches(')').trim().trim_matches('`');
+        match fluent.trim() {
+            lang::fluents::OPEN => {
+                if let Some(entity) = scene.entities.get_mut(arg) {
+                    entity.open = *holds;
+                }
+            }
+            lang::fluents::HOLDING if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
+            lang::fluents::AT | lang::fluents::ON | lang::fluents::IN | lang::fluents::HOLDING => {
+                return Err(format_smolstr!(
+                    "the state says `{fact}`, and the scene does not say where that is"
+                ));
+            }
+            _ => {}
+        }
+    }
+    let is_door = |entity: &&Entity| entity.travel.is_some() && entity.open.is_none();
+    if let Some(door) = scene.entities.values().find(is_door) {
+        return Err(format_smolstr!("it is not known whether `{}` is open", door.id));
+    }
+    if let Some(Some(held)) = &scene.robot.holding
+        && scene.entities.get(held).is_none_or(|entity| entity.shape.is_none())
+    {
+        return Err(format_smolstr!("the shape of `{held}`, which the hand holds, is not known"));
+    }
+    let [x, y, yaw] = scene.robot.base;
+    let pose = Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, yaw] };
+    let start = lang::entities::START;
+    scene.entities.entry(start.into()).or_insert_with(|| Entity::place(start.into(), pose));
+    Ok(Arc::new(fingerprinted(SceneState::new(machine, scene))))
+}
+
+fn fingerprinted(world: SceneState) -> Fingerprinted {
+    let key = world.fingerprint().into_boxed_slice();
+    Fingerprinted { world, key }
+}

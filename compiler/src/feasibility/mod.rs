@@ -1,0 +1,58 @@
+//! Stage 4, motion feasibility: an abstract interpretation on sets of possible worlds, in which the motions
+//! of a policy are queried.
+//!
+//! Each world has the robot, the things and the doors at definite poses. A motion that was found leads to the
+//! next world. Where more than a few worlds are possible, or where a pose is unknown, motions are deferred:
+//! no motion is called feasible without a witness, and none infeasible unless that is proven or its search
+//! ended without a result. The engine checks deferred motions at run time.
+//!
+//! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/dynamic.rs`.
+
+mod access;
+pub(crate) mod errors;
+mod explanation;
+mod geometry;
+mod motion;
+mod transfer;
+mod walk;
+mod witness;
+mod world_tracker;
+mod worlds;
+
+pub use access::Access;
+pub use geometry::Geometry;
+pub use world_tracker::{Forecast, WorldTracker};
+
+use motet_graph::Witness;
+use motet_syntax::Diagnostic;
+use smol_str::SmolStr;
+
+use crate::declare::Library;
+use crate::environment::Environment;
+use crate::ir::Program;
+use crate::prove::Proof;
+
+/// Verdict on a motion that is not refused.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum MotionVerdict {
+    /// Feasible in every possible world; the witness is from one of them.
+    Feasible(Box<Witness>),
+    /// Left to the run, for this reason if one is known.
+    Deferred(Option<SmolStr>),
+}
+
+/// Verdicts by step: `None` for a step without motion, or without geometry.
+pub(crate) type MotionVerdicts = Vec<Option<MotionVerdict>>;
+
+/// Checks the motions of a program that has no errors.
+pub(crate) fn check(
+    program: &Program,
+    proof: &Proof,
+    library: &Library,
+    environment: &Environment,
+    geometry: &Geometry,
+) -> (MotionVerdicts, Vec<Diagnostic>) {
+    let mut walk = walk::Walk::new(program, proof, library, environment, geometry);
+    walk.policy();
+    walk.into_results()
+}

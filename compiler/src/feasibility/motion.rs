@@ -1,0 +1,167 @@
+//! Translation of calls to motion queries, and of contracts to changes of the scene.
+
+use motet_geometry::planning::{GraspSide, MotionQuery};
+use motet_stdlib::lang;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::geometry::SceneChange;
+use super::walk::Walk;
+use crate::declare::{EffectDef, Library, PrimitiveDef};
+use crate::ir::{Call, Entity, Fluent, MotionKind, ROBOT, START, Term};
+
+impl Walk<'_> {
+    /// Motion query of a call.
+    ///
+    /// # Errors
+    ///
+    /// The reason why its arguments are unknown.
+    pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
+        let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
+        let mut names = Vec::with_capacity(args.len());
+        for arg in args {
+            names.push(self.named(arg, call)?);
+        }
+        Ok(motion_query(*name, names, self.side(call)))
+    }
+
+    /// GraspSide of a grasp that an argument of the call asks for.
+    fn side(&self, call: &Call) -> Option<GraspSide> {
+        let approach = self.library.lang_items.approach?;
+        call.args.iter().find_map(|arg| match arg {
+            Term::Case(of, case) if *of == approach => side_of(self.library.case_name(approach, *case)),
+            _ => None,
+        })
+    }
+
+    /// Name, in the scene, of an argument of a contract at a call.
+    ///
+    /// # Errors
+    ///
+    /// The reason why it is unknown.
+    pub(super) fn named(&self, term: &Term, call: &Call) -> Result<SmolStr, SmolStr> {
+        let entity = |entity: Entity| match entity {
+            ROBOT => Err(SmolStr::new_static("the robot is no target")),
+            START => Ok(SmolStr::new_static(lang::entities::START)),
+            entity if self.symbols.get(entity).is_some() => {
+                let bound = self.symbols.binding_of(entity);
+                let name = bound.and_then(|index| self.program.bindings.get(index));
+                let name = name.map_or("it", |binding| binding.name.as_str());
+                Err(format_smolstr!("which thing `{name}` is, only the run can tell"))
+            }
+            entity => Ok(self.environment.name(entity)),
+        };
+        let unknown = || SmolStr::new_static("an argument is only known in the run");
+        match term {
+            Term::Entity(id) => entity(*id),
+            Term::Case(of, case) => Ok(self.library.case_name(*of, *case).into()),
+            Term::Binding(id) => entity(self.symbols.of_binding(id.index()).ok_or_else(unknown)?),
+            Term::Param(index) => match call.args.get(usize::from(*index)) {
+                Some(Term::Param(_)) | None => Err(unknown()),
+                Some(term) => self.named(term, call),
+            },
+            Term::Result => {
+                let bound = call.binds.and_then(|id| self.symbols.of_binding(id.index()));
+                entity(bound.ok_or_else(unknown)?)
+            }
+            Term::Bool(_)
+            | Term::Int(_)
+            | Term::Number(_)
+            | Term::Text(_)
+            | Term::List(_)
+            | Term::Each
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => Err(unknown()),
+        }
+    }
+
+    /// Place where a call leaves the robot beyond the target of its motion: `search` ends where the robot can
+    /// serve what it found.
+    pub(super) fn ends_at(&self, call: &Call, def: &PrimitiveDef) -> Option<Result<SmolStr, SmolStr>> {
+        let effect = makes(self.library.lang_items.at, def, true)?;
+        match effect.fact.args.as_slice() {
+            [Some(robot), Some(place)] if *robot == Term::Entity(ROBOT) => Some(self.named(place, call)),
+            _ => None,
+        }
+    }
+}
+
+/// Motion query of a name and arguments.
+pub(super) fn motion_query(kind: MotionKind, args: Vec<SmolStr>, side: Option<GraspSide>) -> MotionQuery {
+    let mut args = args.into_iter();
+    let (first, second) = (args.next().unwrap_or_default(), args.next());
+    match (kind, second) {
+        (MotionKind::GoTo, None) => MotionQuery::GoTo(first),
+        (MotionKind::Reach, None) => MotionQuery::Reach(first, side),
+        (MotionKind::Put, Some(on)) => MotionQuery::Put(first, on),
+        (MotionKind::Offer, Some(to)) => MotionQuery::Offer(first, to),
+        (MotionKind::Look, None) => MotionQuery::Look(first),
+        (MotionKind::Pull, None) => MotionQuery::Pull(first),
+        (MotionKind::Push, None) => MotionQuery::Push(first),
+        (MotionKind::Posture, None) => MotionQuery::Posture(first),
+        (kind, _) => MotionQuery::Other(kind.name().into()),
+    }
+}
+
+/// GraspSide of a case of `Approach`; `None` if any side is allowed.
+pub(super) fn side_of(case: &str) -> Option<GraspSide> {
+    match case {
+        lang::approaches::TOP => Some(GraspSide::Top),
+        lang::approaches::SIDE => Some(GraspSide::Side),
+        lang::approaches::FRONT => Some(GraspSide::Front),
+        _ => None,
+    }
+}
+
+/// Change of the scene by a motion that succeeded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum MotionEffect {
+    /// The motion leaves the scene as it is.
+    Nothing,
+    Changed(SceneChange),
+    /// The contract does not determine the change.
+    Unknown,
+}
+
+/// Change of the scene by a motion that succeeded, from the contract of its primitive.
+pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &MotionQuery) -> MotionEffect {
+    let items = &library.lang_items;
+    let makes = |fluent: Option<Fluent>, value: bool| makes(fluent, def, value).is_some();
+    match query {
+        MotionQuery::GoTo(_) | MotionQuery::Posture(_) => MotionEffect::Changed(SceneChange::Gone),
+        MotionQuery::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
+        MotionQuery::Reach(..) | MotionQuery::Look(_) => MotionEffect::Nothing,
+        MotionQuery::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
+        MotionQuery::Offer(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Given),
+        MotionQuery::Pull(_) if makes(items.open, true) => MotionEffect::Changed(SceneChange::Travelled),
+        MotionQuery::Push(_) if makes(items.open, false) => MotionEffect::Changed(SceneChange::Travelled),
+        MotionQuery::Put(..) | MotionQuery::Offer(..) => MotionEffect::Unknown,
+        MotionQuery::Pull(_) | MotionQuery::Push(_) | MotionQuery::Other(_) => MotionEffect::Unknown,
+    }
+}
+
+/// Finds an effect of a contract on a fluent about one thing, without condition and not about all of a kind.
+pub(super) fn makes(fluent: Option<Fluent>, def: &PrimitiveDef, value: bool) -> Option<&EffectDef> {
+    let id = fluent?;
+    def.makes.iter().find(|effect| {
+        effect.fact.fluent == id
+            && effect.value == value
+            && effect.each.is_none()
+            && effect.when.is_none()
+            && !effect.fact.args.iter().any(Option::is_none)
+    })
+}
+
+/// Returns whether a primitive without a motion may still move the robot or a thing, by its effects.
+pub(super) fn moves_blindly(library: &Library, def: &PrimitiveDef) -> bool {
+    let items = &library.lang_items;
+    let elsewhere = |effect: &EffectDef| items.poses().any(|fluent| fluent == effect.fact.fluent);
+    let unseen = def.unsettles.iter().any(|effect| Some(effect.fact.fluent) == items.visible);
+    unseen || def.makes.iter().chain(&def.unsettles).any(elsewhere)
+}
+
+/// Returns whether a call of a primitive may move the robot or a thing.
+pub(super) fn may_move(library: &Library, def: &PrimitiveDef) -> bool {
+    def.motion.as_ref().map_or_else(|| moves_blindly(library, def), |(kind, _)| kind.moves())
+}

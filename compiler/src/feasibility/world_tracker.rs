@@ -1,0 +1,262 @@
+//! Tracker of the world of a run, updated as its calls end, for the motions that were deferred.
+//!
+//! It asks the same queries as the interpretation of a policy, but along the one path of the run. Once the
+//! pose of the robot or a thing is unknown, every motion is unknown.
+
+use std::sync::Arc;
+
+use motet_geometry::planning::{Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, UnknownReason};
+use motet_graph::Value;
+use motet_stdlib::lang;
+use smol_str::{SmolStr, format_smolstr};
+
+use super::geometry::{Geometry, SceneChange};
+use super::motion::{MotionEffect, makes, may_move, motion_effect, motion_query, moves_blindly, side_of};
+use super::worlds::Fingerprinted;
+use crate::declare::{Library, PrimitiveDef};
+use crate::ir::{Entity, Failure, MotionKind, ROBOT, START, Term};
+
+/// World of a run. `Send`; one tracker belongs to one run.
+#[derive(Debug)]
+pub struct WorldTracker {
+    library: Arc<Library>,
+    geometry: Arc<Geometry>,
+    /// The world, or the reason why it is unknown.
+    at: Result<Arc<Fingerprinted>, SmolStr>,
+    /// Number of active calls that move the robot or a thing.
+    moving: u32,
+}
+
+/// Forecast of a motion.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Forecast {
+    /// A motion was found.
+    Feasible,
+    /// Infeasibility is proven.
+    Infeasible {
+        /// The most specific failure that the primitive lists.
+        failure: SmolStr,
+        /// InfeasibleReason with its numbers, and a proposed change.
+        why: String,
+    },
+    Unknown {
+        why: String,
+    },
+}
+
+/// A call of a run: a primitive with the values of its parameters, in order.
+#[derive(Clone, Copy, Debug)]
+struct ExecutedCall<'a> {
+    def: &'a PrimitiveDef,
+    args: &'a [(SmolStr, Value)],
+    result: Option<&'a Value>,
+}
+
+impl WorldTracker {
+    pub(crate) fn new(library: Arc<Library>, geometry: Arc<Geometry>) -> Self {
+        let at = geometry.start();
+        Self { library, geometry, at, moving: 0 }
+    }
+
+    /// Forecasts a motion with the arguments `of` for a call of a primitive in the present world.
+    #[must_use]
+    pub fn motion(&self, primitive: &str, args: &[(SmolStr, Value)], motion: &str, of: &[Value]) -> Forecast {
+        let unknown = |why: &str| Forecast::Unknown { why: why.to_owned() };
+        let Some(def) = primitive_of(&self.library, primitive) else {
+            return unknown("the primitive is not known");
+        };
+        let at = match &self.at {
+            Ok(_) if self.moving > 0 => return unknown("something else moves at the same time"),
+            Ok(at) => at,
+            Err(why) => return unknown(why),
+        };
+        let Some(names) = of.iter().map(name).collect::<Option<Vec<_>>>() else {
+            return unknown("an argument has no place in the scene");
+        };
+        let Some(kind) = MotionKind::from_name(motion) else { return unknown("the motion is not known") };
+        match &*self.geometry.answer(at, &motion_query(kind, names, side(args))) {
+            MotionAnswer::Feasible(_) => Forecast::Feasible,
+            MotionAnswer::Infeasible(why) if why.certified => self.infeasible(def, why),
+            MotionAnswer::Infeasible(why) => unknown(&format!("the search found no motion: {}", why.reason)),
+            MotionAnswer::Unknown(UnknownReason::Budget) => unknown("the search was cut short"),
+            MotionAnswer::Unknown(UnknownReason::Because(why)) => unknown(why),
+        }
+    }
+
+    /// Records the start of a call.
+    pub fn began(&mut self, primitive: &str) {
+        if self.is_moving(primitive) {
+            self.moving += 1;
+            if self.moving > 1 {
+                self.lose("two things moved at the same time");
+            }
+        }
+    }
+
+    /// Records the success of a call.
+    pub fn succeeded(&mut self, primitive: &str, args: &[(SmolStr, Value)], result: Option<&Value>) {
+        self.over(primitive);
+        let Some(def) = primitive_of(&self.library, primitive) else { return };
+        let Ok(at) = &self.at else { return };
+        self.at = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result });
+    }
+
+    /// Records that a call was refused before it moved anything.
+    pub fn refused(&mut self, primitive: &str) {
+        self.over(primitive);
+    }
+
+    /// Records that a call failed or was interrupted.
+    pub fn stopped(&mut self, primitive: &str) {
+        self.over(primitive);
+        if self.is_moving(primitive) {
+            self.lose(&format!("where `{primitive}` stopped is not known"));
+        }
+    }
+
+    /// Records an observation of `holding` or `open`. If it contradicts the tracked world, the world is
+    /// unknown.
+    pub fn observed(&mut self, fluent: &str, entity: &str, holds: bool) {
+        let Ok(at) = &self.at else { return };
+        let id = self.library.names.fluents.get(fluent).copied();
+        let here = id.and_then(|id| self.geometry.holds(&self.library, &at.world, id, entity));
+        // While something moves it may be so already.
+        if self.moving == 0 && here.is_some_and(|here| here != holds) {
+            self.lose(&format!("`{fluent}({entity})` is not as it was left"));
+        }
+    }
+
+    fn over(&mut self, primitive: &str) {
+        if self.is_moving(primitive) {
+            self.moving = self.moving.saturating_sub(1);
+        }
+    }
+
+    fn lose(&mut self, why: &str) {
+        if self.at.is_ok() {
+            self.at = Err(why.into());
+        }
+    }
+
+    fn is_moving(&self, primitive: &str) -> bool {
+        primitive_of(&self.library, primitive).is_some_and(|def| may_move(&self.library, def))
+    }
+
+    fn infeasible(&self, def: &PrimitiveDef, why: &Infeasible) -> Forecast {
+        let says = match &why.change {
+            Some(change) => format!("{}; {change}", why.reason),
+            None => why.reason.to_string(),
+        };
+        let listed = failures(&self.library, &why.reason).into_iter().flatten();
+        match listed.into_iter().find(|failure| def.fails.contains(failure)) {
+            Some(failure) => {
+                Forecast::Infeasible { failure: self.library.failure_name(failure).into(), why: says }
+            }
+            None => Forecast::Unknown { why: says },
+        }
+    }
+}
+
+/// World after a call that succeeded.
+fn after(
+    library: &Library,
+    geometry: &Geometry,
+    at: &Arc<Fingerprinted>,
+    call: ExecutedCall<'_>,
+) -> Result<Arc<Fingerprinted>, SmolStr> {
+    let def = call.def;
+    let Some((motion, terms)) = &def.motion else {
+        return if moves_blindly(library, def) {
+            Err(format_smolstr!("where things are after `{}` is not known", def.name))
+        } else {
+            Ok(Arc::clone(at))
+        };
+    };
+    let lost = || format_smolstr!("how `{}` ended is not known", def.name);
+    let names = terms.iter().map(|term| named(library, term, call)).collect::<Option<Vec<_>>>();
+    let query = motion_query(*motion, names.ok_or_else(lost)?, side(call.args));
+    let change = match motion_effect(library, def, &query) {
+        MotionEffect::Nothing => return Ok(Arc::clone(at)),
+        MotionEffect::Unknown => return Err(lost()),
+        MotionEffect::Changed(change) => change,
+    };
+    let next = step(geometry, at, &query, change).ok_or_else(lost)?;
+    // A motion of the base may go on to where the robot serves what it found.
+    let MotionQuery::GoTo(target) = &query else { return Ok(next) };
+    let Some(effect) = makes(library.lang_items.at, def, true) else { return Ok(next) };
+    let [Some(robot), Some(place)] = effect.fact.args.as_slice() else { return Ok(next) };
+    if *robot != Term::Entity(ROBOT) {
+        return Ok(next);
+    }
+    let place = named(library, place, call).ok_or_else(lost)?;
+    if place == *target {
+        return Ok(next);
+    }
+    step(geometry, &next, &MotionQuery::GoTo(place), SceneChange::Gone).ok_or_else(lost)
+}
+
+fn step(
+    geometry: &Geometry,
+    at: &Arc<Fingerprinted>,
+    query: &MotionQuery,
+    change: SceneChange,
+) -> Option<Arc<Fingerprinted>> {
+    match &*geometry.answer(at, query) {
+        MotionAnswer::Feasible(way) => geometry.after(at, query, change, way),
+        MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
+    }
+}
+
+/// Failures that match a reason, the most specific first.
+fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<Failure>; 3] {
+    let items = &library.lang_items;
+    match reason {
+        InfeasibleReason::OutOfReach { .. } | InfeasibleReason::TooWide { .. } => {
+            [items.unreachable, None, None]
+        }
+        InfeasibleReason::TooHeavy { .. } => [items.too_heavy, items.unreachable, None],
+        InfeasibleReason::NoFreePose { .. } | InfeasibleReason::BlockedPath { .. } => {
+            [items.unreachable, items.blocked, None]
+        }
+        InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
+    }
+}
+
+fn primitive_of<'l>(library: &'l Library, name: &str) -> Option<&'l PrimitiveDef> {
+    library.primitive(library.names.primitives.get(name).copied()?)
+}
+
+/// Name, in the scene, of a term of a contract at a call.
+fn named(library: &Library, term: &Term, call: ExecutedCall<'_>) -> Option<SmolStr> {
+    match term {
+        Term::Entity(id) => fixed(library, *id),
+        Term::Case(of, case) => Some(library.case_name(*of, *case).into()),
+        Term::Param(index) => name(&call.args.get(usize::from(*index))?.1),
+        Term::Result => name(call.result?),
+        Term::Binding(_) | Term::Each | Term::Unknown => None,
+        Term::Bool(_) | Term::Int(_) | Term::Number(_) | Term::Text(_) | Term::List(_) => None,
+        Term::Field(..) | Term::Measure(..) | Term::Arith(..) => None,
+    }
+}
+
+/// Name of an entity in a contract.
+fn fixed(library: &Library, entity: Entity) -> Option<SmolStr> {
+    match entity {
+        ROBOT => None,
+        START => Some(SmolStr::new_static(lang::entities::START)),
+        other => library.names.entities.iter().find(|(_, id)| **id == other).map(|(name, _)| name.clone()),
+    }
+}
+
+fn name(value: &Value) -> Option<SmolStr> {
+    match value {
+        Value::Entity(id) | Value::Case(id) => Some(id.clone()),
+        Value::Bool(_) | Value::Int(_) | Value::Number(_) => None,
+        Value::Text(_) | Value::Pose(_) | Value::List(_) => None,
+    }
+}
+
+/// GraspSide of a grasp that an argument asks for.
+fn side(args: &[(SmolStr, Value)]) -> Option<motet_geometry::planning::GraspSide> {
+    args.iter().find_map(|(_, value)| if let Value::Case(case) = value { side_of(case) } else { None })
+}

@@ -1,0 +1,154 @@
+//! Least and greatest duration of steps. Every loop, wait, pause and retry is bounded, so every policy is.
+
+use motet_syntax::Diagnostic;
+
+use super::errors::{EmptyBlock, TooLong};
+use crate::declare::Library;
+use crate::ir::{Block, Program, Reaction, StepKind};
+
+type Bounds = (f64, f64);
+
+/// Fills in the bounds of every step, and checks the whole policy against a limit in seconds.
+pub(super) fn fill_in(
+    program: &mut Program,
+    library: &Library,
+    limit: Option<f64>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    // Children come after their parents, so backwards every block is known before the step that holds it.
+    for index in (0..program.steps.len()).rev() {
+        let Some(step) = program.steps.get(index) else { continue };
+        let bounds = of_step(&step.kind, program, library);
+        empty(&step.kind, step.span, diagnostics);
+        if let Some(step) = program.steps.get_mut(index) {
+            step.bounds = bounds;
+        }
+    }
+    let (_, greatest) = of_block(&program.body, program);
+    if let Some(limit) = limit.filter(|limit| greatest > *limit) {
+        let (longest, limit) = (seconds(greatest), seconds(limit));
+        diagnostics.push(TooLong { span: program.span, longest, limit }.into());
+    }
+}
+
+/// Bounds of a block, whose steps run one after the other.
+pub(crate) fn of_block(block: &Block, program: &Program) -> Bounds {
+    let mut sum = (0.0, 0.0);
+    let mut ended = false;
+    for step in block.iter().filter_map(|id| program.step(*id)) {
+        if !ended {
+            sum.0 += step.bounds.0;
+        }
+        sum.1 += step.bounds.1;
+        // What may end early takes no longer, but may take less.
+        ended |= matches!(step.kind, StepKind::End { .. });
+    }
+    finite(sum)
+}
+
+fn of_step(kind: &StepKind, program: &Program, library: &Library) -> Bounds {
+    let observe = library.observe_within_secs;
+    let block = |block: &Block| of_block(block, program);
+    let bounds = match kind {
+        StepKind::Call(call) => {
+            let (least, greatest) = library.primitive(call.primitive).map_or((0.0, 0.0), |def| def.takes);
+            let deadline = call.within_secs.unwrap_or(greatest);
+            // Guards are observed before each attempt.
+            (least.min(deadline), (deadline + observe) * f64::from(call.retries.saturating_add(1)))
+        }
+        StepKind::Sequence { body, .. } | StepKind::Inline { body, .. } => block(body),
+        StepKind::If { then, otherwise, .. } => {
+            let then = block(then);
+            let otherwise = otherwise.as_ref().map_or((0.0, 0.0), block);
+            (then.0.min(otherwise.0), then.1.max(otherwise.1) + observe)
+        }
+        StepKind::Wait { within_secs, .. } => (0.0, *within_secs),
+        StepKind::Monitor { whens, body } => {
+            let body = block(body);
+            let mut greatest = body.1;
+            for when in whens {
+                greatest += match &when.reaction {
+                    Reaction::Pause { within_secs } => *within_secs,
+                    Reaction::Restart { at_most } => f64::from(*at_most) * body.1,
+                    Reaction::Resume { at_most, body } => f64::from(*at_most) * block(body).1,
+                    Reaction::End { .. } => 0.0,
+                };
+            }
+            (0.0, greatest)
+        }
+        StepKind::Try { body, catches } => {
+            let handlers = catches.iter().map(|catch| block(&catch.body).1);
+            (0.0, block(body).1 + handlers.fold(0.0, f64::max))
+        }
+        StepKind::Repeat { times, body, until } => {
+            let (least, greatest) = block(body);
+            let rounds = f64::from(*times);
+            let test = if until.is_some() { observe } else { 0.0 };
+            (if until.is_some() { least } else { least * rounds }, (greatest + test) * rounds)
+        }
+        StepKind::Each { at_most, body, .. } => (0.0, block(body).1 * f64::from(*at_most)),
+        StepKind::Parallel { branches } => branches
+            .iter()
+            .map(block)
+            .fold((0.0, 0.0), |longest: Bounds, branch| (longest.0.max(branch.0), longest.1.max(branch.1))),
+        StepKind::End { .. } | StepKind::Unknown => (0.0, 0.0),
+    };
+    finite(bounds)
+}
+
+/// Replaces infinite bounds by the largest number: nested loops can exceed any.
+fn finite((least, greatest): Bounds) -> Bounds {
+    (least.min(f64::MAX), greatest.min(f64::MAX))
+}
+
+fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagnostic>) {
+    let (what, body) = match kind {
+        StepKind::Repeat { body, .. } => ("`repeat`", body),
+        StepKind::Each { body, .. } => ("`each`", body),
+        StepKind::Monitor { body, .. } => ("`monitor`", body),
+        StepKind::Try { body, .. } => ("`try`", body),
+        StepKind::Call(_)
+        | StepKind::Sequence { .. }
+        | StepKind::Inline { .. }
+        | StepKind::If { .. }
+        | StepKind::Wait { .. }
+        | StepKind::Parallel { .. }
+        | StepKind::End { .. }
+        | StepKind::Unknown => return,
+    };
+    if body.is_empty() {
+        diagnostics.push(EmptyBlock { span, what }.into());
+    }
+}
+
+/// Visits the blocks of a step, in document order.
+pub(crate) fn blocks(kind: &StepKind, mut visit: impl FnMut(&Block)) {
+    match kind {
+        StepKind::Call(_) | StepKind::Wait { .. } | StepKind::End { .. } | StepKind::Unknown => {}
+        StepKind::Sequence { body, .. }
+        | StepKind::Inline { body, .. }
+        | StepKind::Repeat { body, .. }
+        | StepKind::Each { body, .. } => visit(body),
+        StepKind::If { then, otherwise, .. } => {
+            visit(then);
+            otherwise.iter().for_each(visit);
+        }
+        StepKind::Monitor { whens, body } => {
+            for when in whens {
+                if let Reaction::Resume { body, .. } = &when.reaction {
+                    visit(body);
+                }
+            }
+            visit(body);
+        }
+        StepKind::Try { body, catches } => {
+            visit(body);
+            catches.iter().for_each(|catch| visit(&catch.body));
+        }
+        StepKind::Parallel { branches } => branches.iter().for_each(visit),
+    }
+}
+
+fn seconds(value: f64) -> String {
+    if value >= 120.0 { format!("{:.1} min", value / 60.0) } else { format!("{value} s") }
+}

@@ -1,0 +1,384 @@
+//! Effects on the facts: makes, unsettles, and stale perceptions.
+
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
+
+use super::Prover;
+use super::evaluation::{CallFrame, MAX_ALIASES};
+use crate::facts::{ANY, FactKey};
+use crate::facts::{Cause, TruthSet};
+use smallvec::SmallVec;
+use smol_str::SmolStr;
+
+use crate::declare::{EffectDef, PrimitiveDef, ResourceSet};
+use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
+
+/// A change of a fact by a step, computed in the state before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FactChange {
+    pub(crate) fluent: Fluent,
+    pub(crate) key: FactKey,
+    pub(crate) truth: bool,
+    sure: Certainty,
+}
+
+impl FactChange {
+    /// Returns whether the change happens on every path.
+    pub(crate) fn is_sure(&self) -> bool {
+        self.sure == Certainty::Always
+    }
+}
+
+/// Certainty of the condition of an effect.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Certainty {
+    Always,
+    Sometimes,
+    Unknown,
+    /// An argument has an error: the change may be about any entity.
+    Misread,
+}
+
+/// Entities that a contract mentions: usually few.
+type Entities = SmallVec<[Entity; 8]>;
+
+/// Lifetime of a perceived fact.
+#[derive(Clone, Debug)]
+pub(crate) struct PerceptionLifetime {
+    pub(crate) resources: ResourceSet,
+    pub(crate) entities: Vec<Entity>,
+}
+
+impl Prover<'_> {
+    /// Computes the changes of effects in the present state.
+    pub(crate) fn changes(&self, effects: &[EffectDef], frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
+        changes.clear();
+        for effect in effects {
+            match effect.each {
+                None => self.change(effect, frame, changes),
+                Some(kind) => self.change_each(effect, kind, frame, changes),
+            }
+        }
+        // A fact that is both made and unmade is made.
+        changes.sort_by_key(|change| change.truth);
+    }
+
+    fn change(&self, effect: &EffectDef, frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
+        let sure = effect
+            .when
+            .as_ref()
+            .map_or(Some(Certainty::Always), |when| certainty(self.evaluate(when, frame)));
+        let Some(sure) = sure else { return };
+        let fluent = effect.fact.fluent;
+        match self.key(&effect.fact, frame) {
+            Some(key) => changes.push(FactChange { fluent, key, truth: effect.value, sure }),
+            None => changes.push(FactChange {
+                fluent,
+                key: FactKey::ALL,
+                truth: effect.value,
+                sure: Certainty::Misread,
+            }),
+        }
+    }
+
+    /// Forgets all facts, after a step with an error.
+    pub(crate) fn forget_all(&mut self, cause: Cause) {
+        for index in 0..self.library.fluents.len() {
+            let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
+            self.state.facts.set(fluent, FactKey::ALL, TruthSet::open(cause));
+        }
+    }
+
+    fn change_each(
+        &self,
+        effect: &EffectDef,
+        kind: Kind,
+        frame: CallFrame<'_>,
+        changes: &mut Vec<FactChange>,
+    ) {
+        let (known, rest) = self.candidates(effect.when.as_ref(), kind, frame);
+        for candidate in &known {
+            self.change(effect, CallFrame { each: Some(*candidate), ..frame }, changes);
+        }
+        let Some(sure) = rest else { return };
+        if self.covers(effect, kind) {
+            // Those of which nothing is known by name: one pattern for all of them.
+            if let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) {
+                changes.push(FactChange { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+            }
+            return;
+        }
+        // The fluent is also about entities of other kinds, which a pattern would take in: each by its name.
+        let named = self.of_kind(kind, usize::MAX).into_iter();
+        for entity in named.filter(|entity| known.binary_search(entity).is_err()) {
+            self.change(effect, CallFrame { each: Some(entity), ..frame }, changes);
+        }
+        for (entity, symbol) in self.symbols.iter() {
+            let first = changes.len();
+            if self.library.is_kind(symbol.kind, kind) || self.library.is_kind(kind, symbol.kind) {
+                self.change(effect, CallFrame { each: Some(entity), ..frame }, changes);
+            }
+            if !self.library.is_kind(symbol.kind, kind) {
+                // It may be of the kind.
+                changes.iter_mut().skip(first).for_each(|change| change.sure = Certainty::Unknown);
+            }
+        }
+    }
+
+    /// Returns whether the `each` arguments of an effect's fluent are all of a kind.
+    fn covers(&self, effect: &EffectDef, kind: Kind) -> bool {
+        let Some(def) = self.library.fluent(effect.fact.fluent) else { return true };
+        let mut places = effect.fact.args.iter().zip(&def.params);
+        places.all(|(arg, (_, ty))| {
+            *arg != Some(Term::Each) || ty.kind().is_none_or(|all| self.library.is_kind(all, kind))
+        })
+    }
+
+    /// Entities of a kind for which `when` may hold, and whether it may hold for others too.
+    fn candidates(
+        &self,
+        when: Option<&Condition>,
+        kind: Kind,
+        frame: CallFrame<'_>,
+    ) -> (Entities, Option<Certainty>) {
+        match when {
+            None => (Entities::new(), Some(Certainty::Always)),
+            Some(
+                Condition::Compare(CompareOp::Equal, Term::Each, other)
+                | Condition::Compare(CompareOp::Equal, other, Term::Each),
+            ) => {
+                let only = self.argument(other, frame).map(Entity);
+                let fits = |entity: &Entity| self.is_of_kind(*entity, kind);
+                (only.filter(fits).into_iter().collect(), None)
+            }
+            Some(Condition::Fact(fact)) => {
+                let Some(pattern) = self.key(fact, CallFrame { each: None, ..frame }) else {
+                    return (Entities::new(), None);
+                };
+                let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
+                let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
+                let mut known = Entities::new();
+                let mut rest = TruthSet::default();
+                let Some(aliases) = self.aliases(fact.fluent, pattern) else {
+                    return (Entities::new(), Some(Certainty::Unknown));
+                };
+                for pattern in aliases {
+                    rest = rest.join(self.state.facts.get(fact.fluent, pattern));
+                    self.state.facts.entries(fact.fluent, pattern, |key, value| {
+                        let entity = Entity(key.arg(place));
+                        if !value.is_false() && self.is_of_kind(entity, kind) {
+                            known.push(entity);
+                        }
+                    });
+                }
+                known.sort_unstable();
+                known.dedup();
+                (known, if rest.is_false() { None } else { certainty(rest) })
+            }
+            Some(_) => (self.of_kind(kind, usize::MAX).into(), None),
+        }
+    }
+
+    /// A pattern with all its instances under the entities that its symbols may be; `None` if these are too
+    /// many.
+    fn aliases(&self, fluent: Fluent, pattern: FactKey) -> Option<SmallVec<[FactKey; 4]>> {
+        let mut found: SmallVec<[FactKey; 4]> = SmallVec::from_slice(&[pattern]);
+        if self.symbols.is_empty() || self.state.facts.entry(fluent, pattern).is_some() {
+            return Some(found);
+        }
+        let params = self.library.fluent(fluent).map(|def| def.params.as_slice()).unwrap_or_default();
+        for (index, _) in params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some()) {
+            let Some(symbol) = self.symbols.get(Entity(pattern.arg(index))) else { continue };
+            let all;
+            let may_be: &[Entity] = match &symbol.may_be {
+                Some(list) => list,
+                None => {
+                    all = self.of_kind(symbol.kind, MAX_ALIASES + 1);
+                    &all
+                }
+            };
+            if may_be.len().saturating_mul(found.len()) > MAX_ALIASES {
+                return None;
+            }
+            let known = found.clone();
+            found.extend(may_be.iter().flat_map(|entity| known.iter().map(|key| key.with(index, entity.0))));
+        }
+        Some(found)
+    }
+
+    /// Entities for which a quantified need is asked, and whether there may be others.
+    pub(crate) fn asked(
+        &self,
+        when: Option<&Condition>,
+        kind: Kind,
+        frame: CallFrame<'_>,
+    ) -> (Entities, bool) {
+        match when {
+            None => (self.of_kind(kind, usize::MAX).into(), false),
+            Some(_) => {
+                let (known, rest) = self.candidates(when, kind, frame);
+                (known, rest.is_some())
+            }
+        }
+    }
+
+    /// Writes changes, negative ones first, so that a fact that is both made and unmade holds.
+    pub(crate) fn make(&mut self, changes: &[FactChange], cause: Cause) {
+        for change in changes {
+            let new = TruthSet::of(change.truth, cause);
+            match change.sure {
+                Certainty::Always => self.write(change, cause, |_| new),
+                Certainty::Sometimes => self.write(change, cause, |old| old.join(new)),
+                Certainty::Unknown => self.write(change, cause, |old| old.maybe(new, cause)),
+                Certainty::Misread => self.write(change, cause, |_| TruthSet::open(cause)),
+            }
+        }
+    }
+
+    /// Makes the facts of changes unobserved.
+    pub(crate) fn unsettle(&mut self, changes: &[FactChange], cause: Cause) {
+        let open = TruthSet::open(cause);
+        for change in changes {
+            match change.sure {
+                Certainty::Sometimes => self.write(change, cause, |old| old.join(open)),
+                Certainty::Always | Certainty::Unknown | Certainty::Misread => {
+                    self.write(change, cause, |_| open)
+                }
+            }
+        }
+    }
+
+    /// Writes a fact, and weakens the facts that may be the same.
+    fn write(&mut self, change: &FactChange, cause: Cause, new: impl Fn(TruthSet) -> TruthSet) {
+        let FactChange { fluent, key, sure, .. } = *change;
+        if sure == Certainty::Always {
+            self.state.facts.set(fluent, key, new(TruthSet::default()));
+        } else if self.symbols.is_empty() || key.is_pattern() {
+            self.state.facts.change(fluent, key, |_, old| new(old));
+        } else {
+            // What is known of a binding is what is known of all that it may be.
+            let known = self.read(fluent, key);
+            self.state.facts.set(fluent, key, new(known));
+        }
+        if self.symbols.is_empty() {
+            return;
+        }
+        // Only a symbol can be the same as something else.
+        let symbolic = self.has_symbol(fluent, key);
+        if let Some(aliased) = self.aliased.get_mut(fluent.index()) {
+            *aliased |= symbolic;
+            if *aliased {
+                let value = self.state.facts.get(fluent, key);
+                self.echo(fluent, key, value, cause);
+            }
+        }
+    }
+
+    /// Returns whether an argument of a fact is a symbol.
+    fn has_symbol(&self, fluent: Fluent, key: FactKey) -> bool {
+        self.library.fluent(fluent).is_some_and(|def| {
+            let entities = def.params.iter().enumerate().filter(|(_, (_, ty))| ty.kind().is_some());
+            entities.into_iter().any(|(index, _)| self.symbols.get(Entity(key.arg(index))).is_some())
+        })
+    }
+
+    /// Weakens the facts that may be the same as a written one.
+    fn echo(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
+        let library = self.library;
+        let Some(def) = library.fluent(fluent) else { return };
+        let mut targets: Vec<(FactKey, TruthSet)> = Vec::new();
+        let mut feels = |other: FactKey, known: TruthSet| {
+            if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {
+                targets.push((other, known));
+            }
+        };
+        if self.has_symbol(fluent, key) {
+            self.state.facts.entries(fluent, FactKey::ALL, &mut feels);
+        } else {
+            // What is no symbol may be one, and the facts at the start speak of none.
+            self.state.facts.written(fluent, &mut feels);
+        }
+        // Entities behind a symbol that have no entry yet.
+        for (index, (_, ty)) in def.params.iter().enumerate() {
+            let symbol = self.symbols.get(Entity(key.arg(index))).filter(|_| ty.kind().is_some());
+            let Some(symbol) = symbol else { continue };
+            let candidates = symbol.may_be.clone().unwrap_or_else(|| self.of_kind(symbol.kind, usize::MAX));
+            for candidate in candidates {
+                let other = key.with(index, candidate.0);
+                if !other.is_pattern() && self.state.facts.entry(fluent, other).is_none() {
+                    targets.push((other, self.state.facts.get(fluent, other)));
+                }
+            }
+        }
+        for (other, known) in targets {
+            let felt = known.maybe(value, cause);
+            if felt != known {
+                self.state.facts.set(fluent, other, felt);
+            }
+        }
+    }
+
+    fn may_be_same(&self, params: &[(SmolStr, Ty)], a: FactKey, b: FactKey) -> bool {
+        params.iter().enumerate().all(|(index, (_, ty))| {
+            let (one, two) = (a.arg(index), b.arg(index));
+            one == two
+                || one == ANY
+                || two == ANY
+                || (ty.kind().is_some()
+                    && self.symbols.may_equal(self.library, self.environment, Entity(one), Entity(two)))
+        })
+    }
+
+    /// Makes perceived facts stale once a step uses their resource or moves their entity.
+    pub(crate) fn make_stale(&mut self, step: StepId, def: &PrimitiveDef, frame: CallFrame<'_>) {
+        if self.state.lasting.is_empty() {
+            return;
+        }
+        let mut moved = None;
+        let mut stale: SmallVec<[_; 8]> = SmallVec::new();
+        for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
+            self.state.facts.written(fluent, |key, value| {
+                let Some(source) = value.yes.as_step().filter(|source| *source != step) else { return };
+                let Some(lasting) = self.state.lasting.get(&source) else { return };
+                let used = lasting.resources & def.uses != 0;
+                let mut has_moved =
+                    |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
+                if used || lasting.entities.iter().any(&mut has_moved) {
+                    stale.push((fluent, key, value));
+                }
+            });
+        }
+        // The order of a table is not that of the document.
+        stale.sort_unstable_by_key(|(fluent, key, _)| (*fluent, *key));
+        let cause = Cause::step(step);
+        for (fluent, key, value) in stale {
+            let rest = TruthSet { yes: Cause::NONE, ..value };
+            let gone = if fluent == self.fresh { TruthSet::no(cause) } else { TruthSet::open(cause) };
+            self.state.facts.set(fluent, key, rest.join(gone));
+        }
+    }
+
+    /// Entities that a step moves: the first arguments of an action's effects.
+    fn moved(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Entities {
+        if def.form == PrimitiveKind::Perception {
+            return Entities::new();
+        }
+        let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);
+        let effects = def.makes.iter().chain(&def.unsettles).filter(named);
+        let mut moved: Entities = effects
+            .filter_map(|effect| self.argument(effect.fact.args.first()?.as_ref()?, frame))
+            .map(Entity)
+            .collect();
+        moved.dedup();
+        moved
+    }
+}
+
+fn certainty(value: TruthSet) -> Option<Certainty> {
+    if value.open.is_some() {
+        Some(Certainty::Unknown)
+    } else if value.no.is_some() && value.yes.is_some() {
+        Some(Certainty::Sometimes)
+    } else {
+        value.yes.is_some().then_some(Certainty::Always)
+    }
+}

@@ -1,0 +1,229 @@
+//! Evaluation of conditions and terms on the fact store.
+
+use motet_syntax::ast::{ArithOp, CompareOp};
+use smallvec::SmallVec;
+
+use super::Prover;
+use crate::facts::{ANY, FactKey};
+use crate::facts::{Cause, TruthSet};
+use crate::ir::{Condition, Entity, Fact, Fluent, Kind, Term};
+
+/// Meaning of a contract's parameters, result and quantified variable at one call.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CallFrame<'c> {
+    pub(crate) args: &'c [Term],
+    pub(crate) result: Option<Entity>,
+    pub(crate) each: Option<Entity>,
+}
+
+/// Maximal number of entities behind a symbol that are examined one by one.
+pub(super) const MAX_ALIASES: usize = 64;
+
+impl Prover<'_> {
+    /// Argument of a key; `None` if the term's entity is unknown.
+    pub(crate) fn argument(&self, term: &Term, frame: CallFrame<'_>) -> Option<u16> {
+        match term {
+            Term::Entity(entity) => Some(entity.0),
+            Term::Case(_, case) => Some(*case),
+            Term::Binding(id) => self.symbols.of_binding(id.index()).map(|entity| entity.0),
+            Term::Param(index) => match frame.args.get(usize::from(*index))? {
+                // An argument is never itself a parameter, so this ends.
+                Term::Param(_) => None,
+                term => self.argument(term, frame),
+            },
+            Term::Result => frame.result.map(|entity| entity.0),
+            Term::Each => frame.each.map(|entity| entity.0),
+            Term::Bool(_)
+            | Term::Int(_)
+            | Term::Number(_)
+            | Term::Text(_)
+            | Term::List(_)
+            | Term::Field(..)
+            | Term::Measure(..)
+            | Term::Arith(..)
+            | Term::Unknown => None,
+        }
+    }
+
+    /// Key of a fact; `None` if an argument is unknown. An unbound `each` becomes `any`.
+    pub(crate) fn key(&self, fact: &Fact, frame: CallFrame<'_>) -> Option<FactKey> {
+        let mut key = FactKey(0);
+        for (index, term) in fact.args.iter().enumerate() {
+            let arg = match term {
+                None => ANY,
+                Some(Term::Each) if frame.each.is_none() => ANY,
+                Some(term) => self.argument(term, frame)?,
+            };
+            key = key.with(index, arg);
+        }
+        Some(key)
+    }
+
+    /// Value of a single fact, resolved through symbols.
+    pub(crate) fn read(&self, fluent: Fluent, key: FactKey) -> TruthSet {
+        if self.symbols.is_empty() || self.state.facts.entry(fluent, key).is_some() {
+            return self.state.facts.get(fluent, key);
+        }
+        let Some(def) = self.library.fluent(fluent) else { return self.state.facts.get(fluent, key) };
+        for (index, (_, ty)) in def.params.iter().enumerate() {
+            let entity = Entity(key.arg(index));
+            if ty.kind().is_none() {
+                continue;
+            }
+            let Some(symbol) = self.symbols.get(entity) else { continue };
+            // The fact of a symbol is what all that it may be agree on, and unobserved where they do not.
+            let all;
+            let candidates: &[Entity] = match &symbol.may_be {
+                Some(list) => list,
+                None => {
+                    all = self.of_kind(symbol.kind, MAX_ALIASES + 1);
+                    &all
+                }
+            };
+            if candidates.len() > MAX_ALIASES {
+                return TruthSet::open(Cause::NOTHING);
+            }
+            let generic = symbol.may_be.is_none().then(|| self.state.facts.get(fluent, key));
+            let known = candidates.iter().map(|candidate| self.read(fluent, key.with(index, candidate.0)));
+            let mut values = known.chain(generic);
+            let Some(first) = values.next() else { return self.state.facts.get(fluent, key) };
+            return if values.all(|value| value.same_set(first)) {
+                first
+            } else {
+                TruthSet::open(Cause::NOTHING)
+            };
+        }
+        self.state.facts.get(fluent, key)
+    }
+
+    /// Returns whether an entity or symbol is of a kind.
+    pub(crate) fn is_of_kind(&self, entity: Entity, kind: Kind) -> bool {
+        self.symbols.kind(self.environment, entity).is_some_and(|found| self.library.is_kind(found, kind))
+    }
+
+    /// Entities of a kind in the environment, at most `most`.
+    pub(crate) fn of_kind(&self, kind: Kind, most: usize) -> Vec<Entity> {
+        let entities = self.environment.entities().iter();
+        let fitting = entities.filter(|(.., other)| self.library.is_kind(*other, kind));
+        fitting.map(|(id, ..)| id).take(most).collect()
+    }
+
+    /// Possible values of a condition.
+    pub(crate) fn evaluate(&self, condition: &Condition, frame: CallFrame<'_>) -> TruthSet {
+        match condition {
+            Condition::Literal(value) => TruthSet::of(*value, Cause::NOTHING),
+            // An error that was reported: neither it nor its negation is refuted.
+            Condition::Unknown => TruthSet::default(),
+            Condition::Fact(fact) => self.evaluate_fact(fact, frame),
+            Condition::Compare(op, left, right) => self.compare(*op, left, right, frame),
+            Condition::MonitoredMeasure(id) => {
+                let watched = self.state.watched.iter().any(|watched| watched.measures.contains(id));
+                TruthSet::of(watched, Cause::NOTHING)
+            }
+            Condition::MonitoredFluent(id) => {
+                let watched = self.state.watched.iter().any(|watched| watched.fluents.contains(id));
+                TruthSet::of(watched, Cause::NOTHING)
+            }
+            Condition::Not(inner) => self.evaluate(inner, frame).not(),
+            Condition::All(parts) => {
+                let parts = parts.iter().map(|part| self.evaluate(part, frame));
+                parts.fold(TruthSet::yes(Cause::NOTHING), TruthSet::and)
+            }
+            Condition::AnyOf(parts) => {
+                let parts = parts.iter().map(|part| self.evaluate(part, frame));
+                parts.fold(TruthSet::no(Cause::NOTHING), TruthSet::or)
+            }
+        }
+    }
+
+    fn evaluate_fact(&self, fact: &Fact, frame: CallFrame<'_>) -> TruthSet {
+        let Some(key) = self.key(fact, frame) else { return TruthSet::NOTHING_KNOWN };
+        if self.library.fluent(fact.fluent).is_some_and(|def| def.derived) {
+            return TruthSet::NOTHING_KNOWN;
+        }
+        if !key.is_pattern() {
+            return self.read(fact.fluent, key);
+        }
+        // Some entity: all the rest, then those that are known one by one, in an order of their own: the cause is the
+        // last one's.
+        let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
+        self.state.facts.entries(fact.fluent, key, |key, _| known.push(key));
+        known.sort_unstable();
+        let rest = self.read(fact.fluent, key);
+        known.into_iter().fold(rest, |some, key| self.read(fact.fluent, key).or(some))
+    }
+
+    fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: CallFrame<'_>) -> TruthSet {
+        if let (Some(a), Some(b)) = (self.number(left, frame), self.number(right, frame)) {
+            let holds = match op {
+                CompareOp::Equal => a == b,
+                CompareOp::Unequal => a != b,
+                CompareOp::Less => a < b,
+                CompareOp::AtMost => a <= b,
+                CompareOp::More => a > b,
+                CompareOp::AtLeast => a >= b,
+            };
+            return TruthSet::of(holds, Cause::START);
+        }
+        let equal = match op {
+            CompareOp::Equal => true,
+            CompareOp::Unequal => false,
+            CompareOp::Less | CompareOp::AtMost | CompareOp::More | CompareOp::AtLeast => {
+                return TruthSet::NOTHING_KNOWN;
+            }
+        };
+        let same = match (self.argument(left, frame), self.argument(right, frame)) {
+            (Some(a), Some(b)) if a == b => Some(true),
+            (Some(a), Some(b)) => {
+                let may = self.symbols.may_equal(self.library, self.environment, Entity(a), Entity(b));
+                (!may).then_some(false)
+            }
+            _ => match (self.literal(left, frame), self.literal(right, frame)) {
+                (Some(Term::Text(a)), Some(Term::Text(b))) => Some(a == b),
+                (Some(Term::Bool(a)), Some(Term::Bool(b))) => Some(a == b),
+                _ => None,
+            },
+        };
+        same.map_or(TruthSet::NOTHING_KNOWN, |same| TruthSet::of(same == equal, Cause::START))
+    }
+
+    fn literal<'t>(&self, term: &'t Term, frame: CallFrame<'t>) -> Option<&'t Term> {
+        match term {
+            Term::Param(index) => frame.args.get(usize::from(*index)),
+            term => Some(term),
+        }
+    }
+
+    /// Number of a term, if it is constant.
+    pub(crate) fn number(&self, term: &Term, frame: CallFrame<'_>) -> Option<f64> {
+        match term {
+            Term::Int(value) => Some(*value as f64),
+            Term::Number(value) => Some(*value),
+            Term::Param(index) => match frame.args.get(usize::from(*index))? {
+                Term::Param(_) => None,
+                term => self.number(term, frame),
+            },
+            Term::Field(of, name) => self.environment.number(Entity(self.argument(of, frame)?), name),
+            Term::Arith(op, left, right) => {
+                let (a, b) = (self.number(left, frame)?, self.number(right, frame)?);
+                let value = match op {
+                    ArithOp::Add => a + b,
+                    ArithOp::Subtract => a - b,
+                    ArithOp::Multiply => a * b,
+                    ArithOp::Divide => a / b,
+                };
+                value.is_finite().then_some(value)
+            }
+            Term::Bool(_)
+            | Term::Text(_)
+            | Term::Case(..)
+            | Term::Entity(_)
+            | Term::List(_)
+            | Term::Binding(_)
+            | Term::Result
+            | Term::Each
+            | Term::Measure(..)
+            | Term::Unknown => None,
+        }
+    }
+}

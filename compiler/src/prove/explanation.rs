@@ -1,0 +1,297 @@
+//! Explanations of refutations: the fact, the step that made it false, and calls that would make it true.
+
+use motet_syntax::ast::CompareOp;
+use motet_syntax::{Diagnostic, Mistake, Span};
+use smol_str::{SmolStr, format_smolstr};
+
+use super::display::round;
+use super::errors::GoalRefuted;
+use super::evaluation::CallFrame;
+use super::{Mode, PolicyEnd, Problem, Prover};
+use crate::facts::Cause;
+use crate::ir::{Base, BlockSlot, Condition, Entity, Fluent, StepId, StepKind, Term};
+
+/// Explanation of a condition that can be false.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Explanation {
+    /// The condition: "`free(hand)`", "`not open(drawer_1)`".
+    pub(crate) wanted: String,
+    /// Cause of the opposite.
+    pub(crate) cause: Cause,
+    /// Fluent with the value that it should have.
+    pub(crate) fact: Option<(Fluent, bool)>,
+    /// Name of the fluent, measure or field in question, with the value that it should have.
+    pub(crate) subject: Option<(SmolStr, bool)>,
+    /// Text in place of a cause: "`kettle` has 2.1 kg".
+    numbers: Option<String>,
+    /// Phrase for the cause: "`place(mug, table)` made".
+    maker: Option<String>,
+    /// Path from the cause: " where `open(drawer)` holds".
+    way: String,
+    /// Advice, if no earlier step could help.
+    advice: Option<&'static str>,
+}
+
+impl Explanation {
+    /// End of the sentence "… needs X, ".
+    pub(crate) fn story(&self) -> String {
+        if let Some(numbers) = &self.numbers {
+            return numbers.clone();
+        }
+        match (&self.maker, self.cause) {
+            (Some(maker), _) => format!("which {maker} false{}", self.way),
+            (None, Cause::NONE | Cause::NOTHING) => "which no step makes true".to_owned(),
+            (None, _) => "which does not hold at the start".to_owned(),
+        }
+    }
+}
+
+impl Prover<'_> {
+    /// Explains why `condition` can fail to be `truth`.
+    pub(crate) fn explain(&self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> Explanation {
+        let fails = |part: &&Condition| {
+            let value = self.evaluate(part, frame);
+            if truth { value.no.is_some() } else { value.yes.is_some() }
+        };
+        match condition {
+            Condition::Not(inner) => return self.explain(inner, !truth, frame),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                let joined = matches!(condition, Condition::AnyOf(_)) == truth && parts.len() > 1;
+                if let Some(part) = parts.iter().find(fails) {
+                    let mut explanation = self.explain(part, truth, frame);
+                    if joined {
+                        explanation.wanted = self.show(condition, truth, frame);
+                    }
+                    return explanation;
+                }
+            }
+            Condition::Fact(fact) => {
+                let value = self.evaluate(condition, frame);
+                let cause = if truth { value.no } else { value.yes };
+                let maker = cause.as_step().map(|_| self.maker(cause));
+                let wanted = self.show(condition, truth, frame);
+                let subject = self.library.fluent(fact.fluent).map(|def| (def.name.clone(), truth));
+                let (fact, way) = (Some((fact.fluent, truth)), self.way(cause));
+                return Explanation { wanted, cause, fact, subject, maker, way, ..Explanation::default() };
+            }
+            Condition::Compare(CompareOp::Unequal, left, _)
+                if truth && self.is_misgiven(condition, frame) =>
+            {
+                let wanted = format!("something other than `{}`", self.term_text(left, frame));
+                let numbers = Some("but it is given exactly that".to_owned());
+                let advice = Some("name another entity, or remove this step");
+                return Explanation {
+                    wanted,
+                    cause: Cause::START,
+                    numbers,
+                    advice,
+                    ..Explanation::default()
+                };
+            }
+            Condition::Compare(_, left, right) => {
+                let numbers = self.numbers(left, right, frame);
+                let wanted = self.show(condition, truth, frame);
+                let subject = self.measured(left).or_else(|| self.measured(right)).map(|name| (name, truth));
+                let numbers = Some(numbers);
+                return Explanation {
+                    wanted,
+                    cause: Cause::START,
+                    subject,
+                    numbers,
+                    ..Explanation::default()
+                };
+            }
+            Condition::MonitoredMeasure(_) | Condition::MonitoredFluent(_) => {
+                let wanted = self.show(condition, truth, frame);
+                let numbers = Some("but no `monitor` around it does".to_owned());
+                let subject = Some((SmolStr::new_static("monitored"), truth));
+                return Explanation { wanted, subject, numbers, ..Explanation::default() };
+            }
+            Condition::Literal(_) | Condition::Unknown => {}
+        }
+        let wanted = self.show(condition, truth, frame);
+        Explanation { wanted, ..Explanation::default() }
+    }
+
+    /// Returns whether a condition excludes the very argument that it is given: no earlier step could help.
+    pub(crate) fn is_misgiven(&self, condition: &Condition, frame: CallFrame<'_>) -> bool {
+        let Condition::Compare(CompareOp::Unequal, left, right) = condition else { return false };
+        let entity = |term| self.argument(term, frame);
+        entity(left).is_some_and(|one| entity(right) == Some(one))
+    }
+
+    /// Name of the field or measure behind a number.
+    fn measured(&self, term: &Term) -> Option<SmolStr> {
+        match term {
+            Term::Field(_, name) => Some(name.clone()),
+            Term::Measure(id, _) => self.library.measure(*id).map(|def| def.name.clone()),
+            Term::Arith(_, left, right) => self.measured(left).or_else(|| self.measured(right)),
+            _ => None,
+        }
+    }
+
+    /// Phrase for a cause: an action made the fact false, or a test found it so.
+    fn maker(&self, cause: Cause) -> String {
+        let step = cause.as_step().and_then(|id| self.program.step(id));
+        match step.map(|step| &step.kind) {
+            Some(StepKind::If { condition, .. }) => {
+                format!("`if {}` found", self.text(condition, CallFrame::default()))
+            }
+            Some(StepKind::Wait { .. } | StepKind::Repeat { until: Some(_), .. }) => {
+                format!("`{}` found", self.cause_name(cause))
+            }
+            _ => format!("`{}` made", self.cause_name(cause)),
+        }
+    }
+
+    /// Describes the path from a cause to the present step, if there are others.
+    fn way(&self, cause: Cause) -> String {
+        let Some(maker) = cause.as_step() else { return String::new() };
+        if self.control.here.is_some_and(|here| maker >= here) {
+            return " in an earlier round".to_owned();
+        }
+        let around = |id: StepId| self.program.around(id).map(|(id, _)| id);
+        let shared: Vec<StepId> = self.control.here.into_iter().flat_map(around).collect();
+        let mut slot = self.program.step(maker).map(|step| step.position.slot);
+        for (outer, fork) in self.program.around(maker) {
+            // A step beside the one being proved, in another block of the same fork, is on another way too.
+            let apart = !shared.contains(&outer);
+            match (&fork.kind, slot) {
+                (StepKind::If { condition, .. }, Some(BlockSlot::Then)) if apart => {
+                    return format!(" where {} holds", self.show(condition, true, CallFrame::default()));
+                }
+                (StepKind::If { condition, .. }, Some(BlockSlot::Else)) if apart => {
+                    return format!(
+                        " where {} does not hold",
+                        self.show(condition, true, CallFrame::default())
+                    );
+                }
+                (_, Some(BlockSlot::Catch(_))) if apart => return " after a failure".to_owned(),
+                (_, Some(BlockSlot::Reaction(_))) => return " when its monitor fires".to_owned(),
+                _ => slot = Some(fork.position.slot),
+            }
+        }
+        String::new()
+    }
+
+    /// Advice: primitives that achieve the missing fact.
+    pub(crate) fn remedy(&self, explanation: &Explanation) -> Option<String> {
+        if let Some(advice) = explanation.advice {
+            return Some(advice.to_owned());
+        }
+        let (fluent, truth) = explanation.fact?;
+        let achievers = self.library.primitives.iter().filter(|def| def.provided);
+        let achievers = achievers.filter(|def| {
+            def.makes.iter().any(|effect| effect.fact.fluent == fluent && effect.value == truth)
+                && !def.needs.iter().any(|need| asks_for(&need.condition, fluent, truth))
+        });
+        let names: Vec<_> = achievers.map(|def| format!("`{}`", def.name)).take(4).collect();
+        match names.split_last() {
+            None => None,
+            Some((only, [])) => Some(format!("call {only} first")),
+            Some((last, rest)) => Some(format!("call {} or {last} first", rest.join(", "))),
+        }
+    }
+
+    /// Checks that the goal is not refuted where the policy is done.
+    pub(crate) fn check_goal(&mut self, end: Option<PolicyEnd>) {
+        let program = self.program;
+        let Some((goal, span)) = &program.achieves else { return };
+        let frame = CallFrame::default();
+        if !self.evaluate(goal, frame).no.is_some() {
+            return;
+        }
+        if self.mode == Mode::Decide {
+            return self.count(GoalRefuted::CODE);
+        }
+        self.control.here = None;
+        let explanation = self.explain(goal, true, frame);
+        let mistake = GoalRefuted {
+            span: *span,
+            wanted: explanation.wanted.clone(),
+            story: explanation.story(),
+            culprit: self.cause_span(explanation.cause),
+            remedy: self.remedy(&explanation),
+            subject: explanation.subject,
+        };
+        let mistake: Diagnostic = mistake.into();
+        if let Some(end) = end.filter(|_| self.control.live) {
+            self.notify(Problem::RefutedGoal { goal, end }, &mistake);
+        }
+        if !self.diagnostics.contains(&mistake) {
+            self.diagnostics.push(mistake);
+        }
+    }
+
+    /// Span of the step behind a cause.
+    pub(crate) fn cause_span(&self, cause: Cause) -> Option<Span> {
+        Some(self.program.step(cause.as_step()?)?.span)
+    }
+
+    /// Short name of the step behind a cause.
+    pub(crate) fn cause_name(&self, cause: Cause) -> SmolStr {
+        let step = cause.as_step().and_then(|id| self.program.step(id));
+        match step.map(|step| &step.kind) {
+            Some(StepKind::Call(call)) => {
+                let name = self.library.primitive(call.primitive).map_or("a step", |def| def.name.as_str());
+                let args = call.args.iter().filter_map(|arg| match arg {
+                    Term::Entity(_) | Term::Binding(_) => Some(self.term_text(arg, CallFrame::default())),
+                    _ => None,
+                });
+                format_smolstr!("{name}({})", args.collect::<Vec<_>>().join(", "))
+            }
+            Some(StepKind::If { .. }) => "if".into(),
+            Some(StepKind::Wait { .. }) => "wait".into(),
+            Some(StepKind::Monitor { .. }) => "monitor".into(),
+            Some(StepKind::Repeat { .. }) => "repeat".into(),
+            Some(StepKind::Each { .. }) => "each".into(),
+            Some(StepKind::Parallel { .. }) => "parallel".into(),
+            Some(
+                StepKind::Sequence { .. }
+                | StepKind::Inline { .. }
+                | StepKind::Try { .. }
+                | StepKind::End { .. }
+                | StepKind::Unknown,
+            )
+            | None => "a step".into(),
+        }
+    }
+
+    /// Name of an argument of a fact.
+    pub(crate) fn argument_name(&self, fluent: Fluent, index: usize, arg: u16) -> SmolStr {
+        let ty = self.library.fluent(fluent).and_then(|def| def.params.get(index)).map(|(_, ty)| *ty);
+        if let Some(Base::Enum(id)) = ty.map(|ty| ty.base) {
+            return self.library.case_name(id, arg).into();
+        }
+        self.entity_name(Entity(arg))
+    }
+
+    pub(crate) fn entity_name(&self, entity: Entity) -> SmolStr {
+        let bound = self.symbols.binding_of(entity).and_then(|index| self.program.bindings.get(index));
+        bound.map_or_else(|| self.environment.name(entity), |binding| binding.name.clone())
+    }
+
+    fn numbers(&self, left: &Term, right: &Term, frame: CallFrame<'_>) -> String {
+        let side = |term: &Term| self.number(term, frame).map(|value| format!("{}", round(value)));
+        match (side(left), side(right)) {
+            (Some(a), Some(b)) => format!("but {} is {a}, not within {b}", self.term_text(left, frame)),
+            _ => "which does not hold".to_owned(),
+        }
+    }
+}
+
+/// Returns whether a condition requires a fluent to have a truth value: a call that needs a fact cannot
+/// achieve it.
+fn asks_for(condition: &Condition, fluent: Fluent, truth: bool) -> bool {
+    match condition {
+        Condition::Fact(fact) => truth && fact.fluent == fluent,
+        Condition::Not(inner) => asks_for(inner, fluent, !truth),
+        Condition::All(parts) => parts.iter().any(|part| asks_for(part, fluent, truth)),
+        Condition::AnyOf(_)
+        | Condition::Literal(_)
+        | Condition::Compare(..)
+        | Condition::MonitoredMeasure(_)
+        | Condition::MonitoredFluent(_)
+        | Condition::Unknown => false,
+    }
+}

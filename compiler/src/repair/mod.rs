@@ -1,0 +1,271 @@
+//! Repairs of refuted policies: calls that bring about what a step needs, steps to leave out, monitors to add.
+//!
+//! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand. The search
+//! chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is bounded and greedy, after
+//! means-ends analysis (Newell and Simon 1963). What it finds is a candidate: [`crate::fix`] verifies it by checking the
+//! edited document again.
+
+mod search;
+mod write;
+
+use motet_syntax::{Code, Diagnostic, Fix, Parsed, Span};
+
+use crate::declare::{Library, NeedDef, PrimitiveDef};
+use crate::environment::Environment;
+use crate::ir::{BindingId, Condition, Entity, Fact, Fluent, Program, StepId, StepKind, Term};
+use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
+use crate::prove::evaluation::CallFrame;
+use crate::prove::{Observer, PolicyEnd, Problem, Prover};
+
+/// How deep needs of needs are followed.
+const MAX_DEPTH: usize = 3;
+/// The most calls of one repair.
+const MAX_CALLS: usize = 6;
+/// The most findings of a policy for which repairs are searched.
+const MAX_FINDINGS: usize = 32;
+/// How many steps back a call may be inserted.
+const MAX_EARLIER: usize = 6;
+/// The most calls that are tried for one step.
+const MAX_TRIES: usize = 400;
+
+/// Repairs of one diagnostic, the best first.
+#[derive(Clone, Debug)]
+pub(crate) struct RepairCandidates {
+    code: Code,
+    span: Span,
+    message: String,
+    repairs: Vec<Repair>,
+}
+
+/// A change of the program that may remove a diagnostic.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Repair {
+    /// Inserts calls before a step.
+    Before(StepId, Vec<CandidateCall>),
+    /// Inserts calls behind a step.
+    After(StepId, Vec<CandidateCall>),
+    /// Repeats the step that bound a value before another step, whose argument then is the new value.
+    Again { found: StepId, before: StepId, used: Span },
+    /// Leaves the step out.
+    Drop(StepId),
+    /// Puts a monitor of a fluent without parameters around the step.
+    Watch(StepId, Fluent),
+}
+
+/// A diagnostic with the fixes that are known for it beside its own, the best first.
+#[derive(Clone, Debug)]
+pub(crate) struct Finding {
+    pub(crate) diagnostic: Diagnostic,
+    pub(crate) alternatives: Vec<Fix>,
+}
+
+impl From<Diagnostic> for Finding {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { diagnostic, alternatives: Vec::new() }
+    }
+}
+
+/// Searches repairs of what the prover refutes.
+#[derive(Debug, Default)]
+pub(crate) struct RepairFinder {
+    candidates: Vec<RepairCandidates>,
+}
+
+impl Observer for RepairFinder {
+    fn observe(&mut self, prover: &mut Prover<'_>, problem: Problem<'_>, diagnostic: &Diagnostic) {
+        match problem {
+            Problem::RefutedNeed { step, def, frame } => self.before(prover, step, def, frame, diagnostic),
+            Problem::StaleBinding { step, bound } => self.perceive_again(prover, step, bound, diagnostic),
+            Problem::RefutedGoal { goal, end } => self.at_end(prover, goal.clone(), end, diagnostic),
+            Problem::UnintendedFact { fact, end } => self.undo(prover, fact, end, diagnostic),
+            Problem::RedundantStep => self.leave_out(prover, diagnostic),
+        }
+    }
+}
+
+impl RepairFinder {
+    /// Joins diagnostics with the repairs that were found for them, as edits of the document.
+    pub(crate) fn findings(
+        &self,
+        diagnostics: Vec<Diagnostic>,
+        parsed: &Parsed,
+        program: &Program,
+        library: &Library,
+        environment: &Environment,
+    ) -> Vec<Finding> {
+        let writer = write::Writer { parsed, program, library, environment };
+        let mut findings: Vec<_> = diagnostics.into_iter().map(Finding::from).collect();
+        for found in &mut findings {
+            let diagnostic = &mut found.diagnostic;
+            if let Some(fix) = &mut diagnostic.fix {
+                writer.in_form(diagnostic.code, fix);
+            }
+            let known = self.candidates.iter().find(|known| {
+                known.code == diagnostic.code
+                    && known.span == diagnostic.span
+                    && known.message == diagnostic.message
+            });
+            let repairs = known.map(|known| known.repairs.as_slice()).unwrap_or_default();
+            let mut fixes = repairs.iter().filter_map(|repair| writer.fix(repair));
+            if diagnostic.fix.is_none() {
+                let own = fixes.next();
+                diagnostic.fix =
+                    own.or_else(|| writer.leaving_out(diagnostic)).or_else(|| writer.only_one(diagnostic));
+            }
+            found.alternatives = fixes.collect();
+        }
+        findings
+    }
+
+    /// Searches calls that make the needs of a step hold, unless repairs are known for its span.
+    fn before(
+        &mut self,
+        prover: &mut Prover<'_>,
+        id: StepId,
+        def: &PrimitiveDef,
+        frame: CallFrame<'_>,
+        diagnostic: &Diagnostic,
+    ) {
+        let span = diagnostic.span;
+        let is_known = self.candidates.iter().any(|known| known.span == span);
+        if self.is_full() || prover.is_inlined(id) || is_known {
+            return;
+        }
+        let mut repairs = Vec::new();
+        if prover.is_done(def, frame) {
+            repairs.push(Repair::Drop(id));
+        }
+        repairs.extend(prover.unwatched(def, frame).map(|fluent| Repair::Watch(id, fluent)));
+        let plans = prover.plans(&def.needs, frame);
+        let subgoals = prover.first_refuted(&def.needs, frame);
+        let direct: Vec<_> = subgoals.into_iter().flat_map(|subgoal| prover.achievers(subgoal)).collect();
+        repairs.extend(plans.into_iter().map(|calls| Repair::Before(id, prover.by_binding(calls, span))));
+        // A call that is impossible here, for instance because the hand is full, may go before an earlier step.
+        for earlier in prover.siblings_before(id) {
+            let place = prover.program.step(earlier).map_or(span, |step| step.span);
+            for achiever in direct.iter().take(MAX_CANDIDATES) {
+                let calls = prover.by_binding(vec![achiever.call.clone()], place);
+                repairs.push(Repair::Before(earlier, calls));
+            }
+        }
+        self.add(diagnostic, repairs);
+    }
+
+    /// Searches calls that undo a fact in which a policy ends: an object in the hand, a container left open.
+    fn undo(&mut self, prover: &mut Prover<'_>, fact: Subgoal, end: PolicyEnd, diagnostic: &Diagnostic) {
+        let (fluent, key, truth) = fact;
+        let count = prover.library.fluent(fluent).map_or(0, |def| def.params.len());
+        let args = (0..count).map(|index| Some(Term::Entity(Entity(key.arg(index))))).collect();
+        let fact = Condition::Fact(Fact { fluent, args });
+        let goal = if truth { fact } else { Condition::Not(Box::new(fact)) };
+        self.at_end(prover, goal, end, diagnostic);
+    }
+
+    /// Searches calls that reach a goal where the policy is done.
+    fn at_end(&mut self, prover: &mut Prover<'_>, goal: Condition, end: PolicyEnd, diagnostic: &Diagnostic) {
+        let (PolicyEnd::Before(id) | PolicyEnd::After(id)) = end;
+        let Some(span) = prover.program.step(id).map(|step| step.span) else { return };
+        if self.is_full() || prover.is_inlined(id) {
+            return;
+        }
+        let need = NeedDef { condition: goal, each: None, when: None, span };
+        let plans = prover.plans(&[need], CallFrame::default());
+        let repairs = plans.into_iter().map(|calls| match end {
+            PolicyEnd::Before(_) => Repair::Before(id, prover.by_binding(calls, span)),
+            PolicyEnd::After(_) => {
+                Repair::After(id, prover.by_binding(calls, Span { start: span.end, ..span }))
+            }
+        });
+        let repairs = repairs.collect();
+        self.add(diagnostic, repairs);
+    }
+
+    /// Offers to leave out the step that is being proved.
+    fn leave_out(&mut self, prover: &Prover<'_>, diagnostic: &Diagnostic) {
+        let own = prover.control.here.filter(|id| !prover.is_inlined(*id));
+        self.add(diagnostic, own.map(Repair::Drop).into_iter().collect());
+    }
+
+    /// Offers to perceive a stale value again.
+    fn perceive_again(&mut self, prover: &Prover<'_>, id: StepId, bound: Span, diagnostic: &Diagnostic) {
+        let found = prover.program.steps.iter().position(|step| {
+            let StepKind::Call(call) = &step.kind else { return false };
+            let binding = call.binds.and_then(|id| prover.program.bindings.get(id.index()));
+            binding.is_some_and(|binding| binding.span == bound)
+        });
+        let Some(found) = found.and_then(|index| u32::try_from(index).ok()) else { return };
+        if !prover.is_inlined(id) {
+            let again = Repair::Again { found: StepId(found), before: id, used: diagnostic.span };
+            self.add(diagnostic, vec![again]);
+        }
+    }
+
+    fn is_full(&self) -> bool {
+        self.candidates.len() >= MAX_FINDINGS
+    }
+
+    fn add(&mut self, diagnostic: &Diagnostic, repairs: Vec<Repair>) {
+        if !self.is_full() {
+            let Diagnostic { code, span, message, .. } = diagnostic;
+            self.candidates.push(RepairCandidates {
+                code: *code,
+                span: *span,
+                message: message.clone(),
+                repairs,
+            });
+        }
+    }
+}
+
+impl Prover<'_> {
+    /// The steps before one in its block, the nearest first.
+    fn siblings_before(&self, id: StepId) -> Vec<StepId> {
+        let Some(place) = self.program.step(id).map(|step| step.position) else {
+            return Vec::new();
+        };
+        let before = self.program.steps.iter().enumerate().take(id.index()).rev();
+        let siblings = before
+            .filter(|(_, step)| step.position.parent == place.parent && step.position.slot == place.slot);
+        siblings.filter_map(|(index, _)| u32::try_from(index).ok().map(StepId)).take(MAX_EARLIER).collect()
+    }
+
+    /// The fluent that no monitor around a step watches, though the step needs one to; only one without parameters,
+    /// of which it is plain what there is to watch.
+    fn unwatched(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Option<Fluent> {
+        let refuted = def.needs.iter().find(|need| self.need(need, frame).0.no.is_some())?;
+        let Condition::MonitoredFluent(fluent) = &refuted.condition else { return None };
+        self.library.fluent(*fluent).filter(|def| def.params.is_empty()).map(|_| *fluent)
+    }
+
+    /// Whether a step belongs to a sub-policy, where the names of its caller mean nothing.
+    fn is_inlined(&self, id: StepId) -> bool {
+        self.program.around(id).any(|(_, step)| matches!(step.kind, StepKind::Inline { .. }))
+    }
+
+    /// Whether all that a step makes is so already.
+    fn is_done(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> bool {
+        let mut plain =
+            def.makes.iter().filter(|effect| effect.each.is_none() && effect.when.is_none()).peekable();
+        plain.peek().is_some()
+            && plain.all(|effect| {
+                let fact = Condition::Fact(effect.fact.clone());
+                let value = self.evaluate(&fact, frame);
+                if effect.value { value.is_true() } else { value.is_false() }
+            })
+    }
+
+    /// Entities by the bindings through which the document speaks of them, where there is one before `place`.
+    fn by_binding(&self, mut calls: Vec<CandidateCall>, place: Span) -> Vec<CandidateCall> {
+        for term in calls.iter_mut().flat_map(|call| &mut call.args) {
+            let Term::Entity(entity) = term else { continue };
+            let bound = self.program.bindings.iter().enumerate().rev().find(|(index, binding)| {
+                let is_before = binding.span.file == place.file && binding.span.start < place.start;
+                is_before && binding.name != "_" && self.symbols.of_binding(*index) == Some(*entity)
+            });
+            if let Some(id) = bound.and_then(|(index, _)| u32::try_from(index).ok()) {
+                *term = Term::Binding(BindingId(id));
+            }
+        }
+        calls
+    }
+}

@@ -1,0 +1,234 @@
+//! Motion feasibility: verdicts and witnesses in the graph, refusals with their explanation, and motions that are left to
+//! the run. Guards `src/feasibility/`.
+
+use std::sync::{Arc, LazyLock};
+
+use motet_compiler::{Geometry, Session};
+use motet_geometry::planning::SearchBudget;
+use motet_graph::{CallNode, Graph, NodeKind, Verdict};
+use motet_robots::builtin::{self, RobotWithBody};
+use motet_robots::card::Robot;
+use motet_robots::scene::{self, Placement, Scene};
+use motet_robots::urdf::Urdf;
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
+
+fn robot(name: &str) -> (Robot, Urdf) {
+    let RobotWithBody { robot, urdf } = builtin::robot(name).unwrap();
+    (robot, urdf)
+}
+
+fn kitchen() -> Scene {
+    builtin::scene("kitchen").unwrap()
+}
+
+fn session(scene: &Scene) -> Session {
+    let (robot, urdf) = robot("hsr");
+    let mut sources = Sources::default();
+    let session = Session::builder().robot(&robot).scene(scene).build(&mut sources);
+    let said = session.input_diagnostics().to_vec();
+    assert!(said.is_empty(), "{said:?}");
+    let geometry = Geometry::new(&robot, &urdf, scene, None, SearchBudget::default());
+    session.with_geometry(Arc::new(geometry))
+}
+
+static KITCHEN: LazyLock<Session> = LazyLock::new(|| session(&kitchen()));
+
+fn compile(session: &Session, policy: &str) -> (Option<Graph>, Vec<Diagnostic>) {
+    let compiled = session.compile(&motet_syntax::read(&Source::new("policy", policy), FileId(99)), None);
+    (compiled.graph, compiled.diagnostics)
+}
+
+fn errors(said: &[Diagnostic]) -> Vec<String> {
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    errors.map(|said| format!("{} {}", said.code, said.message)).collect()
+}
+
+/// The motions of a policy that is right: each with its verdict, and why it is deferred.
+fn motions(session: &Session, policy: &str) -> Vec<(String, Verdict, String)> {
+    let (graph, said) = compile(session, policy);
+    assert!(errors(&said).is_empty(), "{:?}", errors(&said));
+    let graph = graph.unwrap();
+    motet_graph::validate(&graph).unwrap();
+    assert_eq!(motet_graph::decode(&motet_graph::encode(&graph)).unwrap(), graph);
+    let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+        NodeKind::Call(CallNode { motion: Some(motion), .. }) => Some(motion),
+        _ => None,
+    });
+    calls
+        .map(|motion| {
+            let why = motion.why.clone().unwrap_or_default().to_string();
+            (motion.query.to_string(), motion.verdict, why)
+        })
+        .collect()
+}
+
+/// The one error of a policy, and what it points at.
+fn refusal(session: &Session, policy: &str) -> (String, Vec<String>) {
+    let (graph, said) = compile(session, policy);
+    assert!(graph.is_none());
+    let errors: Vec<_> = said.iter().filter(|said| said.severity == Severity::Error).collect();
+    let [only] = errors.as_slice() else { panic!("{errors:?}") };
+    (format!("{} {}", only.code, only.message), only.related.iter().map(|it| it.message.clone()).collect())
+}
+
+#[test]
+fn fetching_is_feasible_step_by_step() {
+    let found = motions(
+        &KITCHEN,
+        "policy fetch for hsr { go(kitchen_table) pick(mug_1) go(user) handover(mug_1, user) }",
+    );
+    for (query, verdict, why) in &found {
+        assert_eq!(*verdict, Verdict::Proven, "{query}: {why}");
+    }
+    assert_eq!(found.len(), 4);
+}
+
+#[test]
+fn two_legs_that_are_feasible_alone_and_not_one_after_the_other_are_found() {
+    // The mug is put where the robot was to put nothing else: on a stand that has room for one thing only.
+    let mut scene = kitchen();
+    let mut stand = scene.entities["shelf"].clone();
+    stand.id = "stand".into();
+    stand.pose = Some(Placement { xyz: [-0.9, 0.9, 0.35], rpy: [0.0; 3] });
+    stand.shape = Some(scene::EntityShape::Box([0.1, 0.1, 0.7]));
+    scene.entities.insert("stand".into(), stand);
+    let session = session(&scene);
+    let bring =
+        |thing: &str| format!("go({thing}) inspect({thing}) pick({thing}) go(stand) place({thing}, stand)");
+    for thing in ["mug_1", "glass_1"] {
+        let found = motions(&session, &format!("policy bring for hsr {{ {} }}", bring(thing)));
+        assert!(found.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{found:?}");
+    }
+    let both = format!("policy bring for hsr {{ {} {} }}", bring("mug_1"), bring("glass_1"));
+    let (said, since) = refusal(&session, &both);
+    assert!(said.starts_with("M0602 `place` cannot perform `put(glass_1, stand)`: "), "{said}");
+    assert!(said.contains("`mug_1` is in the way"), "{said}");
+    assert!(said.contains("`mug_1` is as `place(mug_1, stand)` left it"), "{said}");
+    assert_eq!(since.first().map(String::as_str), Some("changed here"), "{since:?}");
+}
+
+#[test]
+fn what_only_the_run_can_tell_is_left_to_it() {
+    let found = motions(
+        &KITCHEN,
+        r#"policy tidy for hsr { go(kitchen_table) let cups = detect_all("cup") each cup in cups at most 2 { go(cup) } }"#,
+    );
+    assert_eq!(found[0].1, Verdict::Proven, "{found:?}");
+    let (_, verdict, why) = found.last().unwrap();
+    assert_eq!(*verdict, Verdict::Deferred);
+    assert_eq!(why, "which thing `cup` is, only the run can tell");
+}
+
+#[test]
+fn without_geometry_every_motion_is_deferred() {
+    let (robot, _) = robot("hsr");
+    let scene = kitchen();
+    let session = Session::builder().robot(&robot).scene(&scene).build(&mut Sources::default());
+    let found = motions(&session, "policy come for hsr { go(sink) }");
+    assert_eq!(found, [("go_to".to_owned(), Verdict::Deferred, String::new())]);
+}
+
+/// The kitchen with walls around the sink, higher than the robot.
+fn walled() -> Scene {
+    let mut scene = kitchen();
+    let walls = [(2.1, -0.9, 2.4, 0.1), (2.1, -3.3, 2.4, 0.1), (0.9, -2.1, 0.1, 2.5), (3.3, -2.1, 0.1, 2.5)];
+    for ((x, y, along, across), at) in walls.into_iter().zip(0..) {
+        let mut wall = scene.entities["shelf"].clone();
+        wall.id = format!("wall_{at}").into();
+        wall.pose = Some(Placement { xyz: [x, y, 1.0], rpy: [0.0; 3] });
+        wall.shape = Some(scene::EntityShape::Box([along, across, 2.0]));
+        scene.entities.insert(wall.id.clone(), wall);
+    }
+    scene
+}
+
+#[test]
+fn a_way_that_is_blocked_is_refused_with_its_story() {
+    let (said, since) = refusal(&session(&walled()), "policy wash for hsr { go(user) go(sink) }");
+    assert!(said.starts_with("M060"), "{said}");
+    assert!(said.contains("the robot stands where `go(user)` brought it"), "{said}");
+    assert_eq!(since, ["the robot came here"]);
+}
+
+#[test]
+fn an_infeasible_motion_that_is_never_reached_is_no_error() {
+    let found =
+        motions(&session(&walled()), "policy wash for hsr { go(user) if open(drawer_1) { go(sink) } }");
+    assert_eq!(found[0].1, Verdict::Proven);
+    // In the scene the drawer is closed.
+    assert_eq!(found.len(), 1, "{found:?}");
+}
+
+#[test]
+fn a_loop_comes_to_an_end() {
+    let found = motions(&KITCHEN, "policy pace for hsr { repeat 3 { go(user) go(sink) } }");
+    assert_eq!(found.len(), 2);
+}
+
+#[test]
+fn after_a_failure_it_is_not_known_where_the_robot_stopped() {
+    let found = motions(&KITCHEN, "policy come for hsr { try { go(sink) } catch any { go(user) } }");
+    assert_eq!(found[0].1, Verdict::Proven);
+    assert_eq!((found[1].1, found[1].2.as_str()), (Verdict::Deferred, "where `go` stopped is not known"));
+}
+
+#[test]
+fn what_follows_an_open_drawer_is_answered_with_it_open() {
+    let found = motions(
+        &KITCHEN,
+        "policy look for hsr { go(drawer_1) open(drawer_1) go(kitchen_table) go(drawer_1) close(drawer_1) go(sink) }",
+    );
+    let told: Vec<_> =
+        found.iter().map(|(query, verdict, why)| format!("{query}: {verdict:?} {why}")).collect();
+    assert_eq!(found.len(), 6);
+    assert!(found.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{told:#?}");
+}
+
+#[test]
+fn what_stands_before_a_drawer_is_named() {
+    let mut scene = kitchen();
+    let mut chair = scene.entities["trash"].clone();
+    chair.id = "chair".into();
+    chair.pose = Some(Placement { xyz: [2.95, -1.7, 0.4], rpy: [0.0; 3] });
+    chair.shape = Some(scene::EntityShape::Cylinder { radius: 0.1, height: 0.8 });
+    scene.entities.insert(chair.id.clone(), chair);
+    let (said, _) =
+        refusal(&session(&scene), "policy look for hsr { go(drawer_1) open(drawer_1) close(drawer_1) }");
+    assert!(
+        said.starts_with("M0603 `open` cannot perform `pull(drawer_1)`: `chair` blocks the way"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
+    let mut scene = kitchen();
+    let mut screen = scene.entities["shelf"].clone();
+    screen.id = "screen".into();
+    screen.pose = Some(Placement { xyz: [1.7, 0.3, 1.2], rpy: [0.0; 3] });
+    screen.shape = Some(scene::EntityShape::Box([0.05, 1.4, 1.0]));
+    scene.entities.insert(screen.id.clone(), screen);
+    let (graph, said) = compile(&session(&scene), "policy see for hsr { go(kitchen_table) inspect(mug_1) }");
+    assert!(graph.is_some(), "{:?}", errors(&said));
+    let warned: Vec<_> = said.iter().filter(|it| it.code.to_string().starts_with("M06")).collect();
+    for it in &warned {
+        assert_eq!(it.severity, Severity::Warning);
+        assert!(it.help.as_ref().is_some_and(|help| help.contains("that is not proven")), "{it:?}");
+    }
+}
+
+#[test]
+fn what_is_reached_is_reachable() {
+    let (graph, said) =
+        compile(&KITCHEN, "policy take for hsr achieves holding(mug_1) { go(kitchen_table) pick(mug_1) }");
+    assert!(errors(&said).is_empty(), "{:?}", errors(&said));
+    let graph = graph.unwrap();
+    let pick = graph.nodes.iter().find_map(|node| match &node.kind {
+        NodeKind::Call(call) if call.needs.len() > 4 => Some(call),
+        _ => None,
+    });
+    let fluent = graph.fluents.iter().position(|fluent| fluent.name == "reachable").unwrap();
+    let is_it = |need: &&motet_graph::Need| matches!(&need.condition, motet_graph::Condition::Fact(fact) if fact.fluent.index() == fluent);
+    let need = pick.unwrap().needs.iter().find(is_it).unwrap();
+    assert_eq!(need.verdict, Verdict::Proven);
+}

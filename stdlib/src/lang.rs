@@ -1,0 +1,92 @@
+//! Language items: the names of the standard library that Rust code may know.
+//!
+//! Every other name is data. The compiler looks these up once, and a test of it checks that `motet/*.motet` declares
+//! each of them.
+
+macro_rules! names {
+    ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(
+        $(#[$doc])*
+        pub mod $module {
+            $(
+                #[doc = concat!("The name `", $name, "`.")]
+                pub const $constant: &str = $name;
+            )*
+            /// All names of this sort.
+            pub const ALL: &[&str] = &[$($name),*];
+        }
+    )*};
+}
+
+names! {
+    /// Kinds of entities; `Entity` is the root.
+    kinds {
+        ENTITY = "Entity"
+        PLACE = "Place"
+        SURFACE = "Surface"
+        CONTAINER = "Container"
+        OBJECT = "Object"
+        PERSON = "Person"
+    }
+    /// Enumerations of the standard library.
+    enums {
+        APPROACH = "Approach"
+    }
+    /// Enumerations whose cases come from the robot's card.
+    card_enums {
+        HAND = "Hand"
+        CAMERA = "Camera"
+        RESOURCE = "Resource"
+    }
+    /// Cases of [`enums::APPROACH`] that restrict the side of a grasp.
+    approaches {
+        TOP = "top"
+        SIDE = "side"
+        FRONT = "front"
+    }
+    /// Entities that every environment has.
+    entities {
+        ROBOT = "robot"
+        USER = "user"
+        START = "start"
+    }
+    /// Fields of objects that a scene gives.
+    fields {
+        MASS = "mass"
+        WIDTH = "width"
+    }
+    /// Fluents with a meaning for scenes, geometry, lints or guards.
+    fluents {
+        AT = "at"
+        CLEAR = "clear"
+        FREE = "free"
+        HOLDING = "holding"
+        IN = "in"
+        LIFTED = "lifted"
+        LOCATED = "located"
+        LOCKED = "locked"
+        NEAR = "near"
+        ON = "on"
+        OPEN = "open"
+        REACHABLE = "reachable"
+        VISIBLE = "visible"
+        VISITED = "visited"
+    }
+    /// Measures with a meaning for lints.
+    measures {
+        DISTANCE = "distance"
+    }
+    /// Failures that the compiler derives from guards, geometry and control flow.
+    failures {
+        BLOCKED = "blocked"
+        EXHAUSTED = "exhausted"
+        FAILED = "failed"
+        NOT_FOUND = "not_found"
+        TOO_HEAVY = "too_heavy"
+        UNREACHABLE = "unreachable"
+        UNSAFE = "unsafe"
+    }
+    /// Failures that exist without a declaration.
+    builtin_failures {
+        TIMEOUT = "timeout"
+    }
+}
