@@ -5,13 +5,11 @@
 
 #[cfg(feature = "arbitrary")]
 pub mod arbitrary;
-mod display;
 pub mod draw;
 pub mod encode;
-mod fit;
 pub mod model;
 pub mod validate;
 
-pub use encode::{DecodeError, decode, encode, hash};
+pub use encode::{DecodeError, GraphDocument, decode, encode, hash};
 pub use model::*;
 pub use validate::{InvalidGraph, InvalidReason, validate};

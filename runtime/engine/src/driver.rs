@@ -1,9 +1,12 @@
 //! The driver: what moves the robot, or pretends to.
 
 use crate::effect::{Command, Effect};
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -131,7 +134,8 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
 }
 
 /// What a driver can do beside starting and ending goals.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Capabilities {
     /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again after it.
     pub hold: PrimitiveSet,
@@ -147,7 +151,8 @@ impl Default for Capabilities {
 }
 
 /// A choice of primitives.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum PrimitiveSet {
     /// Every one.
     All,

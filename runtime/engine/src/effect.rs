@@ -1,18 +1,22 @@
 //! What the engine wants done: its only way to act on the world.
 
-use crate::event::GoalId;
+use crate::ids::CheckId;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use crate::trace::TraceEvent;
-use crate::verifier::{CheckId, DeferredMotion};
+use crate::verifier::DeferredMotion;
 use motet_graph::{NodeId, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
 
 /// One thing that the engine wants done. The effects of one event go out together, in order. The order of commands to a
 /// driver is the order in which they take effect.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Effect {
     /// Start a primitive.
     Start {
@@ -77,6 +81,8 @@ pub enum Effect {
     },
     /// Say whether a motion has a solution, by [`crate::Event::Verified`]. Asked just before its step starts, and only where
     /// [`crate::EngineSettings::verify_within`] says that somebody will answer.
+    #[serde(with = "verification")]
+    #[schemars(with = "verification::Verify")]
     Verify {
         /// The question.
         check: CheckId,
@@ -91,8 +97,43 @@ pub enum Effect {
     Finished(Box<RunEnd>),
 }
 
+/// JSON form of [`Effect::Verify`]: the motion is written flat.
+mod verification {
+    use super::{Arc, CheckId, Command, DeferredMotion, NodeId, SmolStr, Value};
+    use schemars::JsonSchema;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize, JsonSchema)]
+    #[serde(deny_unknown_fields)]
+    pub(super) struct Verify {
+        check: CheckId,
+        node: NodeId,
+        query: SmolStr,
+        args: Vec<Value>,
+        command: Arc<Command>,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        check: &CheckId,
+        node: &NodeId,
+        motion: &Arc<DeferredMotion>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let DeferredMotion { query, args, command } = DeferredMotion::clone(motion);
+        Verify { check: *check, node: *node, query, args, command }.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<(CheckId, NodeId, Arc<DeferredMotion>), D::Error> {
+        let Verify { check, node, query, args, command } = Verify::deserialize(deserializer)?;
+        Ok((check, node, Arc::new(DeferredMotion { query, args, command })))
+    }
+}
+
 /// A primitive with its arguments.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Command {
     /// The primitive's name.
     pub primitive: SmolStr,
@@ -113,11 +154,13 @@ impl Command {
 }
 
 /// How a run ended.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RunEnd {
     /// The policy reached `done`, or its end.
     Done {
         /// What `done` said.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
     /// The policy failed: by `fail`, or by a failure that nothing caught.
@@ -125,6 +168,7 @@ pub enum RunEnd {
         /// The failure kind; `failed` for `fail`.
         kind: SmolStr,
         /// What `fail` said.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
         /// The step in which it arose.
         node: NodeId,
@@ -132,6 +176,7 @@ pub enum RunEnd {
     /// The policy asks for a new policy.
     Replan {
         /// What for.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         why: Option<String>,
     },
     /// A person stopped it.
@@ -141,7 +186,8 @@ pub enum RunEnd {
 }
 
 /// Why the engine could not go on. Every live goal was told to stop safely before.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Fault {
     /// More transitions at one instant than the budget allows.
     StepBudget {
@@ -153,6 +199,7 @@ pub enum Fault {
         /// The step whose goal is still live.
         node: NodeId,
         /// The number of the graph that the step belongs to.
+        #[serde(default)]
         revision: u32,
     },
     /// The run is not over, and neither the engine nor its driver has anything left to wait for.

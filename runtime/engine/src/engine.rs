@@ -3,6 +3,7 @@
 use crate::driver::Capabilities;
 use crate::effect::Effect;
 use crate::event::Event;
+use crate::ids::CheckId;
 use crate::prepared_graph::PreparedGraph;
 use crate::query::Pattern;
 use crate::settings::EngineSettings;
@@ -12,7 +13,7 @@ use crate::state::Run;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::turn::Turn;
-use crate::verifier::{CheckId, DeferredMotion};
+use crate::verifier::DeferredMotion;
 use motet_graph::{BindingId, FailureId, Graph, InvalidGraph, InvalidReason, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;

@@ -1,38 +1,17 @@
 //! What happens: everything that the engine learns, it learns from one of these.
 
+use crate::ids::{CheckId, GoalId};
 use crate::query::{Answer, Query};
-use crate::verifier::{CheckId, Verification};
+use crate::verifier::Verification;
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 
-/// One start of a primitive. The engine chooses it; it is never used twice in a run, also not by a retry.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct GoalId(pub(crate) u64);
-
-impl GoalId {
-    /// As a number, for a wire or a log.
-    #[must_use]
-    pub const fn number(self) -> u64 {
-        self.0
-    }
-
-    /// From its number. One that names no live goal is harmless: events about it are ignored.
-    #[must_use]
-    pub const fn from_number(number: u64) -> Self {
-        Self(number)
-    }
-}
-
-impl fmt::Display for GoalId {
-    /// The running number of the start, from 1.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "#{}", self.0 >> crate::goal_table::SLOT_BITS)
-    }
-}
-
 /// What the engine takes in.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
     /// The run begins. Events before it are ignored, and so is a second one.
     Begin,
@@ -52,7 +31,8 @@ pub enum Event {
 }
 
 /// What a driver reports. Events about a goal that is not live are ignored.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum DriverEvent {
     /// The goal was accepted and runs.
     Acknowledged {
@@ -127,7 +107,8 @@ impl DriverEvent {
 }
 
 /// How a goal ended.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Outcome {
     /// It did what it was for; with its result where its primitive has one.
     Success(Option<Value>),

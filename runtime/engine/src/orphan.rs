@@ -1,7 +1,7 @@
 //! Goals that the present graph has no step for: a policy that was replaced started them, and they have not ended.
 
 use crate::effect::Command;
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::prepared_graph::PreparedGraph;
 use crate::state::{GoalIntent, Phase};
 use crate::time::Time;

@@ -1,7 +1,7 @@
 //! A graph made ready to be stepped: what can be worked out once is worked out here.
 
 use crate::effect::Command;
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::time::Time;
 use motet_graph::{
     CallNode, Ending, FailureId, Graph, Node, NodeId, NodeKind, Primitive, ROOT, Reaction, Region, RegionId,
@@ -181,8 +181,8 @@ impl PreparedGraph {
     ) -> Option<Command> {
         let primitive = self.graph.primitives.get(call.primitive.index())?;
         let mut named = Vec::with_capacity(primitive.params.len());
-        for ((name, _), arg) in primitive.params.iter().zip(args) {
-            named.push((name.clone(), arg?));
+        for (param, arg) in primitive.params.iter().zip(args) {
+            named.push((param.name.clone(), arg?));
         }
         Some(Command {
             primitive: primitive.name.clone(),

@@ -1,11 +1,14 @@
 //! What can be observed: ground questions about the world, and their answers.
 
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 
 /// A question about the world with all names resolved. Two equal queries are the same question.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
     /// Whether a fluent holds. The answer is an [`Answer::Truth`].
     Fact {
@@ -31,7 +34,8 @@ pub enum Query {
 }
 
 /// An argument of a fluent in a query.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Pattern {
     /// This value.
     Is(Value),
@@ -40,7 +44,8 @@ pub enum Pattern {
 }
 
 /// The answer to a query.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Answer {
     /// It cannot be told now: nothing in view, no reading.
     Unknown,

@@ -1,9 +1,12 @@
 //! Numbers that a host may choose.
 
 use crate::time::Time;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// How patient the engine is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct EngineSettings {
     /// How long a cancel may go unanswered before the engine asks for a safe stop.
     pub cancel_within: Time,
@@ -13,6 +16,7 @@ pub struct EngineSettings {
     pub unknown_for: Time,
     /// How long a motion that the compiler deferred may go without a verdict before its step starts all the same. Nothing
     /// where nobody is there to ask: such motions are left to the driver.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verify_within: Option<Time>,
     /// The most transitions at one instant.
     pub step_budget: u32,

@@ -2,16 +2,17 @@
 
 use crate::belief::{Beliefs, CellId};
 use crate::effect::{Command, RunEnd};
-use crate::event::GoalId;
 use crate::flat_table::Table;
 use crate::goal_table::GoalTable;
+use crate::ids::CheckId;
+use crate::ids::GoalId;
 use crate::orphan::OrphanGoal;
 use crate::prepared_graph::PreparedGraph;
 use crate::time::Time;
 use crate::timers::Timers;
 use crate::trace::{EndCause, NodeEnding};
 use crate::truth::Truth;
-use crate::verifier::{CheckId, DeferredMotion, Verification};
+use crate::verifier::{DeferredMotion, Verification};
 use crate::work_list::WorkList;
 use motet_graph::{NodeId, RegionId, Value};
 use smol_str::SmolStr;

@@ -289,7 +289,7 @@ impl Run {
 
 /// The ground facts that a graph was proved from.
 fn told(graph: &Graph) -> Vec<InitialFact> {
-    let told = graph.initial.iter().filter_map(|(fact, value)| {
+    let told = graph.initial.iter().filter_map(|motet_graph::InitialFact { fact, value }| {
         let args = fact.args.iter().map(|arg| match arg {
             FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
             FactArg::Any => Some(Pattern::Any),

@@ -1,10 +1,15 @@
 //! Points in time. The engine reads no clock: every event carries its time, and a simulator's time is as good as any.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A point in time in whole nanoseconds since the run's origin, or a span of it. Integers, so that sums are exact and a
 /// replay meets the same instants.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+#[derive(
+    Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(transparent)]
 pub struct Time(u64);
 
 /// Nanoseconds in a second.

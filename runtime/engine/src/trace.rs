@@ -1,13 +1,16 @@
 //! What a trace is made of: small records of what happened, in the order in which it did.
 
-use crate::event::GoalId;
+use crate::ids::GoalId;
 use crate::time::Time;
 use crate::truth::Truth;
 use crate::verifier::Verification;
 use motet_graph::{BindingId, FailureId, NodeId, Value};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Something that happened in a run.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct TraceEvent {
     /// When.
     pub at: Time,
@@ -18,7 +21,8 @@ pub struct TraceEvent {
 }
 
 /// What happened.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TraceEventKind {
     /// A step was entered.
     Entered {
@@ -122,7 +126,8 @@ pub enum TraceEventKind {
 }
 
 /// How a step or a goal ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum NodeEnding {
     /// It did what it was for.
     Success,
@@ -133,7 +138,8 @@ pub enum NodeEnding {
 }
 
 /// Why something ended.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum EndCause {
     /// It ran to its end.
     Completed,

@@ -6,36 +6,15 @@
 
 use crate::effect::{Command, Effect};
 use crate::event::Event;
+use crate::ids::CheckId;
 use crate::query::Query;
 use crate::truth::Truth;
 use motet_graph::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::fmt;
 use std::sync::Arc;
-
-/// One question to a verifier. The engine chooses it; it is never used twice in a run.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct CheckId(pub(crate) u64);
-
-impl CheckId {
-    /// As a number, for a wire or a log.
-    #[must_use]
-    pub const fn number(self) -> u64 {
-        self.0
-    }
-
-    /// From its number. A verdict on a check that nobody waits for is ignored.
-    #[must_use]
-    pub const fn from_number(number: u64) -> Self {
-        Self(number)
-    }
-}
-
-impl fmt::Display for CheckId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "?{}", self.0)
-    }
-}
 
 /// A motion that was left to the run.
 #[derive(Clone, PartialEq, Debug)]
@@ -60,7 +39,8 @@ impl fmt::Display for DeferredMotion {
 }
 
 /// The verdict on a motion.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Verification {
     /// It has a solution.
     Feasible,

@@ -30,7 +30,7 @@ impl Scribe for Journal {
         from: Time,
     ) -> RunEnd {
         let Self { recorder, head } = *self;
-        let head = JournalHead { from: from.nanos(), ..head };
+        let head = JournalHead { from, ..head };
         let writer = match JournalWriter::create(&recorder.run(), head) {
             Ok(writer) => writer,
             Err(error) => {

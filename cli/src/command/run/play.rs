@@ -83,9 +83,9 @@ pub(super) fn journal(
 pub(in crate::command) fn head(engine: &Engine, start: &StartState) -> JournalHead {
     JournalHead {
         began_unix_ns: unix_ns(),
-        start: start.into(),
-        settings: (*engine.settings()).into(),
-        capabilities: engine.capabilities().into(),
+        start: start.clone(),
+        settings: *engine.settings(),
+        capabilities: engine.capabilities().clone(),
         ..JournalHead::new(engine.graph())
     }
 }

@@ -8,7 +8,7 @@ use motet_planner::guard::{Guard, Verifies};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, Event, Time, Verifier as _, wire};
+use motet_runtime::{Driver, Event, Time, Verifier as _};
 
 use super::drive;
 use super::pace::Pace;
@@ -67,13 +67,13 @@ pub(super) fn resume(folder: &Path, args: &RunArgs, colors: Colors) -> Result<Ex
         }
         if let Some(guard) = &mut guard {
             if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
-                guard.event(&event.clone().into());
+                guard.event(event);
             }
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }
         ledger.take(entry);
         pace.past(replay.now(), replay.effects());
-        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(wire::Event::Begin));
+        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(Event::Begin));
     }
     if ledger.is_over {
         note("the run is over, nothing is left to do");
@@ -118,7 +118,7 @@ fn now(head: &JournalHead, saved: &Saved, last: Time) -> Time {
         Saved::Simulator(_) => last,
         Saved::Process { .. } => {
             let passed = play::unix_ns().saturating_sub(head.began_unix_ns);
-            Time::from_nanos(head.from).after(Time::from_nanos(passed)).max(last)
+            head.from.after(Time::from_nanos(passed)).max(last)
         }
     }
 }

@@ -73,7 +73,7 @@ impl Choices {
             initial_facts: graph
                 .initial
                 .iter()
-                .filter_map(|(fact, value)| Some((told(graph, fact)?, *value)))
+                .filter_map(|initial| Some((told(graph, &initial.fact)?, initial.value)))
                 .collect(),
             // Nobody looks at pictures of it.
             eye: None,

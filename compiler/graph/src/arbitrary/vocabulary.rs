@@ -2,8 +2,8 @@
 
 use crate::model::{
     Binding, CallEffect, Comparison, Condition, DurationBounds, Fact, FactArg, FailureId, Fluent, FluentId,
-    Graph, Kind, KindId, Measure, MeasureId, Need, Primitive, PrimitiveId, Resource, ResourceId, Term, Type,
-    Unsettled, Value, Verdict,
+    Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param, Primitive, PrimitiveId, Resource,
+    ResourceId, Term, Type, Unsettled, Value, Verdict,
 };
 use smol_str::SmolStr;
 
@@ -62,7 +62,7 @@ pub fn declarations() -> Graph {
                      fails: &[u32]| {
         Primitive {
             name: name(text),
-            params: params.into_iter().map(|(param, ty)| (name(param), ty)).collect(),
+            params: params.into_iter().map(|(param, ty)| Param { name: name(param), ty }).collect(),
             result,
             perceives,
             uses: uses.iter().map(|id| ResourceId(*id)).collect(),
@@ -113,7 +113,7 @@ pub fn declarations() -> Graph {
         bindings: Vec::<Binding>::new(),
         nodes: Vec::new(),
         regions: Vec::new(),
-        initial: vec![(Fact { fluent: HOLDING, args: vec![FactArg::Any] }, false)],
+        initial: vec![InitialFact { fact: Fact { fluent: HOLDING, args: vec![FactArg::Any] }, value: false }],
         observe_within_secs: 0.5,
         duration: DurationBounds::default(),
     }

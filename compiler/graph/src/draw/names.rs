@@ -70,7 +70,7 @@ impl<'a> Names<'a> {
     /// An argument of a call, a quantity with its unit.
     fn argument(&self, call: &CallNode, index: usize, arg: &Term) -> String {
         let primitive = self.0.primitives.get(call.primitive.index());
-        let ty = primitive.and_then(|primitive| primitive.params.get(index)).map(|(_, ty)| ty);
+        let ty = primitive.and_then(|primitive| primitive.params.get(index)).map(|param| &param.ty);
         quantity::literal(arg, ty).unwrap_or_else(|| self.term(arg))
     }
 
@@ -83,7 +83,7 @@ impl<'a> Names<'a> {
         let primitive = self.0.primitives.get(call.primitive.index());
         let args = call.args.iter().enumerate().map(|(index, arg)| {
             let name =
-                primitive.and_then(|primitive| primitive.params.get(index)).map(|(name, _)| name.as_str());
+                primitive.and_then(|primitive| primitive.params.get(index)).map(|param| param.name.as_str());
             format!("{}: {}", name.unwrap_or(NOBODY), self.argument(call, index, arg))
         });
         let args = args.collect::<Vec<_>>().join(", ");

@@ -82,7 +82,7 @@ impl Types<'_> {
             self.say(InvalidReason::NoSuch { what: "primitive", id: call.primitive.0 });
             return;
         };
-        let params = primitive.params.iter().map(|(_, ty)| ty);
+        let params = primitive.params.iter().map(|param| &param.ty);
         self.args(&primitive.name, params, call.args.iter(), 0);
         match (call.binds, &primitive.result) {
             (None, None) => {}

@@ -2,6 +2,7 @@
 
 use super::entities::Entities;
 use crate::query::{Answer, Pattern, Query};
+use crate::snapshot::Reading;
 use crate::time::Time;
 use motet_graph::{FluentId, Graph, Value};
 use rustc_hash::{FxHashMap, FxHasher};
@@ -128,10 +129,10 @@ impl Beliefs {
     }
 
     /// The last readings of measures and fields.
-    pub(crate) fn readings(&self) -> impl Iterator<Item = (Query, Value, Time)> + '_ {
+    pub(crate) fn readings(&self) -> impl Iterator<Item = Reading> + '_ {
         self.cells.iter().filter_map(|cell| match (&*cell.query, &cell.answer) {
             (Query::Measure { .. } | Query::Field { .. }, Answer::Value(value)) => {
-                Some(((*cell.query).clone(), value.clone(), cell.at))
+                Some(Reading { query: (*cell.query).clone(), value: value.clone(), at: cell.at })
             }
             (Query::Fact { .. } | Query::Measure { .. } | Query::Field { .. }, _) => None,
         })

@@ -3,7 +3,8 @@
 use super::law::{Law, LawViolation};
 use crate::driver::Driver;
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::time::Time;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,7 +42,7 @@ impl DriverBench {
 
     /// A goal that was never started.
     pub(super) fn unheard_of(&mut self) -> GoalId {
-        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::goal_table::SLOT_BITS);
+        let goal = GoalId::from_number((self.goals.len() as u64 + 1) << crate::ids::SLOT_BITS);
         self.goals.insert(goal, GoalLog::default());
         goal
     }

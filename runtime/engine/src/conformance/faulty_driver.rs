@@ -2,7 +2,8 @@
 
 use crate::driver::{Capabilities, Driver};
 use crate::effect::Command;
-use crate::event::{DriverEvent, GoalId};
+use crate::event::DriverEvent;
+use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
 use smol_str::SmolStr;

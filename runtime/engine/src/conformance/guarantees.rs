@@ -1,7 +1,8 @@
 //! What an engine promises, whatever its driver does.
 
 use crate::effect::Effect;
-use crate::event::{DriverEvent, Event, GoalId};
+use crate::event::{DriverEvent, Event};
+use crate::ids::GoalId;
 use crate::run_loop::{Observer, RunControl};
 use crate::time::Time;
 use motet_graph::Graph;

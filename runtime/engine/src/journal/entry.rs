@@ -1,6 +1,12 @@
 //! What stands in a line.
 
-use crate::wire::{Capabilities, Document, Effect, Event, Settings, StartState};
+use crate::driver::Capabilities;
+use crate::effect::Effect;
+use crate::event::Event;
+use crate::settings::EngineSettings;
+use crate::start::StartState;
+use crate::time::Time;
+use motet_graph::GraphDocument;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,16 +37,16 @@ pub struct JournalHead {
     /// When the run began by the host's clock, in ns since 1970; for people and tools, the engine does not know it.
     pub began_unix_ns: u64,
     /// The engine's time then.
-    pub from: u64,
+    pub from: Time,
     /// What a person asked for, in their words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instruction: Option<String>,
     /// The graph.
-    pub graph: Document,
+    pub graph: GraphDocument,
     /// What was known.
     pub start: StartState,
     /// How patient the engine is.
-    pub settings: Settings,
+    pub settings: EngineSettings,
     /// What the driver can do.
     pub capabilities: Capabilities,
     /// What the host needs to come to the same driver again; its own affair.
@@ -52,7 +58,7 @@ pub struct JournalHead {
 #[serde(deny_unknown_fields)]
 pub struct StepEntry {
     /// The engine's time.
-    pub at: u64,
+    pub at: Time,
     /// What it took in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<Event>,
@@ -65,9 +71,9 @@ pub struct StepEntry {
 #[serde(deny_unknown_fields)]
 pub struct SwapEntry {
     /// The engine's time.
-    pub at: u64,
+    pub at: Time,
     /// The new graph.
-    pub graph: Document,
+    pub graph: GraphDocument,
     /// What the engine gave out.
     pub effects: Vec<Effect>,
 }
@@ -85,7 +91,7 @@ pub struct ResumeEntry {
 impl JournalEntry {
     /// The engine's time, and what it gave out; none where it took no part.
     #[must_use]
-    pub fn happened(&self) -> Option<(u64, &[Effect])> {
+    pub fn happened(&self) -> Option<(Time, &[Effect])> {
         match self {
             Self::Head(head) => Some((head.from, &[])),
             Self::Step(step) | Self::GaveUp(step) => Some((step.at, &step.effects)),
@@ -102,14 +108,14 @@ impl JournalHead {
     pub fn new(graph: &motet_graph::Graph) -> Self {
         Self {
             motet_journal: super::VERSION,
-            wire: crate::wire::VERSION,
+            wire: super::WIRE_VERSION,
             began_unix_ns: 0,
-            from: 0,
+            from: Time::ZERO,
             instruction: None,
             graph: motet_graph::encode::document(graph),
             start: StartState::default(),
-            settings: crate::EngineSettings::default().into(),
-            capabilities: (&crate::Capabilities::default()).into(),
+            settings: EngineSettings::default(),
+            capabilities: Capabilities::default(),
             driver: serde_json::Value::Null,
         }
     }

@@ -45,7 +45,7 @@ pub enum LineError {
 
 /// A line with its checksum, without the line feed.
 pub(super) fn encode(body: &Body) -> String {
-    let json = crate::wire::json(body);
+    let json = crate::json::to_json(body);
     let mut line = String::with_capacity(json.len() + CRC_DIGITS + 2);
     // Writing to a string does not fail.
     let _ = write!(line, "{:08x} ", crc::of(json.as_bytes()));

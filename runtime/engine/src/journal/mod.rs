@@ -28,8 +28,10 @@ pub use read::{DamageKind, JournalDamage, JournalReader, SegmentEnd, SegmentPosi
 
 use crate::effect::Effect;
 
-/// The version of the lines and entries.
+/// Version of the lines and entries.
 pub const VERSION: u32 = 1;
+/// Version of the JSON of events, effects, start states and settings.
+pub const WIRE_VERSION: u32 = 1;
 /// The longest line in bytes: a graph of the largest size, and room for what stands around it.
 pub const MAX_LINE_BYTES: usize = 72 * 1024 * 1024;
 /// How large a segment grows before the next one begins, in bytes. A line is never divided.

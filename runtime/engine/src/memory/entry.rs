@@ -1,6 +1,7 @@
 //! One thing that is remembered.
 
-use crate::wire::{Cause, Value};
+use crate::trace::EndCause;
+use motet_graph::Value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -44,7 +45,7 @@ pub enum MemoryEvent {
         /// The failure kind.
         kind: String,
         /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// A person was asked.
     Question {
@@ -78,10 +79,10 @@ pub enum StepEnd {
         /// The failure kind.
         kind: String,
         /// Why.
-        cause: Cause,
+        cause: EndCause,
     },
     /// It was interrupted.
-    Interrupted(Cause),
+    Interrupted(EndCause),
 }
 
 /// A step that runs now.
@@ -118,7 +119,7 @@ impl fmt::Display for MemoryEntry {
             MemoryEvent::Instruction { text } => write!(f, "instruction: {text}"),
             MemoryEvent::Step { call, ended, .. } => write!(f, "{call}: {ended}"),
             MemoryEvent::Stuck { path, kind, cause } => {
-                write!(f, "step {path}: failed with {kind} ({})", crate::EndCause::from(*cause))
+                write!(f, "step {path}: failed with {kind} ({})", cause)
             }
             MemoryEvent::Question { question, answer: Some(answer) } => {
                 write!(f, "asked {question:?}: answered {answer:?}")
@@ -134,11 +135,11 @@ impl fmt::Display for StepEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Success(None) => f.write_str("done"),
-            Self::Success(Some(value)) => write!(f, "done, gave {}", motet_graph::Value::from(value.clone())),
+            Self::Success(Some(value)) => write!(f, "done, gave {}", value),
             Self::Failure { kind, cause } => {
-                write!(f, "failed with {kind} ({})", crate::EndCause::from(*cause))
+                write!(f, "failed with {kind} ({})", cause)
             }
-            Self::Interrupted(cause) => write!(f, "interrupted ({})", crate::EndCause::from(*cause)),
+            Self::Interrupted(cause) => write!(f, "interrupted ({})", cause),
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::entry::{MemoryEvent, StepEnd};
 use super::store::Memory;
 use crate::effect::{Command, Effect, RunEnd};
-use crate::event::{DriverEvent, Event, GoalId, Outcome};
+use crate::event::{DriverEvent, Event, Outcome};
+use crate::ids::GoalId;
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
@@ -231,12 +232,11 @@ impl Memory {
     }
 
     /// A value whose text is within the limit; another one as a text that is cut.
-    fn small(&self, value: &Value) -> crate::wire::Value {
-        let wire = crate::wire::Value::from(value);
-        if crate::wire::json(&wire).len() <= self.limits.text_bytes {
-            return wire;
+    fn small(&self, value: &Value) -> Value {
+        if crate::json::to_json(value).len() <= self.limits.text_bytes {
+            return value.clone();
         }
-        crate::wire::Value::Text(self.cut(&value.to_string()))
+        Value::Text(self.cut(&value.to_string()).into())
     }
 }
 

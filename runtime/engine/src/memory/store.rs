@@ -185,7 +185,7 @@ fn size(entry: &MemoryEntry) -> usize {
         MemoryEvent::Instruction { text } => text.len(),
         MemoryEvent::Step { call, path, ended, .. } => {
             let ended = match ended {
-                StepEnd::Success(Some(value)) => crate::wire::json(value).len(),
+                StepEnd::Success(Some(value)) => crate::json::to_json(value).len(),
                 StepEnd::Failure { kind, .. } => kind.len(),
                 StepEnd::Success(None) | StepEnd::Interrupted(_) => 0,
             };

@@ -3,7 +3,6 @@
 use super::entry::{MemoryEntry, MemoryEvent, RunningStep};
 use super::store::{DroppedCounts, Memory};
 use crate::snapshot::Snapshot;
-use crate::wire;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -48,7 +47,7 @@ pub struct FullMemory {
     /// What runs.
     pub doing: Vec<RunningStep>,
     /// The engine's state.
-    pub state: wire::Snapshot,
+    pub state: Snapshot,
 }
 
 impl Memory {
@@ -90,7 +89,7 @@ impl Memory {
             entries: self.entries.iter().cloned().collect(),
             dropped: self.dropped,
             doing: self.running().collect(),
-            state: state.into(),
+            state: state.clone(),
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::Turn;
 use crate::effect::{Effect, Fault};
-use crate::event::{DriverEvent, GoalId, Outcome};
+use crate::event::{DriverEvent, Outcome};
+use crate::ids::GoalId;
 use crate::query::{Answer, Query};
 use crate::state::{GoalIntent, NodeExit, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};

@@ -4,9 +4,10 @@ use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
 use crate::belief::Freshness;
 use crate::effect::{Command, Effect};
+use crate::ids::CheckId;
 use crate::state::{MotionCheck, Phase};
 use crate::trace::TraceEventKind;
-use crate::verifier::{CheckId, DeferredMotion, Verification};
+use crate::verifier::{DeferredMotion, Verification};
 use motet_graph::{CallNode, NodeId, Verdict};
 use std::sync::Arc;
 

@@ -235,7 +235,7 @@ impl Naive {
         let mut last = Flow::Ok;
         for _ in 0..=call.retries {
             let values = call.args.iter().map(|arg| self.term(arg, &mut Vec::new()).unwrap());
-            let names = primitive.params.iter().map(|(name, _)| name.clone());
+            let names = primitive.params.iter().map(|param| param.name.clone());
             let command = Command {
                 primitive: primitive.name.clone(),
                 args: names.zip(values).collect(),

@@ -1,6 +1,7 @@
 //! What stands in the messages of our own topics.
 
-use motet_runtime::wire::{Document, Effect, Event, Snapshot};
+use motet_graph::GraphDocument;
+use motet_runtime::{Effect, Event, Snapshot, Time};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -10,7 +11,7 @@ pub(super) struct EventMessage {
     /// The number of the journal's entry.
     pub(super) seq: u64,
     /// The engine's time in ns.
-    pub(super) at: u64,
+    pub(super) at: Time,
     /// What it took in; none where it gave up.
     pub(super) event: Option<Event>,
 }
@@ -23,7 +24,7 @@ pub(super) struct EffectMessage {
     /// The place among the entry's effects.
     pub(super) index: u32,
     /// The engine's time in ns.
-    pub(super) at: u64,
+    pub(super) at: Time,
     /// What it gave out.
     pub(super) effect: Effect,
 }
@@ -36,7 +37,7 @@ pub(super) struct GraphMessage {
     /// The number of the graph.
     pub(super) revision: u32,
     /// The graph.
-    pub(super) graph: Document,
+    pub(super) graph: GraphDocument,
 }
 
 /// On `/motet/state`: whenever what is believed, bound or running has changed.

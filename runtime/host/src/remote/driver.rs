@@ -11,7 +11,7 @@ use super::protocol::{
     VERSION, Welcome, hear, say,
 };
 use super::settings::DriverTimeouts;
-use motet_runtime::{Capabilities, DriverEvent, Query, Time};
+use motet_runtime::{Capabilities, DriverEvent, GoalId, Query, Time};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Instant;
@@ -33,7 +33,7 @@ pub struct RemoteDriver {
     outbox: VecDeque<(Time, DriverEvent)>,
     watches: Vec<Query>,
     /// Goals whose safe stop was asked for and is not acknowledged.
-    stopping: BTreeSet<u64>,
+    stopping: BTreeSet<GoalId>,
     heard_at: Instant,
     said_at: Instant,
     restarts: u32,
@@ -62,7 +62,7 @@ impl RemoteDriver {
         note: Box<dyn FnMut(&str)>,
     ) -> Result<Self, LinkError> {
         let hello = Hello { protocol: VERSION, ..hello };
-        let capabilities = (&Capabilities::default()).into();
+        let capabilities = Capabilities::default();
         let (driver, instance) = (String::new(), String::new());
         let mut this = Self {
             address,
@@ -98,7 +98,7 @@ impl RemoteDriver {
     /// # Errors
     ///
     /// It does not say.
-    pub fn status(&mut self, goals: Vec<u64>) -> Result<StatusResult, LinkError> {
+    pub fn status(&mut self, goals: Vec<GoalId>) -> Result<StatusResult, LinkError> {
         let asked = self.next_id;
         self.call(DriverCall::Status(StatusParams { goals }));
         let due = Instant::now() + self.patience.answer;

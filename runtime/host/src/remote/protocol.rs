@@ -1,10 +1,11 @@
 //! What host and driver say to each other. Values, queries, commands and outcomes are the wire forms of `motet-runtime`.
 
 use super::settings::MAX_DEPTH;
-use motet_runtime::wire::{Answer, Capabilities, Command, Outcome, Query};
+use motet_runtime::{Answer, Capabilities, Command, GoalId, Outcome, Query};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
 /// The version of the protocol.
 pub const VERSION: u32 = 1;
@@ -103,23 +104,23 @@ pub struct Welcome {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct StartParams {
     /// Its number, which the host chooses and never uses twice in a run.
-    pub goal: u64,
+    pub goal: GoalId,
     /// What it does.
-    pub command: Command,
+    pub command: Arc<Command>,
 }
 
 /// A goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct GoalParams {
     /// Its number.
-    pub goal: u64,
+    pub goal: GoalId,
 }
 
 /// Several goals.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct StatusParams {
     /// Their numbers.
-    pub goals: Vec<u64>,
+    pub goals: Vec<GoalId>,
 }
 
 /// A question.
@@ -131,7 +132,7 @@ pub struct QueryParams {
 
 impl From<&motet_runtime::Query> for QueryParams {
     fn from(query: &motet_runtime::Query) -> Self {
-        Self { query: query.into() }
+        Self { query: query.clone() }
     }
 }
 
@@ -153,7 +154,7 @@ pub struct StatusResult {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct GoalState {
     /// Its number.
-    pub goal: u64,
+    pub goal: GoalId,
     /// How it is.
     pub state: GoalStatus,
 }
@@ -178,7 +179,7 @@ pub enum GoalStatus {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct EndedParams {
     /// Its number.
-    pub goal: u64,
+    pub goal: GoalId,
     /// How.
     pub outcome: Outcome,
 }
@@ -196,7 +197,7 @@ pub struct ObservedParams {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FeedbackParams {
     /// Its number.
-    pub goal: u64,
+    pub goal: GoalId,
     /// In words.
     pub text: String,
 }

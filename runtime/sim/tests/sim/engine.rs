@@ -21,7 +21,10 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
     let failures = ["timeout", "failed", "not_found", "unreachable", "blocked", "slipped"];
     let primitives = calls.iter().map(|(name, args)| Primitive {
         name: (*name).into(),
-        params: args.iter().map(|(name, value)| ((*name).into(), ty(value))).collect(),
+        params: args
+            .iter()
+            .map(|(name, value)| motet_graph::Param { name: (*name).into(), ty: ty(value) })
+            .collect(),
         result: (*name == "detect").then(|| object.clone()),
         perceives: *name == "detect",
         uses: [].into(),
